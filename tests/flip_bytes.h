@@ -10,15 +10,17 @@
 
 namespace navvy::test {
 
-/// What a flip of every byte of `object`'s saved state finds wrong, one line a field; empty when all is well. Of runs
-/// of more than `long_run` bytes every `stride`-th byte is flipped: a stride that shares no factor with the size of an
-/// element comes to all of its bytes. Of shorter ones the first and then every `short_stride`-th.
+/// What a flip of every byte of `object`'s saved state finds wrong, one line a field; empty when
+/// all is well. Of runs of more than `long_run` bytes every `stride`-th byte is flipped: a stride
+/// that shares no factor with the size of an element comes to all of its bytes. Of shorter ones the
+/// first and then every `short_stride`-th.
 ///
-/// A flipped state must be refused, or change the hash of `target` that loads it, or lie in a field whose visit says
-/// why it is not hashed. `target` is loaded again and again and must be made as `object` was (same scene).
+/// A flipped state must be refused, or change the hash of `target` that loads it, or lie in a field
+/// whose visit says why it is not hashed. `target` is loaded again and again and must be made as
+/// `object` was (same scene).
 template <class T>
-std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1, std::size_t short_stride = 1,
-                            std::size_t long_run = 256) {
+std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1,
+                            std::size_t short_stride = 1, std::size_t long_run = 256) {
   ByteMap map;
   const std::vector<char> bytes = saved(object, &map);
   const std::uint64_t hash = hash_of(object).digest();
@@ -29,7 +31,8 @@ std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1, 
   };
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const ByteMap::Field* field = map.at(i);
-    if (field && (i - field->offset) % (field->size > long_run ? stride : short_stride) != 0) continue;
+    if (field && (i - field->offset) % (field->size > long_run ? stride : short_stride) != 0)
+      continue;
     std::vector<char> flipped = bytes;
     // The lowest bit: a bool stays one, a number changes least.
     flipped[i] = static_cast<char>(flipped[i] ^ 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder that no other test, process or user shares: ctest runs the tests of one program side by side.
+// A folder that no other test, process or user shares: ctest runs the tests of one program side by
+// side.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ namespace navvy::test {
 class Folder {
  public:
   Folder()
-      : path_(std::filesystem::path(::testing::TempDir()) / ("navvy_" + std::to_string(::getpid()) + "_" + name())) {
+      : path_(std::filesystem::path(::testing::TempDir()) /
+              ("navvy_" + std::to_string(::getpid()) + "_" + name())) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -10,7 +10,8 @@
 
 namespace navvy {
 
-/// Takes every line that is logged while it lives, from any thread; only one at a time, as there is one sink.
+/// Takes every line that is logged while it lives, from any thread; only one at a time, as there is
+/// one sink.
 class LogLines {
  public:
   LogLines() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a test finds the tree it was built from, and where it may write. Functions, not macros of the command line:
-// objects stay the same in every checkout, so a compiler cache serves them all.
+// Where a test finds the tree it was built from, and where it may write. Functions, not macros of
+// the command line: objects stay the same in every checkout, so a compiler cache serves them all.
 #pragma once
 
 #include <string>

@@ -28,7 +28,8 @@ inline pid_t start(const Command& command) {
   dup2(::open(command.out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 1);
   dup2(::open(command.err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 2);
   std::vector<char*> argv{const_cast<char*>(command.program.c_str())};
-  for (const std::string& argument : command.arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : command.arguments)
+    argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   execv(command.program.c_str(), argv.data());
   _exit(127);

@@ -5,13 +5,14 @@
 
 #include "bench.h"
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 
 int main() {
   using namespace navvy;
   try {
     device::Device device;
-    for (const std::size_t bytes : {std::size_t{1} << 20, std::size_t{1} << 24, std::size_t{1} << 28}) {
+    for (const std::size_t bytes :
+         {std::size_t{1} << 20, std::size_t{1} << 24, std::size_t{1} << 28}) {
       const double bandwidth = bench::copy_bandwidth(device, bytes);
       bench::Row row;
       row.bench = "copy";
@@ -21,7 +22,7 @@ int main() {
       row.bytes_per_particle = 32;
       bench::print(device.info(), row, bandwidth);
     }
-    const device::Program program = device::Program::from_text(
+    const device::KernelProgram program = device::KernelProgram::from_text(
         device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
     device::Buffer<int> x(device, 2);
     x.fill(0);

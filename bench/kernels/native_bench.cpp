@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OpenCL soil steps beside the native loop of bench/native, from the same state in one run: a block falling apart,
-// with the shipped flags and the full law. The native loop runs one copy on each thread that the OpenCL device has.
+// The OpenCL soil steps beside the native loop of bench/native, from the same state in one run: a
+// block falling apart, with the shipped flags and the full law. The native loop runs one copy on
+// each thread that the OpenCL device has.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -23,8 +24,8 @@ constexpr int kRuns = 5;
 std::string size_name(std::size_t particles) { return std::to_string(particles / 1000) + "k"; }
 
 /// Steps one copy of `start` on each of `threads` threads.
-bench::Row native_row(const soil::rig::Rig& rig, const std::vector<soil::Particle>& start, int steps, double dt,
-                      int threads) {
+bench::Row native_row(const soil::rig::Rig& rig, const std::vector<soil::Particle>& start,
+                      int steps, double dt, int threads) {
   const double ground = -rig.datum() / rig.cell();  // the surface is z = 0
   std::vector<bench::NativeSoil> copies;
   bench::Row row;
@@ -35,7 +36,8 @@ bench::Row native_row(const soil::rig::Rig& rig, const std::vector<soil::Particl
   row.timing = bench::measure(
       soil::rig::Rig::device(),
       [&] {
-        copies.assign(static_cast<std::size_t>(threads), bench::NativeSoil(rig.world().soils[0], rig.cell(), ground));
+        copies.assign(static_cast<std::size_t>(threads),
+                      bench::NativeSoil(rig.world().soils[0], rig.cell(), ground));
         for (bench::NativeSoil& copy : copies) copy.insert(start);
       },
       [&] {
@@ -84,12 +86,14 @@ void compare(double edge, int steps) {
   };
   const double native_wall = work(native) / native.timing.best / device.compute_units,
                opencl_wall = work(opencl) / opencl.timing.best / device.compute_units;
-  const double native_cpu = work(native) / native.timing.processor, opencl_cpu = work(opencl) / opencl.timing.processor;
+  const double native_cpu = work(native) / native.timing.processor,
+               opencl_cpu = work(opencl) / opencl.timing.processor;
   std::printf(
-      "%s, M particle-steps/s per thread: native %.1f, OpenCL %.1f, ratio %.2f; per processor second: native "
+      "%s, M particle-steps/s per thread: native %.1f, OpenCL %.1f, ratio %.2f; per processor "
+      "second: native "
       "%.1f, OpenCL %.1f, ratio %.2f\n",
-      size_name(start.size()).c_str(), native_wall, opencl_wall, opencl_wall / native_wall, native_cpu, opencl_cpu,
-      opencl_cpu / native_cpu);
+      size_name(start.size()).c_str(), native_wall, opencl_wall, opencl_wall / native_wall,
+      native_cpu, opencl_cpu, opencl_cpu / native_cpu);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small things that every step pays for, under Google Benchmark: copies, launches, reads, look-ups in the ground.
+// Small things that every step pays for, under Google Benchmark: copies, launches, reads, look-ups
+// in the ground.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -8,9 +9,9 @@
 #include "core/saved_state.h"
 #include "device/buffer.h"
 #include "device/device.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "heightfield/change_follower.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 
 namespace {
 
@@ -23,10 +24,10 @@ device::Device& shared_device() {
 
 void device_copy(benchmark::State& state) {
   device::Device& device = shared_device();
-  const device::Program program =
-      device::Program::from_text(device, "copy",
-                                 "kernel void copy(global const float4* from, global float4* to) { "
-                                 "to[get_global_id(0)] = from[get_global_id(0)]; }");
+  const device::KernelProgram program = device::KernelProgram::from_text(
+      device, "copy",
+      "kernel void copy(global const float4* from, global float4* to) { "
+      "to[get_global_id(0)] = from[get_global_id(0)]; }");
   const auto bytes = static_cast<std::size_t>(state.range(0));
   device::Buffer<float> from(device, bytes / 4), to(device, bytes / 4);
   from.fill(1);
@@ -39,12 +40,12 @@ void device_copy(benchmark::State& state) {
   }
   state.SetBytesProcessed(2 * state.range(0) * static_cast<std::int64_t>(state.iterations()));
 }
-BENCHMARK(device_copy)->RangeMultiplier(16)->Range(1 << 16, 1 << 28)->UseRealTime();
+BENCHMARK(device_copy)->RangeMultiplier(16)->WorkSize(1 << 16, 1 << 28)->UseRealTime();
 
 void kernel_launch(benchmark::State& state) {
   device::Device& device = shared_device();
-  const device::Program program =
-      device::Program::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
+  const device::KernelProgram program = device::KernelProgram::from_text(
+      device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
   device::Buffer<int> x(device, 2);
   x.fill(0);
   device::Kernel nothing(program, "nothing");
@@ -56,8 +57,8 @@ BENCHMARK(kernel_launch)->UseRealTime();
 
 void launch_and_wait(benchmark::State& state) {
   device::Device& device = shared_device();
-  const device::Program program =
-      device::Program::from_text(device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
+  const device::KernelProgram program = device::KernelProgram::from_text(
+      device, "nothing", "kernel void nothing(global int* x) { if (x[0] == 1) x[1] = 2; }");
   device::Buffer<int> x(device, 2);
   x.fill(0);
   device::Kernel nothing(program, "nothing");
@@ -80,7 +81,8 @@ heightfield::Ground make_ground(int columns) {
   return heightfield::Ground(setup);
 }
 
-/// Height between columns of ground that nobody touched; the argument is the site's edge in columns.
+/// Height between columns of ground that nobody touched; the argument is the site's edge in
+/// columns.
 void ground_sample_untouched(benchmark::State& state) {
   const heightfield::Ground ground = make_ground(static_cast<int>(state.range(0)));
   double x = 1.7, sum = 0;
@@ -95,9 +97,10 @@ BENCHMARK(ground_sample_untouched)->Arg(1000)->Arg(10000);
 /// Height of a column of ground that was dug.
 void ground_height_touched(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 100; iy < 200; ++iy)
-    for (int ix = 100; ix < 200; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
+    for (int ix = 100; ix < 200; ++ix)
+      ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
   int ix = 100;
   double sum = 0;
   for (auto _ : state) {
@@ -110,14 +113,15 @@ BENCHMARK(ground_height_touched);
 
 /// Digs a little off a hundred columns of a 1 km2 site, `apart` columns from each other.
 void dig_hundred(heightfield::Ground& ground, int apart) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int i = 0; i < 100; ++i) {
     const int ix = 3000 + apart * (i % 10), iy = 3000 + apart * (i / 10);
     ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
   }
 }
 
-/// A view after a step in which 100 columns of 1 km2 changed; the argument is how far they lie from each other.
+/// A view after a step in which 100 columns of 1 km2 changed; the argument is how far they lie from
+/// each other.
 void terrain_view(benchmark::State& state) {
   heightfield::Ground ground = make_ground(10000);
   for (auto _ : state) {
@@ -129,7 +133,8 @@ void terrain_view(benchmark::State& state) {
 }
 BENCHMARK(terrain_view)->Arg(1)->Arg(40)->Iterations(2000);
 
-/// The same step as a whole: digging, with the copies of shared tiles, a view, and the list of what changed.
+/// The same step as a whole: digging, with the copies of shared tiles, a view, and the list of what
+/// changed.
 void terrain_dig_view_and_follow(benchmark::State& state) {
   heightfield::Ground ground = make_ground(10000);
   heightfield::ChangeFollower follower;
@@ -139,25 +144,29 @@ void terrain_dig_view_and_follow(benchmark::State& state) {
     benchmark::DoNotOptimize(follower.take(ground.view()));
   }
 }
-BENCHMARK(terrain_dig_view_and_follow)->Arg(1)->Arg(40)->Iterations(2000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(terrain_dig_view_and_follow)
+    ->Arg(1)
+    ->Arg(40)
+    ->Iterations(2000)
+    ->Unit(benchmark::kMicrosecond);
 
 /// Taking soil off a column and putting it back.
 void ground_take_and_put(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   int ix = 100;
   for (auto _ : state) {
     ix = ix < 164 ? ix + 1 : 100;
     taken.clear();
     ground.take_above(ix, 120, ground.height(ix, 120) - 0.1, taken);
-    for (const heightfield::Layer& layer : taken) ground.put(ix, 120, layer);
+    for (const heightfield::SoilLayer& layer : taken) ground.put(ix, 120, layer);
   }
 }
 BENCHMARK(ground_take_and_put);
 
 void ground_save(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < 128; ++iy)
     for (int ix = 0; ix < 128; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.1, taken);
   for (auto _ : state) {

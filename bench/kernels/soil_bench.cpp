@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole steps of the particle soil: a block that collapses (re-binning included), and a load held in a bucket.
+// Whole steps of the particle soil: a block that collapses (re-binning included), and a load held
+// in a bucket.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,15 +16,18 @@ namespace {
 
 using namespace navvy;
 
-/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell (kernels/soil).
+/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell
+/// (kernels/soil).
 constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
 
 bool profile = false;
 std::string only;
 
-/// What the stages of the host and the kernels took in one run; the kernels' clock slows a step down a little.
+/// What the stages of the host and the kernels took in one run; the kernels' clock slows a step
+/// down a little.
 template <class Work>
-void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Work& work, double particle_steps) {
+void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Work& work,
+                   double particle_steps) {
   device::Device& device = soil::rig::Rig::device();
   load_saved(start, rig.solver());
   device.set_profile(true);
@@ -31,9 +35,9 @@ void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Wo
   const auto before = rig.solver().stage_times();
   work();
   for (const device::KernelTime& time : device.profile())
-    std::printf("# kernel %-18s %6llu launches %9.3f ms %7.2f ns a particle-step\n", time.name.c_str(),
-                static_cast<unsigned long long>(time.launches), time.seconds * 1e3,
-                time.seconds * 1e9 / particle_steps);
+    std::printf("# kernel %-18s %6llu launches %9.3f ms %7.2f ns a particle-step\n",
+                time.name.c_str(), static_cast<unsigned long long>(time.launches),
+                time.seconds * 1e3, time.seconds * 1e9 / particle_steps);
   device.set_profile(false);
   for (const auto& [stage, seconds] : rig.solver().stage_times()) {
     double took = seconds;
@@ -44,7 +48,8 @@ void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Wo
 }
 
 /// Runs `steps` steps from the same snapshot and prints a row; tools go on at their speed.
-void bench_row(const std::string& name, soil::rig::Rig& rig, int steps, std::vector<soil::ToolMotion> motions) {
+void bench_row(const std::string& name, soil::rig::Rig& rig, int steps,
+               std::vector<soil::ToolMotion> motions) {
   const std::vector<char> start = saved(rig.solver());
   double fastest = 0;
   for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
@@ -86,7 +91,8 @@ void held_bucket(int steps) {
   std::vector<soil::Particle> load;
   for (double z = 0.04; z < 0.45; z += 0.05)
     for (double y = -0.36; y < 0.37; y += 0.05)
-      for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(rig.particle(X * Vec3(x, y, z), 1.25e-4));
+      for (double x = -0.46; x < 0.47; x += 0.05)
+        load.push_back(rig.particle(X * Vec3(x, y, z), 1.25e-4));
   rig.solver().insert(load);
   bench_row("soil_held_bucket", rig, steps, {motion});
 }
@@ -113,7 +119,8 @@ void run(const std::string& name, const Case& work) {
 
 int main(int argc, char** argv) {
   try {
-    for (int i = 1; i < argc; ++i) (std::string(argv[i]) == "--profile" ? profile = true : (only = argv[i], true));
+    for (int i = 1; i < argc; ++i)
+      (std::string(argv[i]) == "--profile" ? profile = true : (only = argv[i], true));
     run("dig", [] { dig(100); });
     run("held_bucket", [] { held_bucket(200); });
     run("collapse_8k", [] { collapse(1.0, 200); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen floats at a time through the compiler's vectors, and the arithmetic of kernels/soil compiled for them: the
-// dialect of kernels/README.md.
+// Sixteen floats at a time through the compiler's vectors, and the arithmetic of kernels/soil
+// compiled for them: the dialect of kernels/README.md.
 #pragma once
 
 #include <cmath>
@@ -43,8 +43,12 @@ inline float largest(const Lanes& of) {
   for (int l = 1; l < 16; ++l) out = fmax(out, of[l]);
   return out;
 }
-inline Lanes step(float edge, const Lanes& x) { return x < Lanes{} + edge ? Lanes{} : Lanes{} + 1.0f; }
-inline ints isfinite(const Lanes& a) { return a - a == Lanes{}; }  // NOLINT: not 0 for what is not finite
+inline Lanes step(float edge, const Lanes& x) {
+  return x < Lanes{} + edge ? Lanes{} : Lanes{} + 1.0f;
+}
+inline ints isfinite(const Lanes& a) {
+  return a - a == Lanes{};
+}  // NOLINT: not 0 for what is not finite
 inline float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
 inline float mean_of(columns t) { return t; }
 inline bool all(bool of_columns) { return of_columns; }
@@ -71,7 +75,9 @@ struct Weights {
 
 /// Cell of the base node among the 6^3 of a home that may have drifted by one cell.
 inline std::size_t cell_of(float x, float y, float z) {
-  const auto i = [](float v) { return static_cast<std::size_t>(static_cast<int>(std::floor(v - 0.5f)) + 1); };
+  const auto i = [](float v) {
+    return static_cast<std::size_t>(static_cast<int>(std::floor(v - 0.5f)) + 1);
+  };
   return i(x) + 6 * i(y) + 36 * i(z);
 }
 

@@ -13,7 +13,8 @@
 namespace navvy::bench {
 namespace {
 
-constexpr int kMargin = 2;  ///< nodes around the sorted particles, for their drift and the kernel's reach
+/// Nodes around the sorted particles, for their drift and the kernel's reach.
+constexpr int kMargin = 2;
 constexpr std::size_t kCells = 216;
 constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
 
@@ -32,7 +33,8 @@ struct SortKey {
   int cell = 0;
   std::size_t index = 0;
   bool operator<(const SortKey& o) const {
-    if (home != o.home) return std::tie(home[2], home[1], home[0]) < std::tie(o.home[2], o.home[1], o.home[0]);
+    if (home != o.home)
+      return std::tie(home[2], home[1], home[0]) < std::tie(o.home[2], o.home[1], o.home[0]);
     return cell != o.cell ? cell < o.cell : index < o.index;
   }
 };
@@ -69,12 +71,13 @@ void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
 
 std::vector<soil::Particle> NativeSoil::particles() const {
   std::vector<soil::Particle> out(count_);
-  for (const Home& home : homes_)
+  for (const ParticleBlock& home : particle_blocks_)
     for (std::size_t i = 0; i < home.count; ++i) {
       const Pack& pack = packs_[home.first + i / kLanes];
       const std::size_t l = i % kLanes;
       soil::Particle& p = out[pack.id[l]];
-      for (std::size_t a = 0; a < 3; ++a) p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
+      for (std::size_t a = 0; a < 3; ++a)
+        p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
 #define GET_ONE(NAME, member, rest) p.member = pack.member[l];
 #define GET_MANY(NAME, member, count, rest) \
   for (std::size_t k = 0; k < (count); ++k) p.member[k] = pack.member[k][l];
@@ -82,7 +85,8 @@ std::vector<soil::Particle> NativeSoil::particles() const {
 #undef GET_ONE
 #undef GET_MANY
       for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
-      p.mass = static_cast<std::int32_t>(std::lround(pack.mass[l] / static_cast<float>(kMassQuantum)));
+      p.mass =
+          static_cast<std::int32_t>(std::lround(pack.mass[l] / static_cast<float>(kMassQuantum)));
       p.id = pack.id[l];
     }
   return out;
@@ -110,27 +114,29 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
   velocity_ = grid_;
   interval_ = {};
   packs_.clear();
-  homes_.clear();
+  particle_blocks_.clear();
   count_ = particles.size();
   drift_ = 0;
   ++sorts_;
   for (std::size_t n = 0; n < keys.size(); ++n) {
     if (n == 0 || keys[n].home != keys[n - 1].home) {
-      Home home;
+      ParticleBlock home;
       home.first = packs_.size();
-      for (std::size_t a = 0; a < 3; ++a) home.corner[a] = soil::kBlockCells * (keys[n].home[a] - low[a]);
-      homes_.push_back(home);
+      for (std::size_t a = 0; a < 3; ++a)
+        home.corner[a] = soil::kBlockCells * (keys[n].home[a] - low[a]);
+      particle_blocks_.push_back(home);
     }
     append(particles[keys[n].index]);
   }
 }
 
 void NativeSoil::append(const soil::Particle& p) {
-  Home& home = homes_.back();
+  ParticleBlock& home = particle_blocks_.back();
   const std::size_t l = home.count++ % kLanes;
   if (l == 0) {
     packs_.emplace_back();  // lanes without a particle: no mass, inside the home
-#define REST_ONE(NAME, member, rest) std::fill(std::begin(packs_.back().member), std::end(packs_.back().member), rest);
+#define REST_ONE(NAME, member, rest) \
+  std::fill(std::begin(packs_.back().member), std::end(packs_.back().member), rest);
 #define REST_MANY(NAME, member, count, rest) \
   for (auto& lanes : packs_.back().member) std::fill(std::begin(lanes), std::end(lanes), rest);
     FLOAT_FIELDS(REST_ONE, REST_MANY)
@@ -145,12 +151,13 @@ void NativeSoil::append(const soil::Particle& p) {
 #undef PUT_ONE
 #undef PUT_MANY
   for (std::size_t a = 0; a < 3; ++a)
-    pack.x[a][l] += static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
+    pack.x[a][l] +=
+        static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
   pack.mass[l] = static_cast<float>(kilograms(p.mass));
   pack.id[l] = p.id;
 }
 
-bool NativeSoil::sum_openings(const Home& home) {
+bool NativeSoil::sum_openings(const ParticleBlock& home) {
   bool open = false;
   const std::size_t packs = (home.count + kLanes - 1) / kLanes;
   for (std::size_t n = 0; n < packs && !open; ++n) {
@@ -183,13 +190,14 @@ bool NativeSoil::sum_openings(const Home& home) {
   return true;
 }
 
-void NativeSoil::scatter(const Home& home, float dt, bool hold) {
+void NativeSoil::scatter(const ParticleBlock& home, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
   const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::mixing_strain());
   const auto most = static_cast<float>(soil::most_mixing(static_cast<double>(dt)));
   const bool open = sum_openings(home);
-  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
+  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin,
+                         home.corner[2] + kMargin};
   for (std::size_t first = 0; first < home.count; first += kLanes) {
     Pack& pack = packs_[home.first + first / kLanes];
     const std::size_t lanes = std::min(kLanes, home.count - first);
@@ -197,7 +205,8 @@ void NativeSoil::scatter(const Home& home, float dt, bool hold) {
     for (int k = 0; k < 9; ++k) c[k] = load(pack.c[k]);
     for (int k = 0; k < 3; ++k) v[k] = load(pack.v[k]);
     if (open)
-      for (std::size_t l = 0; l < lanes; ++l) opening[l] = openings_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
+      for (std::size_t l = 0; l < lanes; ++l)
+        opening[l] = openings_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
     LawState state;
 #define LOAD_ONE(NAME, member, rest) state.member = load(pack.member);
 #define LOAD_MANY(NAME, member, count, rest) \
@@ -212,14 +221,16 @@ void NativeSoil::scatter(const Home& home, float dt, bool hold) {
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
     const Lanes mass = load(pack.mass);
     Lanes a[9], p[3];
-    affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, hold ? 0.0f : 1.0f, dt, dx, p, a);
+    affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, hold ? 0.0f : 1.0f, dt, dx,
+                    p, a);
     Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
     turn(p[0], p[1], p[2], mass, start);
     turn(a[0], a[3], a[6], Lanes{}, ax);
     turn(a[1], a[4], a[7], Lanes{}, ay);
     turn(a[2], a[5], a[8], Lanes{}, az);
     for (std::size_t l = 0; l < lanes; ++l) {
-      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1], w.base[2][l] + corner[2]};
+      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1],
+                           w.base[2][l] + corner[2]};
       Float4* layer = grid_.data() + node(base);
       Four plane = start[l];
       for (int k = 0; k < 3; ++k, layer += row_ * rows_, plane += az[l]) {
@@ -243,7 +254,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   for (int z = 0; z < nodes_[2]; ++z) {
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
     const bool held = above <= static_cast<float>(soil::kHeldMargin);
-    const float room = 1 / room_above(above);
+    const float room = 1 / free_fraction_above(above);
     for (std::size_t end = n + row_ * rows_; n < end; ++n) {
       Float4 node = grid_[n];
       const float mass = node[3];
@@ -260,7 +271,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   }
 }
 
-float NativeSoil::gather(const Home& home, float dt) {
+float NativeSoil::gather(const ParticleBlock& home, float dt) {
   const float dx = cell_;
   const auto cell = static_cast<double>(cell_);
   const double part = std::min(1.0, static_cast<double>(dt) / transfer_length_);
@@ -269,7 +280,8 @@ float NativeSoil::gather(const Home& home, float dt) {
   const auto closing = static_cast<float>(soil::closing_share() * part);
   const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
   const auto most = static_cast<float>(soil::farthest_apart() * part);
-  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin, home.corner[2] + kMargin};
+  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin,
+                         home.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < home.count; first += kLanes) {
     Pack& pack = packs_[home.first + first / kLanes];
@@ -277,7 +289,8 @@ float NativeSoil::gather(const Home& home, float dt) {
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
     Four v[kLanes]{}, mx[kLanes]{}, my[kLanes]{}, mz[kLanes]{};
     for (std::size_t l = 0; l < lanes; ++l) {
-      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1], w.base[2][l] + corner[2]};
+      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1],
+                           w.base[2][l] + corner[2]};
       const Float4* layer = velocity_.data() + node(base);
       Four sum{}, sum_x{}, sum_y{}, sum_z{};
       for (int k = 0; k < 3; ++k, layer += row_ * rows_) {
@@ -307,11 +320,12 @@ float NativeSoil::gather(const Home& home, float dt) {
       lean[axis] = m[3] - w.f[axis] * u[3];
     }
     for (int k = 0; k < 9; ++k) store(c[k], pack.c[k]);
-    const Lanes j = load(pack.j), j0 = load(pack.j0), share = crowding(c, j, j0, u[3], full, spread);
+    const Lanes j = load(pack.j), j0 = load(pack.j0),
+                share = crowding(c, j, j0, u[3], full, spread);
     store(seen_opening(j, j0, u[3], filled, closing), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
-      const Lanes way = (dt / dx) * u[a] + way_apart(share, lean[a], u[3], most);
+      const Lanes way = (dt / dx) * u[a] + crowding_displacement(share, lean[a], u[3], most);
       store(load(pack.moved[a]) + way, pack.moved[a]);
       m[a] = way * (dx / dt);
     }
@@ -326,10 +340,11 @@ void NativeSoil::step(double dt) {
   if (!hold) end_transfer();
   if (drift_ > kMostDrift) sort(particles());
   std::fill(grid_.begin(), grid_.end(), Float4{});
-  for (const Home& home : homes_) scatter(home, static_cast<float>(dt), hold);
+  for (const ParticleBlock& home : particle_blocks_) scatter(home, static_cast<float>(dt), hold);
   update_grid(static_cast<float>(dt), hold);
   float fastest = 0;
-  for (const Home& home : homes_) fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
+  for (const ParticleBlock& home : particle_blocks_)
+    fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
   interval_.book(dt, cell, static_cast<double>(fastest), 0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particle method as a plain C++ loop for one thread: what the OpenCL schedules must beat. Same transfers, law,
-// mixing and closing as kernels/soil, without tools, on level ground; float4 nodes on a dense grid, particles sorted by
-// cell.
+// The particle method as a plain C++ loop for one thread: what the OpenCL schedules must beat. Same
+// transfers, law, mixing and closing as kernels/soil, without tools, on level ground; float4 nodes
+// on a dense grid, particles sorted by cell.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 namespace navvy::bench {
 
-/// Steps soil of one kind. Built for speed with the flags of this machine: never part of the installed library.
+/// Steps soil of one kind. Built for speed with the flags of this machine: never part of the
+/// installed library.
 class NativeSoil {
  public:
   /// `ground`: height of the resting ground [cells of the grid frame].
@@ -42,7 +43,7 @@ class NativeSoil {
     std::uint32_t id[kLanes];
   };
   /// One 4^3 block of cells: its packs and how many of their lanes are particles.
-  struct Home {
+  struct ParticleBlock {
     std::size_t first = 0, count = 0;
     int corner[3] = {0, 0, 0};  ///< [cells of the window]
   };
@@ -50,11 +51,11 @@ class NativeSoil {
 
   void sort(const std::vector<soil::Particle>& particles);
   void append(const soil::Particle& p);  ///< to the last home
-  bool sum_openings(const Home& home);
-  void scatter(const Home& home, float dt, bool hold);
+  bool sum_openings(const ParticleBlock& home);
+  void scatter(const ParticleBlock& home, float dt, bool hold);
   void update_grid(float dt, bool hold);
-  void end_transfer();                       ///< particles go the way that was booked
-  float gather(const Home& home, float dt);  ///< the fastest velocity component
+  void end_transfer();                                ///< particles go the way that was booked
+  float gather(const ParticleBlock& home, float dt);  ///< the fastest velocity component
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +
            row_ * (static_cast<std::size_t>(base[1]) + rows_ * static_cast<std::size_t>(base[2]));
@@ -68,7 +69,7 @@ class NativeSoil {
   int sorts_ = 0;
   std::size_t count_ = 0;
   std::vector<Pack> packs_;
-  std::vector<Home> homes_;
+  std::vector<ParticleBlock> particle_blocks_;
   std::array<int, 3> window_{};  ///< cell of the grid frame where the window begins
   std::array<int, 3> nodes_{};   ///< its nodes along x, y, z
   std::size_t row_ = 0, rows_ = 0;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What maps for planners cost: map_bench [NAME [SECONDS]] measures the rows whose name holds NAME.
 //
-//   map_update:100m, :1km   the update after a dug bucket, all layers, against map_full:100m, :1km, the whole anew
-//   map_ask:heights, :clearances   a million heights, 100 000 clearances, on one core
-//   map_trench:whole, :publish, :wire   SECONDS simulated of `trench`, all layers published at 10 Hz over TCP to a
-//                                       reader: the loop's time, that of publishing, from a step's end to the reader
+//   map_update:100m, :1km   the update after a dug bucket, all layers, against map_full:100m, :1km,
+//   the whole anew map_ask:heights, :clearances   a million heights, 100 000 clearances, on one
+//   core map_trench:whole, :publish, :wire   SECONDS simulated of `trench`, all layers published at
+//   10 Hz over TCP to a
+//                                       reader: the loop's time, that of publishing, from a step's
+//                                       end to the reader
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -31,7 +33,7 @@
 #include "core/random.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "paths.h"
 #include "planner/footprint.h"
 #include "planner/map_maker.h"
@@ -41,8 +43,8 @@
 #include "planner/updates.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
-#include "sim/terrain_view.h"
 #include "sim/timing.h"
+#include "sim/world_terrain.h"
 
 namespace {
 
@@ -69,24 +71,29 @@ heightfield::GroundSetup hills(int columns) {
   out.soils[0].name = "loam";
   out.soils[0].bank_density = 1540;
   out.layers = {{"loam", 1}};
-  out.surface = [](int ix, int iy) { return 0.3 * std::sin(0.011 * ix) + 0.2 * std::cos(0.007 * iy); };
+  out.surface = [](int ix, int iy) {
+    return 0.3 * std::sin(0.011 * ix) + 0.2 * std::cos(0.007 * iy);
+  };
   return out;
 }
 
 /// A bucket of 1 m x 1.1 m x 0.25 m from here; columns.
 constexpr int kBucketX = 10, kBucketY = 11;
 void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = y0; iy < y0 + kBucketY; ++iy)
-    for (int ix = x0; ix < x0 + kBucketX; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.25, taken);
+    for (int ix = x0; ix < x0 + kBucketX; ++ix)
+      ground.take_above(ix, iy, ground.height(ix, iy) - 0.25, taken);
 }
 
-/// Reads every value of every layer, strip by strip: untouched ground is computed when somebody asks.
+/// Reads every value of every layer, strip by strip: untouched ground is computed when somebody
+/// asks.
 void read_all(const planner::TerrainMap& map) {
   double sum = 0;
   for (int iy = 0; iy < map.ny(); iy += planner::LayerTiles::kSide) {
     const int end = std::min(map.ny(), iy + planner::LayerTiles::kSide);
-    for (const planner::Layer layer : planner::all_layers()) sum += map.copy(layer, {0, iy, map.nx(), end}).back();
+    for (const planner::Layer layer : planner::all_layers())
+      sum += map.copy(layer, {0, iy, map.nx(), end}).back();
   }
   volatile double kept = sum;  // so that nobody finds the reading useless
   static_cast<void>(kept);
@@ -110,7 +117,8 @@ void measure_updates(const std::string& size, int columns) {
     dig_bucket(ground, static_cast<int>(random.uniform(0, columns - kBucketX)),
                static_cast<int>(random.uniform(0, columns - kBucketY)));
   };
-  // A feed's first map is made anew, and read whole; with the one before gone, the large site needs memory for one.
+  // A feed's first map is made anew, and read whole; with the one before gone, the large site needs
+  // memory for one.
   std::optional<planner::UpdateFeed> feed;
   full.timing = bench::measure(
       columns > 2000 ? 1 : 5,
@@ -125,9 +133,12 @@ void measure_updates(const std::string& size, int columns) {
   update.timing = bench::measure(21, dig, [&] { feed->publish(ground.view(time += 0.1)); });
   bench::print_host(full);
   bench::print_host(update);
-  std::fprintf(stderr, "%s: an update takes %.3g ms (%.3g of processor), all anew %.3g ms (%.3g): %.0f times (%.0f)\n",
-               size.c_str(), 1e3 * update.timing.median, 1e3 * update.timing.processor, 1e3 * full.timing.best,
-               1e3 * full.timing.processor, full.timing.best / update.timing.median,
+  std::fprintf(stderr,
+               "%s: an update takes %.3g ms (%.3g of processor), all anew %.3g ms (%.3g): %.0f "
+               "times (%.0f)\n",
+               size.c_str(), 1e3 * update.timing.median, 1e3 * update.timing.processor,
+               1e3 * full.timing.best, 1e3 * full.timing.processor,
+               full.timing.best / update.timing.median,
                full.timing.processor / update.timing.processor);
 }
 
@@ -139,7 +150,8 @@ void measure_queries() {
   const planner::TerrainMap map = maker.map();
   const planner::Footprint excavator{2.5, 2.5, 1.3, 1.3};
   double sum = 0;
-  const auto ask = [&](const std::string& name, int count, const std::function<double(Random&)>& question) {
+  const auto ask = [&](const std::string& name, int count,
+                       const std::function<double(Random&)>& question) {
     if (!asked(name)) return;
     bench::Row row;
     row.bench = name;
@@ -152,13 +164,15 @@ void measure_queries() {
           for (int i = 0; i < count; ++i) sum += question(random);
         });
     bench::print_host(row);
-    std::fprintf(stderr, "%s: %.3g a second, %.3g a second of processor\n", name.c_str(), count / row.timing.best,
-                 count / row.timing.processor);
+    std::fprintf(stderr, "%s: %.3g a second, %.3g a second of processor\n", name.c_str(),
+                 count / row.timing.best, count / row.timing.processor);
   };
-  ask("map_ask:heights", 1000000,
-      [&](Random& random) { return planner::height(map, random.uniform(0, 40), random.uniform(0, 40)); });
+  ask("map_ask:heights", 1000000, [&](Random& random) {
+    return planner::height(map, random.uniform(0, 40), random.uniform(0, 40));
+  });
   ask("map_ask:clearances", 100000, [&](Random& random) {
-    return planner::clearance(map, excavator, random.uniform(4, 36), random.uniform(4, 36), random.uniform(-3, 3));
+    return planner::clearance(map, excavator, random.uniform(4, 36), random.uniform(4, 36),
+                              random.uniform(-3, 3));
   });
   if (!std::isfinite(sum)) throw Error("map_bench: a query had no answer");
 }
@@ -171,7 +185,8 @@ class Reader {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (socket_ < 0 || ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+    if (socket_ < 0 ||
+        ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
       throw Error("map_bench: cannot connect to its own port");
     thread_ = std::thread([this] { follow(); });
   }
@@ -212,7 +227,8 @@ class Reader {
     while (take(12, bytes)) {
       std::uint32_t length = 0;
       for (int i = 0; i < 4; ++i)
-        length |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[static_cast<std::size_t>(8 + i)]))
+        length |= static_cast<std::uint32_t>(
+                      static_cast<unsigned char>(bytes[static_cast<std::size_t>(8 + i)]))
                   << (8 * i);
       if (!take(length, bytes)) return;
       const std::string head(bytes.begin(), bytes.end());
@@ -234,14 +250,16 @@ class Reader {
 };
 
 void measure_trench(double seconds) {
-  if (!asked("map_trench:whole") && !asked("map_trench:publish") && !asked("map_trench:wire")) return;
+  if (!asked("map_trench:whole") && !asked("map_trench:publish") && !asked("map_trench:wire"))
+    return;
   constexpr double kRate = 10;
   device::Device device;
-  session::Session session(scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds()),
-                           device);
+  session::Session session(
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds()),
+      device);
   const sim::World& world = session.world();
-  planner::UpdateFeed feed(
-      planner::options_for(world.description(), world.ground(), planner::all_layers(), session.design()));
+  planner::UpdateFeed feed(planner::options_for(world.description(), world.ground(),
+                                                planner::all_layers(), session.design()));
   planner::Publisher publisher(feed, "tcp:0", planner::all_layers());
   Reader reader(publisher.port());
   std::map<std::uint64_t, double> step_ends;
@@ -249,7 +267,8 @@ void measure_trench(double seconds) {
   std::uint64_t changed = 0;
   double spent = 0;
   // The whole map goes out before the run, as `navvy run --publish` does it.
-  std::uint64_t last = feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped))->sequence;
+  std::uint64_t last =
+      feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped))->sequence;
   const double began = bench::processor_seconds();
   const Stopwatch whole;
   while (!session.done() && world.time() < seconds) {
@@ -302,10 +321,11 @@ void measure_trench(double seconds) {
   if (asked(publish.bench)) bench::print(device.info(), publish);
   if (asked(wire.bench)) bench::print(device.info(), wire);
   std::fprintf(stderr,
-               "trench, %.3g s: publishing took %.3g s of %.4g s, %.2g %% (of processor %.3g s of %.4g s, %.2g %%); "
+               "trench, %.3g s: publishing took %.3g s of %.4g s, %.2g %% (of processor %.3g s of "
+               "%.4g s, %.2g %%); "
                "patches came %.3g ms after their step (median), %.3g ms at most, %zu of %zu\n",
-               world.time(), sum, all.timing.best, 100 * sum / all.timing.best, spent, all.timing.processor,
-               100 * spent / all.timing.processor, 1e3 * wire.timing.median,
+               world.time(), sum, all.timing.best, 100 * sum / all.timing.best, spent,
+               all.timing.processor, 100 * spent / all.timing.processor, 1e3 * wire.timing.median,
                1e3 * wire.timing.best * (1 + wire.timing.spread), late.size(), step_ends.size());
 }
 
@@ -314,9 +334,12 @@ void measure_trench(double seconds) {
 int main(int argc, char** argv) {
   try {
     wanted = argc > 1 ? argv[1] : "";
-    const double seconds = argc > 2 ? std::atof(argv[2]) : 45;  // the trench: arrival and the first buckets
+    // The trench: arrival and the first buckets
+    const double seconds = argc > 2 ? std::atof(argv[2]) : 45;
     if (argc > 3 || !(seconds > 0)) {
-      std::fprintf(stderr, "usage: map_bench [NAME [SECONDS]]   rows whose name holds NAME; trench for so long (45)\n");
+      std::fprintf(stderr,
+                   "usage: map_bench [NAME [SECONDS]]   rows whose name holds NAME; trench for so "
+                   "long (45)\n");
       return 2;
     }
     measure_queries();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time of one picture, and pictures to look at: render_bench [folder for PNG files [samples a pixel]].
+// Time of one picture, and pictures to look at: render_bench [folder for PNG files
+// [samples a pixel]].
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +25,8 @@ struct Row {
 
 constexpr int kPictures = 9;
 
-/// What a dig changes from picture to picture: the machine's pose, its lumps, and ground around the bucket.
+/// What a dig changes from picture to picture: the machine's pose, its lumps, and ground around the
+/// bucket.
 void move_on(scene::Frame& frame, int picture) {
   const double step = (picture & 1) != 0 ? 0.002 : -0.002;
   for (scene::FrameShape& shape : frame.shapes) shape.X_WV.translation().x() += step;
@@ -32,19 +34,20 @@ void move_on(scene::Frame& frame, int picture) {
   for (std::size_t i = 0; i < frame.particles.position.size(); i += 3)
     frame.particles.position[i] += static_cast<float>(step);
   scene::FrameGround& g = frame.ground;
-  const int x0 = static_cast<int>((3.5 - g.origin.x()) / g.cell), y0 = static_cast<int>((-1.0 - g.origin.y()) / g.cell);
+  const int x0 = static_cast<int>((3.5 - g.origin.x()) / g.cell),
+            y0 = static_cast<int>((-1.0 - g.origin.y()) / g.cell);
   g.changed = {{x0, y0, x0 + 20, y0 + 20}};
   for (int y = y0; y < y0 + 20; ++y)
     for (int x = x0; x < x0 + 20; ++x)
-      g.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(g.nx) + static_cast<std::size_t>(x)] +=
-          static_cast<float>(step);
+      g.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(g.nx) +
+               static_cast<std::size_t>(x)] += static_cast<float>(step);
   ++g.revision;
 }
 
-// Least and median time of several pictures after two that warm up. Processor time, of all cores together, tells on a
-// busy machine what the clock on the wall does not.
-void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row, const std::string& folder,
-             const std::string& prefix) {
+// Least and median time of several pictures after two that warm up. Processor time, of all cores
+// together, tells on a busy machine what the clock on the wall does not.
+void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row,
+             const std::string& folder, const std::string& prefix) {
   const Stopwatch first;
   render::Image image = renderer.render(frame, row.camera);
   const double first_ms = 1e3 * first.seconds();
@@ -61,11 +64,13 @@ void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row, co
   std::sort(times.begin(), times.end());
   const render::RenderStats& s = renderer.stats();
   std::printf(
-      "%-10s %-9s %4d x %-4d columns  first %6.1f ms, least %6.1f, median %6.1f, processor %6.1f (prepare %5.1f, draw "
+      "%-10s %-9s %4d x %-4d columns  first %6.1f ms, least %6.1f, median %6.1f, processor %6.1f "
+      "(prepare %5.1f, draw "
       "%5.1f)  "
       "%6d ground triangles in %3d tiles, %5d lumps, %6d triangles\n",
-      prefix.c_str(), row.name, frame.ground.nx, frame.ground.ny, first_ms, times.front(), times[times.size() / 2],
-      cpu_ms, s.prepare_ms, s.draw_ms, s.ground_triangles, s.ground_tiles, s.particles_drawn, s.particle_triangles);
+      prefix.c_str(), row.name, frame.ground.nx, frame.ground.ny, first_ms, times.front(),
+      times[times.size() / 2], cpu_ms, s.prepare_ms, s.draw_ms, s.ground_triangles, s.ground_tiles,
+      s.particles_drawn, s.particle_triangles);
   bench::Row result;
   result.bench = "render:" + prefix + "_" + row.name;
   result.device = "OSMesa, 1280 x 720";
@@ -94,7 +99,8 @@ int main(int argc, char** argv) {
     render::TrenchScene scene;
     render::make_trench_scene(scene, meshes, nx);
     render::Renderer renderer(options);
-    for (const Row& row : rows) measure(renderer, scene.frame, row, folder, nx == 200 ? "trench" : "site");
+    for (const Row& row : rows)
+      measure(renderer, scene.frame, row, folder, nx == 200 ? "trench" : "site");
   }
   // A heap of twenty thousand particles that fills the picture.
   render::TrenchScene heap;
@@ -102,6 +108,7 @@ int main(int argc, char** argv) {
   render::add_soil(heap.frame.particles, {-1.4, -0.9, 0.0}, {1.4, 0.9, 0.5}, 0.1);
   std::printf("heap: %zu particles\n", heap.frame.particles.position.size() / 3);
   render::Renderer renderer(options);
-  measure(renderer, heap.frame, {"heap", render::look_from({2.6, -2.6, 1.8}, {0, 0, 0.2})}, folder, "particles");
+  measure(renderer, heap.frame, {"heap", render::look_from({2.6, -2.6, 1.8}, {0, 0, 0.2})}, folder,
+          "particles");
   return 0;
 }

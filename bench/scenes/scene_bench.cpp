@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole scenes with machines, control and soil, pictures not counted: scene_bench [SECONDS [SCENE.sdf ...]].
+// Whole scenes with machines, control and soil, pictures not counted: scene_bench [SECONDS
+// [SCENE.sdf ...]].
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -28,8 +29,8 @@ void measure_scene(device::Device& device, const std::string& file, double secon
   row.timing.best = row.timing.median = watch.seconds();
   row.timing.runs = 1;
   const sim::SoilCounts stats = session.world().soil_counts();
-  row.bench =
-      "scene:" + std::filesystem::path(file).stem().string() + "_" + std::to_string(static_cast<int>(seconds)) + "s";
+  row.bench = "scene:" + std::filesystem::path(file).stem().string() + "_" +
+              std::to_string(static_cast<int>(seconds)) + "s";
   row.steps = stats.steps;
   row.particles = stats.steps > 0 ? stats.particle_steps / stats.steps : 0;  // mean
   row.simulated = session.world().time();
@@ -46,7 +47,9 @@ int main(int argc, char** argv) {
       char* end = nullptr;
       seconds = std::strtod(argv[1], &end);
       if (end == argv[1] || *end != '\0' || !(seconds > 0)) {
-        std::fprintf(stderr, "usage: scene_bench [SECONDS [SCENE.sdf...]]   one row a scene, run for so long (40)\n");
+        std::fprintf(stderr,
+                     "usage: scene_bench [SECONDS [SCENE.sdf...]]   one row a scene, run for so "
+                     "long (40)\n");
         return 2;
       }
     }
@@ -54,7 +57,8 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i) files.emplace_back(argv[i]);
     const std::string folder = navvy::source_dir() + "/scenarios/";
     if (files.empty())
-      for (const char* name : {"block_collapse", "bucket_path", "trench"}) files.push_back(folder + name + ".sdf");
+      for (const char* name : {"block_collapse", "bucket_path", "trench"})
+        files.push_back(folder + name + ".sdf");
     device::Device device;
     for (const std::string& file : files) measure_scene(device, file, seconds);
     return 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of large sites: site_bench [EDGE [RUNS]]. Procedural hills of EDGE m (1000) in columns of 0.1 m, on the host
-// alone: a first export, a second one, one from a map file of as many cells, and an update after a bucket there and on
-// 100 m.
+// Maps of large sites: site_bench [EDGE [RUNS]]. Procedural hills of EDGE m (1000) in columns of
+// 0.1 m, on the host alone: a first export, a second one, one from a map file of as many cells, and
+// an update after a bucket there and on 100 m.
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@
 
 #include "bench.h"
 #include "core/error.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "planner/formats/formats.h"
 #include "planner/sources.h"
 #include "planner/updates.h"
@@ -42,7 +42,8 @@ scene::Scene hills(double edge) {
 }
 
 /// One row of `runs` times `work`, and the most memory that this program has held so far.
-void measure(const std::string& name, double edge, int runs, const std::function<std::uint64_t()>& work) {
+void measure(const std::string& name, double edge, int runs,
+             const std::function<std::uint64_t()>& work) {
   bench::Row row;
   row.bench = name;
   row.site = edge;
@@ -52,11 +53,12 @@ void measure(const std::string& name, double edge, int runs, const std::function
   bench::print_host(row);
   struct rusage usage {};
   ::getrusage(RUSAGE_SELF, &usage);
-  std::fprintf(stderr, "%s at %g m: %.1f s, %.1f s of processor, at most %ld MiB so far\n", name.c_str(), edge,
-               row.timing.best, row.timing.processor, usage.ru_maxrss / 1024);
+  std::fprintf(stderr, "%s at %g m: %.1f s, %.1f s of processor, at most %ld MiB so far\n",
+               name.c_str(), edge, row.timing.best, row.timing.processor, usage.ru_maxrss / 1024);
 }
 
-std::uint64_t export_elevation(const scene::Scene& scene, const heightfield::Ground& site, const std::string& file) {
+std::uint64_t export_elevation(const scene::Scene& scene, const heightfield::Ground& site,
+                               const std::string& file) {
   const planner::TerrainMap map =
       planner::map_of_site(site, planner::options_for(scene, site, {planner::Layer::kElevation}));
   planner::format_named("geotiff").write(map, {planner::Layer::kElevation}, file);
@@ -70,13 +72,14 @@ void measure_updates(double edge, int runs) {
   planner::UpdateFeed feed(planner::options_for(scene, ground, planner::all_layers()));
   feed.publish(ground.view());
   int bucket = 0;
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   measure("map:update", edge, runs, [&] {
     constexpr std::uint64_t kBuckets = 20;
     for (std::uint64_t k = 0; k < kBuckets; ++k, ++bucket) {
       const int x0 = (7 * bucket) % (ground.nx() - 12), y0 = (5 * bucket) % (ground.ny() - 10);
       for (int iy = y0; iy < y0 + 10; ++iy)
-        for (int ix = x0; ix < x0 + 12; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.2, taken);
+        for (int ix = x0; ix < x0 + 12; ++ix)
+          ground.take_above(ix, iy, ground.height(ix, iy) - 0.2, taken);
       feed.publish(ground.view(bucket));
     }
     return kBuckets;
@@ -90,22 +93,27 @@ int main(int argc, char** argv) {
     const double edge = argc > 1 ? std::atof(argv[1]) : 1000;
     const int runs = argc > 2 ? std::atoi(argv[2]) : 2;
     if (!(edge >= 10) || runs < 1 || argc > 3) {
-      std::fprintf(stderr, "usage: site_bench [EDGE [RUNS]]   EDGE of the site in m (1000), at least 10\n");
+      std::fprintf(stderr,
+                   "usage: site_bench [EDGE [RUNS]]   EDGE of the site in m (1000), at least 10\n");
       return 2;
     }
-    const fs::path folder = fs::temp_directory_path() / ("navvy_site_bench_" + std::to_string(std::clock()));
+    const fs::path folder =
+        fs::temp_directory_path() / ("navvy_site_bench_" + std::to_string(std::clock()));
     fs::create_directories(folder);
     const scene::Scene scene = hills(edge);
-    measure("map:first_export", edge, runs,
-            [&] { return export_elevation(scene, heightfield::make_ground(scene), folder / "site.tif"); });
+    measure("map:first_export", edge, runs, [&] {
+      return export_elevation(scene, heightfield::make_ground(scene), folder / "site.tif");
+    });
     const heightfield::Ground ground = heightfield::make_ground(scene);
-    measure("map:export", edge, runs, [&] { return export_elevation(scene, ground, folder / "site.tif"); });
+    measure("map:export", edge, runs,
+            [&] { return export_elevation(scene, ground, folder / "site.tif"); });
     // What was written has a cell for each column.
     scene::Scene on_map = scene;
     on_map.ground.features.clear();
     on_map.ground.file = folder / "site.tif";
-    measure("map:first_export_of_file", edge, runs,
-            [&] { return export_elevation(on_map, heightfield::make_ground(on_map), folder / "again.tif"); });
+    measure("map:first_export_of_file", edge, runs, [&] {
+      return export_elevation(on_map, heightfield::make_ground(on_map), folder / "again.tif");
+    });
     measure_updates(100, runs);
     measure_updates(edge, runs);
     fs::remove_all(folder);

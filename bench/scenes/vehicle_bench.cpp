@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts, beside 200 bodies, and
-// four of them; the crawler; a light truck on 50 x 50 m of fine loam: vehicle_bench [NAME], rows whose name holds NAME.
-// A row is a second of simulated time; `particles` counts machines and bodies. What ground and ruts came to hold in
-// memory goes to stderr, by columns of the tiles that were touched and by columns that a wheel or belt moved.
+// Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts,
+// beside 200 bodies, and four of them; the crawler; a light truck on 50 x 50 m of fine loam:
+// vehicle_bench [NAME], rows whose name holds NAME. A row is a second of simulated time;
+// `particles` counts machines and bodies. What ground and ruts came to hold in memory goes to
+// stderr, by columns of the tiles that were touched and by columns that a wheel or belt moved.
 #include <malloc.h>
 
 #include <cstdio>
@@ -15,9 +16,9 @@
 #include "coupling/ground_view.h"
 #include "coupling/ruts.h"
 #include "coupling/track_ruts.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "scene_io/loader.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace {
 
@@ -56,13 +57,14 @@ struct Case {
   double speed = 1;  // [m/s]
 };
 
-const std::vector<Case> kCases = {{"firm", "ew180"},
-                                  {"loam", "ew180", 1, 0, true},
-                                  {"200_bodies", "ew180", 1, 200},
-                                  {"four", "ew180", 4},
-                                  {"tracks_firm", "ex180_tracked"},
-                                  {"tracks_loam", "ex180_tracked", 1, 0, true},
-                                  {"light_loam_50x50", "light_truck", 1, 0, true, 0.05, Vec2(50, 50), 4}};
+const std::vector<Case> kCases = {
+    {"firm", "ew180"},
+    {"loam", "ew180", 1, 0, true},
+    {"200_bodies", "ew180", 1, 200},
+    {"four", "ew180", 4},
+    {"tracks_firm", "ex180_tracked"},
+    {"tracks_loam", "ex180_tracked", 1, 0, true},
+    {"light_loam_50x50", "light_truck", 1, 0, true, 0.05, Vec2(50, 50), 4}};
 
 /// Columns that no longer are as high as at the start.
 std::size_t moved_columns(const heightfield::Ground& ground) {
@@ -70,7 +72,8 @@ std::size_t moved_columns(const heightfield::Ground& ground) {
   const heightfield::CellRect rect = ground.touched_rect();
   std::size_t moved = 0;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
-    for (int ix = rect.x0; ix < rect.x1; ++ix) moved += ground.height(ix, iy) != ground.start_height(ix, iy) ? 1 : 0;
+    for (int ix = rect.x0; ix < rect.x1; ++ix)
+      moved += ground.height(ix, iy) != ground.start_height(ix, iy) ? 1 : 0;
   return moved;
 }
 
@@ -95,7 +98,8 @@ class Stage {
 
   void second() {
     for (int step = 0; step < kSteps; ++step) {
-      engine_->step(kStep, loam_ ? static_cast<const terramechanics::GroundQuery&>(columns_) : firm_);
+      engine_->step(kStep,
+                    loam_ ? static_cast<const terramechanics::GroundQuery&>(columns_) : firm_);
       if (loam_ && step % coupling::kRutInterval == 0) press();
     }
   }
@@ -113,7 +117,7 @@ class Stage {
   }
   void press() {
     std::vector<coupling::LoadedTyre> tyres;
-    std::vector<terramechanics::BeltPatch> belts;
+    std::vector<terramechanics::TrackPatch> running_tracks;
     for (int m = 0; m < engine_->machine_count(); ++m)
       for (std::size_t w = 0; w < machine_.wheels.size(); ++w) {
         const int wheel = static_cast<int>(w);
@@ -121,11 +125,13 @@ class Stage {
           tyres.push_back({machine_.wheels[w], engine_->wheel(m, wheel)});
           continue;
         }
-        for (const terramechanics::BeltPatch& patch : engine_->belt_patches(m, wheel)) belts.push_back(patch);
+        for (const terramechanics::TrackPatch& patch : engine_->track_patches(m, wheel))
+          running_tracks.push_back(patch);
       }
     const double interval = coupling::kRutInterval * kStep;
     ruts_.press(tyres, interval);
-    if (!belts.empty()) track_ruts_.press(belts, coupling::kSinkSpeed * interval, tyres.empty());
+    if (!running_tracks.empty())
+      track_ruts_.press(running_tracks, coupling::kSinkSpeed * interval, tyres.empty());
   }
 
   const scene::Machine& machine_;
@@ -135,11 +141,12 @@ class Stage {
   coupling::TrackRuts track_ruts_;
   coupling::GroundView columns_;
   FirmGround firm_;
-  std::unique_ptr<vehicle::Engine> engine_;
+  std::unique_ptr<vehicle::PhysicsEngine> engine_;
 };
 
 void measure_case(const Case& what) {
-  const scene::Machine machine = scene_io::load_machine(scene_io::find_data("vehicles/" + what.machine + "/model.sdf"));
+  const scene::Machine machine =
+      scene_io::load_machine(scene_io::find_data("vehicles/" + what.machine + "/model.sdf"));
   Stage stage(what, machine);
   stage.second();
   bench::Row row;
@@ -152,9 +159,11 @@ void measure_case(const Case& what) {
   if (touched > 0) {
     const auto bytes = static_cast<double>(mallinfo2().uordblks - before);
     const std::size_t moved = moved_columns(stage.ground()) - moved_before;
-    std::fprintf(stderr, "vehicle_step:%s: %.0f bytes a touched column, %zu columns; %.0f a moved one, %zu\n",
-                 what.name.c_str(), bytes / static_cast<double>(touched), touched, bytes / static_cast<double>(moved),
-                 moved);
+    std::fprintf(
+        stderr,
+        "vehicle_step:%s: %.0f bytes a touched column, %zu columns; %.0f a moved one, %zu\n",
+        what.name.c_str(), bytes / static_cast<double>(touched), touched,
+        bytes / static_cast<double>(moved), moved);
   }
   row.bench = "vehicle_step:" + what.name;
   row.particles = static_cast<std::uint64_t>(what.machines + what.boxes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of one node with a tool, and the two-way solve's small system; the same source in both schedules.
+// Contact of one node with a tool, and the two-way solve's small system; the same source in both
+// schedules.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 #define NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 
@@ -7,7 +8,8 @@
 #include "soil/contact_law.h"
 #include "soil/node.h"
 
-// Node n of near block `near`: its number in the arrays of near nodes, and its place from its block's corner [cells].
+// Node n of near block `near`: its number in the arrays of near nodes, and its place from its
+// block's corner [cells].
 static inline int near_node(int near, int n) { return near * BLOCK_NODES + n; }
 static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4); }
 
@@ -29,7 +31,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
-  const float room = fmax(mean_of(kernel_share((float4)(clearance))), LEAST_ROOM);
+  const float room = fmax(mean_of(kernel_share((float4)(clearance))), MIN_FREE_FRACTION);
   const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
@@ -56,9 +58,10 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
 // Sums before anything was added.
 #define NO_SUMS {{0.0f}, {0.0f}, 0.0f}
 
-// Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the tool's origin, linear)
-// and G^T m P G, where P is what of the plate's velocity the contact hands to the node: its share along the normal, all
-// of the slip when it sticks [docs/tools.md, two-way solve].
+// Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the
+// tool's origin, linear) and G^T m P G, where P is what of the plate's velocity the contact hands
+// to the node: its share along the normal, all of the slip when it sticks
+// [docs/tools.md, two-way solve].
 static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key, NODE_ARGS) {
   const int i = near_node(near, n);
   ContactNode node;
@@ -75,8 +78,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   sums->wrench[3] += j.x;
   sums->wrench[4] += j.y;
   sums->wrench[5] += j.z;
-  // Directions: three axes when it sticks, which hold the normal too and are corrected there. Each adds
-  // m p g g^T with g = (r x d, d) and the part p that is held.
+  // Directions: three axes when it sticks, which hold the normal too and are corrected there. Each
+  // adds m p g g^T with g = (r x d, d) and the part p that is held.
   const float along_normal = (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
   for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
     if (a == 3 && along_normal == 0.0f) continue;
@@ -90,7 +93,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   }
 }
 
-// One sweep of the two-way solve: F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K, W the inverse mass.
+// One sweep of the two-way solve: F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K, W the
+// inverse mass.
 static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   float a[6][7], stiff[6][6];
   for (int i = 0, k = 0; i < 6; ++i)
@@ -154,7 +158,7 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     // Mass per room, as far as ground and plate leave room on this side.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
-    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? room_above(below) : room_between(below, beside);
+    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
     out.felt[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
   }
   return out;

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The soil law: one source for the kernels (sixteen lanes or one particle), the native loop and the double twin.
+// The soil law: one source for the kernels (sixteen lanes or one particle), the native loop and the
+// double twin.
 //
-// Rate-form elasticity under the cone of [Matsuoka 1974], matched in plane strain [docs/soil.md, yield], with
-//   - a cone of yield stress that is no circle: plane strain is Mohr and Coulomb, triaxial states are near it;
-//   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no stress until it closes;
-//   - cohesion in shear only; it fades as soil opens (opening_strain), is remoulded (plastic shear) and gets looser
-//     (density state);
+// Rate-form elasticity under the cone of [Matsuoka 1974], matched in plane strain
+// [docs/soil.md, yield], with
+//   - a cone of yield stress that is no circle: plane strain is Mohr and Coulomb, triaxial states
+//     are near it;
+//   - opening memory: a particle whose volume ratio J exceeds its density state J0 carries no
+//     stress until it closes;
+//   - cohesion in shear only; it fades as soil opens (opening_strain), is remoulded (plastic shear)
+//     and gets looser (density state);
 //   - swell: J0 grows with plastic shear from bank to loose density and stops there;
 //   - a static share of its strength, which soil that hardly shears has on top;
-//   - viscosity on soil that does not yield, so that intact ground does not ring, and on the volume of closed soil;
+//   - viscosity on soil that does not yield, so that intact ground does not ring, and on the volume
+//     of closed soil;
 // and, where LAW_EXTENDED is defined (a scene whose soils have them; the rest need not pay),
 //   - dilatancy: shear widens J0 also against pressure, less and less until it is loose;
 //   - compaction: pressure above what the density state bears makes J0 denser for good;
 //   - mu(I): friction grows with the inertial number of the flow.
-// Only + - * / sqrt min max, so that contraction-free builds agree bit for bit. NaN inputs must stay visible: min and
-// max may drop them, which is why callers check the whole state and not only the stress (advance_state in point.h).
+// Only + - * / sqrt min max, so that contraction-free builds agree bit for bit. NaN inputs must
+// stay visible: min and max may drop them, which is why callers check the whole state and not only
+// the stress (advance_state in point.h).
 //
-// Written in the dialect of kernels/README.md: `real` is what is computed with, `scalar` its element. Literals that a
-// float holds exactly stand as floats; the others are cast to scalar, so that the twin has them in double.
+// Written in the dialect of kernels/README.md: `real` is what is computed with, `scalar` its
+// element. Literals that a float holds exactly stand as floats; the others are cast to scalar, so
+// that the twin has them in double.
 #ifndef NAVVY_KERNELS_SOIL_LAW_H
 #define NAVVY_KERNELS_SOIL_LAW_H
 
@@ -51,9 +58,9 @@ typedef struct LawState {
 #define RESTING_TIME 10.0f    // 1 / shear rate at which the static share is gone [s] [docs/soil.md, static friction]
 #define VOLUME_DAMPING 10.0f  // viscosity of closed soil's volume / that of its shear [docs/soil.md, viscosity]
 
-// Radius of the yield surface / that in plane strain, of the deviator's determinant and q: r of a r^3 - r^2 + 1 = 0
-// [Matsuoka 1974] [docs/soil.md, yield]. Three Newton steps from 1, the first written out; 2 / sqrt(27) is the
-// invariant's bound.
+// Radius of the yield surface / that in plane strain, of the deviator's determinant and q: r of a
+// r^3 - r^2 + 1 = 0 [Matsuoka 1974] [docs/soil.md, yield]. Three Newton steps from 1, the first
+// written out; 2 / sqrt(27) is the invariant's bound.
 INLINED real lode_radius(real determinant, real q, real sin_phi) {
   const real safe = fmax(q, (scalar)(1e-3));
   const real invariant = fmin(fmax(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
@@ -64,8 +71,8 @@ INLINED real lode_radius(real determinant, real q, real sin_phi) {
   return r;
 }
 
-// Advances the state by dt [s] under the velocity gradient c. sigma: the stress the grid feels, order of state->s, with
-// pressure and viscosity. Positive in tension.
+// Advances the state by dt [s] under the velocity gradient c. sigma: the stress the grid feels,
+// order of state->s, with pressure and viscosity. Positive in tension.
 INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState* state, real* sigma) {
   const real* s = state->s;
   real j = state->j, j0 = state->j0;
@@ -85,13 +92,14 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real yz = s[4] + dt * (g2 * dyz + wyz * (s[2] - s[1]) - wxy * s[5] - wxz * s[3]);
   const real xz = s[5] + dt * (g2 * dxz + wxz * (s[2] - s[0]) + wxy * s[4] - wyz * s[3]);
 
-  // Pressure from the tracked volume; opened soil has none [Dunatunga 2015] [docs/soil.md, opening].
-  // A floor far below any real state: p stays finite. A ceiling far above any load that is thrown: a crumb that hangs
-  // at a plate opens without end, and its cell with it by mixing.
+  // Pressure from the tracked volume; opened soil has none [Dunatunga 2015]
+  // [docs/soil.md, opening]. A floor far below any real state: p stays finite. A ceiling far above
+  // any load that is thrown: a crumb that hangs at a plate opens without end, and its cell with it
+  // by mixing.
   j = fmin(fmax(j * (1.0f + dt * trace), (scalar)(0.2)), MOST_OPEN);
 #ifdef LAW_EXTENDED
-  // One step towards the density state that bears the pressure; loosened soil bears little until it is dense again
-  // [docs/soil.md, compaction].
+  // One step towards the density state that bears the pressure; loosened soil bears little until it
+  // is dense again [docs/soil.md, compaction].
   const real line = 1.0f + soil->cap_growth * (1.0f - j0);
   const real over = fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
   const real slope = soil->bulk / j0 + soil->cap * soil->cap_growth * step((scalar)(0.05), line);
@@ -100,8 +108,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real open = j / j0 - 1.0f;
   const real p = soil->bulk * fmax(-open, 0.0f);
 
-  // Yield stress: cohesion of the density state and of the bonds that are left, faded [docs/soil.md, cohesion]; return
-  // [Klar 2016] [docs/soil.md, return mapping].
+  // Yield stress: cohesion of the density state and of the bonds that are left, faded
+  // [docs/soil.md, cohesion]; return [Klar 2016] [docs/soil.md, return mapping].
   const real dense = fmin(fmax(soil->dense_offset - j0 * soil->inv_range, 0.0f), 1.0f);
   const real soft = 1.0f + state->shear * soil->inv_remould;
   const real k = soil->k_loose + soil->k_dense * dense + soil->k_bond / (soft * soft);
@@ -127,8 +135,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real q_yield = alpha * p + strength * k * fade;
   const real keep = fmin(q_yield / fmax(q, (scalar)(1e-9)), 1.0f);
 #ifdef LAW_EXTENDED
-  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the yield stress coming up
-  // [docs/soil.md, dilatancy].
+  // Dilating soil that is closed presses itself harder as it slips: part of the way back is the
+  // yield stress coming up [docs/soil.md, dilatancy].
   const real b = soil->dilatancy * dense;
   const real harder = alpha * soil->bulk * b * step(0.0f, -open);
   const real slip = q * (1.0f - keep) / (soil->shear + harder);
@@ -146,8 +154,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   state->s[4] = yz * stay;
   state->s[5] = xz * stay;
 
-  // Viscosity where the step was elastic, and on the volume of closed soil: only in the stress that the grid feels,
-  // yield has asked the pressure without it [docs/soil.md, viscosity].
+  // Viscosity where the step was elastic, and on the volume of closed soil: only in the stress that
+  // the grid feels, yield has asked the pressure without it [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   const real damped = fmax(pressure - VOLUME_DAMPING * soil->viscosity * trace, 0.0f);
   const real felt = pressure > 0.0f ? damped : pressure;
@@ -158,8 +166,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;
 
-  // Plastic shear, and the density state it loosens [docs/soil.md, swell]: never further than J allows, so that
-  // loosening makes no pressure out of nothing.
+  // Plastic shear, and the density state it loosens [docs/soil.md, swell]: never further than J
+  // allows, so that loosening makes no pressure out of nothing.
   state->shear = state->shear + slip;
   const real grown = fmin(j0 + soil->loosening * slip, j);
   state->j0 = fmax(j0, fmin(grown, soil->swell));

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The constants of a soil, once: the law's struct, the table on the device, its loads in both schedules, the host's
-// table and the double twin are made of these lists. Adding one: kernels/README.md.
+// The constants of a soil, once: the law's struct, the table on the device, its loads in both
+// schedules, the host's table and the double twin are made of these lists. Adding one:
+// kernels/README.md.
 #ifndef NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 #define NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 
-// bulk, shear: elastic moduli K, G [Pa]
-// alpha: sin(friction angle)
-// k_loose, k_dense, k_bond: cohesion at the loose density, residual less loose, intact less residual cohesion, x
-// cos(friction angle) [Pa]
-// dense_offset, inv_range: the dense share is dense_offset - J0 inv_range, within 0 .. 1: swell / (swell - 1) and
-// 1 / (swell - 1); 1 and 0 without swell
-// inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain
-// static_share: growth of the yield stress at rest [docs/soil.md, static friction]
-// viscosity: of the deviator, where it does not yield [Pa s] [docs/soil.md, viscosity]
-// swell: largest J0
-// loosening: growth of J0 per plastic shear, as far as J allows
+// bulk, shear: elastic moduli K, G [Pa] alpha: sin(friction angle) k_loose, k_dense, k_bond:
+// cohesion at the loose density, residual less loose, intact less residual cohesion, x cos(friction
+// angle) [Pa] dense_offset, inv_range: the dense share is dense_offset - J0 inv_range, within 0 ..
+// 1: swell / (swell - 1) and 1 / (swell - 1); 1 and 0 without swell inv_remould, inv_opening: 1 /
+// remoulding strain, 1 / opening strain static_share: growth of the yield stress at rest
+// [docs/soil.md, static friction] viscosity: of the deviator, where it does not yield [Pa s]
+// [docs/soil.md, viscosity] swell: largest J0 loosening: growth of J0 per plastic shear, as far as
+// J allows
 #define BASIC_LAW_CONSTANTS(X) \
   X(bulk)                      \
   X(shear)                     \
@@ -31,13 +29,11 @@
   X(swell)                     \
   X(loosening)
 
-// Only where LAW_EXTENDED is defined.
-// dilatancy: b, plastic volume strain per plastic shear in bank state
-// matched: yield stress that plane strain needs at b / that without dilatancy - 1
-// alpha_fast: growth of alpha from slow to fast flow
-// grain: diameter x sqrt(density) of the grains; inertial: inertial number at half that growth
-// cap: mean pressure that bank soil bears without getting denser [Pa]; cap_growth: growth of it, as a share, per volume
-// strain
+// Only where LAW_EXTENDED is defined. dilatancy: b, plastic volume strain per plastic shear in bank
+// state matched: yield stress that plane strain needs at b / that without dilatancy - 1 alpha_fast:
+// growth of alpha from slow to fast flow grain: diameter x sqrt(density) of the grains; inertial:
+// inertial number at half that growth cap: mean pressure that bank soil bears without getting
+// denser [Pa]; cap_growth: growth of it, as a share, per volume strain
 #define EXTENDED_LAW_CONSTANTS(X) \
   X(dilatancy)                    \
   X(matched)                      \

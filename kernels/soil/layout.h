@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layout of the particle and grid arrays, read by the host and by the kernels. Scalars and arrays of scalars only.
+// Layout of the particle and grid arrays, read by the host and by the kernels. Scalars and arrays
+// of scalars only.
 //
-// Particles are stored by home block, each block's run starting at a multiple of NAVVY_LANES; lanes past a block's
-// count have mass 0. Their fields: particle_fields.h. A particle's home is the block of its base node floor(x - 0.5),
-// so x runs over [0.5, 4.5) after a re-bin and may drift one cell to each side before the next one.
-// A tile is the 8 x 8 x 8 nodes -1..6 of a home block, x fastest, one float4 each.
+// Particles are stored by home block, each block's run starting at a multiple of NAVVY_LANES; lanes
+// past a block's count have mass 0. Their fields: particle_fields.h. A particle's home is the block
+// of its base node floor(x - 0.5), so x runs over [0.5, 4.5) after a re-bin and may drift one cell
+// to each side before the next one. A tile is the 8 x 8 x 8 nodes -1..6 of a home block, x fastest,
+// one float4 each.
 #ifndef NAVVY_KERNELS_SOIL_LAYOUT_H
 #define NAVVY_KERNELS_SOIL_LAYOUT_H
 
@@ -18,7 +20,8 @@
 #define TILE_NODES 516  // 512 and a pad row end: a float16 read of the last row stays inside; not a power of two
 #define BLOCK_NODES 64
 
-// Densest state that soil is pressed into, and that columns take from particles (a tighter clamp creates volume).
+// Densest state that soil is pressed into, and that columns take from particles (a tighter clamp
+// creates volume).
 #define DENSEST_STATE 0.88
 
 #ifdef __cplusplus
@@ -27,12 +30,12 @@ namespace navvy::soil {
 #endif
 
 // One home block: a block that holds particles.
-typedef struct Home {
+typedef struct ParticleBlock {
   int start;  // first slot, a multiple of NAVVY_LANES
   int count;  // particles
   int tile;   // first tile
   int near;   // 1: near a shell, three tiles (0 neutral, 1 front, 2 back); 0: one
-} Home;
+} ParticleBlock;
 
 // Resting ground of one active block [cells from its corner], per node column, x fastest.
 typedef struct BlockFloor {
@@ -57,7 +60,7 @@ typedef struct Report {
 } Report;
 
 #ifdef __cplusplus
-static_assert(sizeof(Home) == 16 && offsetof(Home, tile) == 8 && offsetof(Home, near) == 12);
+static_assert(sizeof(ParticleBlock) == 16 && offsetof(ParticleBlock, tile) == 8 && offsetof(ParticleBlock, near) == 12);
 static_assert(sizeof(BlockFloor) == 320 && offsetof(BlockFloor, around) == 64);
 static_assert(sizeof(ContactSoil) == 16 && offsetof(ContactSoil, inv_density) == 8);
 static_assert(sizeof(Report) == 16 && offsetof(Report, push) == 8);

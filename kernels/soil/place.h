@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where particles of the store go: neighbours of a block, the home a particle drifted into, what a home's particles are
-// to tools. One source for both schedules; included after their dialect.
+// Where particles of the store go: neighbours of a block, the home a particle drifted into, what a
+// home's particles are to tools. One source for both schedules; included after their dialect.
 #ifndef NAVVY_KERNELS_SOIL_PLACE_H
 #define NAVVY_KERNELS_SOIL_PLACE_H
 
@@ -18,15 +18,15 @@ typedef struct Place {
   uchar cell;  // of its base node in the block it goes to, 0..63, x fastest
 } Place;
 
-// Of a particle at (x, y, z) [cells from its block's corner]. site: x and y of the lower left and of the upper right
-// corner of the site, from there too.
+// Of a particle at (x, y, z) [cells from its block's corner]. site: x and y of the lower left and
+// of the upper right corner of the site, from there too.
 static inline Place place_of(float x, float y, float z, float4 site) {
   const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
   const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);
   const bool outside = x < site.x || x >= site.z || y < site.y || y >= site.w;
-  const int3 in_home = clamp(base - 4 * d, 0, 3);
+  const int3 cell_in_block = clamp(base - 4 * d, 0, 3);
   const Place place = {(uchar)(outside ? LEFT_SITE : (d.x + 1) + 3 * (d.y + 1) + 9 * (d.z + 1)),
-                       (uchar)(in_home.x + 4 * in_home.y + 16 * in_home.z)};
+                       (uchar)(cell_in_block.x + 4 * cell_in_block.y + 16 * cell_in_block.z)};
   return place;
 }
 

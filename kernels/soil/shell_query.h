@@ -2,9 +2,10 @@
 // Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or
 // soil/groups/group.h).
 //
-// Lengths in cells from the window corner of the triangle's tool (tool.h). The sign of the distance comes from the
-// pseudo-normal of the feature that is closest [Baerentzen 2005], which is right on folds of either kind: with
-// plain face normals a point before an inner corner would see one face from behind.
+// Lengths in cells from the window corner of the triangle's tool (tool.h). The sign of the distance
+// comes from the pseudo-normal of the feature that is closest [Baerentzen 2005], which is right on
+// folds of either kind: with plain face normals a point before an inner corner would see one face
+// from behind.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 
@@ -32,8 +33,9 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   best->feature = select(best->feature, which, nearer);
 }
 
-// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips the triangle when
-// all points are farther than `far` from its plane, or from its centre by more than `far` and its radius.
+// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips
+// the triangle when all points are farther than `far` from its plane, or from its centre by more
+// than `far` and its radius.
 static inline void closest_triangle(real px, real py, real pz, global const ShellTriangle* triangles, int t, float far,
                                     Closest* best) {
   global const ShellTriangle* triangle = triangles + t;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one node or particle learns from the closest feature of a shell (soil/shell_query.h): signed distance, normal,
-// side.
+// What one node or particle learns from the closest feature of a shell (soil/shell_query.h): signed
+// distance, normal, side.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_SIDE_H
 #define NAVVY_KERNELS_SOIL_SHELL_SIDE_H
 
 #include "soil/shell_query.h"
 
-// What one point learns from its closest feature. The normal points away from the plate in front, to it behind: to the
-// front either way.
+// What one point learns from its closest feature. The normal points away from the plate in front,
+// to it behind: to the front either way.
 static inline bool resolve(global const ShellTriangle* triangles, int feature, float3 away, float distance2, float* phi,
                            float3* normal, bool* rim) {
   if (feature < 0) return false;
@@ -40,14 +40,16 @@ typedef struct SideResult {
   int crossed;
 } SideResult;
 
-// How far behind a plate a particle can be that has not been counted as a crossing [cells]: a transfer's way of its own
-// and of the tool, 0.2 each, after a push that left as much; a tenth for rounding.
+// How far behind a plate a particle can be that has not been counted as a crossing [cells]: a
+// transfer's way of its own and of the tool, 0.2 each, after a push that left as much; a tenth for
+// rounding.
 #define FARTHEST_BEHIND 0.7f
 
-// The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle that sank into the
-// plate comes back to its surface. One that seems farther behind than it can be came to another plate of the tool,
-// which shows it its other face (plates that meet in a T), and lies where it lies.
-static inline SideResult keep_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
+// The side of a particle of block `key` whose closest feature is `feature` at `closest`; a particle
+// that sank into the plate comes back to its surface. One that seems farther behind than it can be
+// came to another plate of the tool, which shows it its other face (plates that meet in a T), and
+// lies where it lies.
+static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature, float distance2, float3 closest,
                                    float band, float longest_push, global const ShellTriangle* triangles,
                                    global const Tool* tools) {
   SideResult out = {x, 0, 0.0f, 0};

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels know of tools, and what they tell of the contact with them: structs of host and device. Scalars and
-// arrays of scalars only.
+// What the kernels know of tools, and what they tell of the contact with them: structs of host and
+// device. Scalars and arrays of scalars only.
 //
-// Coordinates of a tool count from the corner of its window, the block its origin lies in: floats stay as fine a
-// kilometre from the site's origin. Lengths in cells, directions along the axes of W.
+// Coordinates of a tool count from the corner of its window, the block its origin lies in: floats
+// stay as fine a kilometre from the site's origin. Lengths in cells, directions along the axes of
+// W.
 #ifndef NAVVY_KERNELS_SOIL_TOOL_H
 #define NAVVY_KERNELS_SOIL_TOOL_H
 
-// Reach of a contact. h: nodes closer than this to the plate's face act; ramp: over which their share falls to zero;
-// edge: nodes closer than this to a free edge do not act; edge_ramp: over which their share falls along the plate [all
-// cells]; patch: face of a cell x dt [m2 s]; opening: soil that leaves the plate faster has let go
-// [m/s]; settling: speed at the end of the reach at which soil comes nearer to a plate that does not advance [m/s];
-// falling: speed at which a plate falls onto soil through nodes that hardly bear [m/s];
-// down_x, down_y, down_z: unit vector of gravity, or none.
+// Reach of a contact. h: nodes closer than this to the plate's face act; ramp: over which their
+// share falls to zero; edge: nodes closer than this to a free edge do not act; edge_ramp: over
+// which their share falls along the plate [all cells]; patch: face of a cell x dt [m2 s]; opening:
+// soil that leaves the plate faster has let go [m/s]; settling: speed at the end of the reach at
+// which soil comes nearer to a plate that does not advance [m/s]; falling: speed at which a plate
+// falls onto soil through nodes that hardly bear [m/s]; down_x, down_y, down_z: unit vector of
+// gravity, or none.
 #define REACH_FIELDS(X) \
   X(h)                  \
   X(ramp)               \
@@ -30,7 +32,8 @@
 #include <cstddef>
 namespace navvy::soil {
 
-/// REACH_FIELDS as the kernels take them; what computes with them (contact_law.h) has them in its own precision.
+/// REACH_FIELDS as the kernels take them; what computes with them (contact_law.h) has them in its
+/// own precision.
 #define REACH_FLOAT(name) float name;
 struct ContactReach {
   REACH_FIELDS(REACH_FLOAT)
@@ -44,20 +47,25 @@ typedef struct Tool {
   int active;              // 1 when the tool moves or stands in this step
   float origin[3];         // of the tool's frame, from the window's corner [cells]
   float half_thickness;    // of its plates [cells]
-  float twist[6];          // angular velocity [rad/s], velocity of the origin [m/s]; the two-way solve changes it
+  // Angular velocity [rad/s], velocity of the origin [m/s]; the two-way solve changes it
+  float twist[6];
   float start[6];          // twist before soil acts
-  float inverse_mass[36];  // change of twist per impulse (moment about the origin, impulse), row major; 0: scripted
+  // Change of twist per impulse (moment about the origin, impulse), row major; 0: scripted
+  float inverse_mass[36];
   float friction;          // share of the soil's tool friction (its tangent) that this tool has
-  float adhesion;          // share of the soil's adhesion, times plate area / sum of the areas its nodes stand for
+  // Share of the soil's adhesion, times plate area / sum of the areas its nodes stand for
+  float adhesion;
 } Tool;
 
-// A direction that tells the front from the back of the closest point, and whether the plate ends there.
+// A direction that tells the front from the back of the closest point, and whether the plate ends
+// there.
 typedef struct ShellFeature {
   float normal[3];
   float free;  // 1 on a free edge
 } ShellFeature;
 
-// One triangle of a tool's shell. The face is feature 0, the edges ab bc ca are 1..3, the corners a b c 4..6.
+// One triangle of a tool's shell. The face is feature 0, the edges ab bc ca are 1..3, the corners a
+// b c 4..6.
 typedef struct ShellTriangle {
   float a[3];
   int tool;

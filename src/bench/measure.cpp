@@ -10,7 +10,7 @@
 #include "core/stopwatch.h"
 #include "device/buffer.h"
 #include "device/device.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 
 namespace navvy::bench {
 namespace {
@@ -31,8 +31,8 @@ kernel void fma_peak(global float* out, const int rounds) {
 }
 )";
 
-/// Profiling for as long as it lives, also when the work throws. A profile left on would slow down the rows that
-/// follow.
+/// Profiling for as long as it lives, also when the work throws. A profile left on would slow down
+/// the rows that follow.
 class Profiling {
  public:
   explicit Profiling(device::Device& device) : device_(device) {
@@ -88,9 +88,10 @@ Timing measure(int runs, const std::function<void()>& restore, const std::functi
   return timing_of(std::move(wall), processor);
 }
 
-Timing measure(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
-               int runs) {
-  // The run with number -1 warms up: drivers compile machine code and touch memory at the first use.
+Timing measure(device::Device& device, const std::function<void()>& restore,
+               const std::function<void()>& work, int runs) {
+  // The run with number -1 warms up: drivers compile machine code and touch memory at the first
+  // use.
   std::vector<double> times, processor;
   for (int run = -1; run < runs; ++run) {
     // Restoring queues copies; they must not run within the measured time.
@@ -107,8 +108,8 @@ Timing measure(device::Device& device, const std::function<void()>& restore, con
   return timing_of(std::move(times), processor);
 }
 
-double kernel_seconds(device::Device& device, const std::function<void()>& restore, const std::function<void()>& work,
-                      int runs) {
+double kernel_seconds(device::Device& device, const std::function<void()>& restore,
+                      const std::function<void()>& work, int runs) {
   double least = 0;
   for (int run = 0; run < runs; ++run) {
     restore();
@@ -123,10 +124,10 @@ double kernel_seconds(device::Device& device, const std::function<void()>& resto
 }
 
 double copy_bandwidth(device::Device& device, std::size_t bytes) {
-  const device::Program program =
-      device::Program::from_text(device, "copy",
-                                 "kernel void copy(global const float4* from, global float4* to) { "
-                                 "to[get_global_id(0)] = from[get_global_id(0)]; }");
+  const device::KernelProgram program = device::KernelProgram::from_text(
+      device, "copy",
+      "kernel void copy(global const float4* from, global float4* to) { "
+      "to[get_global_id(0)] = from[get_global_id(0)]; }");
   const std::size_t count = bytes / 16;
   device::Buffer<float> from(device, 4 * count), to(device, 4 * count);
   // Written once before the clock starts, or the first touch of fresh pages would be measured.
@@ -142,10 +143,11 @@ double copy_bandwidth(device::Device& device, std::size_t bytes) {
 }
 
 double fma_peak(device::Device& device) {
-  const device::Program program = device::Program::from_text(device, "fma_peak", kFmaSource);
+  const device::KernelProgram program =
+      device::KernelProgram::from_text(device, "fma_peak", kFmaSource);
   device::Kernel kernel(program, "fma_peak");
-  // A launch must take long enough for its own cost not to show, and short enough for a bench of seconds: a GPU takes
-  // many items, a CPU with few lanes takes more rounds of fewer items.
+  // A launch must take long enough for its own cost not to show, and short enough for a bench of
+  // seconds: a GPU takes many items, a CPU with few lanes takes more rounds of fewer items.
   const bool gpu = device.info().kind == device::Kind::kGpu;
   const std::size_t items = gpu ? std::size_t{1} << 20 : std::size_t{1} << 12;
   const int rounds = gpu ? 1 << 11 : 1 << 14;

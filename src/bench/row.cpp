@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t kHashColumn = 14;
 
 std::string number(double value, const char* format) {
-  // Zero, negative or NaN means that the column does not apply: an empty field is no number that somebody averages.
+  // Zero, negative or NaN means that the column does not apply: an empty field is no number that
+  // somebody averages.
   if (!(value > 0)) return "";
   char text[64];
   std::snprintf(text, sizeof text, format, value);
@@ -33,8 +34,8 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-// Scripts read files by these names, so a renamed column ends comparisons with committed results. kHashColumn and
-// is_text count on the places of the first ones.
+// Scripts read files by these names, so a renamed column ends comparisons with committed results.
+// kHashColumn and is_text count on the places of the first ones.
 const std::vector<std::string>& columns() {
   static const std::vector<std::string> names = {"bench",
                                                  "device",
@@ -115,7 +116,8 @@ std::string json(const std::vector<Row>& rows) {
     for (std::size_t k = 0; k < fields.size(); ++k) {
       // An absent key says that nothing was measured; zero would say that it was nothing.
       if (fields[k].empty()) continue;
-      out += (first ? "" : ", ") + quoted(columns()[k]) + ": " + (is_text(k) ? quoted(fields[k]) : fields[k]);
+      out += (first ? "" : ", ") + quoted(columns()[k]) + ": " +
+             (is_text(k) ? quoted(fields[k]) : fields[k]);
       first = false;
     }
     out += "}";

@@ -20,7 +20,8 @@ struct Timing {
 /// What a device can do at most, measured on it; 0 = not measured.
 struct Peak {
   double copy_bandwidth = 0;  ///< bytes read plus written per second by a plain copy
-  double flops = 0;           ///< single-precision operations per second, a fused multiply-add counts as two
+  /// Single-precision operations per second, a fused multiply-add counts as two.
+  double flops = 0;
 };
 
 /// One result. Zero in a column that does not apply prints as an empty field.
@@ -29,7 +30,8 @@ struct Row {
   std::uint64_t particles = 0;  ///< or elements
   std::uint64_t steps = 0;
   Timing timing;
-  double kernels = 0;             ///< least time the device's kernels alone took in a run, by its own clock [s]
+  /// Least time the device's kernels alone took in a run, by its own clock [s].
+  double kernels = 0;
   double bytes_per_particle = 0;  ///< traffic of one step, counted from the kernel's arguments
   double flops_per_particle = 0;  ///< of one step, counted from the kernel's lines
   double simulated = 0;           ///< simulated time [s], for the real-time factor
@@ -48,7 +50,8 @@ std::vector<std::string> cells(const Row& row);
 std::string csv_header();
 /// One line without its end; text is quoted.
 std::string csv_line(const Row& row);
-/// An array with one object a row, keys as the columns, numbers as numbers; empty fields are left out.
+/// An array with one object a row, keys as the columns, numbers as numbers; empty fields are left
+/// out.
 std::string json(const std::vector<Row>& rows);
 
 }  // namespace navvy::bench

@@ -8,21 +8,22 @@
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "device/device.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 
 namespace navvy::bench {
 namespace {
 
-using lab::Box;
 using lab::open_box;
 using lab::Site;
+using lab::SiteBox;
 
-/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell (kernels/soil).
+/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell
+/// (kernels/soil).
 constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
-/// Operations of scatter (440), gather (500), law and weights (about 360) for a particle, counted from the lines of
-/// kernels/soil; the grid's share is small and left out.
+/// Operations of scatter (440), gather (500), law and weights (about 360) for a particle, counted
+/// from the lines of kernels/soil; the grid's share is small and left out.
 constexpr double kFlopsPerParticle = 1300;
 // Few, as the largest cases take long on two cores; the spread tells when that was too few.
 constexpr int kRuns = 3;
@@ -31,10 +32,12 @@ constexpr int kRuns = 3;
 scene::Soil sand() { return lab::clean_sand(35); }
 
 /// Times `steps` steps from the site's present state; tools go on at their speed.
-Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::ToolMotion> motions = {}) {
+Row time_steps(device::Device& device, Site& site, int steps,
+               std::vector<soil::ToolMotion> motions = {}) {
   // One saved state for every run, so that each starts from the same bits.
   const std::vector<char> ground = saved(site.ground()), soil = saved(site.solver());
-  // The step that the stability limit allows for the fastest tool, taken once: runs must not differ in it.
+  // The step that the stability limit allows for the fastest tool, taken once: runs must not differ
+  // in it.
   double fastest = 0;
   for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
   const double dt = site.solver().step_limit(fastest);
@@ -56,13 +59,14 @@ Row time_steps(device::Device& device, Site& site, int steps, std::vector<soil::
       site.solver().step(dt, now, impulses);
       for (soil::ToolMotion& motion : now) motion.X_WT.translation() += dt * motion.v_WT;
     }
-    row.particles = (site.solver().stats().particle_steps - before) / row.steps;  // their mean: ground may wake
+    // Their mean: ground may wake
+    row.particles = (site.solver().stats().particle_steps - before) / row.steps;
   };
   row.timing = measure(device, restore, work, kRuns);
   // In runs of its own, because the profile slows a run down.
   row.kernels = kernel_seconds(device, restore, work);
-  // Of the last run. All runs begin and end alike, so which one does not matter; a row with another hash simulated
-  // something else and its time is not compared.
+  // Of the last run. All runs begin and end alike, so which one does not matter; a row with another
+  // hash simulated something else and its time is not compared.
   row.hash = hash_of(site.solver()).hex();
   return row;
 }
@@ -73,7 +77,8 @@ Row collapse(device::Device& device, double edge, int steps) {
   options.size = 20;
   Site site(device, {sand()}, 0.1, options);
   // Particles lie at half a cell: 8 a cell, so 8000 in a block of 1 m.
-  std::vector<soil::Particle> block = site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
+  std::vector<soil::Particle> block =
+      site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
   site.rest(block, edge);
   site.solver().insert(block);
   site.run(0.1);  // in motion
@@ -100,14 +105,16 @@ Row held_bucket(device::Device& device, int steps) {
   // At half a cell, as insertion makes them, and clear of the shell's sides at the start.
   for (double z = 0.04; z < 0.45; z += 0.05)
     for (double y = -0.36; y < 0.37; y += 0.05)
-      for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(site.particle(motion.X_WT * Vec3(x, y, z), 1.25e-4));
+      for (double x = -0.46; x < 0.47; x += 0.05)
+        load.push_back(site.particle(motion.X_WT * Vec3(x, y, z), 1.25e-4));
   site.solver().insert(load);
   return time_steps(device, site, steps, {motion});
 }
 
 /// A tilted bucket with its lip in a bed of `length` x `width` x 0.6 m: what a trench costs.
-Row dig(device::Device& device, double length, double width, int steps, const scene::Soil& what = sand()) {
-  const Box bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
+Row dig(device::Device& device, double length, double width, int steps,
+        const scene::Soil& what = sand()) {
+  const SiteBox bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
   lab::SiteOptions options;
   // Larger than the bed, so that no soil reaches the site's edge and the count stays.
   options.size = std::max(20.0, 2 * length + 4);
@@ -124,8 +131,8 @@ Row dig(device::Device& device, double length, double width, int steps, const sc
   return time_steps(device, site, steps, {motion});
 }
 
-/// A bucket drawn through ground that wakes before it and rests behind it, on a square site of edge `size` [m]. The
-/// cost must follow the soil that is awake, not the site.
+/// A bucket drawn through ground that wakes before it and rests behind it, on a square site of edge
+/// `size` [m]. The cost must follow the soil that is awake, not the site.
 Row site_dig(device::Device& device, double size, int steps) {
   lab::SiteOptions options;
   options.size = size;
@@ -147,28 +154,38 @@ Row site_dig(device::Device& device, double size, int steps) {
   return row;
 }
 
-// Recorded results are compared by these names, so they stay. The number behind the colon is that of the particles,
-// rounded, or the site's area.
+// Recorded results are compared by these names, so they stay. The number behind the colon is that
+// of the particles, rounded, or the site's area.
 std::vector<SoilCase> make_cases() {
   using Device = device::Device;
   return {
-      {"soil_held_bucket", "a load at rest in a bucket", true, [](Device& d) { return held_bucket(d, 100); }},
-      {"soil_dig:29k", "a bucket drawn through a bed", true, [](Device& d) { return dig(d, 3, 2, 100); }},
-      {"soil_dig:96k", "the same in a longer bed", false, [](Device& d) { return dig(d, 10, 2, 50); }},
-      {"soil_dig:403k", "the same in a wide bed", false, [](Device& d) { return dig(d, 12, 7, 20); }},
+      {"soil_held_bucket", "a load at rest in a bucket", true,
+       [](Device& d) { return held_bucket(d, 100); }},
+      {"soil_dig:29k", "a bucket drawn through a bed", true,
+       [](Device& d) { return dig(d, 3, 2, 100); }},
+      {"soil_dig:96k", "the same in a longer bed", false,
+       [](Device& d) { return dig(d, 10, 2, 50); }},
+      {"soil_dig:403k", "the same in a wide bed", false,
+       [](Device& d) { return dig(d, 12, 7, 20); }},
       {"soil_dig_extended_law:403k", "the same with dilatancy, mu(I) and compaction", false,
        [](Device& d) { return dig(d, 12, 7, 20, every_option()); }},
       {"soil_collapse_no_tool:8k", "a block of 1 m falling apart", true,
        [](Device& d) { return collapse(d, 1.0, 100); }},
-      {"soil_collapse_no_tool:27k", "1.5 m", false, [](Device& d) { return collapse(d, 1.5, 100); }},
-      {"soil_collapse_no_tool:50k", "1.85 m", false, [](Device& d) { return collapse(d, 1.85, 50); }},
+      {"soil_collapse_no_tool:27k", "1.5 m", false,
+       [](Device& d) { return collapse(d, 1.5, 100); }},
+      {"soil_collapse_no_tool:50k", "1.85 m", false,
+       [](Device& d) { return collapse(d, 1.85, 50); }},
       {"soil_collapse_no_tool:64k", "2 m", true, [](Device& d) { return collapse(d, 2.0, 50); }},
       {"soil_collapse_no_tool:216k", "3 m", false, [](Device& d) { return collapse(d, 3.0, 20); }},
       {"soil_collapse_no_tool:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
-      {"soil_collapse_no_tool:1953k", "6.25 m", false, [](Device& d) { return collapse(d, 6.25, 5); }},
-      {"site_dig:0.01km2", "a dig with waking ground", true, [](Device& d) { return site_dig(d, 100, 100); }},
-      {"site_dig:0.1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 316.2, 100); }},
-      {"site_dig:1km2", "the same on a larger site", false, [](Device& d) { return site_dig(d, 1000, 100); }},
+      {"soil_collapse_no_tool:1953k", "6.25 m", false,
+       [](Device& d) { return collapse(d, 6.25, 5); }},
+      {"site_dig:0.01km2", "a dig with waking ground", true,
+       [](Device& d) { return site_dig(d, 100, 100); }},
+      {"site_dig:0.1km2", "the same on a larger site", false,
+       [](Device& d) { return site_dig(d, 316.2, 100); }},
+      {"site_dig:1km2", "the same on a larger site", false,
+       [](Device& d) { return site_dig(d, 1000, 100); }},
   };
 }
 
@@ -189,8 +206,8 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
     if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
   }
   if (wanted.empty())
-    throw InputError(
-        Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word", "one of:" + names});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word",
+                           "one of:" + names});
   for (const SoilCase* c : wanted) {
     // Beside its row, so that a machine which is busier now than a row ago counts in both.
     const Peak peak = measure_peak(device);

@@ -20,13 +20,15 @@ struct BenchOptions {
   bool quick = false, list = false;
 };
 
-/// What --device means: each name given, every device there is for "all", the usual choice for none.
+/// What --device means: each name given, every device there is for "all", the usual choice for
+/// none.
 std::vector<std::string> chosen(const std::vector<std::string>& names) {
   std::vector<std::string> out;
   for (const std::string& name : names) {
     if (name != "all") out.push_back(name);
     if (name == "all")
-      for (const device::DeviceInfo& info : device::list_devices()) out.push_back(std::to_string(info.index));
+      for (const device::DeviceInfo& info : device::list_devices())
+        out.push_back(std::to_string(info.index));
   }
   if (out.empty()) out.emplace_back();
   return out;
@@ -34,8 +36,9 @@ std::vector<std::string> chosen(const std::vector<std::string>& names) {
 
 void print_row(const bench::Row& row) {
   const std::vector<std::string> c = bench::cells(row);
-  std::printf("%-20s %9s %6s %11s %11s %11s %9s %9s %9s  %s\n", c[0].c_str(), c[3].c_str(), c[4].c_str(), c[5].c_str(),
-              c[6].c_str(), c[8].c_str(), c[10].c_str(), c[12].c_str(), c[13].c_str(), c[14].c_str());
+  std::printf("%-20s %9s %6s %11s %11s %11s %9s %9s %9s  %s\n", c[0].c_str(), c[3].c_str(),
+              c[4].c_str(), c[5].c_str(), c[6].c_str(), c[8].c_str(), c[10].c_str(), c[12].c_str(),
+              c[13].c_str(), c[14].c_str());
   std::fflush(stdout);
 }
 
@@ -54,9 +57,9 @@ int run_bench(const BenchOptions& options) {
   std::vector<bench::Row> rows;
   for (const std::string& choice : chosen(options.devices)) {
     device::Device device(choice);
-    std::printf("%s\n%-20s %9s %6s %11s %11s %11s %9s %9s %9s  %s\n", device.info().text().c_str(), "bench",
-                "particles", "steps", "min ms", "median ms", "part-step/s", "of copy", "of FMA", "real time",
-                "state hash");
+    std::printf("%s\n%-20s %9s %6s %11s %11s %11s %9s %9s %9s  %s\n", device.info().text().c_str(),
+                "bench", "particles", "steps", "min ms", "median ms", "part-step/s", "of copy",
+                "of FMA", "real time", "state hash");
     bench::run_soil_cases(device, options.only, options.quick, [&](const bench::Row& row) {
       rows.push_back(row);
       print_row(row);
@@ -76,10 +79,13 @@ void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand("bench", "measure how fast soil is stepped here");
   command->add_option("only", options->only, "only cases whose name holds this word");
-  command->add_option("--device", options->devices, "OpenCL device, as in `navvy run`; again for more, or 'all'")
+  command
+      ->add_option("--device", options->devices,
+                   "OpenCL device, as in `navvy run`; again for more, or 'all'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--csv", options->csv, "write the rows to this file (compare two: bench/compare.py)");
+  command->add_option("--csv", options->csv,
+                      "write the rows to this file (compare two: bench/compare.py)");
   command->add_option("--json", options->json, "write the rows to this file");
   command->add_flag("--quick", options->quick, "only the short cases");
   command->add_flag("--list", options->list, "list the cases");

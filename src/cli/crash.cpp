@@ -14,7 +14,7 @@
 #include <initializer_list>
 
 #include "cli/exit_code.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 
 namespace navvy::cli {
 namespace {
@@ -31,17 +31,18 @@ bool holds_any(const char* text, std::initializer_list<const char*> words) {
 
 /// Machine code of kernels counts as the driver's: it made it.
 bool is_driver(const char* file) {
-  return holds_any(file, {"libpocl", "libOpenCL", "opencl", "amdocl", "igdrcl", "navvy/kernels", "navvy-kernels"});
+  return holds_any(file, {"libpocl", "libOpenCL", "opencl", "amdocl", "igdrcl", "navvy/kernels",
+                          "navvy-kernels"});
 }
 
 /// These pass on what their callers did.
 bool is_between(const char* file) {
-  return holds_any(file,
-                   {"libc.so", "libc-", "libstdc++", "libgcc", "libpthread", "ld-linux", "libasan", "linux-vdso"});
+  return holds_any(file, {"libc.so", "libc-", "libstdc++", "libgcc", "libpthread", "ld-linux",
+                          "libasan", "linux-vdso"});
 }
 
-/// Where this was called from, as a text for people: "abort inside the OpenCL driver, in libpocl.so.2". True when that
-/// is the driver.
+/// Where this was called from, as a text for people: "abort inside the OpenCL driver, in
+/// libpocl.so.2". True when that is the driver.
 bool blame(const char* what, int signal, char* text, std::size_t size) {
   Dl_info own{};
   dladdr(reinterpret_cast<void*>(&blame), &own);
@@ -50,8 +51,8 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
   const char* where = nullptr;  // innermost that is not between
   bool driver = false;
   bool handler = true;  // our frames that come first are this function's and its callers'
-  // From the inside out; other libraries work for the driver (LLVM compiles for it) as long as none of our own code
-  // lies between.
+  // From the inside out; other libraries work for the driver (LLVM compiles for it) as long as none
+  // of our own code lies between.
   for (int i = 0; i < count && !driver; ++i) {
     Dl_info info;
     const bool known = dladdr(frames[i], &info) != 0 && info.dli_fname != nullptr;
@@ -69,13 +70,14 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
   const std::size_t used = std::strlen(text);
   if (signal != 0) std::snprintf(text + used, size - used, " (signal %d)", signal);
   if (driver)
-    std::strncat(text, "; it may have told its cause above; check disk, memory and the driver's version",
+    std::strncat(text,
+                 "; it may have told its cause above; check disk, memory and the driver's version",
                  size - std::strlen(text) - 1);
   return driver;
 }
 
 void tell(const char* text) {
-  record::leave_last_words("failed", text);
+  record::write_crash_summary("failed", text);
   const char* const parts[] = {"error: ", text, "\n"};
   for (const char* part : parts)
     if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
@@ -94,7 +96,8 @@ extern "C" void on_crash(int signal) {
 /// As the C library tells a failed assertion.
 void say_assertion(const char* what, const char* file, unsigned line, const char* function) {
   char text[512];
-  std::snprintf(text, sizeof text, "%s:%u: %s: assertion '%s' failed\n", file, line, function, what);
+  std::snprintf(text, sizeof text, "%s:%u: %s: assertion '%s' failed\n", file, line, function,
+                what);
   if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
@@ -123,12 +126,13 @@ extern "C" void on_exit_of_others() {
 
 }  // namespace
 
-// The two take the place of the C library's for every library of the process. LLVM, which a driver compiles with, puts
-// handlers of its own where ours stood from the first build on; at an abort they return, and the C library then ends
-// the process without a word of ours.
+// The two take the place of the C library's for every library of the process. LLVM, which a driver
+// compiles with, puts handlers of its own where ours stood from the first build on; at an abort
+// they return, and the C library then ends the process without a word of ours.
 extern "C" void abort() noexcept { end_by_abort(); }
 
-extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
+extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
+                                           unsigned line,  // NOLINT: its name
                                            const char* function) noexcept {
   say_assertion(what, file, line, function);
   end_by_abort();

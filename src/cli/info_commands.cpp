@@ -26,17 +26,19 @@ namespace navvy::cli {
 namespace {
 
 /// Says what follows from a machine's file without standing in it.
-void tell_derived(const std::string& name, const scene::Machine& machine) {
-  for (const std::string& one : machine.derived) std::printf("'%s': %s\n", name.c_str(), one.c_str());
+void print_derived(const std::string& name, const scene::Machine& machine) {
+  for (const std::string& one : machine.derived)
+    std::printf("'%s': %s\n", name.c_str(), one.c_str());
 }
 
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   std::size_t errors = 0, warnings = 0;
-  // What libraries warn of while they try a start counts like any other: once, and on standard output.
+  // What libraries warn of while they try a start counts like any other: once, and on standard
+  // output.
   std::set<std::string> told;
   set_log_sink([&](LogLevel level, const std::string& text) {
     if (level < LogLevel::kWarning || !told.insert(text).second) return;
-    std::cout << (tells_its_severity(text) ? "" : "warning: ") << text << "\n";
+    std::cout << (print_its_severity(text) ? "" : "warning: ") << text << "\n";
     ++warnings;
   });
   for (const std::string& name : files) {
@@ -53,13 +55,15 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     // Machine and soil files are checked by themselves and give no world.
     std::optional<scene::Machine> machine;
     scene_io::FaultCount count;
-    std::vector<Fault> faults = scene_io::check(file, control::step_kinds(), &world, overrides, &machine, &count);
+    std::vector<Fault> faults =
+        scene_io::check(file, control::step_kinds(), &world, overrides, &machine, &count);
     errors += count.errors;
     warnings += count.warnings;
     const std::size_t counted = faults.size();
-    if (machine) tell_derived(machine->name, *machine);
+    if (machine) print_derived(machine->name, *machine);
     if (world)
-      for (const scene::MachineInWorld& placed : world->machines) tell_derived(placed.name, placed.machine);
+      for (const scene::MachineInWorld& placed : world->machines)
+        print_derived(placed.name, placed.machine);
     if (world) {
       run::SceneCheck start = run::check_scene(*world);
       for (const std::string& note : start.notes) std::cout << note << "\n";
@@ -73,8 +77,9 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
   }
   set_log_sink({});
   // The last line is for people, the exit status for scripts.
-  std::printf("%zu file%s checked: %zu error%s, %zu warning%s\n", files.size(), files.size() == 1 ? "" : "s", errors,
-              errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
+  std::printf("%zu file%s checked: %zu error%s, %zu warning%s\n", files.size(),
+              files.size() == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings,
+              warnings == 1 ? "" : "s");
   return errors > 0 ? kBadInput : kOk;
 }
 
@@ -102,15 +107,16 @@ int channels(const SceneOptions& options) {
 void add_check(CLI::App& app, Action& action) {
   // Options outlive the parse in a shared pointer that the action keeps.
   auto files = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand(
-      "check",
-      "validate scene, machine or soil files without running them: also the reach of digs, and whether\n"
-      "machines overlap or tip over in their first second");
+  CLI::App* command = app.add_subcommand("check",
+                                         "validate scene, machine or soil files without running "
+                                         "them: also the reach of digs, and whether\n"
+                                         "machines overlap or tip over in their first second");
   command->add_option("files", *files, "SDF files, or names of shipped scenes")->required();
   auto values = std::make_shared<SceneOptions>();
   values->add_values_to(*command);
-  command->callback(
-      [files, values, &action] { action = [files, values] { return check(*files, values->overrides()); }; });
+  command->callback([files, values, &action] {
+    action = [files, values] { return check(*files, values->overrides()); };
+  });
 }
 
 void add_devices(CLI::App& app, Action& action) {
@@ -119,7 +125,8 @@ void add_devices(CLI::App& app, Action& action) {
 
 void add_channels(CLI::App& app, Action& action) {
   auto options = std::make_shared<SceneOptions>();
-  CLI::App* command = app.add_subcommand("channels", "list the named inputs and outputs of a scene (--control stdio)");
+  CLI::App* command = app.add_subcommand(
+      "channels", "list the named inputs and outputs of a scene (--control stdio)");
   // The same options as a run: overrides may add or rename machines.
   options->add_to(*command);
   command->callback([options, &action] { action = [options] { return channels(*options); }; });

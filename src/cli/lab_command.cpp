@@ -25,8 +25,8 @@
 namespace navvy::cli {
 namespace {
 
-/// What the parser fills; soil and geometry are worked out only when the command runs, so that a fault of one is not
-/// hidden behind a fault of the other.
+/// What the parser fills; soil and geometry are worked out only when the command runs, so that a
+/// fault of one is not hidden behind a fault of the other.
 struct LabOptions {
   std::string rig, device, json, plot, soil;
   lab::Experiment experiment;
@@ -45,7 +45,8 @@ std::string joined(std::string text) {
   return text;
 }
 
-/// Breaks text between words; `between` stands between two lines and ends with the second one's indent.
+/// Breaks text between words; `between` stands between two lines and ends with the second one's
+/// indent.
 std::string wrapped(const std::string& text, std::size_t width, const std::string& between = "\n") {
   std::string out;
   std::size_t column = 0, at = 0;
@@ -72,8 +73,10 @@ std::string described(const std::string& text) { return wrapped(text, kWidth - k
 
 int list_rigs() {
   std::puts(
-      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` draws it in words.\n");
-  for (const lab::Rig& rig : lab::rigs()) std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
+      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
+      "draws it in words.\n");
+  for (const lab::Rig& rig : lab::rigs())
+    std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
   return kOk;
 }
 
@@ -86,8 +89,8 @@ std::string did_you_mean(const std::vector<std::string>& names, const std::strin
   return "did you mean '" + nearest_name(names, wanted) + "'?";
 }
 
-/// Runs every combination of the lists, or the one experiment. A missed gate is a result like any other, but has a
-/// status of its own for scripts.
+/// Runs every combination of the lists, or the one experiment. A missed gate is a result like any
+/// other, but has a status of its own for scripts.
 int run_rig(LabOptions options) {
   const lab::Rig& rig = lab::find_rig(options.rig);
   // Before the runs, which may take an hour.
@@ -96,7 +99,8 @@ int run_rig(LabOptions options) {
   device::Device device(options.device);
   lab::Experiment& experiment = options.experiment;
   if (!options.soil.empty()) experiment.soil = scene_io::shipped_soil(options.soil, "--soil");
-  for (const std::string& setting : options.settings) experiment.settings.push_back(scene_io::parse_setting(setting));
+  for (const std::string& setting : options.settings)
+    experiment.settings.push_back(scene_io::parse_setting(setting));
   experiment.progress = progress_line(options.quiet);
   lab::ExperimentPlan plan = lab::plan_of(rig, experiment, device);
   if (!options.plot.empty() && plan.axes.empty())
@@ -117,8 +121,9 @@ int run_rig(LabOptions options) {
     std::fputs(lab::text_of(lab::table_of(rig, sweep)).c_str(), stdout);
   if (!options.json.empty())
     write_file_atomically(options.json, (plan.axes.empty() ? runs.front() : runs).dump(1) + "\n");
-  if (!options.plot.empty()) write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
-  return missed ? kGateMissed : kOk;
+  if (!options.plot.empty())
+    write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
+  return missed ? kOutOfTolerance : kOk;
 }
 
 /// Names an option that the rig does not have, with the nearest that it has.
@@ -150,22 +155,25 @@ std::string type_name(const lab::Parameter& parameter) {
 /// Arguments of an example with every option joined to its value.
 std::string in_pairs(std::string arguments) {
   arguments = joined(std::move(arguments));
-  for (std::size_t at = 0; (at = arguments.find(kJoint + std::string("--"), at)) != std::string::npos;)
+  for (std::size_t at = 0;
+       (at = arguments.find(kJoint + std::string("--"), at)) != std::string::npos;)
     arguments[at] = ' ';
   return arguments;
 }
 
-/// The rig in words and the ways of running it, below the options. A command's lines end as a shell wants them, ready
-/// to be copied.
+/// The rig in words and the ways of running it, below the options. A command's lines end as a shell
+/// wants them, ready to be copied.
 std::string footer(const lab::Rig& rig) {
   std::string out = "\n" + wrapped(rig.drawing, kWidth);
   for (const lab::Example& example : rig.examples)
     out += "\n\n" + wrapped(example.what + ":", kWidth) + "\n  " +
-           wrapped("navvy lab " + rig.name + " " + in_pairs(example.arguments), kWidth - 4, " \\\n    ");
+           wrapped("navvy lab " + rig.name + " " + in_pairs(example.arguments), kWidth - 4,
+                   " \\\n    ");
   return out;
 }
 
-void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOptions>& options, Action& action) {
+void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOptions>& options,
+             Action& action) {
   CLI::App* command = parent.add_subcommand(rig.name, rig.summary);
   command->footer(footer(rig));
   // An unknown option is refused by us, with the nearest known one.
@@ -174,22 +182,27 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
     command
         ->add_option_function<std::string>(
             "--" + parameter.name,
-            [options, name = parameter.name](const std::string& written) { options->experiment.geometry[name] = written; },
+            [options, name = parameter.name](const std::string& written) {
+              options->experiment.geometry[name] = written;
+            },
             described(description(parameter)))
         ->type_name(type_name(parameter))
         ->default_str(parameter.text(parameter.value))
         ->group("Geometry and procedure");
-  command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")->group("Soil");
+  command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")
+      ->group("Soil");
   // All rigs share the options of the soil; only one rig is run.
   for (const lab::SoilOption& value : lab::soil_options())
     command
-        ->add_option(std::string("--") + value.name, options->experiment.soil_values[value.name], described(value.help))
+        ->add_option(std::string("--") + value.name, options->experiment.soil_values[value.name],
+                     described(value.help))
         ->delimiter(',')
         ->allow_extra_args(false)
         ->group("Soil");
   command
       ->add_option("--set", options->settings,
-                   described("NAME=VALUE: any number of the soil by its name in scene files, as opening_strain=0.02; "
+                   described("NAME=VALUE: any number of the soil by its name in scene files, as "
+                             "opening_strain=0.02; "
                              "repeatable"))
       ->group("Soil");
   command->add_option("--cell", options->experiment.cells, "edge of a soil cell [m]")
@@ -197,15 +210,20 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
       ->allow_extra_args(false)
       ->check(above_zero)
       ->default_str(lab::short_text(rig.default_cell));
-  command->add_option("--device", options->device,
-                      described("OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE "
-                                "decides"));
+  command->add_option(
+      "--device", options->device,
+      described("OpenCL device: cpu, gpu, an index or a part of a name; without it NAVVY_DEVICE "
+                "decides"));
   command->add_option("--json", options->json, "write inputs, results and series to this file");
-  command->add_option("--plot", options->plot,
-                      described("draw the first result over the first list to this SVG file; any number takes a list, "
-                                "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
-  command->add_flag("--energy", options->experiment.energy,
-                    described("also tell where the soil's energy came from and went; takes up to three times as long"));
+  command->add_option(
+      "--plot", options->plot,
+      described(
+          "draw the first result over the first list to this SVG file; any number takes a list, "
+          "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
+  command->add_flag(
+      "--energy", options->experiment.energy,
+      described(
+          "also tell where the soil's energy came from and went; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;
@@ -221,14 +239,16 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
 void add_lab(CLI::App& app, Action& action) {
   // Shared with the callbacks, which run after this function has returned.
   auto options = std::make_shared<LabOptions>();
-  CLI::App* command = app.add_subcommand("lab", "virtual soil laboratory: one experiment, measured against theory");
+  CLI::App* command =
+      app.add_subcommand("lab", "virtual soil laboratory: one experiment, measured against theory");
   command->require_subcommand(0, 1);
   command->allow_extras();
   for (const lab::Rig& rig : lab::rigs()) add_rig(*command, rig, options, action);
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();
-    // `navvy lab` alone lists the rigs; a word behind it that is no rig is refused with the nearest.
+    // `navvy lab` alone lists the rigs; a word behind it that is no rig is refused with the
+    // nearest.
     action = [extras] {
       if (!extras.empty()) lab::find_rig(extras.front());
       return list_rigs();

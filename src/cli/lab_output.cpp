@@ -16,7 +16,8 @@
 namespace navvy::cli {
 namespace {
 
-/// Keys of the JSON name the quantity and its unit, as scene files do: "farthest motion", "mm" -> "farthest_motion_mm".
+/// Keys of the JSON name the quantity and its unit, as scene files do: "farthest motion", "mm" ->
+/// "farthest_motion_mm".
 std::string key(const std::string& name, const std::string& unit) {
   std::string out;
   for (const char c : unit.empty() ? name : name + "_" + unit)
@@ -25,7 +26,9 @@ std::string key(const std::string& name, const std::string& unit) {
 }
 
 /// JSON knows no NaN: a quantity that could not be measured is null.
-nlohmann::json number(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
 
 /// Every number under its name in scene files.
 nlohmann::json soil_json(const scene::Soil& soil) {
@@ -40,7 +43,7 @@ std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_t
 /// Supplied, kept and spent, in joules; then what the sums do not explain.
 void print_energy(const soil::EnergyAccount& energy) {
   std::string text;
-  soil::tell_energy(energy, [&](const char* name, double joule) {
+  soil::report_energy(energy, [&](const char* name, double joule) {
     text += (text.empty() ? " " : ", ") + std::string(name) + " " + lab::short_text(joule);
   });
   std::printf("energy [J]:%s\n", text.c_str());
@@ -57,13 +60,14 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
   nlohmann::json& inputs = out["inputs"];
   inputs["soil"] = soil_json(setup.soil);
   inputs["cell_m"] = setup.cell;
-  for (const lab::Parameter& p : rig.parameters) inputs["geometry"][key(p.name, p.unit)] = setup[p.name];
+  for (const lab::Parameter& p : rig.parameters)
+    inputs["geometry"][key(p.name, p.unit)] = setup[p.name];
   for (const lab::Quantity& q : report.results) {
     const std::string name = key(q.name, q.unit);
     out["result"][name] = number(q.measured);
     out["expected"][name] = number(q.expected);
     // Absent where there is none, so that a reader need not tell a gate of nulls from no gate.
-    if (q.has_gate()) out["gate"][name] = {number(q.low), number(q.high)};
+    if (q.has_tolerance()) out["gate"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
     if (q.missed()) out["missed"].push_back(name);
     // Of a gate that says nothing here: what it holds for.
@@ -74,7 +78,9 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     for (const double v : s.values) values.push_back(number(v));
   }
   if (report.energy)
-    soil::tell_energy(*report.energy, [&](const char* name, double joule) { out["energy_j"][name] = number(joule); });
+    soil::report_energy(*report.energy, [&](const char* name, double joule) {
+      out["energy_j"][name] = number(joule);
+    });
   out["particles_peak"] = report.particles_peak;
   out["steps"] = report.steps;
   out["simulated_time_s"] = report.simulated_time;
@@ -87,28 +93,34 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 void print_table(const lab::Report& report) {
   std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "gate", "source");
   for (const lab::Quantity& q : report.results) {
-    const std::string gate = q.has_gate() ? text_of(q.low) + " .. " + text_of(q.high) : "";
-    std::printf("%-40s %14s %12s %-22s %s\n", (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
-                (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(), text_of(q.expected).c_str(),
-                (gate + (q.missed()   ? "  MISS"
-                         : q.in_range ? ""
-                                      : "  not judged"))
+    const std::string tolerance =
+        q.has_tolerance() ? text_of(q.low) + " .. " + text_of(q.high) : "";
+    std::printf("%-40s %14s %12s %-22s %s\n",
+                (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
+                (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(),
+                text_of(q.expected).c_str(),
+                (tolerance + (q.missed()   ? "  MISS"
+                              : q.in_range ? ""
+                                           : "  not judged"))
                     .c_str(),
                 q.source.c_str());
   }
   for (const lab::Quantity& q : report.results)
-    if (!q.in_range) std::printf("not judged: %s; its gate holds for %s\n", q.name.c_str(), q.range.c_str());
+    if (!q.in_range)
+      std::printf("not judged: %s; its gate holds for %s\n", q.name.c_str(), q.range.c_str());
   if (report.energy) print_energy(*report.energy);
-  std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n", report.particles_peak,
-              static_cast<unsigned long long>(report.steps), report.simulated_time, report.wall_time,
-              static_cast<long long>(report.ledger_error), report.state_hash.c_str());
+  std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n",
+              report.particles_peak, static_cast<unsigned long long>(report.steps),
+              report.simulated_time, report.wall_time, static_cast<long long>(report.ledger_error),
+              report.state_hash.c_str());
 }
 
 std::function<void(double)> progress_line(bool quiet) {
   if (quiet || isatty(STDERR_FILENO) == 0) return {};
   // Carriage return and clearing code keep it one line; the last call wipes it.
   return [watch = Stopwatch()](double share) {
-    std::fprintf(stderr, "\r%3.0f %%  about %.0f s left \033[K", 100 * share, watch.seconds() * (1 - share) / share);
+    std::fprintf(stderr, "\r%3.0f %%  about %.0f s left \033[K", 100 * share,
+                 watch.seconds() * (1 - share) / share);
     if (share >= 1) std::fputs("\r\033[K", stderr);
   };
 }

@@ -19,7 +19,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "device/error.h"
+#include "device/device_error.h"
 
 namespace {
 
@@ -36,8 +36,9 @@ void install_log_sink() {
   auto told = std::make_shared<std::set<std::string>>();
   set_log_sink([logger, bare, told](LogLevel level, const std::string& text) {
     constexpr std::size_t kRemembered = 1000;
-    if (level == LogLevel::kWarning && told->size() < kRemembered && !told->insert(text).second) return;
-    if (level >= LogLevel::kWarning && cli::tells_its_severity(text)) {
+    if (level == LogLevel::kWarning && told->size() < kRemembered && !told->insert(text).second)
+      return;
+    if (level >= LogLevel::kWarning && cli::print_its_severity(text)) {
       bare->warn(text);
       return;
     }
@@ -60,17 +61,19 @@ void install_log_sink() {
 
 /// What the parser complains of, in one line: an unknown option with the nearest known one.
 std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  const std::vector<const CLI::App*> all = app.get_subcommands([](const CLI::App*) { return true; });
+  const std::vector<const CLI::App*> all =
+      app.get_subcommands([](const CLI::App*) { return true; });
   const CLI::App* chosen = &app;
   for (const CLI::App* command : all)
     if (argc > 1 && command->get_name() == argv[1]) chosen = command;
-  const std::string where = "(" + (chosen == &app ? "navvy" : "navvy " + chosen->get_name()) + " --help)";
+  const std::string where =
+      "(" + (chosen == &app ? "navvy" : "navvy " + chosen->get_name()) + " --help)";
   // What is missing, and what it is: its name alone says little.
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
     for (const CLI::Option* option : chosen->get_options())
       if (option->get_required() && option->count() == 0)
-        return "`navvy " + chosen->get_name() + "` needs " + option->get_name() + ": " + option->get_description() +
-               " " + where;
+        return "`navvy " + chosen->get_name() + "` needs " + option->get_name() + ": " +
+               option->get_description() + " " + where;
   if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError))
     return std::string(error.what()) + " " + where;
   std::vector<std::string> known;
@@ -79,15 +82,16 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   // The first word with a dash that nobody knows; what follows it may be its value.
   for (int i = 2; i < argc; ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-    if (!word.empty() && word.front() == '-' && std::find(known.begin(), known.end(), word) == known.end() &&
-        word.size() > 2)
-      return "'" + word + "' is no option of `navvy " + chosen->get_name() + "`; " + suggestion(word, known) + " " +
-             where;
+    if (!word.empty() && word.front() == '-' &&
+        std::find(known.begin(), known.end(), word) == known.end() && word.size() > 2)
+      return "'" + word + "' is no option of `navvy " + chosen->get_name() + "`; " +
+             suggestion(word, known) + " " + where;
   }
   return std::string(error.what()) + " " + where;
 }
 
-/// Every kind of failure has an exit status of its own, which scripts may rely on (cli/exit_code.h).
+/// Every kind of failure has an exit status of its own, which scripts may rely on
+/// (cli/exit_code.h).
 int guarded(const cli::Action& action) {
   try {
     return action();
@@ -106,7 +110,8 @@ int guarded(const cli::Action& action) {
     return cli::kSimulation;
   } catch (const std::bad_alloc&) {
     // Host memory; the device's has its own error.
-    std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a smaller site\n";
+    std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a "
+                 "smaller site\n";
     return cli::kInternal;
   } catch (const std::exception& error) {
     std::cerr << "internal error: " << error.what() << "\n";
@@ -124,9 +129,12 @@ int run(int argc, char** argv) {
   // Parsing only fills `action`: nothing runs before the whole command line is understood.
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file could not be\n"
-      "written, 5 the simulation stopped itself (failed.snapshot is left), 6 the run ended, but a program of it did\n"
-      "not come to its end (summary.json: programs), 7 `navvy lab` missed a gate, 130 interrupted (Ctrl-C, SIGTERM,\n"
+      "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file "
+      "could not be\n"
+      "written, 5 the simulation stopped itself (failed.snapshot is left), 6 the run ended, but a "
+      "program of it did\n"
+      "not come to its end (summary.json: programs), 7 `navvy lab` missed a gate, 130 interrupted "
+      "(Ctrl-C, SIGTERM,\n"
       "SIGHUP, a controller that went away); above 130 a crash of Navvy's own, which says where.\n"
       "scenarios/README.md explains scene files from the first line on.");
   // Filled by the subcommand that was typed.
@@ -149,7 +157,8 @@ int run(int argc, char** argv) {
     std::vector<std::string> names;
     names.reserve(commands.size());
     for (const CLI::App* command : commands) names.push_back(command->get_name());
-    std::cerr << "error: '" << argv[1] << "' is no command; " << suggestion(argv[1], names) << " (navvy --help)\n";
+    std::cerr << "error: '" << argv[1] << "' is no command; " << suggestion(argv[1], names)
+              << " (navvy --help)\n";
     return cli::kBadInput;
   }
   try {
@@ -169,7 +178,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   cli::install_crash_report();
-  // A reader that went away and a file that grew past its limit are errors of the call that writes, told like others.
+  // A reader that went away and a file that grew past its limit are errors of the call that writes,
+  // told like others.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   const int status = guarded([&] { return run(argc, argv); });

@@ -18,14 +18,14 @@
 #include "core/log.h"
 #include "core/sealed.h"
 #include "device/device.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "planner/formats/formats.h"
 #include "planner/map_maker.h"
 #include "planner/path_planner.h"
 #include "planner/sources.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::cli {
 namespace {
@@ -40,12 +40,14 @@ struct MapCommand {
 enum class From { kScene, kRun, kSnapshot };
 
 /// A file that is read must not be written over, whatever it is called.
-void require_apart(const MapCommand& options, const planner::Format& format, const std::vector<std::string>& reads) {
+void require_apart(const MapCommand& options, const planner::Format& format,
+                   const std::vector<std::string>& reads) {
   for (const std::string& to : planner::files_of(format, options.out))
     for (const std::string& read : reads)
       if (same_file(to, read))
         throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", options.out,
-                               "would replace '" + read + "', which this map is made from", "name another file"});
+                               "would replace '" + read + "', which this map is made from",
+                               "name another file"});
 }
 
 /// What a map of `scene` is made from, beside `others`.
@@ -77,24 +79,29 @@ std::pair<std::string, std::string> why_unknown(planner::Layer layer, From from)
   if (layer == Layer::kTarget || layer == Layer::kCutFill)
     return {"the scene has no design", "add a <navvy:design> to the scene"};
   if (layer == Layer::kDisturbedAt)
-    return from == From::kScene ? std::pair<std::string, std::string>("nothing has changed on an untouched site",
-                                                                      "record it while a scene runs: <navvy:record>")
-                                : std::pair<std::string, std::string>("what is written at one time tells no history",
-                                                                      "record it while the scene runs: <navvy:record>");
+    return from == From::kScene
+               ? std::pair<std::string, std::string>("nothing has changed on an untouched site",
+                                                     "record it while a scene runs: <navvy:record>")
+               : std::pair<std::string, std::string>(
+                     "what is written at one time tells no history",
+                     "record it while the scene runs: <navvy:record>");
   if (from == From::kRun)
     return {"a run's folder holds heights and what lies loose",
             "map a snapshot of that time: navvy run SCENE --snapshot FILE --snapshot-at T"};
   return {"no column of the site has a value", "look at the site's map with navvy check"};
 }
 
-/// Refuses what would be a folder of zeros; warns of each layer that was asked for by name and tells nothing. The names
-/// of those that came with the format and tell nothing are returned.
-std::string look_for_unknown(const MapCommand& options, const planner::Format& format, const planner::TerrainMap& map,
+/// Refuses what would be a folder of zeros; warns of each layer that was asked for by name and
+/// tells nothing. The names of those that came with the format and tell nothing are returned.
+std::string look_for_unknown(const MapCommand& options, const planner::Format& format,
+                             const planner::TerrainMap& map,
                              const std::vector<planner::Layer>& layers, From from) {
   std::string unknown;
-  if (format.needs_design && map.has(planner::Layer::kTarget) && unknown_everywhere(map, planner::Layer::kTarget))
+  if (format.needs_design && map.has(planner::Layer::kTarget) &&
+      unknown_everywhere(map, planner::Layer::kTarget))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--format", format.name,
-                           "says what is to be dug, and the scene has no design", "add a <navvy:design> to the scene"});
+                           "says what is to be dug, and the scene has no design",
+                           "add a <navvy:design> to the scene"});
   for (const planner::Layer layer : layers) {
     if (!unknown_everywhere(map, layer)) continue;
     const std::string& name = planner::info(layer).name;
@@ -110,13 +117,16 @@ std::string look_for_unknown(const MapCommand& options, const planner::Format& f
 }
 
 /// With the same table of steps as a run: a scene's program is checked, though none is run here.
-scene::Scene load(const std::string& file) { return scene_io::load_scene(file, control::step_kinds()); }
+scene::Scene load(const std::string& file) {
+  return scene_io::load_scene(file, control::step_kinds());
+}
 
 /// The scene that a run's folder holds. @throws InputError when `folder` is none.
 std::string scene_of(const std::filesystem::path& folder, const std::string& asked) {
   const std::string file = (folder / "scene.sdf").string();
   if (std::filesystem::is_regular_file(file)) return file;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked, "no scene.sdf lies in '" + folder.string() + "'",
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked,
+                         "no scene.sdf lies in '" + folder.string() + "'",
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
 }
 
@@ -137,9 +147,10 @@ planner::MapOptions map_options(const MapCommand& options, std::vector<planner::
 /// The state of a snapshot, with its awake soil: needs the device, as particles live there.
 planner::TerrainMap of_snapshot(const MapCommand& options, const planner::Format& format,
                                 const std::vector<planner::Layer>& layers) {
-  const std::string scene = options.scene.empty()
-                                ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
-                                : find_scene(options.scene);
+  const std::string scene =
+      options.scene.empty()
+          ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
+          : find_scene(options.scene);
   const scene::Scene described = load(scene);
   require_apart(options, format, reads_of(described, {options.from}));
   // Particles are restored as a run would go on from them.
@@ -147,7 +158,8 @@ planner::TerrainMap of_snapshot(const MapCommand& options, const planner::Format
   session::Session session(described, device, planner::path_planners());
   session.load(options.from);
   const sim::World& world = session.world();
-  planner::MapMaker maker(map_options(options, layers, world.description(), world.ground(), session.design()));
+  planner::MapMaker maker(
+      map_options(options, layers, world.description(), world.ground(), session.design()));
   maker.update(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
   return maker.map();
 }
@@ -157,7 +169,8 @@ struct Made {
   From from;
 };
 
-Made read(const MapCommand& options, const planner::Format& format, const std::vector<planner::Layer>& layers) {
+Made read(const MapCommand& options, const planner::Format& format,
+          const std::vector<planner::Layer>& layers) {
   // What it is tells itself: a folder, a file with a snapshot's head, or else a scene.
   const std::filesystem::path from(options.from);
   if (std::filesystem::is_directory(from)) {
@@ -190,7 +203,8 @@ int map(const MapCommand& options) {
   if (options.paths) {
     const std::string file = (std::filesystem::path(options.from) / "paths.csv").string();
     if (!std::filesystem::is_regular_file(file))
-      throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", options.from, "holds no paths.csv",
+      throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", options.from,
+                             "holds no paths.csv",
                              "give the folder of a run whose program has a go_to"});
     lines = planner::read_paths(file);
   }
@@ -202,13 +216,14 @@ int map(const MapCommand& options) {
     format.write(made, layers, options.out);
   // One line that says what was written.
   std::string names;
-  for (const planner::Layer layer : layers) names += (names.empty() ? "" : ",") + planner::info(layer).name;
+  for (const planner::Layer layer : layers)
+    names += (names.empty() ? "" : ",") + planner::info(layer).name;
   char when[40] = "";
   // A run's files do not tell it.
   if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
   if (!unknown.empty()) names += "; unknown everywhere: " + unknown;
-  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(), format.name.c_str(), made.nx(),
-              made.ny(), made.cell(), when, names.c_str());
+  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(),
+              format.name.c_str(), made.nx(), made.ny(), made.cell(), when, names.c_str());
   return kOk;
 }
 
@@ -217,7 +232,8 @@ std::string footer() {
   std::string out = "Layers:\n";
   char line[160];
   for (const planner::LayerInfo& each : planner::layers()) {
-    std::snprintf(line, sizeof line, "  %-16s %-6s %s\n", each.name.c_str(), each.unit.c_str(), each.meaning.c_str());
+    std::snprintf(line, sizeof line, "  %-16s %-6s %s\n", each.name.c_str(), each.unit.c_str(),
+                  each.meaning.c_str());
     out += line;
   }
   out += "Formats:\n";
@@ -228,7 +244,8 @@ std::string footer() {
   }
   return out +
          "Examples: navvy map out/trench --format nav2 --out trench.yaml\n"
-         "          navvy map out/trench --layers elevation,slope,traversability --format geotiff --out trench.tif\n"
+         "          navvy map out/trench --layers elevation,slope,traversability --format geotiff "
+         "--out trench.tif\n"
          "src/planner/README.md tells formulas, axes and what each format holds.";
 }
 
@@ -237,27 +254,38 @@ std::string footer() {
 void add_map(CLI::App& app, Action& action) {
   // Outlives the parse in the action.
   auto options = std::make_shared<MapCommand>();
-  CLI::App* command =
-      app.add_subcommand("map", "write layers of a site for planners: GeoTIFF, NPZ, nav2, PLY, pictures");
+  CLI::App* command = app.add_subcommand(
+      "map", "write layers of a site for planners: GeoTIFF, NPZ, nav2, PLY, pictures");
   command
-      ->add_option("from", options->from,
-                   "a run's folder (the ground at its end), a snapshot, or a scene (the untouched site)")
+      ->add_option(
+          "from", options->from,
+          "a run's folder (the ground at its end), a snapshot, or a scene (the untouched site)")
       ->required();
-  command->add_option("--layers", options->layers, "names separated by commas; without it what the format is made for");
+  command->add_option("--layers", options->layers,
+                      "names separated by commas; without it what the format is made for");
   command->add_option("--format", options->format, "see below")->required();
-  command->add_option("--out", options->out, "the file or folder to write; replaced whole or not at all")->required();
+  command
+      ->add_option("--out", options->out,
+                   "the file or folder to write; replaced whole or not at all")
+      ->required();
   command->add_flag("--start", options->start, "of a run: the ground at its start");
   command->add_flag("--paths", options->paths,
                     "of a run with a go_to: draw its planned paths on a hillshade or relief");
-  command->add_option("--scene", options->scene, "of a snapshot: its scene; without it scene.sdf beside the snapshot");
-  command->add_option("--device", options->device, "of a snapshot: the OpenCL device, as in `navvy run`");
+  command->add_option("--scene", options->scene,
+                      "of a snapshot: its scene; without it scene.sdf beside the snapshot");
+  command->add_option("--device", options->device,
+                      "of a snapshot: the OpenCL device, as in `navvy run`");
   const auto limit = [&](const char* name, double& to, const char* meaning) {
     command->add_option(name, to, meaning)->check(above_zero);
   };
-  limit("--slope-limit-deg", options->slope_deg, "slope that is not traversable (the machine's, else 30)");
-  limit("--step-limit", options->step, "step height that is not traversable [m] (the machine's, else 0.3)");
-  limit("--roughness-limit", options->roughness, "rms roughness that is not traversable [m] (the machine's, else 0.1)");
-  limit("--window", options->window, "half the side of the square that step and roughness look at [m] (likewise, 0.2)");
+  limit("--slope-limit-deg", options->slope_deg,
+        "slope that is not traversable (the machine's, else 30)");
+  limit("--step-limit", options->step,
+        "step height that is not traversable [m] (the machine's, else 0.3)");
+  limit("--roughness-limit", options->roughness,
+        "rms roughness that is not traversable [m] (the machine's, else 0.1)");
+  limit("--window", options->window,
+        "half the side of the square that step and roughness look at [m] (likewise, 0.2)");
   command->footer(footer());
   command->callback([options, &action] { action = [options] { return map(*options); }; });
 }

@@ -4,8 +4,8 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "planner/sources.h"
-#include "sim/terrain_view.h"
 #include "sim/timing.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::cli {
 
@@ -27,13 +27,16 @@ PublishedMap::PublishedMap(const PublishOptions& options, const session::Session
     : world_(session.world()),
       rate_(options.rate),
       layers_(layers_of(options)),
-      feed_(planner::options_for(world_.description(), world_.ground(), layers_, session.design())) {
+      feed_(
+          planner::options_for(world_.description(), world_.ground(), layers_, session.design())) {
   publisher_.emplace(feed_, options.place, layers_);
   if (publisher_->port() != 0) log_info("maps on port " + std::to_string(publisher_->port()));
   publish();
 }
 
-void PublishedMap::publish() { feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped)); }
+void PublishedMap::publish() {
+  feed_.publish(sim::terrain_view(world_, heightfield::SurfaceKind::kMapped));
+}
 
 void PublishedMap::check() const {
   if (const std::string fault = publisher_->fault(); !fault.empty()) throw FileError(fault);

@@ -25,14 +25,16 @@ void require_publishable(const PublishOptions& options);
 /// Publishes the map of a session as often as asked for, from its making on, and that of its end.
 class PublishedMap {
  public:
-  /// The session must outlive it. @throws InputError for layers or a place that are none, FileError as the Publisher.
+  /// The session must outlive it. @throws InputError for layers or a place that are none, FileError
+  /// as the Publisher.
   PublishedMap(const PublishOptions& options, const session::Session& session);
   /// Called after each step. @throws FileError for what ended the writing.
   void observe();
-  /// Called when the session was put into another state: readers get it at once, as a whole map. @throws as `observe`.
+  /// Called when the session was put into another state: readers get it at once, as a whole map.
+  /// @throws as `observe`.
   void restart();
-  /// Publishes the state of the end, waits until readers have it (Publisher::finish) and ends. Nothing is published
-  /// after it. @throws FileError for a patch that could not be written.
+  /// Publishes the state of the end, waits until readers have it (Publisher::finish) and ends.
+  /// Nothing is published after it. @throws FileError for a patch that could not be written.
   void finish();
 
  private:

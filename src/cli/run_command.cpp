@@ -41,8 +41,10 @@ class ProgressLine {
     if (!on_ || watch_.seconds() < 0.5) return;
     watch_.restart();
     std::fprintf(stderr,
-                 "\r%7.1f / %.0f s  x%.2f real time  %6d particles  cycle %d  %-10s  at most %3.0f s left \033[K",
-                 p.time, p.duration, p.real_time_factor, p.particles, p.cycles, p.phase.c_str(), p.remaining);
+                 "\r%7.1f / %.0f s  x%.2f real time  %6d particles  cycle %d  %-10s  at most %3.0f "
+                 "s left \033[K",
+                 p.time, p.duration, p.real_time_factor, p.particles, p.cycles, p.phase.c_str(),
+                 p.remaining);
     shown_ = true;
   }
   void end() {
@@ -61,7 +63,9 @@ class ProgramObserver final : public run::RunObserver {
  public:
   explicit ProgramObserver(bool quiet) : line_(quiet), signals_(leave) {}
 
-  void publish(const PublishOptions& options, const session::Session& session) { map_.emplace(options, session); }
+  void publish(const PublishOptions& options, const session::Session& session) {
+    map_.emplace(options, session);
+  }
   void show(const run::RunProgress& progress) { line_.show(progress); }
 
   void after_step() override {
@@ -89,9 +93,11 @@ class ProgramObserver final : public run::RunObserver {
   std::optional<PublishedMap> map_;
 };
 
-/// Returns the folder of the results. It is named by the scene, not by its file: a scene read from a run's folder goes
-/// back there.
-std::string default_out(const scene::Scene& world) { return "out/" + (world.name.empty() ? "run" : world.name); }
+/// Returns the folder of the results. It is named by the scene, not by its file: a scene read from
+/// a run's folder goes back there.
+std::string default_out(const scene::Scene& world) {
+  return "out/" + (world.name.empty() ? "run" : world.name);
+}
 
 /// Returns the scene, with the control rate among its values: it is written beside the results.
 scene::Scene load(const RunOptions& options, std::string& resolved) {
@@ -105,11 +111,15 @@ scene::Scene load(const RunOptions& options, std::string& resolved) {
 }
 
 /// Runs to the end; a controller on standard input and output takes part where there is one.
-run::RunEnd drive(const RunOptions& options, run::Simulation& simulation, ProgramObserver& program) {
+run::RunEnd drive(const RunOptions& options, run::Simulation& simulation,
+                  ProgramObserver& program) {
   std::optional<link::ControlStdio> control;
-  if (!options.control.empty()) control.emplace(simulation, options.control_rate, run::StopSignals::asked);
+  if (!options.control.empty())
+    control.emplace(simulation, options.control_rate, run::StopSignals::asked);
   run::LoopHooks hooks;
-  hooks.interrupted = [&] { return run::StopSignals::asked() ? run::StopSignals::name() : control ? control->gone() : ""; };
+  hooks.interrupted = [&] {
+    return run::StopSignals::asked() ? run::StopSignals::name() : control ? control->gone() : "";
+  };
   hooks.progress = [&](const run::RunProgress& progress) { program.show(progress); };
   if (control) hooks.before_step = [&] { return control->exchange(); };
   return simulation.run_to_end(hooks);
@@ -119,8 +129,10 @@ run::RunEnd drive(const RunOptions& options, run::Simulation& simulation, Progra
 void print_programs(std::FILE* out, const session::Session& session) {
   for (const session::ProgramReport& report : session.programs()) {
     if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
-    const std::string& name = session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
-    std::fprintf(out, "incomplete: %s\n", session::told(report, name, "the controller ended the run").c_str());
+    const std::string& name =
+        session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
+    std::fprintf(out, "incomplete: %s\n",
+                 session::told(report, name, "the controller ended the run").c_str());
   }
 }
 
@@ -135,7 +147,8 @@ int print_end(const RunOptions& options, const session::Session& session, const 
   std::fprintf(out, "results: %s/summary.json\n", options.simulation.folder.c_str());
   if (end.reason == run::EndReason::kInterrupted) return kInterrupted;
   if (end.snapshot_missed) return kFile;
-  // A duration on the command line asks for no more than that: a program that it cuts off is reported, and no failure.
+  // A duration on the command line asks for no more than that: a program that it cuts off is
+  // reported, and no failure.
   const bool asked = end.reason == run::EndReason::kEndRequested ||
                      (end.reason == run::EndReason::kOutOfTime && options.scene.duration > 0);
   return end.reason == run::EndReason::kComplete || asked ? kOk : kIncomplete;
@@ -143,7 +156,8 @@ int print_end(const RunOptions& options, const session::Session& session, const 
 
 int run_scene(RunOptions options) {
   if (!options.control.empty() && options.control != "stdio")
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control, "only 'stdio' is known",
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control,
+                           "only 'stdio' is known",
                            "leave it out to let the scene's program drive"});
   // Before anything that may take long, such as a driver that compiles.
   ProgramObserver program(options.quiet || !options.control.empty());
@@ -175,52 +189,61 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   CLI::App* command = app.add_subcommand("run", "run a scene; results go to out/<scenario>/");
   options->scene.add_to(*command);
   // What follows leaves the scene alone and goes into the run.
-  command->add_option("--out", options->simulation.folder, "directory of the results")->check([](const std::string& text) {
-    // What an unset variable of a shell leaves; the default would be another folder than the one that was meant.
-    return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>" : "";
-  });
-  // Options that need each other are named by pointer: where the library looks up their names, memory that ends is the
-  // end of the program.
-  CLI::Option* control = command->add_option(
-      "--control", options->control,
-      "stdio: print one JSON line of outputs and read one of inputs per control step, in lock step");
+  command->add_option("--out", options->simulation.folder, "directory of the results")
+      ->check([](const std::string& text) {
+        // What an unset variable of a shell leaves; the default would be another folder than the
+        // one that was meant.
+        return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>"
+                            : "";
+      });
+  // Options that need each other are named by pointer: where the library looks up their names,
+  // memory that ends is the end of the program.
+  CLI::Option* control = command->add_option("--control", options->control,
+                                             "stdio: print one JSON line of outputs and read one "
+                                             "of inputs per control step, in lock step");
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
       ->check(CLI::Range(0.001, 1e5))
       ->needs(control);
-  CLI::Option* snapshot =
-      command->add_option("--snapshot", options->simulation.snapshot, "file to save the state to, at --snapshot-at");
-  CLI::Option* snapshot_at =
-      command->add_option("--snapshot-at", options->simulation.snapshot_at, "simulated time of the snapshot [s]")
-          ->check(not_negative)
-          ->needs(snapshot);
+  CLI::Option* snapshot = command->add_option("--snapshot", options->simulation.snapshot,
+                                              "file to save the state to, at --snapshot-at");
+  CLI::Option* snapshot_at = command
+                                 ->add_option("--snapshot-at", options->simulation.snapshot_at,
+                                              "simulated time of the snapshot [s]")
+                                 ->check(not_negative)
+                                 ->needs(snapshot);
   // Either of the two alone is a slip.
   snapshot->needs(snapshot_at);
-  CLI::Option* resume = command->add_option("--resume", options->simulation.resume, "snapshot to go on from");
+  CLI::Option* resume =
+      command->add_option("--resume", options->simulation.resume, "snapshot to go on from");
   command
       ->add_flag("--resume-anyway", options->simulation.resume_anyway,
                  "go on although the scene has other parameters than the snapshot's; says which")
       ->needs(resume);
   command
       ->add_option("--hash-every", options->simulation.hash_every,
-                   "simulated seconds between rows of hashes.csv: what the state and each part of it hash to")
+                   "simulated seconds between rows of hashes.csv: what the state and each part of "
+                   "it hash to")
       ->check(above_zero);
-  CLI::Option* publish = command->add_option(
-      "--publish", options->publish.place,
-      "the map as it changes, for other processes: tcp:PORT (on 127.0.0.1), tcp:HOST:PORT, or a new folder");
+  CLI::Option* publish = command->add_option("--publish", options->publish.place,
+                                             "the map as it changes, for other processes: tcp:PORT "
+                                             "(on 127.0.0.1), tcp:HOST:PORT, or a new folder");
   command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
       ->check(CLI::Range(0.001, 1e4))
       ->needs(publish);
-  command->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")->needs(publish);
-  command->add_option(
-      "--watch", options->simulation.watch,
-      "MACHINE/LINK: pose, velocity and angular velocity of this link among the outputs; may be repeated");
-  command->add_flag(
-      "--energy", options->simulation.soil_energy,
-      "also tell in the summary where the soil's energy came from and went; takes up to three times as long");
+  command
+      ->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
+      ->needs(publish);
+  command->add_option("--watch", options->simulation.watch,
+                      "MACHINE/LINK: pose, velocity and angular velocity of this link among the "
+                      "outputs; may be repeated");
+  command->add_flag("--energy", options->simulation.soil_energy,
+                    "also tell in the summary where the soil's energy came from and went; takes up "
+                    "to three times as long");
   command->add_flag("--quiet", options->quiet, "no progress line, no notes");
-  command->footer("Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
+  command->footer(
+      "Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run_scene(*options); }; });
 }
 

@@ -25,7 +25,8 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
     // falls through to the message below
   }
   // Option and text as typed.
-  throw InputError(Fault{Fault::Severity::kError, "", 0, option, text, "two numbers in metres, separated by a comma",
+  throw InputError(Fault{Fault::Severity::kError, "", 0, option, text,
+                         "two numbers in metres, separated by a comma",
                          "for example " + option + " 120,80"});
 }
 
@@ -36,10 +37,12 @@ std::map<std::string, std::string> shipped_scenes() {
   std::error_code ignored;
   // All data directories, as the look-up goes through all of them; the first that has it wins.
   for (const std::string& directory : scene_io::data_directories())
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(directory + "/scenarios", ignored)) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(directory + "/scenarios", ignored)) {
       // Their READMEs and maps lie beside them.
       if (entry.path().extension() != ".sdf") continue;
-      const auto name = entry.path().lexically_relative(directory + "/scenarios").replace_extension();
+      const auto name =
+          entry.path().lexically_relative(directory + "/scenarios").replace_extension();
       out.emplace(name.generic_string(), entry.path().string());
     }
   return out;
@@ -54,32 +57,40 @@ std::string find_scene(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   std::vector<std::string> known;
   for (const auto& [scene, path] : shipped_scenes()) known.push_back(scene);
-  throw InputError(
-      Fault{Fault::Severity::kError, "", 0, "scene", name, "no such file here and no such shipped scene",
-            known.empty() ? "set NAVVY_DATA_DIR" : suggestion(name, known) + "; `navvy scenes` lists them"});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "scene", name,
+                         "no such file here and no such shipped scene",
+                         known.empty() ? "set NAVVY_DATA_DIR"
+                                       : suggestion(name, known) + "; `navvy scenes` lists them"});
 }
 
 void SceneOptions::add_values_to(CLI::App& command) {
   // One value each, or the scene's name after it would be taken for a second one.
-  command.add_option("--set", set, "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
+  command
+      .add_option("--set", set,
+                  "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
       ->allow_extra_args(false);
   // A seed of a hill's own stays.
-  command.add_option("--seed", seed, "seed of everything random: hills without a seed of their own")
+  command
+      .add_option("--seed", seed, "seed of everything random: hills without a seed of their own")
       ->check(whole_number);
-  command.add_option("--terrain", terrain, "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
-  command.add_option("--at", at,
-                     "X,Y of the site's centre in the file's coordinates, or local:X,Y from its lower-left "
-                     "corner; default its centre");
+  command.add_option("--terrain", terrain,
+                     "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
+  command.add_option(
+      "--at", at,
+      "X,Y of the site's centre in the file's coordinates, or local:X,Y from its lower-left "
+      "corner; default its centre");
   command.add_option("--size", size, "X,Y extent of the site [m]");
 }
 
 void SceneOptions::add_to(CLI::App& command) {
   // Everything a run may be given beside values.
-  command.add_option("scene", file, "scene file (SDF); without a path also looked for among the shipped scenarios")
+  command
+      .add_option("scene", file,
+                  "scene file (SDF); without a path also looked for among the shipped scenarios")
       ->required();
-  command.add_option(
-      "--device", device,
-      "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`); without it NAVVY_DEVICE decides");
+  command.add_option("--device", device,
+                     "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`); "
+                     "without it NAVVY_DEVICE decides");
   add_values_to(command);
   command.add_option("--duration", duration, "most simulated time [s]")->check(above_zero);
   command.add_flag("--no-render", no_render, "draw no pictures");

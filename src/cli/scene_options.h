@@ -19,7 +19,8 @@ namespace navvy::cli {
 /// Paths of the shipped scenes by their names.
 std::map<std::string, std::string> shipped_scenes();
 /// The file that `name` means: a file of the user's, or a shipped scene (with or without ".sdf").
-/// @throws InputError naming the nearest shipped one, when there is no such thing and `name` has no path.
+/// @throws InputError naming the nearest shipped one, when there is no such thing and `name` has no
+/// path.
 std::string find_scene(const std::string& name);
 
 /// The scene to load and what to change in it; filled by the parser, read by the action afterwards.
@@ -37,7 +38,8 @@ struct SceneOptions {
   double duration = 0;
   bool no_render = false;
 
-  /// Adds those that change a scene's values (--set, --seed, --terrain, --at, --size); the struct must outlive parsing.
+  /// Adds those that change a scene's values (--set, --seed, --terrain, --at, --size); the struct
+  /// must outlive parsing.
   void add_values_to(CLI::App& command);
   /// Adds all options to a subcommand; the struct must outlive parsing.
   void add_to(CLI::App& command);

@@ -12,7 +12,8 @@ namespace {
 double number(const std::string& text) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return code == std::errc() && end == text.data() + text.size() && std::isfinite(value) ? value : NAN;
+  return code == std::errc() && end == text.data() + text.size() && std::isfinite(value) ? value
+                                                                                         : NAN;
 }
 
 }  // namespace

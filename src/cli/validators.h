@@ -6,8 +6,8 @@
 
 namespace navvy::cli {
 
-/// Empty for a finite number above zero, else what is wrong with it: for CLI::Option::check. (CLI11's own check prints
-/// its bounds with 300 digits.)
+/// Empty for a finite number above zero, else what is wrong with it: for CLI::Option::check.
+/// (CLI11's own check prints its bounds with 300 digits.)
 std::string above_zero(const std::string& text);
 /// The same for a finite number of at least 0.
 std::string not_negative(const std::string& text);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "control/arm.h"
+#include "control/arm_kinematics.h"
 #include "control/observation.h"
 #include "control/outcome.h"
 #include "control/path_planner.h"
@@ -29,7 +29,8 @@ inline Axes with_arm(double swing, const ArmAngles& q) { return {swing, q[0], q[
 struct Handover {
   std::int64_t cycles = 0;  ///< digging cycles of the program so far
   std::int64_t known = 0;   ///< 1 once `q` was read from the machine
-  Axes q{};                 ///< commanded angles of the arm; moves begin here, not where the machine is
+  /// Commanded angles of the arm; moves begin here, not where the machine is.
+  Axes q{};
 
   void visit(Archive& a) {
     a("cycles", cycles);
@@ -39,19 +40,20 @@ struct Handover {
 };
 
 /// One operator's machine, and what flows from step to step. Activities keep a reference to it.
-struct Workplace {
+struct OperatorContext {
   /// Copies the machine. Whoever builds the workplace adds the arm where the program needs it.
-  explicit Workplace(const scene::Machine& machine_in) : machine(machine_in) {}
+  explicit OperatorContext(const scene::Machine& machine_in) : machine(machine_in) {}
 
   const scene::Machine machine;  ///< its joints in the order of Observation and Command
   /// In every program with a step that needs one.
   std::unique_ptr<PathPlanner> planner;
-  std::vector<PlannedPath> paths;  ///< of all steps, in the order in which they were planned
-  std::optional<Arm> arm;          ///< in every program with a step that needs one
+  std::vector<PlannedPath> paths;    ///< of all steps, in the order in which they were planned
+  std::optional<ArmKinematics> arm;  ///< in every program with a step that needs one
   Handover handover;
-  std::string label = "operator";  ///< who speaks in messages: "'truck', step 2 (tip)"; derived, no state
-  std::int64_t step = 1;           ///< number of the running step; derived
-  double now = 0;                  ///< of this control step, simulated [s]; derived
+  /// Who speaks in messages: "'truck', step 2 (tip)"; derived, no state.
+  std::string label = "operator";
+  std::int64_t step = 1;  ///< number of the running step; derived
+  double now = 0;         ///< of this control step, simulated [s]; derived
 
   /// Tells the user what does not go as asked, and that the step goes on.
   void warn(const std::string& text) const { log_warning(label + ": " + text); }
@@ -62,7 +64,7 @@ struct Workplace {
     if (seen.surface != nullptr)
       planner->look(*seen.surface);
     else if (seen.ground != nullptr)
-      planner->look(GroundSurface(*seen.ground));
+      planner->look(GroundSurfaceView(*seen.ground));
   }
 
   /// Index in Machine::joints of axis 0..3: swing, boom, stick, bucket.
@@ -73,13 +75,15 @@ struct Workplace {
   ArmAngles arm_angles() const { return {handover.q[1], handover.q[2], handover.q[3]}; }
 };
 
-/// Carries out one step: begun once, then asked every control step until it is over, then thrown away.
+/// Carries out one step: begun once, then asked every control step until it is over, then thrown
+/// away.
 ///
-/// Deterministic: a function of its memory, the workplace and the observations. Never hangs: every phase has a time
-/// limit, after which the step goes on or falls short, and says so. A snapshot taken at any moment resumes bit for bit.
+/// Deterministic: a function of its memory, the workplace and the observations. Never hangs: every
+/// phase has a time limit, after which the step goes on or falls short, and says so. A snapshot
+/// taken at any moment resumes bit for bit.
 class Activity {
  public:
-  explicit Activity(Workplace& place) : place_(place) {}
+  explicit Activity(OperatorContext& place) : place_(place) {}
   virtual ~Activity() = default;
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
@@ -98,16 +102,16 @@ class Activity {
   /// The event told since the last call of this.
   CycleEvent take_event() { return std::exchange(event_, CycleEvent::kNone); }
 
-  /// Once it is over: kDone, or how it fell short; before, kRunning. The reason is a sentence without time and place,
-  /// which the operator adds; empty when there is nothing to say.
+  /// Once it is over: kDone, or how it fell short; before, kRunning. The reason is a sentence
+  /// without time and place, which the operator adds; empty when there is nothing to say.
   StepState state() const { return state_; }
   const std::string& reason() const { return reason_; }
-  /// The step's own account as far as it has come, in figures: asked when the step ends, however it ends, and whenever
-  /// a summary is written. Must not depend on how often it is asked.
-  virtual std::vector<Figure> account(const Observation&) const { return {}; }
+  /// The step's own account as far as it has come, in figures: asked when the step ends, however it
+  /// ends, and whenever a summary is written. Must not depend on how often it is asked.
+  virtual std::vector<Measurement> account(const Observation&) const { return {}; }
 
-  /// State from `begin` on; events are not part of it. Snapshots are taken between calls of `advance`. Who overrides
-  /// it calls this first.
+  /// State from `begin` on; events are not part of it. Snapshots are taken between calls of
+  /// `advance`. Who overrides it calls this first.
   virtual void visit(Archive& a) {
     a("phase", clock_.phase);
     a("phase_time", clock_.time);
@@ -117,7 +121,8 @@ class Activity {
 
   // For derived classes: what they do, and what they have to do it with.
  protected:
-  /// One control step: looks at `seen`, commands through `out` and Workplace::handover. True when the step is over.
+  /// One control step: looks at `seen`, commands through `out` and Workplace::handover. True when
+  /// the step is over.
   virtual bool update(const Observation& seen, double dt, Command& out) = 0;
 
   /// Goes to a phase: its time begins anew. Activities with several give their own enum here.
@@ -128,7 +133,8 @@ class Activity {
   double phase_time() const { return clock_.time; }
   /// Reported once with the result of this control step; a later one in the same step replaces it.
   void tell(CycleEvent event) { event_ = event; }
-  /// The step ends short of its aim, and its program with it: `return fall_short(StepState::kBlocked, "...")`.
+  /// The step ends short of its aim, and its program with it: `return
+  /// fall_short(StepState::kBlocked, "...")`.
   bool fall_short(StepState state, std::string reason) {
     state_ = state;
     reason_ = std::move(reason);
@@ -137,7 +143,7 @@ class Activity {
   /// Said of a step that is done all the same; a later one replaces it.
   void remark(std::string text) { reason_ = std::move(text); }
 
-  Workplace& place_;
+  OperatorContext& place_;
 
  private:
   // Part of every activity's state, so that no kind has to think of it.
@@ -151,8 +157,8 @@ class Activity {
   std::string reason_;
 };
 
-/// An activity whose state is one struct `m`, which lists its fields in a `visit(Archive&)`. An activity with state
-/// besides (the plan of a dig) overrides visit and calls this one first.
+/// An activity whose state is one struct `m`, which lists its fields in a `visit(Archive&)`. An
+/// activity with state besides (the plan of a dig) overrides visit and calls this one first.
 template <class Memory>
 class ActivityWith : public Activity {
  public:

@@ -11,23 +11,27 @@
 namespace navvy::control {
 namespace {
 
-// Rates of an unhurried operator at the middle of a move [rad/s]: swing, boom, stick, bucket; hydraulics may be slower.
+// Rates of an unhurried operator at the middle of a move [rad/s]: swing, boom, stick, bucket;
+// hydraulics may be slower.
 constexpr double kRates[4] = {0.80, 0.45, 0.70, 1.5};
-constexpr double kShareOfLimit = 0.85;           // of a joint's own speed limit
-constexpr double kShortestMove = 0.4;            // [s]
-constexpr double kArrived = 0.03;                // [rad]
-constexpr double kSettle = 0.3, kAtRest = 0.02;  // past a move's time at rest is as good as arrived [s], [rad/s]
-constexpr double kPatience = 2.0;                // beyond a move's own time [s]
+constexpr double kShareOfLimit = 0.85;  // of a joint's own speed limit
+constexpr double kShortestMove = 0.4;   // [s]
+constexpr double kArrived = 0.03;       // [rad]
+// Past a move's time at rest is as good as arrived [s], [rad/s]
+constexpr double kSettle = 0.3, kAtRest = 0.02;
+constexpr double kPatience = 2.0;  // beyond a move's own time [s]
 
 }  // namespace
 
-void ArmMove::start(const Workplace& place, const Axes& to, const Observation& seen, Pace pace) {
+void ArmMove::start(const OperatorContext& place, const Axes& to, const Observation& seen,
+                    Pace pace) {
   double time[4];
   for (std::size_t i = 0; i < 4; ++i) {
     from_[i] = place.handover.q[i];
     to_[i] = to[i];
     const double possible = kShareOfLimit * seen.joints[place.joint(i)].velocity_limit;
-    const double rate = possible > 0 ? std::min(pace.share * kRates[i], possible) : pace.share * kRates[i];
+    const double rate =
+        possible > 0 ? std::min(pace.share * kRates[i], possible) : pace.share * kRates[i];
     // The smooth profile's fastest moment is 1.5 times its mean.
     time[i] = std::max(kShortestMove, 1.5 * std::abs(to_[i] - from_[i]) / rate);
   }
@@ -37,8 +41,8 @@ void ArmMove::start(const Workplace& place, const Axes& to, const Observation& s
   arm_delay_ = time[0] > kShortestMove ? pace.arm_delay * time[0] : 0;
 }
 
-void ArmMove::open_bucket(const Workplace& place, const Observation& seen) {
-  const Arm& arm = *place.arm;
+void ArmMove::open_bucket(const OperatorContext& place, const Observation& seen) {
+  const ArmKinematics& arm = *place.arm;
   // The nearest turn to the opening angle that the cylinder can do; only the bucket joint moves.
   ArmAngles q = place.arm_angles();
   const double angle = arm.forward(q).angle;
@@ -56,8 +60,10 @@ void ArmMove::visit(Archive& a) {
 
 double ArmMove::duration() const { return std::max(swing_time_, arm_delay_ + arm_time_); }
 
-bool ArmMove::advance(Workplace& place, const Observation& seen, double since, const char* phase) {
-  const double swing = smooth(since / swing_time_), other = smooth((since - arm_delay_) / arm_time_);
+bool ArmMove::advance(OperatorContext& place, const Observation& seen, double since,
+                      const char* phase) {
+  const double swing = smooth(since / swing_time_),
+               other = smooth((since - arm_delay_) / arm_time_);
   // What the machine still lacks, judged at all four joints alike.
   double error = 0, speed = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -68,7 +74,8 @@ bool ArmMove::advance(Workplace& place, const Observation& seen, double since, c
   }
   const double over = since - duration();
   if (over < 0) return false;
-  // Heavy soil in the bucket keeps a joint a little short for ever: at rest there is as good as arrived.
+  // Heavy soil in the bucket keeps a joint a little short for ever: at rest there is as good as
+  // arrived.
   if (error < kArrived || (over > kSettle && speed < kAtRest)) return true;
   if (over < kPatience) return false;
   place.warn(std::string(phase) + " ended " + std::to_string(error) + " rad short of its target");

@@ -18,20 +18,21 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
   return out;
 }
 
-bool dump_pose(const Arm& arm, const Pose& X_WS, const Vec2& dump_at, double ground, double clearance, ArmAngles& q,
-               double& possible) {
+bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground,
+               double clearance, ArmAngles& q, double& possible) {
   constexpr double kLeast = 0.3, kStep = 0.05;
   // Opened, the soil leaves about below the pin, which therefore comes over the dump point.
   // From the wish down, in steps that no heap shows.
   for (double c = clearance; c >= std::min(kLeast, clearance) - 1e-9; c -= kStep) {
     const double pin = ground + c - arm.bucket_length() * std::sin(kOpen);
     const SwingPoint p = swing_point(X_WS, Vec3(dump_at.x(), dump_at.y(), pin));
-    // Level now, with the pin where it will be when the bucket opens: only the bucket joint moves then.
+    // Level now, with the pin where it will be when the bucket opens: only the bucket joint moves
+    // then.
     const double angle = p.level(kCarry);
     possible = c;
-    if (arm.inverse(
-            {p.reach + arm.bucket_length() * std::cos(angle), p.height + arm.bucket_length() * std::sin(angle), angle},
-            q))
+    if (arm.inverse({p.reach + arm.bucket_length() * std::cos(angle),
+                     p.height + arm.bucket_length() * std::sin(angle), angle},
+                    q))
       return true;
   }
   return false;

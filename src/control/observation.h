@@ -9,7 +9,7 @@
 
 #include "control/surface.h"
 #include "core/math.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::control {
@@ -26,13 +26,16 @@ struct Observation {
   Pose X_WB = Pose::Identity();             ///< base link
   Vec3 v_WB = Vec3::Zero();                 ///< [m/s]
   const heightfield::Ground* ground = nullptr;
-  const SurfaceView* surface = nullptr;  ///< the ground with loose soil on it; null: the resting ground alone
-  double payload = 0;                    ///< soil in the bucket [kg]
-  double force = 0;                      ///< low-passed soil force on the bucket [N]
-  vehicle::Stability stability;          ///< how the machine stands
-  Vec3 tyre_force = Vec3::Zero();        ///< of all wheels together, by the ground [N] in W
-  double wheels_under = 0;               ///< share of the wheels whose tops lie below the resting ground
-  const std::map<std::string, ProgramProgress>* programs = nullptr;  ///< of all machines of the world, by name
+  /// The ground with loose soil on it; null: the resting ground alone.
+  const SurfaceView* surface = nullptr;
+  double payload = 0;              ///< soil in the bucket [kg]
+  double force = 0;                ///< low-passed soil force on the bucket [N]
+  vehicle::Stability stability;    ///< how the machine stands
+  Vec3 tyre_force = Vec3::Zero();  ///< of all wheels together, by the ground [N] in W
+  /// Share of the wheels whose tops lie below the resting ground.
+  double wheels_under = 0;
+  /// Of all machines of the world, by name.
+  const std::map<std::string, ProgramProgress>* programs = nullptr;
 };
 
 /// What it wants; joints without an entry keep their last command.
@@ -43,6 +46,15 @@ struct Command {
 };
 
 /// Moments of a digging cycle and of a tip, told once each.
-enum class CycleEvent { kNone, kScoopStart, kCurlStart, kLiftOut, kDumpStart, kCycleEnd, kTipStart, kTipEnd };
+enum class CycleEvent {
+  kNone,
+  kScoopStart,
+  kCurlStart,
+  kLiftOut,
+  kDumpStart,
+  kCycleEnd,
+  kTipStart,
+  kTipEnd
+};
 
 }  // namespace navvy::control

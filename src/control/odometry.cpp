@@ -18,8 +18,10 @@ CountedWheel counted_wheel(const scene::Machine& machine, bool left) {
     for (const scene::Encoder& encoder : machine.encoders)
       if (about[w].driven && about[w].left == left && encoder.joint == machine.wheels[w].joint)
         return {encoder.counts_per_turn / (2 * kPi * about[w].radius), encoder.bits};
-  throw InputError(Fault{Fault::Severity::kError, machine.file, 0, "machine[" + machine.name + "]", "",
-                         std::string("odometry needs an encoder on a driven wheel on the ") + (left ? "left" : "right"),
+  throw InputError(Fault{Fault::Severity::kError, machine.file, 0, "machine[" + machine.name + "]",
+                         "",
+                         std::string("odometry needs an encoder on a driven wheel on the ") +
+                             (left ? "left" : "right"),
                          "add <navvy:encoder> with the wheel's joint"});
 }
 
@@ -34,13 +36,15 @@ std::int64_t counts_between(std::uint64_t before, std::uint64_t now, int bits) {
   return passed < range / 2 ? up : up - static_cast<std::int64_t>(range);
 }
 
-DifferentialOdometry::DifferentialOdometry(double track, const CountedWheel& left, const CountedWheel& right)
+DifferentialOdometry::DifferentialOdometry(double track, const CountedWheel& left,
+                                           const CountedWheel& right)
     : track_(track), left_(left), right_(right) {}
 
 DifferentialOdometry DifferentialOdometry::of(const scene::Machine& machine) {
   const auto* drive = std::get_if<scene::DifferentialDrive>(&machine.drive);
   if (!machine.has_drive || drive == nullptr)
-    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, "machine[" + machine.name + "]", "",
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
+                           "machine[" + machine.name + "]", "",
                            "differential odometry needs a differential drive",
                            "give the machine <navvy:drive type=\"differential\">"});
   return {drive->track, counted_wheel(machine, true), counted_wheel(machine, false)};
@@ -59,7 +63,8 @@ void DifferentialOdometry::update(std::uint64_t left, std::uint64_t right) {
     before = now;
     return static_cast<double>(counts) / wheel.counts_per_metre;
   };
-  const double by_left = rolled(left_, left_before_, left), by_right = rolled(right_, right_before_, right);
+  const double by_left = rolled(left_, left_before_, left),
+               by_right = rolled(right_, right_before_, right);
   const double length = 0.5 * (by_left + by_right), turn = (by_right - by_left) / track_;
   // The chord of the arc points along the heading midway.
   const double chord = length * sinc(0.5 * turn), heading = pose_.yaw + 0.5 * turn;

@@ -9,8 +9,9 @@
 
 namespace navvy::control {
 
-/// Counts from `before` to `now` of a register of `bits` (2 to 32) that wraps, the short way round: right as long as
-/// the wheel turned by less than half of the register in between, -2^(bits-1) to 2^(bits-1) - 1.
+/// Counts from `before` to `now` of a register of `bits` (2 to 32) that wraps, the short way round:
+/// right as long as the wheel turned by less than half of the register in between, -2^(bits-1) to
+/// 2^(bits-1) - 1.
 std::int64_t counts_between(std::uint64_t before, std::uint64_t now, int bits);
 
 /// A wheel with its encoder, as odometry knows it.
@@ -19,15 +20,17 @@ struct CountedWheel {
   int bits = 16;
 };
 
-/// Dead reckoning of a differential drive [docs/machines.md, odometry]: between two looks at the registers the robot
-/// has rolled an arc, by the mean and the difference of both sides. Slip, missed counts and a radius that is not the
-/// tyre's under load go into it unseen, as on a real robot.
+/// Dead reckoning of a differential drive [docs/machines.md, odometry]: between two looks at the
+/// registers the robot has rolled an arc, by the mean and the difference of both sides. Slip,
+/// missed counts and a radius that is not the tyre's under load go into it unseen, as on a real
+/// robot.
 class DifferentialOdometry {
  public:
   /// `track` [m] lies between the wheels.
   DifferentialOdometry(double track, const CountedWheel& left, const CountedWheel& right);
   /// Of the first driven wheel of each side; radii are the unloaded ones of the machine's file.
-  /// @throws InputError for a machine without a differential drive, or without encoders on both sides.
+  /// @throws InputError for a machine without a differential drive, or without encoders on both
+  /// sides.
   static DifferentialOdometry of(const scene::Machine& machine);
 
   /// The robot is at `pose` now, and its registers show these counts.
@@ -37,7 +40,8 @@ class DifferentialOdometry {
 
   /// Of the point midway between the wheels.
   const PlanePose& pose() const { return pose_; }
-  double distance() const { return distance_; }  ///< along the path, backwards negative, since the reset [m]
+  /// Along the path, backwards negative, since the reset [m].
+  double distance() const { return distance_; }
 
  private:
   double track_;

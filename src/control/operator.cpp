@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "control/activity.h"
-#include "control/step.h"
+#include "control/program_step.h"
 #include "control/watch.h"
 
 namespace navvy::control {
@@ -15,11 +15,12 @@ struct Operator::State {
   State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in,
         const MakePathPlanner& planners);
 
-  // Activities refer to the steps and to the workplace: all three keep their addresses, as the state does not move.
+  // Activities refer to the steps and to the workplace: all three keep their addresses, as the
+  // state does not move.
   const scene::Program program;
   const std::string name;
-  std::vector<const Step*> steps;
-  Workplace place;
+  std::vector<const ProgramStep*> steps;
+  OperatorContext place;
   std::unique_ptr<Activity> active;  // of steps[step], null between steps
   std::int64_t step = 0;
   Watch watch;
@@ -32,41 +33,45 @@ struct Operator::State {
   bool past_last() const { return step >= static_cast<std::int64_t>(steps.size()); }
   bool done() const { return past_last() && !failed(); }
   bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
-  const Step& present() const { return *steps[static_cast<std::size_t>(step)]; }
+  const ProgramStep& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
   void plan_ahead(const Observation& seen);
   void watch_over(const Observation& seen, double time, double dt);
   void finish(StepState state, const std::string& reason, const Observation& seen, double time);
-  StepReport report(StepState state, const std::string& reason, const Observation& seen, double time) const;
+  StepReport report(StepState state, const std::string& reason, const Observation& seen,
+                    double time) const;
   void read_arm(const Observation& seen);
   void hold_arm(Command& out) const;
   Command stop() const;
   void note(const Command& out);
 };
 
-Operator::State::State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in,
-                       const MakePathPlanner& planners)
+Operator::State::State(const scene::Machine& machine, const scene::Program& program_in,
+                       const std::string& name_in, const MakePathPlanner& planners)
     : program(program_in),
       name(name_in.empty() ? machine.name : name_in),
       place(machine),
       commanded(machine.joints.size()) {
   for (const scene::ProgramStep& one : program.steps) steps.push_back(&step_of(one));
-  // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the machine drives.
-  const auto needs_arm = [](const Step* one) { return one->needs_arm(); };
+  // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the
+  // machine drives.
+  const auto needs_arm = [](const ProgramStep* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
-  for (const Step* one : steps) {
+  for (const ProgramStep* one : steps) {
     if (!one->needs_planner() || place.planner) continue;
     if (!planners)
-      throw InputError(Fault{Fault::Severity::kError, machine.file, 0, name + "/navvy:program/" + one->element(), "",
-                             "nobody plans paths here", "hand a planner to the operator, or use drive_to"});
+      throw InputError(
+          Fault{Fault::Severity::kError, machine.file, 0, name + "/navvy:program/" + one->element(),
+                "", "nobody plans paths here", "hand a planner to the operator, or use drive_to"});
     place.planner = planners(place.machine);
   }
   // Told before anything moves, not when the step's turn comes.
-  for (const Step* one : steps) one->check_machine(place.machine);
+  for (const ProgramStep* one : steps) one->check_machine(place.machine);
 }
 
 void Operator::State::make_activity() {
-  place.label = "'" + name + "', step " + std::to_string(step + 1) + " (" + present().element() + ")";
+  place.label =
+      "'" + name + "', step " + std::to_string(step + 1) + " (" + present().element() + ")";
   // The description makes what carries it out; its memory is new every time.
   place.step = step + 1;
   active = present().activity(place);
@@ -76,7 +81,7 @@ void Operator::State::make_activity() {
 void Operator::State::plan_ahead(const Observation& seen) {
   if (!place.planner) return;
   place.look(seen);
-  const GroundSurface resting(*seen.ground);
+  const GroundSurfaceView resting(*seen.ground);
   const SurfaceView& surface = seen.surface != nullptr ? *seen.surface : resting;
   Pose X_WB = seen.X_WB;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -84,15 +89,17 @@ void Operator::State::plan_ahead(const Observation& seen) {
       if (std::optional<Path> path = place.planner->plan(*query))
         place.paths.push_back({static_cast<std::int64_t>(i) + 1, place.now, *std::move(path)});
       else
-        log_warning("'" + name + "', step " + std::to_string(i + 1) + " (" + steps[i]->element() +
-                    "): no path on the ground as it lies when the program begins; it will look again then");
+        log_warning(
+            "'" + name + "', step " + std::to_string(i + 1) + " (" + steps[i]->element() +
+            "): no path on the ground as it lies when the program begins; it will look again then");
     }
-    if (const std::optional<Pose> next = steps[i]->station(place.machine, X_WB, surface)) X_WB = *next;
+    if (const std::optional<Pose> next = steps[i]->station(place.machine, X_WB, surface))
+      X_WB = *next;
   }
 }
 
-StepReport Operator::State::report(StepState state, const std::string& reason, const Observation& seen,
-                                   double time) const {
+StepReport Operator::State::report(StepState state, const std::string& reason,
+                                   const Observation& seen, double time) const {
   // A step that has not begun has no account.
   StepReport out{step + 1, present().element(),     state, reason, active ? started : time,
                  time,     seen.X_WB.translation(), {}};
@@ -100,7 +107,8 @@ StepReport Operator::State::report(StepState state, const std::string& reason, c
   return out;
 }
 
-void Operator::State::finish(StepState state, const std::string& reason, const Observation& seen, double time) {
+void Operator::State::finish(StepState state, const std::string& reason, const Observation& seen,
+                             double time) {
   reports.push_back(report(state, reason, seen, time));
   active.reset();
   // The step that fell short stays the present one: the program has come so far and no further.
@@ -123,7 +131,8 @@ void Operator::State::watch_over(const Observation& seen, double time, double dt
 }
 
 void Operator::State::read_arm(const Observation& seen) {
-  // Once only: from then on commands follow commands, so that a load that bends the arm does not make it drift.
+  // Once only: from then on commands follow commands, so that a load that bends the arm does not
+  // make it drift.
   if (place.handover.known != 0) return;
   // Swing, boom, stick, bucket.
   for (std::size_t i = 0; i < 4; ++i) place.handover.q[i] = seen.joints[place.joint(i)].position;
@@ -140,7 +149,8 @@ void Operator::State::hold_arm(Command& out) const {
 Command Operator::State::stop() const {
   Command out;
   out.joints.resize(commanded.size());
-  // Where they are, not where they were told to go: the way there may be what went wrong. Others keep what they have.
+  // Where they are, not where they were told to go: the way there may be what went wrong. Others
+  // keep what they have.
   for (std::size_t j = 0; j < commanded.size(); ++j)
     if (commanded[j] != 0) out.joints[j] = vehicle::JointInput{vehicle::JointMode::kVelocity, 0};
   if (place.machine.has_drive) out.drive = vehicle::DriveInput{0, steer, true};
@@ -177,7 +187,8 @@ const std::vector<PlannedPath>& Operator::paths() const { return state_->place.p
 
 StepReport Operator::present(const Observation& seen, double time) const {
   const State& s = *state_;
-  if (!ended()) return s.report(StepState::kRunning, s.active ? s.active->reason() : "", seen, time);
+  if (!ended())
+    return s.report(StepState::kRunning, s.active ? s.active->reason() : "", seen, time);
   return s.reports.empty() ? StepReport{} : s.reports.back();
 }
 
@@ -219,8 +230,8 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 
 void Operator::visit(Archive& a) {
   State& s = *state_;
-  // Version 5: reports of the steps, what was commanded; 6: how the machine stands; 7: what came after the last step;
-  // 8: a scoop begins before its soil.
+  // Version 5: reports of the steps, what was commanded; 6: how the machine stands; 7: what came
+  // after the last step; 8: a scoop begins before its soil.
   a.section("operator", 8, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
@@ -229,16 +240,17 @@ void Operator::visit(Archive& a) {
     a("watch", s.watch);
     a("started", s.started);
     a("reports", s.reports);
-    // One a step that is over; one more of the step that fell short, or of what came after the last.
-    a.require(static_cast<std::int64_t>(s.reports.size()) == s.step + (s.failed() ? 1 : 0), "reports",
-              "another number of them than steps that are over");
+    // One a step that is over; one more of the step that fell short, or of what came after the
+    // last.
+    a.require(static_cast<std::int64_t>(s.reports.size()) == s.step + (s.failed() ? 1 : 0),
+              "reports", "another number of them than steps that are over");
     // As many as the scene's machine has joints.
     a.fixed("commanded", s.commanded);
     a("steer", s.steer);
     // Only programs that ask for paths have any.
     if (s.place.planner) a("paths", s.place.paths);
-    // The running step's name, so that a snapshot of another program is refused instead of misread. Between steps there
-    // is no activity, and nothing of the last one is left.
+    // The running step's name, so that a snapshot of another program is refused instead of misread.
+    // Between steps there is no activity, and nothing of the last one is left.
     std::string running;
     if (!a.loading() && s.active) running = s.present().element();
     a("running", running);
@@ -246,8 +258,9 @@ void Operator::visit(Archive& a) {
     if (a.loading()) {
       // The scene may have changed since.
       const std::string here = s.past_last() ? "" : s.present().element();
-      a.require(running.empty() || running == here, "running",
-                "the program has another step there: '" + here + "'; use the scene it was made with");
+      a.require(
+          running.empty() || running == here, "running",
+          "the program has another step there: '" + here + "'; use the scene it was made with");
       // Made anew, then it reads its memory.
       s.active.reset();
       if (!running.empty()) s.make_activity();

@@ -6,13 +6,15 @@
 namespace navvy::control {
 
 const char* name_of(StepState state) {
-  // In the order of the enum; a style of its own is never needed, so files and messages share these.
-  static constexpr std::array<const char*, 9> names = {"running",      "done",        "blocked", "stalled", "tipped",
-                                                       "out_of_reach", "out_of_time", "buried",  "no_path"};
+  // In the order of the enum; a style of its own is never needed, so files and messages share
+  // these.
+  static constexpr std::array<const char*, 9> names = {"running",     "done",   "blocked",
+                                                       "stalled",     "tipped", "out_of_reach",
+                                                       "out_of_time", "buried", "no_path"};
   return names.at(static_cast<std::size_t>(state));
 }
 
-void Figure::visit(Archive& a) {
+void Measurement::visit(Archive& a) {
   a("name", name);
   a("value", value);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How steps and programs end: states, reasons, figures. What a summary tells of a run's programs comes from here.
+// How steps and programs end: states, reasons, figures. What a summary tells of a run's programs
+// comes from here.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ const char* name_of(StepState state);
 inline bool fell_short(StepState state) { return state > StepState::kDone; }
 
 /// A figure of a step's account: what it came to as a number.
-struct Figure {
+struct Measurement {
   std::string name;  ///< ends in its unit, as keys of summary.json do: "depth_reached_m"
   double value = 0;
 
@@ -42,10 +43,10 @@ struct StepReport {
   std::int64_t step = 0;  ///< its number in the program, the first is 1
   std::string element;    ///< as scene files call it: "drive_to"
   StepState state = StepState::kRunning;
-  std::string reason;           ///< a sentence; empty when it is done and there is nothing to say
-  double start = 0, end = 0;    ///< [s] simulated; end is the present while it runs
-  Vec3 place = Vec3::Zero();    ///< of the base link then [m] in W
-  std::vector<Figure> figures;  ///< the step's own account (Activity::account)
+  std::string reason;         ///< a sentence; empty when it is done and there is nothing to say
+  double start = 0, end = 0;  ///< [s] simulated; end is the present while it runs
+  Vec3 place = Vec3::Zero();  ///< of the base link then [m] in W
+  std::vector<Measurement> figures;  ///< the step's own account (Activity::account)
 
   void visit(Archive& a);
 };

@@ -18,7 +18,8 @@ PlanePose moved(const PlanePose& at, double length, double curvature) {
 
 }  // namespace
 
-Path::Path(const PlanePose& start, std::vector<PathPiece> pieces) : start_(start), pieces_(std::move(pieces)) {
+Path::Path(const PlanePose& start, std::vector<PathPiece> pieces)
+    : start_(start), pieces_(std::move(pieces)) {
   find_legs();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A way to drive: arcs and straight lines, forwards and backwards, with a stop wherever the direction changes.
+// A way to drive: arcs and straight lines, forwards and backwards, with a stop wherever the
+// direction changes.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,9 @@ struct PathLeg {
   double sense = 1;           ///< 1 forwards, -1 backwards
 };
 
-/// Pieces one after the other, from a pose of the middle of the rear axle. Places on it are told by the length driven
-/// since the start, s [m], which grows backwards too. Poses are closed forms: exact to rounding, whatever the length.
+/// Pieces one after the other, from a pose of the middle of the rear axle. Places on it are told by
+/// the length driven since the start, s [m], which grows backwards too. Poses are closed forms:
+/// exact to rounding, whatever the length.
 class Path {
  public:
   Path() = default;
@@ -37,7 +39,8 @@ class Path {
 
   const PlanePose& start() const { return start_; }
   const std::vector<PathPiece>& pieces() const { return pieces_; }
-  /// At least one where the path has any length; a change of direction (a cusp) lies between two of them.
+  /// At least one where the path has any length; a change of direction (a cusp) lies between two of
+  /// them.
   const std::vector<PathLeg>& legs() const { return legs_; }
   int cusps() const { return legs_.empty() ? 0 : static_cast<int>(legs_.size()) - 1; }
   double length() const { return legs_.empty() ? 0 : legs_.back().end; }
@@ -57,7 +60,8 @@ class Path {
   std::vector<PathLeg> legs_;
 };
 
-/// A path of a program, as its operator keeps it for who wants to see where the machine meant to go.
+/// A path of a program, as its operator keeps it for who wants to see where the machine meant to
+/// go.
 struct PlannedPath {
   std::int64_t step = 0;  ///< of the program, the first is 1
   double time = 0;        ///< when it was planned, simulated [s]

@@ -10,22 +10,29 @@ namespace navvy::control {
 namespace {
 
 // An offset fades over some 1.3 m, nearly without swinging over.
-constexpr double kAsideGain = 0.6;   // [1/m^2] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
-constexpr double kTurnedGain = 1.4;  // [1/m] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
-// A bend that begins at once becomes one that grows over twice this: a centimetre beside it, and wheels that can.
+// [1/m^2] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
+constexpr double kAsideGain = 0.6;
+// [1/m] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
+constexpr double kTurnedGain = 1.4;
+// A bend that begins at once becomes one that grows over twice this: a centimetre beside it, and
+// wheels that can.
 constexpr double kHalf = 0.5;  // [m] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
 // Of the rate at which the wheels turn; the rest is for corrections.
-constexpr double kRateShare = 0.8;               // tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
-constexpr double kAhead = 2, kAheadStep = 0.25;  // [m] in which any bend's speed is reached from 1.4 m/s
+// tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
+constexpr double kRateShare = 0.8;
+// [m] in which any bend's speed is reached from 1.4 m/s
+constexpr double kAhead = 2, kAheadStep = 0.25;
 
 }  // namespace
 
 PathFollower::PathFollower(const scene::Drive& drive)
-    : bicycle_(vehicle::equivalent_bicycle(drive)), most_steer_(vehicle::max_bicycle_angle(bicycle_)) {
+    : bicycle_(vehicle::equivalent_bicycle(drive)),
+      most_steer_(vehicle::max_bicycle_angle(bicycle_)) {
   least_radius_ = bicycle_.wheelbase / std::tan(most_steer_);
 }
 
-PathPlace PathFollower::place(const Path& path, const PathLeg& leg, const PlanePose& at, double s) const {
+PathPlace PathFollower::place(const Path& path, const PathLeg& leg, const PlanePose& at,
+                              double s) const {
   PathPlace out{s, 0, 0};
   // Newton's way to the foot of the perpendicular; off by 1e-4 of a step that is centimetres long.
   for (int i = 0; i < 3; ++i) {
@@ -44,19 +51,21 @@ double PathFollower::steer(const Path& path, const PathLeg& leg, const PathPlace
   const double e = place.aside, t = place.turned;
   // In the limit of no offset this is the path's curvature; its pole lies at the bend's centre.
   const double along = ahead * std::cos(t) / std::max(0.2, 1 - ahead * e);
-  const double curvature =
-      along - kTurnedGain * leg.sense * t - kAsideGain * (std::abs(t) < 1e-6 ? 1 : std::sin(t) / t) * e;
+  const double curvature = along - kTurnedGain * leg.sense * t -
+                           kAsideGain * (std::abs(t) < 1e-6 ? 1 : std::sin(t) / t) * e;
   return std::clamp(std::atan(bicycle_.wheelbase * curvature), -most_steer_, most_steer_);
 }
 
 double PathFollower::steer_at_start(const Path& path, const PathLeg& leg) const {
-  return std::clamp(std::atan(bicycle_.wheelbase * path.curvature(leg, leg.begin, kHalf)), -most_steer_, most_steer_);
+  return std::clamp(std::atan(bicycle_.wheelbase * path.curvature(leg, leg.begin, kHalf)),
+                    -most_steer_, most_steer_);
 }
 
 double PathFollower::speed_limit(const Path& path, const PathLeg& leg, double s) const {
   double limit = stopping_speed(leg.end - s);
   const auto angle = [&](double at) {
-    return std::atan(bicycle_.wheelbase * path.curvature(leg, std::clamp(at, leg.begin, leg.end), 0));
+    return std::atan(bicycle_.wheelbase *
+                     path.curvature(leg, std::clamp(at, leg.begin, leg.end), 0));
   };
   for (double ahead = 0; ahead <= kAhead; ahead += kAheadStep) {
     const double turn = std::abs(angle(s + ahead + kHalf) - angle(s + ahead - kHalf));

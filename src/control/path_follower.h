@@ -14,9 +14,10 @@ struct PathPlace {
   double turned = 0;  ///< heading against the path's [rad]
 };
 
-/// Follows one leg of a path with the middle of the rear axle, forwards or backwards alike [Paden 2016, feedback of the
-/// rear wheel's position]. The path's own curvature is fed forward as its mean over a metre, so that the wheels turn
-/// ahead of each bend; the machine slows down until they can.
+/// Follows one leg of a path with the middle of the rear axle, forwards or backwards alike
+/// [Paden 2016, feedback of the rear wheel's position]. The path's own curvature is fed forward as
+/// its mean over a metre, so that the wheels turn ahead of each bend; the machine slows down until
+/// they can.
 class PathFollower {
  public:
   explicit PathFollower(const scene::Drive& drive);
@@ -25,8 +26,8 @@ class PathFollower {
   PathPlace place(const Path& path, const PathLeg& leg, const PlanePose& at, double s) const;
   /// Bicycle angle [rad].
   double steer(const Path& path, const PathLeg& leg, const PathPlace& place) const;
-  /// Largest speed [m/s, > 0] at which the wheels are turned in time for this bend and those ahead, and at which the
-  /// machine still stops at the leg's end.
+  /// Largest speed [m/s, > 0] at which the wheels are turned in time for this bend and those ahead,
+  /// and at which the machine still stops at the leg's end.
   double speed_limit(const Path& path, const PathLeg& leg, double s) const;
   /// Bicycle angle to stand with before the leg begins [rad].
   double steer_at_start(const Path& path, const PathLeg& leg) const;
@@ -39,7 +40,8 @@ class PathFollower {
   double most_steer_ = 0, least_radius_ = 0;
 };
 
-/// A path's bends are wider than the machine's tightest by this, so that steering can still correct.
+/// A path's bends are wider than the machine's tightest by this, so that steering can still
+/// correct.
 inline constexpr double kRadiusReserve = 1.2;
 
 }  // namespace navvy::control

@@ -6,14 +6,16 @@
 
 namespace navvy::control {
 
-double clearance_along(const PathPlanner& planner, const Path& path, double s, double range, double enough) {
+double clearance_along(const PathPlanner& planner, const Path& path, double s, double range,
+                       double enough) {
   constexpr double kStep = 0.1;  // [m]
   const double way = std::max(0.0, path.length() - s);
   const int steps = static_cast<int>(std::ceil(way / kStep));
   double least = range;
   // Both ends are looked at.
   for (int i = 0; i <= steps && least >= enough; ++i)
-    least = std::min(least, planner.clearance(path.at(i < steps ? s + i * kStep : path.length()), range));
+    least = std::min(least,
+                     planner.clearance(path.at(i < steps ? s + i * kStep : path.length()), range));
   return least;
 }
 

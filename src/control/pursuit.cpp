@@ -9,8 +9,8 @@
 namespace navvy::control {
 namespace {
 
-// A long look ahead is calm far away, a short one ends close to the line; below half a wheelbase the steering, which
-// takes a second from lock to lock, would swing about the line.
+// A long look ahead is calm far away, a short one ends close to the line; below half a wheelbase
+// the steering, which takes a second from lock to lock, would swing about the line.
 constexpr double kLongLook = 3.0, kShortLook = 1.5;  // [m] tuned: Drive.ArrivesBesideAndTurned
 constexpr double kCreep = 0.05;                      // [m/s]
 
@@ -27,10 +27,13 @@ Pursuit Pursuit::of(const DriveGoal& goal, const scene::Drive& drive, const Plan
   const scene::AckermannDrive bicycle = vehicle::equivalent_bicycle(drive);
   pursuit.wheelbase = bicycle.wheelbase;
   const Vec2 way = pursuit.sense() * (goal.target - start.p);
-  pursuit.heading = goal.has_heading ? goal.heading : way.norm() < 0.05 ? start.yaw : std::atan2(way.y(), way.x());
-  // max_steer is the inner wheel's: the circle's centre is half a track nearer to it than to the bicycle.
-  pursuit.most_steer =
-      std::atan(bicycle.wheelbase / (bicycle.wheelbase / std::tan(bicycle.max_steer) + 0.5 * bicycle.track));
+  pursuit.heading = goal.has_heading    ? goal.heading
+                    : way.norm() < 0.05 ? start.yaw
+                                        : std::atan2(way.y(), way.x());
+  // max_steer is the inner wheel's: the circle's centre is half a track nearer to it than to the
+  // bicycle.
+  pursuit.most_steer = std::atan(
+      bicycle.wheelbase / (bicycle.wheelbase / std::tan(bicycle.max_steer) + 0.5 * bicycle.track));
   return pursuit;
 }
 
@@ -42,7 +45,8 @@ double Pursuit::steer(const PlanePose& at) const {
   const Vec2 across(-std::sin(heading), std::cos(heading));
   const double aside = (at.p - target).dot(across), e = heading - at.yaw;
   const double look = std::clamp(0.5 * left(at), kShortLook, kLongLook);
-  // The point on the line to aim at, in the machine's frame; an arc through it is tangent to the machine.
+  // The point on the line to aim at, in the machine's frame; an arc through it is tangent to the
+  // machine.
   const double y = sense() * look * std::sin(e) - aside * std::cos(e);
   const double curvature = 2 * y / (look * look + aside * aside);
   return std::clamp(std::atan(wheelbase * curvature), -most_steer, most_steer);

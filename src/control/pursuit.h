@@ -21,10 +21,11 @@ struct DriveGoal {
   double speed = 1.0;          ///< [m/s]; negative: backwards
 };
 
-/// The drive to one goal as a law from the machine's pose to steering and speed [Coulter 1992, CMU-RI-TR-92-01].
+/// The drive to one goal as a law from the machine's pose to steering and speed
+/// [Coulter 1992, CMU-RI-TR-92-01].
 ///
-/// The machine follows the line through the target along `heading`, so it arrives facing that way when the way is long
-/// enough. Backwards the same law looks back along the line.
+/// The machine follows the line through the target along `heading`, so it arrives facing that way
+/// when the way is long enough. Backwards the same law looks back along the line.
 struct Pursuit {
   Vec2 target = Vec2::Zero();
   double heading = 0;  ///< at the target [rad]
@@ -32,7 +33,8 @@ struct Pursuit {
   double wheelbase = 2.8;
   double most_steer = 0.5;  ///< bicycle angle [rad]
 
-  /// The goal as seen from `start`; without a heading the straight line from start to target is followed.
+  /// The goal as seen from `start`; without a heading the straight line from start to target is
+  /// followed.
   static Pursuit of(const DriveGoal& goal, const scene::Drive& drive, const PlanePose& start);
 
   double sense() const { return speed < 0 ? -1 : 1; }
@@ -49,7 +51,8 @@ struct Pursuit {
 PlanePose plane_pose(const Pose& X_WB);
 
 inline constexpr double kDriveAcceleration = 0.5;  ///< [m/s^2]
-inline constexpr double kStopShort = 0.02;         ///< the brake goes on this far ahead of the target [m]
+/// The brake goes on this far ahead of the target [m].
+inline constexpr double kStopShort = 0.02;
 /// Largest speed [m/s, > 0] from which a machine still stops after `left` [m].
 double stopping_speed(double left);
 

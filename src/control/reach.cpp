@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
@@ -17,18 +17,21 @@ std::string number_text(double value, const char* unit) {
   return text;
 }
 std::string metres(double value) { return number_text(value, "m"); }
-std::string place_text(const Vec2& p) { return "(" + number_text(p.x(), "") + ", " + number_text(p.y(), "") + ")"; }
+std::string place_text(const Vec2& p) {
+  return "(" + number_text(p.x(), "") + ", " + number_text(p.y(), "") + ")";
+}
 
 std::string held_text(const scene::Joint& joint, const vehicle::JointState& state, double rest,
                       const std::string& target) {
   const bool turns = joint.type != scene::Joint::Type::kPrismatic;
-  return "joint '" + joint.name + "' stopped " + (turns ? number_text(degrees(rest), "deg") : metres(rest)) +
-         " short of " + target + (state.stalled ? ", at its effort limit" : "") + ": something holds it";
+  return "joint '" + joint.name + "' stopped " +
+         (turns ? number_text(degrees(rest), "deg") : metres(rest)) + " short of " + target +
+         (state.stalled ? ", at its effort limit" : "") + ": something holds it";
 }
 
-ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program, const Pose& X_WB_at_start,
-                       const SurfaceView& surface_in, std::string file, const std::string& name,
-                       const MakePathPlanner& planners)
+ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& program,
+                       const Pose& X_WB_at_start, const SurfaceView& surface_in, std::string file,
+                       const std::string& name, const MakePathPlanner& planners)
     : machine(machine_in),
       surface(surface_in),
       X_WB(X_WB_at_start),
@@ -44,16 +47,17 @@ ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& p
 
 std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {
-    const Step& step = step_of(program_.steps[index_]);
+    const ProgramStep& step = step_of(program_.steps[index_]);
     step.check_reach(*this);
-    // A drive that misses its target has been told of; the steps after it are judged as if it arrived.
+    // A drive that misses its target has been told of; the steps after it are judged as if it
+    // arrived.
     if (const std::optional<Pose> next = step.station(machine, X_WB, surface)) X_WB = *next;
   }
   return std::exchange(faults_, {});
 }
 
-void ReachCheck::fault(const std::string& element, const std::string& value, const std::string& rule,
-                       const std::string& remedy) {
+void ReachCheck::fault(const std::string& element, const std::string& value,
+                       const std::string& rule, const std::string& remedy) {
   add(Fault::Severity::kError, element, value, rule, remedy);
 }
 
@@ -64,19 +68,22 @@ void ReachCheck::warn(const std::string& element, const std::string& value, cons
 
 bool ReachCheck::after_digging() const {
   const auto end = program_.steps.begin() + static_cast<std::ptrdiff_t>(index_);
-  return std::any_of(program_.steps.begin(), end,
-                     [](const scene::ProgramStep& step) { return step_of(step).dump_point().has_value(); });
+  return std::any_of(program_.steps.begin(), end, [](const scene::ProgramStep& step) {
+    return step_of(step).dump_point().has_value();
+  });
 }
 
 void ReachCheck::add(Fault::Severity severity, const std::string& element, const std::string& value,
                      const std::string& rule, const std::string& remedy) {
   // Programs built in C++ have no lines.
   const int line = index_ < program_.lines.size() ? program_.lines[index_] : 0;
-  faults_.push_back({severity, file_, line, name_ + "/navvy:program/step " + std::to_string(index_ + 1) + "/" + element,
+  faults_.push_back({severity, file_, line,
+                     name_ + "/navvy:program/step " + std::to_string(index_ + 1) + "/" + element,
                      value, rule, remedy});
 }
 
-void ReachCheck::require_swing(const Arm& arm, const char* element, double swing, const char* remedy) {
+void ReachCheck::require_swing(const ArmKinematics& arm, const char* element, double swing,
+                               const char* remedy) {
   // Angles of the joint, as the engine stops it there.
   if (!arm.swing_limited() || (swing >= arm.swing_lower() && swing <= arm.swing_upper())) return;
   fault(element, number_text(degrees(swing), "deg"),
@@ -85,18 +92,20 @@ void ReachCheck::require_swing(const Arm& arm, const char* element, double swing
         remedy);
 }
 
-std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                               const SurfaceView& surface, const std::string& file, const std::string& name,
+std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
+                               const Pose& X_WB, const SurfaceView& surface,
+                               const std::string& file, const std::string& name,
                                const MakePathPlanner& planners) {
   return ReachCheck(machine, program, X_WB, surface, file, name, planners).run();
 }
 
-std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program, const Pose& X_WB,
-                           const SurfaceView& surface) {
+std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program,
+                           const Pose& X_WB, const SurfaceView& surface) {
   std::vector<Pose> out{X_WB};
   // Steps that leave the machine where it is are no stations.
   for (const scene::ProgramStep& step : program.steps)
-    if (const std::optional<Pose> next = step_of(step).station(machine, out.back(), surface)) out.push_back(*next);
+    if (const std::optional<Pose> next = step_of(step).station(machine, out.back(), surface))
+      out.push_back(*next);
   return out;
 }
 

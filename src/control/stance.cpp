@@ -9,8 +9,9 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kTilt = radians(1.5);  // the chassis moves on its tyres; at twice this the arm waits
-constexpr double kBaseTime = 0.25;      // smoothing of the chassis' pose [s]
+// The chassis moves on its tyres; at twice this the arm waits
+constexpr double kTilt = radians(1.5);
+constexpr double kBaseTime = 0.25;  // smoothing of the chassis' pose [s]
 
 }  // namespace
 
@@ -22,7 +23,8 @@ void Stance::begin(const Pose& X_WB) {
 }
 
 void Stance::settle() {
-  const Vec3 up = Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized() * Vec3::UnitZ();
+  const Vec3 up =
+      Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized() * Vec3::UnitZ();
   up_ = {up.x(), up.y(), up.z()};
 }
 
@@ -30,7 +32,8 @@ void Stance::follow(const Pose& X_WB, double dt) {
   // A first-order filter, exact for any step.
   const double share = 1 - std::exp(-dt / kBaseTime);
   const Eigen::Quaterniond now(X_WB.linear());
-  const Eigen::Quaterniond q = Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).slerp(share, now);
+  const Eigen::Quaterniond q =
+      Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).slerp(share, now);
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     base_[k] = mix(base_[k], X_WB.translation()[i], share);
@@ -41,18 +44,20 @@ void Stance::follow(const Pose& X_WB, double dt) {
   base_[6] = q.z();
 }
 
-Pose Stance::swing_frame(const Arm& arm) const {
+Pose Stance::swing_frame(const ArmKinematics& arm) const {
   Pose X_WB = Pose::Identity();
   // slerp keeps the length to rounding only.
-  X_WB.linear() = Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized().toRotationMatrix();
+  X_WB.linear() =
+      Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized().toRotationMatrix();
   X_WB.translation() = Vec3(base_[0], base_[1], base_[2]);
   return X_WB * arm.X_BS();
 }
 
-double Stance::rise(const Pose& X_WB, const Arm& arm, double swing) const {
-  // Sine of the angle between the arm's direction and the plane on which the base stood: turning about the upright
-  // counts nothing, nor does leaning to the arm's side.
-  const Vec3 outward = X_WB.linear() * arm.X_BS().linear() * Vec3(std::cos(swing), std::sin(swing), 0);
+double Stance::rise(const Pose& X_WB, const ArmKinematics& arm, double swing) const {
+  // Sine of the angle between the arm's direction and the plane on which the base stood: turning
+  // about the upright counts nothing, nor does leaning to the arm's side.
+  const Vec3 outward =
+      X_WB.linear() * arm.X_BS().linear() * Vec3(std::cos(swing), std::sin(swing), 0);
   return std::asin(std::clamp(outward.dot(Vec3(up_[0], up_[1], up_[2])), -1.0, 1.0));
 }
 

@@ -9,28 +9,34 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kLag = 0.12;                       // tip this far behind its path: the path waits [m]
-constexpr double kHeld = 0.08;                      // [m/s] a waiting tip slower than this is held by the soil
-constexpr double kGiveIn = 0.2;                     // [s] of being held before the path rises
-constexpr double kLiftRate = 0.3, kSinkRate = 0.1;  // of the path while held, and back when free [m/s]
-// A nose that rises by more than this is let down, from so much on [rad] as fast as this [m/s]: 5 deg/s, with the lip
-// some 6 m ahead of the axle about which the machine turns. tuned: digging up a slope of 12 deg in loam the nose rises
-// by 2.8 deg at most.
+// Tip this far behind its path: the path waits [m]
+constexpr double kLag = 0.12;
+// [m/s] a waiting tip slower than this is held by the soil
+constexpr double kHeld = 0.08;
+constexpr double kGiveIn = 0.2;  // [s] of being held before the path rises
+// Of the path while held, and back when free [m/s]
+constexpr double kLiftRate = 0.3, kSinkRate = 0.1;
+// A nose that rises by more than this is let down, from so much on [rad] as fast as this [m/s]: 5
+// deg/s, with the lip some 6 m ahead of the axle about which the machine turns. tuned: digging up a
+// slope of 12 deg in loam the nose rises by 2.8 deg at most.
 constexpr double kRise = radians(1.5), kRiseMost = radians(2.5), kReliefRate = 0.5;
 
 }  // namespace
 
-TipPath::Solution TipPath::solve(const Workplace& place, const Stance& stance, const Vec2& p, double height) const {
+TipPath::Solution TipPath::solve(const OperatorContext& place, const Stance& stance, const Vec2& p,
+                                 double height) const {
   const SwingPoint tip = swing_point(stance.swing_frame(*place.arm), Vec3(p.x(), p.y(), height));
   BucketPose pose{tip.reach, tip.height, tip.level(angle)};
   // Out of reach the arm keeps its angles.
   ArmAngles q = place.arm_angles();
   const bool found = place.arm->inverse_nearest(pose, q);
-  const double swing = place.handover.q[0] + std::remainder(tip.swing - place.handover.q[0], 2 * kPi);
+  const double swing =
+      place.handover.q[0] + std::remainder(tip.swing - place.handover.q[0], 2 * kPi);
   return {with_arm(swing, q), pose.angle + tip.pitch, found};
 }
 
-Axes TipPath::start(const Workplace& place, const Stance& stance, const Vec2& p, double height, double tip_angle) {
+Axes TipPath::start(const OperatorContext& place, const Stance& stance, const Vec2& p,
+                    double height, double tip_angle) {
   z = height;
   angle = tip_angle;
   lift = 0;
@@ -41,15 +47,16 @@ Axes TipPath::start(const Workplace& place, const Stance& stance, const Vec2& p,
   return solution.q;
 }
 
-void TipPath::follow(Workplace& place, const Stance& stance, const Vec2& p, const Observation& seen, double dt,
-                     bool curling) {
+void TipPath::follow(OperatorContext& place, const Stance& stance, const Vec2& p,
+                     const Observation& seen, double dt, bool curling) {
   // Out of reach `reached` stays what it last was.
   const Solution solution = solve(place, stance, p, z + lift);
   if (solution.found) reached = solution.angle;
   Axes& q = place.handover.q;
   for (std::size_t i = 0; i < 4; ++i) {
     // The servo gets no jumps, whatever the pose of the machine or a limit of the arm did.
-    const double rate = 1.5 * std::min(2.0, std::max(0.1, seen.joints[place.joint(i)].velocity_limit));
+    const double rate =
+        1.5 * std::min(2.0, std::max(0.1, seen.joints[place.joint(i)].velocity_limit));
     q[i] += std::clamp(solution.q[i] - q[i], -rate * dt, rate * dt);
   }
   feel_stall(place, stance, seen, dt, curling);
@@ -64,8 +71,8 @@ void TipPath::visit(Archive& a) {
   a("stall", stall_);
 }
 
-void TipPath::feel_stall(const Workplace& place, const Stance& stance, const Observation& seen, double dt,
-                         bool curling) {
+void TipPath::feel_stall(const OperatorContext& place, const Stance& stance,
+                         const Observation& seen, double dt, bool curling) {
   ArmAngles real, soon;
   bool stalled = false;
   constexpr double kAhead = 0.01;  // [s]
@@ -75,9 +82,11 @@ void TipPath::feel_stall(const Workplace& place, const Stance& stance, const Obs
     soon[i] = joint.position + kAhead * joint.velocity;
     stalled = stalled || joint.stalled;
   }
-  const Arm& arm = *place.arm;
-  const BucketPose wanted = arm.forward(place.arm_angles()), tip = arm.forward(real), next = arm.forward(soon);
-  // How far the tip lags behind what the arm could reach, and how fast it goes, from two poses a moment apart.
+  const ArmKinematics& arm = *place.arm;
+  const BucketPose wanted = arm.forward(place.arm_angles()), tip = arm.forward(real),
+                   next = arm.forward(soon);
+  // How far the tip lags behind what the arm could reach, and how fast it goes, from two poses a
+  // moment apart.
   const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);
   const double speed = std::hypot(next.reach - tip.reach, next.height - tip.height) / kAhead;
   const double footing = stance.footing(seen.X_WB);

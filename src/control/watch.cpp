@@ -17,14 +17,16 @@ StepState Watch::look(const Observation& seen, double dt, std::string& reason) {
   const vehicle::Stability& stands = seen.stability;
   if (!stands.free) return StepState::kRunning;
   const std::string tilt = "it tilts by " + number_text(degrees(stands.tilt), "deg");
-  const std::string outside = "its centre of mass is " + metres(-stands.margin) + " outside its feet";
+  const std::string outside =
+      "its centre of mass is " + metres(-stands.margin) + " outside its feet";
   outside_ = stands.margin < 0 && stands.tilt_rate > kTiltRate ? outside_ + dt : 0;
   if (stands.tilt > kFarthestTilt || outside_ > kOutside) {
     reason = stands.margin < 0 ? outside + " and " + tilt : tilt;
     return StepState::kTipped;
   }
   if (seen.wheels_under >= 0.5) {
-    reason = "the ground is over the tops of " + number_text(100 * seen.wheels_under, "%") + " of its wheels";
+    reason = "the ground is over the tops of " + number_text(100 * seen.wheels_under, "%") +
+             " of its wheels";
     return StepState::kBuried;
   }
   return StepState::kRunning;

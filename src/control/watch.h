@@ -15,8 +15,9 @@ class Watch {
  public:
   /// kRunning while all is well; else the state, and in `reason` why.
   ///
-  /// A machine tips when it is past 45 deg, or when its centre of mass has been outside its feet for a while
-  /// and it goes on turning over. It is buried when the ground is over the tops of half of its wheels.
+  /// A machine tips when it is past 45 deg, or when its centre of mass has been outside its feet
+  /// for a while and it goes on turning over. It is buried when the ground is over the tops of half
+  /// of its wheels.
   StepState look(const Observation& seen, double dt, std::string& reason);
 
   void visit(Archive& a) { a("outside", outside_); }

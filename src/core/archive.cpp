@@ -5,7 +5,8 @@
 
 namespace navvy {
 
-// Put together only when something is wrong or a byte map is asked for: a visit itself keeps pointers and numbers.
+// Put together only when something is wrong or a byte map is asked for: a visit itself keeps
+// pointers and numbers.
 std::string Archive::path() const {
   std::string out;
   for (const Place& place : places_) {
@@ -19,11 +20,12 @@ std::string Archive::path() const {
   return out;
 }
 
-// A state that does not fit is bad input, not a bug: it may come from an older version or a broken disk, so the message
-// says what to do about it and where in the state the visit stood.
+// A state that does not fit is bad input, not a bug: it may come from an older version or a broken
+// disk, so the message says what to do about it and where in the state the visit stood.
 void Archive::fail(const std::string& rule) const {
   throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, path(), "", rule,
-                         "it was written by another version of Navvy, for another scene, or damaged; record it again"});
+                         "it was written by another version of Navvy, for another scene, or "
+                         "damaged; record it again"});
 }
 
 }  // namespace navvy

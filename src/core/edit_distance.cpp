@@ -7,12 +7,14 @@
 namespace navvy {
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  // One row of the table at a time, since only the row above and its left neighbour are ever asked for: memory follows
-  // the second word, time is the product of the lengths, and the words are names of a few letters.
+  // One row of the table at a time, since only the row above and its left neighbour are ever asked
+  // for: memory follows the second word, time is the product of the lengths, and the words are
+  // names of a few letters.
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    // Before it is overwritten, row[j - 1] of the row above is kept here, for it is what a replacement builds on.
+    // Before it is overwritten, row[j - 1] of the row above is kept here, for it is what a
+    // replacement builds on.
     std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
@@ -53,7 +55,8 @@ std::string nearest_name(const std::vector<std::string>& names, const std::strin
   std::size_t least = static_cast<std::size_t>(-1);
   for (const std::string& name : names) {
     const std::size_t distance = unlikeness(name, wanted);
-    // Strictly less, so that the first of equals wins and a message does not change with the order of a set.
+    // Strictly less, so that the first of equals wins and a message does not change with the order
+    // of a set.
     if (distance < least) least = distance, nearest = name;
   }
   return nearest;

@@ -6,8 +6,8 @@
 namespace navvy {
 
 std::string Fault::text() const {
-  // The layout of compilers, `file:line: error:`, which editors turn into links. Parts that are unknown leave no trace,
-  // not even a separator.
+  // The layout of compilers, `file:line: error:`, which editors turn into links. Parts that are
+  // unknown leave no trace, not even a separator.
   std::string out;
   if (!file.empty()) {
     out += file;
@@ -34,7 +34,8 @@ std::string join(const std::vector<Fault>& faults) {
 }
 }  // namespace
 
-InputError::InputError(std::vector<Fault> faults) : Error(join(faults)), faults_(std::move(faults)) {}
+InputError::InputError(std::vector<Fault> faults)
+    : Error(join(faults)), faults_(std::move(faults)) {}
 InputError::InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
 
 }  // namespace navvy

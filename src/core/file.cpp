@@ -32,7 +32,8 @@ const char* kind_of(const struct stat& found) {
                                    : "a device";
 }
 
-/// A rename takes the place of a pipe or a device node as of any other name, and those who use it would never know.
+/// A rename takes the place of a pipe or a device node as of any other name, and those who use it
+/// would never know.
 void require_replaceable(const std::string& path) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0) {
@@ -49,13 +50,13 @@ void require_replaceable(const std::string& path) {
   const fs::path folder = fs::path(followed(path)).parent_path();
   std::error_code ignored;
   if (code == ENOENT && !folder.empty() && !fs::exists(folder, ignored))
-    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() + "' (make it: mkdir -p '" +
-                    folder.string() + "')");
+    throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() +
+                    "' (make it: mkdir -p '" + folder.string() + "')");
   fail("create", partial_name(path), code);
 }
 
-// Until the rename of commit_file a reader of `path` sees the old content; whatever fails before it leaves no partial
-// file behind.
+// Until the rename of commit_file a reader of `path` sees the old content; whatever fails before it
+// leaves no partial file behind.
 void write_bytes(const std::string& path, const char* data, std::size_t size) {
   require_replaceable(path);
   const std::string part = partial_name(path);
@@ -102,8 +103,8 @@ std::string partial_name(const std::string& path) { return followed(path) + ".pa
 void commit_file(const std::string& path) {
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
-  // Without the flush a crash of the machine could leave the new name on an empty file: the rename may reach the disk
-  // before the data does.
+  // Without the flush a crash of the machine could leave the new name on an empty file: the rename
+  // may reach the disk before the data does.
   if (fd < 0) {
     const int cause = errno;
     ::unlink(part.c_str());
@@ -130,7 +131,8 @@ void commit_file(const std::string& path) {
 }
 
 void require_writable(const std::string& path) {
-  // What is no file would let the partial file be made and only the rename at the end of the run fail.
+  // What is no file would let the partial file be made and only the rename at the end of the run
+  // fail.
   require_replaceable(path);
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
@@ -149,7 +151,8 @@ void write_file_atomically(const std::string& path, const std::vector<char>& con
 void require_regular(const std::string& path) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0 || S_ISREG(found.st_mode)) return;
-  throw FileError("cannot read '" + path + "': it is " + kind_of(found) + ", a plain file is needed");
+  throw FileError("cannot read '" + path + "': it is " + kind_of(found) +
+                  ", a plain file is needed");
 }
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -169,7 +172,8 @@ std::vector<char> read_file(const std::string& path, std::size_t most) {
     // Counted while reading, as some files do not tell their size.
     if (n > most - content.size()) {
       std::fclose(file);
-      throw FileError("cannot read '" + path + "': it has more than " + std::to_string(most) + " bytes");
+      throw FileError("cannot read '" + path + "': it has more than " + std::to_string(most) +
+                      " bytes");
     }
     content.insert(content.end(), buffer, buffer + n);
   }

@@ -12,10 +12,11 @@ namespace navvy {
 
 /// Sums up a state into one number, so that two runs can be compared without keeping either.
 ///
-/// It is made for finding differences, not against intent: who wants a collision finds one. The bits count, not the
-/// values: -0.0 and 0.0 differ, and so do two NaNs with other payloads; a run that agrees in value and not in bits has
-/// diverged somewhere. The result depends on the order of what is fed, so whoever feeds a set must have an order for
-/// it. It is the same on every little-endian machine.
+/// It is made for finding differences, not against intent: who wants a collision finds one. The
+/// bits count, not the values: -0.0 and 0.0 differ, and so do two NaNs with other payloads; a run
+/// that agrees in value and not in bits has diverged somewhere. The result depends on the order of
+/// what is fed, so whoever feeds a set must have an order for it. It is the same on every
+/// little-endian machine.
 class StateHash {
  public:
   /// The length is part of it: an array of zeros hashes differently from a longer one. So an
@@ -34,8 +35,8 @@ class StateHash {
     // One byte a round for the few that are left.
     for (; size > 0; --size, ++p) mix(*p);
   }
-  /// One number or enum, widened to a word with zeros above, so that its type does not show: an int of 1 and a byte of
-  /// 1 hash alike. Structs are refused, as their padding is noise.
+  /// One number or enum, widened to a word with zeros above, so that its type does not show: an int
+  /// of 1 and a byte of 1 hash alike. Structs are refused, as their padding is noise.
   template <class T>
   void value(const T& v) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "hash only values without padding");

@@ -6,7 +6,8 @@
 namespace navvy {
 namespace {
 LogSink& sink() {
-  // Made at its first use, so that a line may be logged before main by the construction of another file's globals.
+  // Made at its first use, so that a line may be logged before main by the construction of another
+  // file's globals.
   static LogSink instance;
   return instance;
 }

@@ -10,7 +10,8 @@
 
 namespace navvy {
 
-// Numbers are written as they lie in memory, so a state travels between little-endian machines only.
+// Numbers are written as they lie in memory, so a state travels between little-endian machines
+// only.
 static_assert(std::endian::native == std::endian::little, "states are little-endian");
 
 namespace {
@@ -22,13 +23,16 @@ using Tag = std::array<char, kTagSize>;
 Tag tag_of(const char* text) {
   Tag tag{};
   const std::size_t size = std::strlen(text);
-  // A tag fills at most all but one byte, so that the zero which ends it is always there when it is read back.
-  if (size == 0 || size >= kTagSize) throw Error("archive: bad section '" + std::string(text) + "'");
+  // A tag fills at most all but one byte, so that the zero which ends it is always there when it is
+  // read back.
+  if (size == 0 || size >= kTagSize)
+    throw Error("archive: bad section '" + std::string(text) + "'");
   std::memcpy(tag.data(), text, size);
   return tag;
 }
 
-/// Feeds fields to a hash. Sections have no say: the same values in another section are the same state.
+/// Feeds fields to a hash. Sections have no say: the same values in another section are the same
+/// state.
 class HashArchive final : public Archive {
  public:
   explicit HashArchive(StateHash& sum) : Archive(false), sum_(sum) {}
@@ -96,8 +100,8 @@ class LoadArchive final : public Archive {
   }
 
  private:
-  // The one place that reads: whatever a visit asks for, nothing beyond the innermost section is touched. Sections'
-  // heads come this way too.
+  // The one place that reads: whatever a visit asks for, nothing beyond the innermost section is
+  // touched. Sections' heads come this way too.
   void scalar(void* data, std::size_t size) override {
     if (size > left()) fail("the section ends too early");
     if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
@@ -115,7 +119,8 @@ class LoadArchive final : public Archive {
     std::uint32_t number = 0;
     scalar(&number, sizeof number);
     if (number != version)
-      fail("version " + std::to_string(number) + " of this section, this program reads " + std::to_string(version));
+      fail("version " + std::to_string(number) + " of this section, this program reads " +
+           std::to_string(version));
     std::uint64_t size = 0;
     scalar(&size, sizeof size);
     // `left` counts within the section around, so no section reaches out of another.
@@ -123,7 +128,8 @@ class LoadArchive final : public Archive {
     ends_.push_back(at_ + size);
   }
   void end_section() override {
-    // Bytes too many mean that the visit that saved had other fields: what was read before may be nonsense.
+    // Bytes too many mean that the visit that saved had other fields: what was read before may be
+    // nonsense.
     if (left() > 0) fail("the section holds more than this version reads");
     ends_.pop_back();
   }
@@ -139,8 +145,9 @@ class LoadArchive final : public Archive {
 // The last field that begins at or before the byte; heads of sections lie between fields.
 // Fields lie in the order of their offsets, so a search by halves finds it.
 const ByteMap::Field* ByteMap::at(std::size_t offset) const {
-  const auto after = std::upper_bound(fields.begin(), fields.end(), offset,
-                                      [](std::size_t value, const Field& field) { return value < field.offset; });
+  const auto after =
+      std::upper_bound(fields.begin(), fields.end(), offset,
+                       [](std::size_t value, const Field& field) { return value < field.offset; });
   if (after == fields.begin()) return nullptr;
   const Field& field = *(after - 1);
   return offset < field.offset + field.size ? &field : nullptr;
@@ -158,7 +165,8 @@ std::vector<char> saved_state::save(const Visit& visit, ByteMap* map) {
 }
 
 void saved_state::load(std::vector<char> bytes, const Visit& visit, bool whole) {
-  // When the visit throws, the object is half loaded, and the caller throws it away or loads it again.
+  // When the visit throws, the object is half loaded, and the caller throws it away or loads it
+  // again.
   LoadArchive archive(std::move(bytes));
   visit(archive);
   if (whole) archive.finish();

@@ -22,8 +22,9 @@ constexpr std::size_t kName = 11;
 constexpr std::size_t kHead = sizeof kMagic + 2 * sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::string& where, const std::string& rule) {
-  throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, where, "", rule,
-                         "it is damaged, no snapshot, or of another version of Navvy; record it again"});
+  throw InputError(
+      Fault{Fault::Severity::kError, "snapshot", 0, where, "", rule,
+            "it is damaged, no snapshot, or of another version of Navvy; record it again"});
 }
 
 void append(std::vector<char>& to, const void* data, std::size_t size) {
@@ -44,18 +45,22 @@ std::uint64_t checksum(std::uint64_t place, const char* data, std::size_t size) 
   return sum.digest();
 }
 
-/// Length of the section that begins at `at`, with its head; 0 when there is none that fits into `size`.
+/// Length of the section that begins at `at`, with its head; 0 when there is none that fits into
+/// `size`.
 std::size_t section_size(const char* at, std::size_t size) {
   if (size < kSectionHead) return 0;
   const std::uint64_t body = number_at(at + kSectionHead - sizeof(std::uint64_t));
   return body <= size - kSectionHead ? kSectionHead + static_cast<std::size_t>(body) : 0;
 }
 
-/// "section 2, 'ground'": its place and, as far as that can be read, the name that its head begins with.
+/// "section 2, 'ground'": its place and, as far as that can be read, the name that its head begins
+/// with.
 std::string name_of(std::uint64_t place, const char* at, std::size_t size) {
   // A head is {name, version, length}.
-  const std::size_t most = std::min(size, kSectionHead - sizeof(std::uint32_t) - sizeof(std::uint64_t));
-  const std::string name(at, std::find_if_not(at, at + most, [](char c) { return c > ' ' && c < 0x7F; }));
+  const std::size_t most =
+      std::min(size, kSectionHead - sizeof(std::uint32_t) - sizeof(std::uint64_t));
+  const std::string name(
+      at, std::find_if_not(at, at + most, [](char c) { return c > ' ' && c < 0x7F; }));
   return "section " + std::to_string(place + 1) + (name.empty() ? "" : ", '" + name + "'");
 }
 
@@ -66,7 +71,8 @@ std::vector<char> seal(const std::vector<char>& state) {
   std::uint64_t place = 0;
   for (std::size_t at = 0; at < state.size(); ++place) {
     const std::size_t size = section_size(state.data() + at, state.size() - at);
-    if (size == 0) throw Error("seal: byte " + std::to_string(at) + " of the state lies in no section");
+    if (size == 0)
+      throw Error("seal: byte " + std::to_string(at) + " of the state lies in no section");
     const std::uint64_t sum = checksum(place, state.data() + at, size);
     append(out, &sum, sizeof sum);
     append(out, state.data() + at, size);
@@ -84,9 +90,11 @@ std::vector<char> unseal(const std::vector<char>& content) {
   if (content.size() < kHead || std::memcmp(content.data(), kMagic, sizeof kMagic) != 0)
     refuse("head", "this is no snapshot of this version");
   const char* const numbers = content.data() + sizeof kMagic;
-  if (number_at(numbers + sizeof(std::uint64_t)) != checksum(0, content.data(), kHead - sizeof(std::uint64_t)))
+  if (number_at(numbers + sizeof(std::uint64_t)) !=
+      checksum(0, content.data(), kHead - sizeof(std::uint64_t)))
     refuse("head", "the checksum does not fit");
-  if (number_at(numbers) != content.size()) refuse("head", "the file is cut short or longer than it was written");
+  if (number_at(numbers) != content.size())
+    refuse("head", "the file is cut short or longer than it was written");
   std::vector<char> out;
   out.reserve(content.size());
   std::uint64_t place = 0;
@@ -97,7 +105,8 @@ std::vector<char> unseal(const std::vector<char>& content) {
     const std::string where = name_of(place, section, left - sizeof(std::uint64_t));
     const std::size_t size = section_size(section, left - sizeof(std::uint64_t));
     if (size == 0) refuse(where, "the section is cut short");
-    if (number_at(content.data() + at) != checksum(place, section, size)) refuse(where, "the checksum does not fit");
+    if (number_at(content.data() + at) != checksum(place, section, size))
+      refuse(where, "the checksum does not fit");
     append(out, section, size);
     at += sizeof(std::uint64_t) + size;
   }

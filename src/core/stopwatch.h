@@ -6,8 +6,9 @@
 
 namespace navvy {
 
-/// Seconds since construction or `restart`. The clock is monotonic: setting the machine's time does not show. Reading
-/// it costs some tens of nanoseconds, so it belongs around a stage and not around a particle.
+/// Seconds since construction or `restart`. The clock is monotonic: setting the machine's time does
+/// not show. Reading it costs some tens of nanoseconds, so it belongs around a stage and not around
+/// a particle.
 class Stopwatch {
  public:
   /// Reading it does not stop it; ask as often as you like.
@@ -21,9 +22,9 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Adds its lifetime to a sum of seconds. The sum must outlive it. It counts also when the scope is left by an
-/// exception, and what is queued on a device within it is not waited for: only the host's time is meant. Laps of one
-/// sum must not nest, or time counts twice.
+/// Adds its lifetime to a sum of seconds. The sum must outlive it. It counts also when the scope is
+/// left by an exception, and what is queued on a device within it is not waited for: only the
+/// host's time is meant. Laps of one sum must not nest, or time counts twice.
 class Lap {
  public:
   explicit Lap(double& sum) : sum_(sum) {}

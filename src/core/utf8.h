@@ -7,8 +7,8 @@
 
 namespace navvy {
 
-/// The place of the first byte that is not part of well-formed UTF-8 (RFC 3629: no surrogates, nothing overlong, at
-/// most U+10FFFF); npos for good text.
+/// The place of the first byte that is not part of well-formed UTF-8 (RFC 3629: no surrogates,
+/// nothing overlong, at most U+10FFFF); npos for good text.
 std::size_t first_bad_utf8(std::string_view text);
 
 }  // namespace navvy

@@ -12,11 +12,13 @@
 
 namespace navvy::coupling {
 
-/// A value for each column that was ever asked for by `at`, walked and saved by iy * nx + ix as a map of that key.
+/// A value for each column that was ever asked for by `at`, walked and saved by iy * nx + ix as a
+/// map of that key.
 ///
-/// Columns of a row lie together, 32 to a strip, and a strip holds the values of those that have one side by side: 3
-/// bytes a column beside the value itself where a rut runs along the rows, 24 where one of four columns runs across
-/// them; a node of a map takes 56. To look a column up is to search the strips, of which there are fewer than columns.
+/// Columns of a row lie together, 32 to a strip, and a strip holds the values of those that have
+/// one side by side: 3 bytes a column beside the value itself where a rut runs along the rows, 24
+/// where one of four columns runs across them; a node of a map takes 56. To look a column up is to
+/// search the strips, of which there are fewer than columns.
 template <class T>
 class ColumnTable {
  public:
@@ -29,7 +31,8 @@ class ColumnTable {
     const auto place = static_cast<std::ptrdiff_t>(strip.before(bit));
     if ((strip.mask & bit) == 0) {
       // By a few at a time: doubling would leave a third unused.
-      if (strip.values.size() == strip.values.capacity()) strip.values.reserve(strip.values.size() + kMoreRoom);
+      if (strip.values.size() == strip.values.capacity())
+        strip.values.reserve(strip.values.size() + kMoreClearance);
       strip.values.emplace(strip.values.begin() + place);
       strip.mask |= bit;
       ++size_;
@@ -70,13 +73,15 @@ class ColumnTable {
 
  private:
   static constexpr int kStrip = 32;  // columns, a bit each
-  static constexpr std::size_t kMoreRoom = 4;
+  static constexpr std::size_t kMoreClearance = 4;
 
   struct Strip {
     std::uint32_t mask = 0;  // which columns have a value
     std::vector<T> values;   // of those, in their order
 
-    std::size_t before(std::uint32_t bit) const { return static_cast<std::size_t>(std::popcount(mask & (bit - 1))); }
+    std::size_t before(std::uint32_t bit) const {
+      return static_cast<std::size_t>(std::popcount(mask & (bit - 1)));
+    }
   };
 
   std::int64_t strips_x() const { return (static_cast<std::int64_t>(nx_) + kStrip - 1) / kStrip; }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/stopwatch.h"
-#include "coupling/footings.h"
 #include "coupling/hitching.h"
-#include "coupling/placing.h"
+#include "coupling/machine_placing.h"
+#include "coupling/support_areas.h"
 
 namespace navvy::coupling {
 namespace {
@@ -16,7 +16,8 @@ constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and
 
 }  // namespace
 
-Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::Engine& kinematic, soil::Solver& solver,
+Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
+                   vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
                    heightfield::Ground& ground)
     : world_(world),
       dynamic_(engine),
@@ -29,7 +30,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     // Both engines number their machines from 0: who asks for one says its number in the scene.
-    vehicle::Engine& mover = placed.machine.kinematic ? kinematic : engine;
+    vehicle::PhysicsEngine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
     if (placed.machine.kinematic) placed_.back().mover = engine.add_mover(placed.machine);
     for (const scene::Wheel& wheel : placed.machine.wheels) has_tracks_ |= wheel.track.has_value();
@@ -48,7 +49,9 @@ Coupling::Coupling(const scene::Scene& world, vehicle::Engine& engine, vehicle::
 }
 
 double Coupling::payload(const ToolLoad& tool) const {
-  const auto pose = [&](const ToolLoad& t) { return engine(t.machine).link(index(t.machine), t.link).X_WL; };
+  const auto pose = [&](const ToolLoad& t) {
+    return engine(t.machine).link(index(t.machine), t.link).X_WL;
+  };
   const auto machine = [&](const ToolLoad& t) -> const scene::Machine& {
     return world_.machines[static_cast<std::size_t>(t.machine)].machine;
   };
@@ -66,7 +69,8 @@ std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particl
     const scene::Machine& machine = world_.machines[static_cast<std::size_t>(tool.machine)].machine;
     // Soil before a blade lies on the ground, whatever the blade's hull says.
     if (machine.is_bucket(tool.shell) || machine.is_bed(tool.shell))
-      containers.push_back({tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
+      containers.push_back(
+          {tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
   }
   return solver_.held(particles, containers);
 }
@@ -75,7 +79,8 @@ void Coupling::step(double dt) {
   // Soil acts over the interval that starts at these poses.
   std::vector<Pose> before;
   before.reserve(tools_.size());
-  for (const ToolLoad& tool : tools_) before.push_back(engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
+  for (const ToolLoad& tool : tools_)
+    before.push_back(engine(tool.machine).link(index(tool.machine), tool.link).X_WL);
   {
     const Lap lap(time_share_.vehicle);
     if (dynamic_.machine_count() > 0) {
@@ -116,7 +121,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     motions[i].w_WT = link.w_WL;
     motions[i].inverse_mass = engine(tool.machine).inverse_mass(index(tool.machine), tool.link);
   }
-  solver_.step(dt, motions, impulses, footings(dt));
+  solver_.step(dt, motions, impulses, support_areas(dt));
   const double blend = 1 - std::exp(-2 * kPi * kForceCutoff * dt);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     ToolLoad& tool = tools_[i];
@@ -129,12 +134,13 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.rock_W += blend * (rock - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
       engine(tool.machine)
-          .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W, impulse.p_W, dt);
+          .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W,
+                                 impulse.p_W, dt);
   }
 }
 
-std::vector<soil::Footing> Coupling::footings(double dt) const {
-  std::vector<soil::Footing> out;
+std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
+  std::vector<soil::SupportArea> out;
   // Tyres as ruts number them.
   std::size_t tyre = 0;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
@@ -143,7 +149,8 @@ std::vector<soil::Footing> Coupling::footings(double dt) const {
       const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
       // What moves as it is told stands on nothing.
       if (machine.kinematic) continue;
-      add_footings(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load, kRutInterval * dt, out);
+      add_support_areas(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load,
+                        kRutInterval * dt, out);
     }
   }
   return out;
@@ -152,26 +159,28 @@ std::vector<soil::Footing> Coupling::footings(double dt) const {
 void Coupling::press_ruts(double dt) {
   // All at once: what one wheel does not bear another may.
   std::vector<LoadedTyre> tyres;
-  std::vector<terramechanics::BeltPatch> belts;
+  std::vector<terramechanics::TrackPatch> running_tracks;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
-    const vehicle::Engine& engine = *placed_[m].engine;
+    const vehicle::PhysicsEngine& engine = *placed_[m].engine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
       const int wheel = static_cast<int>(w);
       if (machine.wheels[w].track)
-        for (const terramechanics::BeltPatch& patch : engine.belt_patches(placed_[m].index, wheel))
-          belts.push_back(patch);
+        for (const terramechanics::TrackPatch& patch :
+             engine.track_patches(placed_[m].index, wheel))
+          running_tracks.push_back(patch);
       else
         tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});
     }
   }
   const double interval = kRutInterval * dt;
   if (!tyres.empty() || !has_tracks_) ruts_.press(tyres, interval);
-  if (has_tracks_) track_ruts_.press(belts, kSinkSpeed * interval, tyres.empty());
+  if (has_tracks_) track_ruts_.press(running_tracks, kSinkSpeed * interval, tyres.empty());
 }
 
 void ToolLoad::visit(Archive& a) {
-  // Which shell it is, the scene says. All of the last step is what outputs show until the next one.
+  // Which shell it is, the scene says. All of the last step is what outputs show until the next
+  // one.
   a("force_W", force_W);
   a("moment_W", moment_W);
   a("smooth_W", smooth_W);

@@ -10,13 +10,15 @@
 namespace navvy::coupling {
 namespace {
 
-// A strip begins so many widths away at most: beyond the other tyre of a pair, and a second pair beside it.
+// A strip begins so many widths away at most: beyond the other tyre of a pair, and a second pair
+// beside it.
 constexpr double kFarthest = 4;
 
 }  // namespace
 
 double PushedSoil::covered(double off, double width, double cell) {
-  const double low = std::max(off - 0.5 * cell, -0.5 * width), high = std::min(off + 0.5 * cell, 0.5 * width);
+  const double low = std::max(off - 0.5 * cell, -0.5 * width),
+               high = std::min(off + 0.5 * cell, 0.5 * width);
   return std::max(0.0, (high - low) / cell);
 }
 
@@ -48,38 +50,40 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
   return out;
 }
 
-void PushedSoil::spread(const heightfield::Layer& layer, const std::vector<Strip>& strip) {
+void PushedSoil::spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip) {
   double all = 0;
   for (const Strip& one : strip) all += one.share;
   // By what is left of the mass and of the shares, so that the last one takes the rest.
   std::int64_t left = layer.mass;
   for (const Strip& one : strip) {
-    heightfield::Layer part = layer;
+    heightfield::SoilLayer part = layer;
     part.mass = &one == &strip.back()
                     ? left
-                    : std::clamp<std::int64_t>(std::llround(static_cast<double>(left) * one.share / all), 0, left);
+                    : std::clamp<std::int64_t>(
+                          std::llround(static_cast<double>(left) * one.share / all), 0, left);
     left -= part.mass;
     all -= one.share;
     ground_.put(one.column.x(), one.column.y(), part);
   }
 }
 
-void PushedSoil::lay_down(const std::function<bool(int, int)>& borne) {
+void PushedSoil::deposit_down(const std::function<bool(int, int)>& borne) {
   const std::vector<scene::Soil>& soils = ground_.setup().soils;
   for (const Load& load : loads_) {
     const Place& from = load.place;
     const double pressed = ground_.height(from.ix, from.iy);
     const std::vector<Strip> to_left = strip(from, 1, borne), to_right = strip(from, -1, borne);
-    // The part of the column that lies left of the middle goes left; all to one side where the other has no room.
+    // The part of the column that lies left of the middle goes left; all to one side where the
+    // other has no room.
     double share = std::clamp(0.5 + from.left / ground_.cell(), 0.0, 1.0);
     if (to_left.empty()) share = 0;
     if (to_right.empty()) share = 1;
-    for (const heightfield::Layer& layer : load.layers) {
+    for (const heightfield::SoilLayer& layer : load.layers) {
       if (to_left.empty() && to_right.empty()) {
         ground_.put(from.ix, from.iy, layer);
         continue;
       }
-      heightfield::Layer loose = layer;
+      heightfield::SoilLayer loose = layer;
       const scene::Soil& soil = soils[layer.soil];
       loose.specific_volume = std::max(layer.specific_volume, static_cast<float>(soil.swell));
       loose.plastic_shear = std::max(layer.plastic_shear, scene::remoulded_shear(soil));

@@ -26,8 +26,8 @@ void RutMemory::find(double surface) {
   if (on_floor || surface < floor_height) floor_pressure = floor_height = 0;
 }
 
-RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, double surface, double borne,
-                                    double at_most) {
+RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, double surface,
+                                    double borne, double at_most) {
   if (borne <= pressure) return {};
   const double before = terramechanics::plate_sinkage(soil, pressure, width);
   const double after = terramechanics::plate_sinkage(soil, borne, width);
@@ -35,7 +35,8 @@ RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, doubl
   const bool down = floor_pressure > 0 && surface - drop <= floor_height;
   if (down)
     drop = std::min(drop, std::max(0.0, surface - floor_height) +
-                              std::max(0.0, after - terramechanics::plate_sinkage(soil, floor_pressure, width)));
+                              std::max(0.0, after - terramechanics::plate_sinkage(
+                                                        soil, floor_pressure, width)));
   // Cut short, it has borne no more than what its depth by now bears.
   if (drop > at_most) {
     pressure = terramechanics::plate_pressure(soil, before + at_most, width);

@@ -36,22 +36,25 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   if (!(drop > 0)) return;
   const double after = before + drop;
   memory.sinking.depth += drop;
-  memory.sinking.work +=
-      (terramechanics::plate_work(soil, after, width) - terramechanics::plate_work(soil, before, width)) / softer;
+  memory.sinking.work += (terramechanics::plate_work(soil, after, width) -
+                          terramechanics::plate_work(soil, before, width)) /
+                         softer;
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
   ground_.compact_to(ix, iy, height - drop);
   memory.borne.height = ground_.height(ix, iy);
 }
 
-void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double interval) {
+void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+                           double interval) {
   const double now = wheel.force_W.z() - wheel.body_W.z();
   if (!std::isfinite(interval)) {
     *this = {now, wheel.slip};
     return;
   }
   load -= std::expm1(-interval / kBearingTime) * (now - load);
-  // Soil is carried away by the way of the rim: about a radius from one end of the patch to the other.
+  // Soil is carried away by the way of the rim: about a radius from one end of the patch to the
+  // other.
   const double way = interval * std::max(std::abs(wheel.spin) * tyre.radius, wheel.v_W.norm());
   slip -= std::expm1(-way / tyre.radius) * (wheel.slip - slip);
 }
@@ -66,18 +69,20 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
     press_wheel(tyres[i].tyre, wheel, bearing, interval);
   }
   // Where a belt or another tyre stands nothing can be laid down.
-  pushed_.lay_down([this](int ix, int iy) {
-    return ground_.held(ix, iy) || under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
+  pushed_.deposit_down([this](int ix, int iy) {
+    return ground_.held(ix, iy) ||
+           under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
   });
   ground_.hold(std::exchange(under_, {}));
 }
 
-void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel, const Bearing& bearing,
-                       double interval) {
+void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+                       const Bearing& bearing, double interval) {
   const Pose& X = wheel.X_WWheel;
   // A tyre in the air presses nothing, however it was loaded before.
   if (!(wheel.force_W.z() - wheel.body_W.z() > 0)) return;
-  // The soil under the wheel's middle decides the size of the patch; each column then sinks by its own.
+  // The soil under the wheel's middle decides the size of the patch; each column then sinks by its
+  // own.
   const terramechanics::SoilState under =
       GroundView(ground_, ground_.setup().soils).soil(X.translation().x(), X.translation().y());
   Press press{terramechanics::tyre_patch(tyre, *under.soil, bearing.load), *under.soil,
@@ -90,7 +95,8 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
       0.5 * terramechanics::chord_length(tyre.radius, press.patch.deflection + press.patch.sinkage);
   // The patch is a rectangle in the plane, along the wheel's heading.
   const Vec2 along = Vec2(X.linear()(0, 0), X.linear()(1, 0)).normalized();
-  const Vec2 rolled = std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
+  const Vec2 rolled =
+      std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
   const bool twin = tyre.twin_spacing > 0;
   for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0}) {
     // Below the axle as the machine stands: on a slope that is not plumb.
@@ -115,20 +121,22 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
       const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - center;
       const double x = d.dot(along);
       if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > half_width) continue;
-      // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to climb.
-      const double tread = terramechanics::plate_pressure(press.soil, patch.tread_depth(x) / press.softer, patch.width);
+      // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to
+      // climb.
+      const double tread = terramechanics::plate_pressure(
+          press.soil, patch.tread_depth(x) / press.softer, patch.width);
       const double off = d.dot(across), outside = std::abs(aside) + 0.5 * patch.width;
-      press_column(
-          {ix, iy, across, aside + off, outside, patch.width, PushedSoil::covered(off, patch.width, ground_.cell())},
-          std::min(patch.pressure, tread), press);
+      press_column({ix, iy, across, aside + off, outside, patch.width,
+                    PushedSoil::covered(off, patch.width, ground_.cell())},
+                   std::min(patch.pressure, tread), press);
     }
 }
 
-terramechanics::Sinking Ruts::sinking(double x, double y) const {
+terramechanics::Sinkage Ruts::sinking(double x, double y) const {
   const Vec2i c = ground_.column_at(x, y);
   if (!ground_.contains(c.x(), c.y()) || !ground_.held(c.x(), c.y())) return {};
   const Memory* memory = memory_.find(c.x(), c.y());
-  return memory != nullptr ? memory->sinking : terramechanics::Sinking{};
+  return memory != nullptr ? memory->sinking : terramechanics::Sinkage{};
 }
 
 void Ruts::Memory::visit(Archive& a) {

@@ -6,10 +6,10 @@
 
 #include "coupling/ground_view.h"
 #include "coupling/hitching.h"
-#include "coupling/placing.h"
+#include "coupling/machine_placing.h"
 #include "coupling/ruts.h"
 #include "coupling/track_ruts.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 #include "vehicle/stability.h"
 
 namespace navvy::coupling {
@@ -27,7 +27,8 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   if (of.empty()) return out;
   engine->set_rock(ground.datum());
   add_hitches(scene, *engine, [&of](int machine) {
-    return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) - of.begin());
+    return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) -
+                            of.begin());
   });
   Ruts ruts(ground);
   TrackRuts track_ruts(ground, ruts);
@@ -38,7 +39,7 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
     engine->step(dt, view);
     if (step % kRutInterval != 0) continue;
     std::vector<LoadedTyre> tyres;
-    std::vector<terramechanics::BeltPatch> belts;
+    std::vector<terramechanics::TrackPatch> running_tracks;
     for (std::size_t i = 0; i < of.size(); ++i) {
       const std::vector<scene::Wheel>& wheels = scene.machines[of[i]].machine.wheels;
       for (std::size_t w = 0; w < wheels.size(); ++w) {
@@ -47,12 +48,14 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
           tyres.push_back({wheels[w], engine->wheel(machine, wheel)});
           continue;
         }
-        for (const terramechanics::BeltPatch& patch : engine->belt_patches(machine, wheel)) belts.push_back(patch);
+        for (const terramechanics::TrackPatch& patch : engine->track_patches(machine, wheel))
+          running_tracks.push_back(patch);
       }
     }
     const double interval = kRutInterval * dt;
     ruts.press(tyres, interval);
-    if (!belts.empty()) track_ruts.press(belts, kSinkSpeed * interval, tyres.empty());
+    if (!running_tracks.empty())
+      track_ruts.press(running_tracks, kSinkSpeed * interval, tyres.empty());
   }
   for (std::size_t i = 0; i < of.size(); ++i)
     out[of[i]] = {vehicle::stability(scene.machines[of[i]].machine, *engine, static_cast<int>(i)),

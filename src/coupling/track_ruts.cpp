@@ -28,13 +28,16 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   memory.height = ground_.height(ix, iy);
 }
 
-void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, double most, bool alone) {
-  // A column between two segments bears the heavier one, once: each presses further only by what it bears more.
+void TrackRuts::press(const std::vector<terramechanics::TrackPatch>& patches, double most,
+                      bool alone) {
+  // A column between two segments bears the heavier one, once: each presses further only by what it
+  // bears more.
   std::map<std::int64_t, std::pair<double, PushedSoil::Place>> under;  // pressure [Pa]
-  for (const terramechanics::BeltPatch& patch : patches) {
+  for (const terramechanics::TrackPatch& patch : patches) {
     const Vec2 along = patch.ahead_W.head<2>().normalized(), across(-along.y(), along.x());
     const Vec2 middle = patch.p_W.head<2>();
-    // Wide enough for a column to either side of its middle, as those of tyres: the belt stands between both.
+    // Wide enough for a column to either side of its middle, as those of tyres: the belt stands
+    // between both.
     const double half_width = std::max(0.5 * patch.width, ground_.cell());
     const double reach = std::hypot(0.5 * patch.length, half_width);
     const double pressure = patch.load / (patch.length * patch.width);
@@ -43,7 +46,8 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
     for (int iy = std::max(low.y(), 0); iy <= std::min(high.y(), ground_.ny() - 1); ++iy)
       for (int ix = std::max(low.x(), 0); ix <= std::min(high.x(), ground_.nx() - 1); ++ix) {
         const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - middle;
-        if (std::abs(d.dot(along)) > 0.5 * patch.length || std::abs(d.dot(across)) > half_width) continue;
+        if (std::abs(d.dot(along)) > 0.5 * patch.length || std::abs(d.dot(across)) > half_width)
+          continue;
         auto& bears = under[static_cast<std::int64_t>(iy) * ground_.nx() + ix];
         if (pressure > bears.first || (pressure == bears.first && patch.width > bears.second.width))
           bears = {pressure,
@@ -56,8 +60,9 @@ void TrackRuts::press(const std::vector<terramechanics::BeltPatch>& patches, dou
     press_column(bears.second, bears.first, most);
     columns.insert(key);
   }
-  pushed_.lay_down([&](int ix, int iy) {
-    return ground_.held(ix, iy) || columns.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
+  pushed_.deposit_down([&](int ix, int iy) {
+    return ground_.held(ix, iy) ||
+           columns.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
   });
   if (alone)
     ground_.hold(std::move(columns));

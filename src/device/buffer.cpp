@@ -12,17 +12,21 @@ struct RawBuffer::Memory {
   std::size_t size = 0;
 
   Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
-    // Memory that host and device share is allocated where both reach it, so that mapping moves no bytes.
-    const cl_mem_flags flags = CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
+    // Memory that host and device share is allocated where both reach it, so that mapping moves no
+    // bytes.
+    const cl_mem_flags flags =
+        CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
-    // A CPU's driver would take more than there is and be killed for it later: the sum is bounded here.
+    // A CPU's driver would take more than there is and be killed for it later: the sum is bounded
+    // here.
     if (bytes <= device->info.memory && device->memory_used <= device->info.memory - bytes)
       memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
     if (code != CL_SUCCESS) {
-      throw DeviceError("clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
-                            ", on device " + device->info.text() + "; " + std::to_string(device->memory_used) +
-                            " bytes are in use; use a larger soil cell or a device with more memory",
-                        code);
+      throw DeviceError(
+          "clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
+              ", on device " + device->info.text() + "; " + std::to_string(device->memory_used) +
+              " bytes are in use; use a larger soil cell or a device with more memory",
+          code);
     }
     size = bytes;
     device->memory_used += bytes;
@@ -31,7 +35,8 @@ struct RawBuffer::Memory {
   Memory& operator=(const Memory&) = delete;
   ~Memory() {
     clReleaseMemObject(memory);
-    // What was queued with it still runs: the driver lets the memory go after the last command that uses it.
+    // What was queued with it still runs: the driver lets the memory go after the last command that
+    // uses it.
     device->memory_used -= size;
   }
 };
@@ -47,12 +52,13 @@ RawBuffer::RawBuffer(Device& device, std::size_t bytes)
 
 void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
   if (!memory_) throw DeviceError("a buffer without a device cannot grow: construct it with one");
-  // Only what the caller counts as values is copied, on the device, behind what was queued before. The old memory may
-  // be released at once, as the queue holds it until the copy is done.
+  // Only what the caller counts as values is copied, on the device, behind what was queued before.
+  // The old memory may be released at once, as the queue holds it until the copy is done.
   auto bigger = std::make_shared<Memory>(memory_->device, bytes);
   if (keep > 0) {
     const Device::State& device = *memory_->device;
-    check(clEnqueueCopyBuffer(device.queue, memory_->memory, bigger->memory, 0, 0, keep, 0, nullptr, nullptr),
+    check(clEnqueueCopyBuffer(device.queue, memory_->memory, bigger->memory, 0, 0, keep, 0, nullptr,
+                              nullptr),
           "clEnqueueCopyBuffer", device);
   }
   memory_ = std::move(bigger);
@@ -61,42 +67,47 @@ void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
 
 void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, bool wait) {
   if (bytes == 0) return;
-  // With `wait` the driver has taken its copy of the data when this returns, which need not mean that earlier work is
-  // done: the notice of a compiling driver stays.
+  // With `wait` the driver has taken its copy of the data when this returns, which need not mean
+  // that earlier work is done: the notice of a compiling driver stays.
   const Device::State& device = *memory_->device;
-  check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset, bytes, data, 0, nullptr,
-                             nullptr),
+  check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset,
+                             bytes, data, 0, nullptr, nullptr),
         "clEnqueueWriteBuffer", device);
 }
 
 void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   if (bytes == 0) return;
   Device::State& device = *memory_->device;
-  check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr, nullptr),
+  check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr,
+                            nullptr),
         "clEnqueueReadBuffer", device);
-  // A blocking read returns after everything queued before it, compiling included: the queue is in order.
+  // A blocking read returns after everything queued before it, compiling included: the queue is in
+  // order.
   device.compiling.reset();
 }
 
-void RawBuffer::copy_from(const RawBuffer& other, std::size_t from, std::size_t to, std::size_t bytes) {
+void RawBuffer::copy_from(const RawBuffer& other, std::size_t from, std::size_t to,
+                          std::size_t bytes) {
   if (bytes == 0) return;
   const Device::State& device = *memory_->device;
-  check(clEnqueueCopyBuffer(device.queue, other.memory_->memory, memory_->memory, from, to, bytes, 0, nullptr, nullptr),
+  check(clEnqueueCopyBuffer(device.queue, other.memory_->memory, memory_->memory, from, to, bytes,
+                            0, nullptr, nullptr),
         "clEnqueueCopyBuffer", device);
 }
 
-void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset, std::size_t bytes) {
+void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset,
+                     std::size_t bytes) {
   if (bytes == 0) return;
   const Device::State& device = *memory_->device;
   const bool power_of_two = (pattern_bytes & (pattern_bytes - 1)) == 0;
   if (power_of_two && pattern_bytes <= 128) {
-    check(
-        clEnqueueFillBuffer(device.queue, memory_->memory, pattern, pattern_bytes, offset, bytes, 0, nullptr, nullptr),
-        "clEnqueueFillBuffer", device);
+    check(clEnqueueFillBuffer(device.queue, memory_->memory, pattern, pattern_bytes, offset, bytes,
+                              0, nullptr, nullptr),
+          "clEnqueueFillBuffer", device);
     return;
   }
-  // OpenCL fills with powers of two only; other structs are repeated by the host. The write waits here, as the repeated
-  // values live in this call only.
+  // OpenCL fills with powers of two only; other structs are repeated by the host. The write waits
+  // here, as the repeated values live in this call only.
   std::vector<char> values(bytes);
   const char* source = static_cast<const char*>(pattern);
   for (std::size_t at = 0; at < bytes; at += pattern_bytes) {
@@ -108,12 +119,13 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
   Device::State& device = *memory_->device;
   cl_map_flags flags = CL_MAP_READ;
-  // What the region held is lost with this flag, which spares a copy to the host where memory is not shared.
+  // What the region held is lost with this flag, which spares a copy to the host where memory is
+  // not shared.
   if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
   if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
-  void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags, offset, bytes, 0,
-                                nullptr, nullptr, &code);
+  void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags,
+                                offset, bytes, 0, nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);
   // As with a blocking read, what was queued before is done now.
   if (wait) device.compiling.reset();

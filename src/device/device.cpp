@@ -22,12 +22,13 @@ struct Found {
 };
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return text;
 }
 
-// The two texts come with a zero at their end that is part of the size. A driver that refuses a question answers
-// nothing: one broken platform must not hide the others.
+// The two texts come with a zero at their end that is part of the size. A driver that refuses a
+// question answers nothing: one broken platform must not hide the others.
 std::string platform_text(cl_platform_id platform, cl_platform_info what) {
   std::size_t size = 0;
   if (clGetPlatformInfo(platform, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
@@ -57,7 +58,9 @@ T device_value(cl_device_id device, cl_device_info what) {
 DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   DeviceInfo info;
   const auto type = device_value<cl_device_type>(device, CL_DEVICE_TYPE);
-  info.kind = (type & CL_DEVICE_TYPE_CPU) ? Kind::kCpu : (type & CL_DEVICE_TYPE_GPU) ? Kind::kGpu : Kind::kOther;
+  info.kind = (type & CL_DEVICE_TYPE_CPU)   ? Kind::kCpu
+              : (type & CL_DEVICE_TYPE_GPU) ? Kind::kGpu
+                                            : Kind::kOther;
   info.name = device_text(device, CL_DEVICE_NAME);
   info.vendor = device_text(device, CL_DEVICE_VENDOR);
   info.platform = platform_text(platform, CL_PLATFORM_NAME);
@@ -75,26 +78,32 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
 }
 
 std::vector<Found> find_devices() {
-  // Before the first call into OpenCL: PoCL reads its folder from the environment when its platform comes up.
+  // Before the first call into OpenCL: PoCL reads its folder from the environment when its platform
+  // comes up.
   prepare_kernel_cache();
   // One thread at a time: PoCL 3.1 shows devices to a second one before they have their names.
   static std::mutex first;
   const std::lock_guard<std::mutex> alone(first);
   std::vector<Found> found;
   cl_uint platform_count = 0;
-  if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) return found;
+  if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0)
+    return found;
   std::vector<cl_platform_id> platforms(platform_count);
   if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
   for (cl_platform_id platform : platforms) {
-    // Two calls each, as OpenCL asks for the number first. A platform without devices reports an error instead of zero,
-    // so no error here ends the search.
+    // Two calls each, as OpenCL asks for the number first. A platform without devices reports an
+    // error instead of zero, so no error here ends the search.
     cl_uint count = 0;
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS || count == 0) continue;
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS ||
+        count == 0)
+      continue;
     std::vector<cl_device_id> devices(count);
-    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS) continue;
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS)
+      continue;
     for (cl_device_id device : devices) {
       Found entry{platform, device, describe(platform, device)};
-      // The index counts over all platforms, in the order that the loader gives them; it is what a user types.
+      // The index counts over all platforms, in the order that the loader gives them; it is what a
+      // user types.
       entry.info.index = static_cast<int>(found.size());
       found.push_back(std::move(entry));
     }
@@ -109,7 +118,9 @@ int match(const std::vector<Found>& found, const std::string& choice) {
     return it == found.end() ? -1 : static_cast<int>(it - found.begin());
   };
   const std::string wanted = lower(choice);
-  const auto of_kind = [&](Kind kind) { return first([=](const Found& f) { return f.info.kind == kind; }); };
+  const auto of_kind = [&](Kind kind) {
+    return first([=](const Found& f) { return f.info.kind == kind; });
+  };
   // A CPU first: it is the device that every machine can have.
   if (wanted.empty()) {
     if (const int cpu = of_kind(Kind::kCpu); cpu >= 0) return cpu;
@@ -118,7 +129,8 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   }
   if (wanted == "cpu") return of_kind(Kind::kCpu);
   if (wanted == "gpu") return of_kind(Kind::kGpu);
-  if (wanted.size() < 6 && std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
+  if (wanted.size() < 6 &&
+      std::all_of(wanted.begin(), wanted.end(), [](unsigned char c) { return std::isdigit(c); })) {
     const int index = std::stoi(wanted);
     return index < static_cast<int>(found.size()) ? index : -1;
   }
@@ -128,17 +140,21 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   });
 }
 
-[[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice, bool from_environment) {
+[[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice,
+                                bool from_environment) {
   const KernelCacheStatus& cache = prepare_kernel_cache();
   if (found.empty() && cache.folder.empty()) {
-    // PoCL offers no device when it has nowhere to put its kernels: installing it again would not help.
+    // PoCL offers no device when it has nowhere to put its kernels: installing it again would not
+    // help.
     throw DeviceError(
-        "no OpenCL device, and no folder can be written for compiled kernels, without which PoCL offers none: " +
+        "no OpenCL device, and no folder can be written for compiled kernels, without which PoCL "
+        "offers none: " +
         cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
   }
   if (found.empty()) {
     throw DeviceError(
-        "no OpenCL device: no platform is installed or none offers a device; install one, for example the CPU device "
+        "no OpenCL device: no platform is installed or none offers a device; install one, for "
+        "example the CPU device "
         "with 'apt-get install pocl-opencl-icd' or your GPU vendor's OpenCL driver");
   }
   std::string text = "no OpenCL device matches '" + choice + "'";
@@ -149,12 +165,14 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   throw DeviceError(text);
 }
 
-const char* kind_name(Kind kind) { return kind == Kind::kCpu ? "cpu" : kind == Kind::kGpu ? "gpu" : "other"; }
+const char* kind_name(Kind kind) {
+  return kind == Kind::kCpu ? "cpu" : kind == Kind::kGpu ? "gpu" : "other";
+}
 
 }  // namespace
 
-// Every call whose failure matters goes through here. The message names the call as OpenCL's books do, so that it can
-// be looked up.
+// Every call whose failure matters goes through here. The message names the call as OpenCL's books
+// do, so that it can be looked up.
 void check(cl_int code, const char* call, const Device::State& state, const std::string& kernel) {
   if (code == CL_SUCCESS) return;
   std::string text = std::string(call) + " failed: " + error_name(code);
@@ -164,9 +182,10 @@ void check(cl_int code, const char* call, const Device::State& state, const std:
 
 std::string DeviceInfo::text() const {
   char memory_text[32];
-  std::snprintf(memory_text, sizeof memory_text, "%.1f GiB", static_cast<double>(memory) / (1 << 30));
-  return std::to_string(index) + ": " + kind_name(kind) + ", " + name + " (" + platform + ", " + version + "), " +
-         std::to_string(compute_units) + " compute units, " + memory_text;
+  std::snprintf(memory_text, sizeof memory_text, "%.1f GiB",
+                static_cast<double>(memory) / (1 << 30));
+  return std::to_string(index) + ": " + kind_name(kind) + ", " + name + " (" + platform + ", " +
+         version + "), " + std::to_string(compute_units) + " compute units, " + memory_text;
 }
 
 std::vector<DeviceInfo> list_devices() {
@@ -177,8 +196,8 @@ std::vector<DeviceInfo> list_devices() {
 
 Device::State::~State() {
   if (lost) return;
-  // Buffers, programs and kernels hold the state, so nothing of them is alive here; what is still queued is waited for,
-  // because releasing a queue does not.
+  // Buffers, programs and kernels hold the state, so nothing of them is alive here; what is still
+  // queued is waited for, because releasing a queue does not.
   if (queue != nullptr) clFinish(queue);
   for (auto& [name, event] : events) clReleaseEvent(event);
   if (queue != nullptr) clReleaseCommandQueue(queue);
@@ -188,7 +207,8 @@ Device::State::~State() {
 }
 
 void Device::State::open_queue() {
-  // A queue cannot be switched to profiling, so it is made anew. The caller has waited for the old one.
+  // A queue cannot be switched to profiling, so it is made anew. The caller has waited for the old
+  // one.
   if (queue != nullptr) clReleaseCommandQueue(queue);
   cl_int code = CL_SUCCESS;
   queue = clCreateCommandQueue(context, device, profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
@@ -203,7 +223,8 @@ void Device::State::finish() {
 
 void Device::State::collect() {
   for (auto& [name, event] : events) {
-    // The times are of the device's own clock, in nanoseconds. A driver that does not know one leaves zero.
+    // The times are of the device's own clock, in nanoseconds. A driver that does not know one
+    // leaves zero.
     cl_ulong start = 0, end = 0;
     clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
     clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
@@ -221,15 +242,19 @@ namespace {
 
 /// What the environment allows of a device's memory [bytes].
 std::uint64_t allowed_memory(std::uint64_t memory) {
-  // A bound below what the device has lets a test see the errors of full memory, and a run leave room for others.
+  // A bound below what the device has lets a test see the errors of full memory, and a run leave
+  // room for others.
   const char* variable = std::getenv("NAVVY_DEVICE_MEMORY_MIB");
   if (variable == nullptr || *variable == '\0') return memory;
   std::uint64_t mebibytes = 0;
   const std::string_view text(variable);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mebibytes);
-  // Refused rather than ignored: a run that was meant to be bounded must not take all memory because of a slip.
-  if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 || mebibytes > (1ULL << 40))
-    throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) + "': it must be a whole number of MiB");
+  // Refused rather than ignored: a run that was meant to be bounded must not take all memory
+  // because of a slip.
+  if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 ||
+      mebibytes > (1ULL << 40))
+    throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) +
+                      "': it must be a whole number of MiB");
   return std::min(memory, mebibytes << 20);
 }
 
@@ -248,8 +273,8 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   state_->info.memory = allowed_memory(pick.info.memory);
   state_->device = pick.device;
   // What a context without a named platform means is left to the driver.
-  const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
-                                              reinterpret_cast<cl_context_properties>(pick.platform), 0};
+  const cl_context_properties properties[] = {
+      CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(pick.platform), 0};
   cl_int code = CL_SUCCESS;
   state_->context = clCreateContext(properties, 1, &pick.device, nullptr, nullptr, &code);
   check(code, "clCreateContext", *state_);

@@ -4,7 +4,8 @@
 
 namespace navvy::device {
 
-/// One file of kernels/ as the build found it. Both texts are literals and live as long as the program.
+/// One file of kernels/ as the build found it. Both texts are literals and live as long as the
+/// program.
 struct EmbeddedFile {
   const char* path;  ///< relative to kernels/
   const char* text;

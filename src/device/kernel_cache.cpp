@@ -29,14 +29,16 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kManifestName = "navvy.manifest";
-/// Held while the manifest is read and written anew; begins as its name does, so that no list speaks of it.
+/// Held while the manifest is read and written anew; begins as its name does, so that no list
+/// speaks of it.
 const char* const kManifestLockName = "navvy.manifest.lock";
 /// The manifest's first line; another one means another layout, and everything is compiled anew.
 constexpr std::string_view kManifestHead = "navvy kernel cache 1";
-/// All our kernels of one version take a few MB compiled. Above this the folder holds many versions: it is emptied.
+/// All our kernels of one version take a few MB compiled. Above this the folder holds many
+/// versions: it is emptied.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
 /// With less room on the disk the driver would leave half-written files behind.
-constexpr std::uintmax_t kLeastRoom = std::uintmax_t{16} << 20;
+constexpr std::uintmax_t kLeastCapacity = std::uintmax_t{16} << 20;
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& cause) {
   throw FileError("kernel cache '" + folder.string() + "': " + cause);
@@ -49,19 +51,22 @@ std::string hash_of(const fs::path& file) {
   return hash.hex();
 }
 
-/// What the manifest speaks of: the driver's files, without its time stamps, which it rewrites at every use. Listed,
-/// they would make every program look damaged.
+/// What the manifest speaks of: the driver's files, without its time stamps, which it rewrites at
+/// every use. Listed, they would make every program look damaged.
 bool is_listed(const fs::path& relative) {
   const std::string name = relative.filename().string();
-  return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 && name != "last_accessed";
+  return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 &&
+         name != "last_accessed";
 }
 
 /// What the driver writes to before it gives a file its name.
-bool is_temporary(const fs::path& relative) { return relative.filename().string().rfind("tempfile_", 0) == 0; }
+bool is_temporary(const fs::path& relative) {
+  return relative.filename().string().rfind("tempfile_", 0) == 0;
+}
 
-/// Keeps neighbours from writing the manifest between our reading and our writing; one that holds it is waited for, a
-/// few milliseconds. Where its file cannot be made it keeps nobody: a list that lacks files only makes the next process
-/// compile again.
+/// Keeps neighbours from writing the manifest between our reading and our writing; one that holds
+/// it is waited for, a few milliseconds. Where its file cannot be made it keeps nobody: a list that
+/// lacks files only makes the next process compile again.
 class ManifestLock {
  public:
   explicit ManifestLock(const fs::path& folder)
@@ -80,19 +85,21 @@ class ManifestLock {
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
-  // A folder that cannot be listed to its end gives what was found: check() then misses files and takes their programs
-  // as spoiled, which is safe.
+  // A folder that cannot be listed to its end gives what was found: check() then misses files and
+  // takes their programs as spoiled, which is safe.
   std::error_code error;
-  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code gone;  // a neighbour may rename its temporary file between the listing and the look at it
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    // A neighbour may rename its temporary file between the listing and the look at it
+    std::error_code gone;
     if (it->is_regular_file(gone) && !gone) files.push_back(it->path().lexically_relative(folder));
   }
   return files;
 }
 
-/// The part of the folder that is one compiled program: a changed file spoils the whole of it, as the driver takes the
-/// presence of some of its files as proof of the others. PoCL puts a program two folders deep, by the digits of its
-/// hash.
+/// The part of the folder that is one compiled program: a changed file spoils the whole of it, as
+/// the driver takes the presence of some of its files as proof of the others. PoCL puts a program
+/// two folders deep, by the digits of its hash.
 fs::path program_of(const fs::path& relative) {
   fs::path out;
   int depth = 0;
@@ -110,16 +117,17 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) fail(folder_, "the folder cannot be made: " + error.message());
-  // The driver does not tell when it cannot write: it leaves files that are cut short, which is what this class is
-  // about.
+  // The driver does not tell when it cannot write: it leaves files that are cut short, which is
+  // what this class is about.
   struct statvfs disk {};
-  if (statvfs(folder_.c_str(), &disk) == 0 && std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastRoom)
+  if (statvfs(folder_.c_str(), &disk) == 0 &&
+      std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastCapacity)
     fail(folder_, "its disk is full (less than 16 MiB left)");
   lock();
   try {
     check(alone_);
-    // Shared from now on. Between the two kinds of lock another process may check the folder too, which changes
-    // nothing.
+    // Shared from now on. Between the two kinds of lock another process may check the folder too,
+    // which changes nothing.
     flock(lock_, LOCK_SH);
   } catch (...) {
     ::close(lock_);
@@ -132,7 +140,8 @@ KernelCache::~KernelCache() {
   try {
     seal();
   } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
-    // Memory ended: what is not listed is compiled anew by the next process, and this one ends as it would have.
+    // Memory ended: what is not listed is compiled anew by the next process, and this one ends as
+    // it would have.
   }
   ::close(lock_);
 }
@@ -143,13 +152,14 @@ void KernelCache::lock() {
   if (lock_ < 0) fail(folder_, std::string("it cannot be written: ") + std::strerror(errno));
   // Exclusive first: only who is alone may remove files that nobody listed.
   alone_ = flock(lock_, LOCK_EX | LOCK_NB) == 0;
-  // A neighbour checks for milliseconds; a folder whose file system knows no locks is used as if alone.
+  // A neighbour checks for milliseconds; a folder whose file system knows no locks is used as if
+  // alone.
   if (!alone_ && errno != EWOULDBLOCK) alone_ = true;
   if (!alone_) flock(lock_, LOCK_SH);
 }
 
-// A manifest that is missing, of another layout or damaged lists less than there is, and what is not listed is compiled
-// again: reading it needs no error of its own.
+// A manifest that is missing, of another layout or damaged lists less than there is, and what is
+// not listed is compiled again: reading it needs no error of its own.
 KernelCache::Manifest KernelCache::read_manifest() const {
   Manifest out;
   std::string text;
@@ -163,18 +173,21 @@ KernelCache::Manifest KernelCache::read_manifest() const {
   std::string line;
   if (!std::getline(lines, line) || line != kManifestHead) return out;
   while (std::getline(lines, line)) {
-    // "<size> <hash> <path>"; a line that is cut short lists nothing, so that its file is compiled again.
+    // "<size> <hash> <path>"; a line that is cut short lists nothing, so that its file is compiled
+    // again.
     std::istringstream words(line);
     Entry entry;
     std::string path;
-    if (words >> entry.size >> entry.hash && words.get() == ' ' && std::getline(words, path)) out[path] = entry;
+    if (words >> entry.size >> entry.hash && words.get() == ' ' && std::getline(words, path))
+      out[path] = entry;
   }
   return out;
 }
 
 void KernelCache::write_manifest(const Manifest& manifest) const {
   std::string text = std::string(kManifestHead) + "\n";
-  for (const auto& [name, entry] : manifest) text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
+  for (const auto& [name, entry] : manifest)
+    text += std::to_string(entry.size) + " " + entry.hash + " " + name + "\n";
   write_file_atomically((folder_ / kManifestName).string(), text);
 }
 
@@ -187,9 +200,10 @@ void KernelCache::remove_programs(const std::set<fs::path>& programs, Manifest m
     // What cannot be removed would be loaded: such a folder is no cache.
     if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
   }
-  // Out of the list at once: a neighbour would find the files gone, and remove what this process compiles in their
-  // place.
-  std::erase_if(manifest, [&](const auto& listed) { return programs.count(program_of(listed.first)) > 0; });
+  // Out of the list at once: a neighbour would find the files gone, and remove what this process
+  // compiles in their place.
+  std::erase_if(manifest,
+                [&](const auto& listed) { return programs.count(program_of(listed.first)) > 0; });
   write_manifest(manifest);
 }
 
@@ -199,7 +213,8 @@ void KernelCache::check(bool alone) {
   std::error_code unlisted;
   const fs::file_time_type listed = fs::last_write_time(folder_ / kManifestName, unlisted);
   const std::vector<fs::path> files = files_in(folder_);
-  // Three things are gathered: the programs of which one file is wrong, the files that were seen, and the size of all.
+  // Three things are gathered: the programs of which one file is wrong, the files that were seen,
+  // and the size of all.
   std::uintmax_t bytes = 0;
   std::set<fs::path> bad;
   std::set<std::string> seen;
@@ -207,7 +222,8 @@ void KernelCache::check(bool alone) {
     if (!is_listed(file)) continue;
     std::error_code error;
     if (is_temporary(file)) {
-      // PoCL leaves one of these behind in every run: no damage. A neighbour's may be about to get its name.
+      // PoCL leaves one of these behind in every run: no damage. A neighbour's may be about to get
+      // its name.
       if (alone) fs::remove(folder_ / file, error);
       continue;
     }
@@ -217,8 +233,8 @@ void KernelCache::check(bool alone) {
     bytes += error ? 0 : size;
     bool good = !error;
     if (entry == manifest.end()) {
-      // Nobody has vouched for the file. Alone, it is left over from a process that was killed and may be cut short;
-      // beside others, a neighbour may have just finished it.
+      // Nobody has vouched for the file. Alone, it is left over from a process that was killed and
+      // may be cut short; beside others, a neighbour may have just finished it.
       good = !alone;
     } else if (good) {
       try {
@@ -226,7 +242,8 @@ void KernelCache::check(bool alone) {
       } catch (const FileError&) {
         good = false;  // there, but not to be read
       }
-      // Two neighbours that compile one program both name their file so: the later one is not listed yet.
+      // Two neighbours that compile one program both name their file so: the later one is not
+      // listed yet.
       std::error_code gone;
       good = good || (!alone && fs::last_write_time(folder_ / file, gone) > listed && !gone);
     }
@@ -242,7 +259,8 @@ void KernelCache::check(bool alone) {
     if (!remove) found_.insert(file.generic_string());
   }
   remove_programs(bad, manifest);
-  // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew takes seconds.
+  // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew
+  // takes seconds.
   if (alone && bytes > kMostBytes) {
     std::error_code error;
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
@@ -259,13 +277,15 @@ void KernelCache::seal() noexcept {
     const Manifest old = read_manifest();
     Manifest now;
     for (const fs::path& file : files_in(folder_)) {
-      // PoCL writes to a file of this name first and renames it; half of one must not be vouched for.
+      // PoCL writes to a file of this name first and renames it; half of one must not be vouched
+      // for.
       if (!is_listed(file) || is_temporary(file)) continue;
       const std::string name = file.generic_string();
       const auto entry = old.find(name);
-      // What was listed when this process began stays as listed: a file that changed since is found out by the next
-      // check. What a neighbour has listed since is looked at again: where both compiled one program, this process's
-      // file has taken the place of the other's, and the driver does not write the same bytes twice.
+      // What was listed when this process began stays as listed: a file that changed since is found
+      // out by the next check. What a neighbour has listed since is looked at again: where both
+      // compiled one program, this process's file has taken the place of the other's, and the
+      // driver does not write the same bytes twice.
       if (entry != old.end() && found_.count(name) > 0) {
         now[name] = entry->second;
         continue;
@@ -288,8 +308,8 @@ namespace {
 /// Of a temporary folder, for whoever cannot wait for a destructor.
 std::atomic<const char*> temporary_folder{nullptr};
 
-/// The process's folder, and how it came about. The status is filled by the constructor and does not change afterwards,
-/// so references to it may be kept.
+/// The process's folder, and how it came about. The status is filled by the constructor and does
+/// not change afterwards, so references to it may be kept.
 struct ProcessCache {
   KernelCacheStatus status;
   std::unique_ptr<KernelCache> cache;
@@ -314,15 +334,18 @@ fs::path usual_folder() {
   std::error_code closed;  // a folder that may not be looked into is none of ours
   if (!given.empty() && fs::exists(fs::path(given) / KernelCache::kLockName, closed)) return given;
   if (!given.empty()) return fs::path(given) / "navvy" / "kernels";
-  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) return fs::path(xdg) / "navvy" / "kernels";
-  if (const std::string home = environment("HOME"); !home.empty()) return fs::path(home) / ".cache/navvy/kernels";
+  if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty())
+    return fs::path(xdg) / "navvy" / "kernels";
+  if (const std::string home = environment("HOME"); !home.empty())
+    return fs::path(home) / ".cache/navvy/kernels";
   return {};
 }
 
 bool ProcessCache::open(const fs::path& folder) {
   try {
     cache = std::make_unique<KernelCache>(folder);
-    // A folder that cannot be used is no reason to stop: the next one is tried, and all reasons are told together.
+    // A folder that cannot be used is no reason to stop: the next one is tried, and all reasons are
+    // told together.
   } catch (const std::exception& error) {
     status.trouble += (status.trouble.empty() ? "" : "; ") + std::string(error.what());
     return false;
@@ -360,9 +383,11 @@ ProcessCache::ProcessCache() {
   }
   if (status.temporary) temporary_folder = status.folder.c_str();
   // Loud where the user pays for it at every run, quiet where it happened once.
-  if (status.temporary) log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
+  if (status.temporary)
+    log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
   if (!status.temporary && cache->removed() > 0) {
-    status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " + status.folder +
+    status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " +
+                     status.folder +
                      " were damaged or left over from a killed run: they are compiled again";
     log_info(status.trouble);
   }
@@ -384,8 +409,8 @@ ProcessCache::~ProcessCache() {
 }
 
 ProcessCache& process_cache() {
-  // Made by the first call and gone after every Device: devices call prepare_kernel_cache() in their construction, and
-  // what is constructed later is destroyed earlier.
+  // Made by the first call and gone after every Device: devices call prepare_kernel_cache() in
+  // their construction, and what is constructed later is destroyed earlier.
   static ProcessCache cache;
   return cache;
 }

@@ -10,16 +10,18 @@ namespace navvy::device {
 
 SlowCall::SlowCall(std::string text, double seconds)
     : thread_([this, text = std::move(text), seconds] {
-        // The lock and the condition are members declared before the thread, so they exist when it starts and last
-        // until it is joined.
+        // The lock and the condition are members declared before the thread, so they exist when it
+        // starts and last until it is joined.
         std::unique_lock lock(mutex_);
-        const bool ended = over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return done_; });
+        const bool ended =
+            over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return done_; });
         if (!ended) log_info(text);
       }) {}
 
 SlowCall::~SlowCall() {
   {
-    // Set under the lock, or the thread might miss it between its look and its sleep and wait out its time.
+    // Set under the lock, or the thread might miss it between its look and its sleep and wait out
+    // its time.
     const std::lock_guard lock(mutex_);
     done_ = true;
   }

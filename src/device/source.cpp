@@ -15,8 +15,8 @@ namespace {
 /// The file an include line names; empty when the line is none.
 std::string included_path(const std::string& line) {
   std::size_t at = line.find_first_not_of(" \t");
-  // The same leniency about blanks as a compiler's, so that a file which another tool accepts is not taken in silence
-  // without its include. An include in angle brackets is none of ours.
+  // The same leniency about blanks as a compiler's, so that a file which another tool accepts is
+  // not taken in silence without its include. An include in angle brackets is none of ours.
   if (at == std::string::npos || line[at] != '#') return "";
   at = line.find_first_not_of(" \t", at + 1);
   if (at == std::string::npos || line.compare(at, 7, "include") != 0) return "";
@@ -28,9 +28,10 @@ std::string included_path(const std::string& line) {
 
 bool is_pragma_once(const std::string& line) { return line.compare(0, 12, "#pragma once") == 0; }
 
-// The order is that of reading, depth first, as a compiler would see it. Each file counts once for the whole program,
-// so a header that two files include needs no guard in the kernel language.
-void expand(const std::string& path, const std::string& text, std::set<std::string>& seen, std::string& out) {
+// The order is that of reading, depth first, as a compiler would see it. Each file counts once for
+// the whole program, so a header that two files include needs no guard in the kernel language.
+void expand(const std::string& path, const std::string& text, std::set<std::string>& seen,
+            std::string& out) {
   seen.insert(path);
   out += "#line 1 \"" + path + "\"\n";
   std::istringstream lines(text);
@@ -74,12 +75,14 @@ std::string kernel_source(const std::string& path) {
   for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file) {
     if (path == file->path) return file->text;
   }
-  throw DeviceError("no kernel file '" + path + "' was embedded by the build (it looks in kernels/)");
+  throw DeviceError("no kernel file '" + path +
+                    "' was embedded by the build (it looks in kernels/)");
 }
 
 std::vector<std::string> kernel_paths() {
   std::vector<std::string> paths;
-  for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file) paths.emplace_back(file->path);
+  for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file)
+    paths.emplace_back(file->path);
   std::sort(paths.begin(), paths.end());
   return paths;
 }

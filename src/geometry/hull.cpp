@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points are inserted one by one, in lexicographic order: each takes away the triangles it sees and closes the hole
-// with a fan. Library hulls were no choice: Bullet's lives in the one room that may include Bullet, which the core
-// build leaves out, and the soil needs hulls there.
+// Points are inserted one by one, in lexicographic order: each takes away the triangles it sees and
+// closes the hole with a fan. Library hulls were no choice: Bullet's lives in the one room that may
+// include Bullet, which the core build leaves out, and the soil needs hulls there.
 #include "geometry/hull.h"
 
 #include <algorithm>
@@ -41,13 +41,15 @@ std::array<__int128, 3> cross(const Lattice& a, const Lattice& b, const Lattice&
   return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
 }
 
-/// Six times the volume of the tetrahedron, exact: differences have 41 bits, so the sum has at most 125.
+/// Six times the volume of the tetrahedron, exact: differences have 41 bits, so the sum has at most
+/// 125.
 __int128 orient(const Lattice& a, const Lattice& b, const Lattice& c, const Lattice& p) {
   const std::array<__int128, 3> n = cross(a, b, c);
   return n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2]);
 }
 
-/// Points on the lattice. Two that fall together act as one: the second sees nothing and is left out.
+/// Points on the lattice. Two that fall together act as one: the second sees nothing and is left
+/// out.
 std::vector<Lattice> snap(const std::vector<Vec3>& points, const Vec3& low, double extent) {
   std::vector<Lattice> out;
   out.reserve(points.size());
@@ -68,19 +70,23 @@ class HullFaces {
   /// @throws InputError when they lie on one line.
   bool build() {
     const int n = static_cast<int>(points_.size());
-    const auto is_zero = [](const std::array<__int128, 3>& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; };
+    const auto is_zero = [](const std::array<__int128, 3>& v) {
+      return v[0] == 0 && v[1] == 0 && v[2] == 0;
+    };
     // Four corners that span space; the sorted points make the choice repeatable.
     int second = 1, third = 2;
     while (second < n && points_[at(second)] == points_[0]) ++second;
     if (second < n) third = second + 1;
-    while (third < n && is_zero(cross(points_[0], points_[at(second)], points_[at(third)]))) ++third;
+    while (third < n && is_zero(cross(points_[0], points_[at(second)], points_[at(third)])))
+      ++third;
     if (third >= n) refuse("at least three points that are not in line");
     int fourth = third + 1;
     while (fourth < n && side({0, second, third}, fourth) == 0) ++fourth;
     if (fourth >= n) return false;
     // The fourth point lies behind the first triangle, so that all four look outwards.
     if (side({0, second, third}, fourth) > 0) std::swap(second, third);
-    triangles_ = {{0, second, third}, {second, 0, fourth}, {third, second, fourth}, {0, third, fourth}};
+    triangles_ = {
+        {0, second, third}, {second, 0, fourth}, {third, second, fourth}, {0, third, fourth}};
     for (int p = 1; p < n; ++p)
       if (p != second && p != third && p != fourth) insert(p);
     return true;
@@ -91,12 +97,14 @@ class HullFaces {
  private:
   /// Positive where `p` sees the front of the triangle.
   int side(const Index& t, int p) const {
-    const __int128 v = orient(points_[at(t[0])], points_[at(t[1])], points_[at(t[2])], points_[at(p)]);
+    const __int128 v =
+        orient(points_[at(t[0])], points_[at(t[1])], points_[at(t[2])], points_[at(p)]);
     return (v > 0) - (v < 0);
   }
 
-  // The triangles that a point sees strictly hang together, and their outline is one loop without an edge in line with
-  // the point (else the point would lie in the seen triangle's plane). A point that sees none is inside or in a face.
+  // The triangles that a point sees strictly hang together, and their outline is one loop without
+  // an edge in line with the point (else the point would lie in the seen triangle's plane). A point
+  // that sees none is inside or in a face.
   void insert(int p) {
     std::set<std::pair<int, int>> outline;
     std::vector<Index> kept;
@@ -124,8 +132,10 @@ struct Face {
   Plane plane;
 };
 
-/// The plane through three points, turned so that all points lie behind it; none when some lie on either side.
-std::optional<Plane> supporting_plane(const std::vector<Vec3>& points, const Index& t, double tiny) {
+/// The plane through three points, turned so that all points lie behind it; none when some lie on
+/// either side.
+std::optional<Plane> supporting_plane(const std::vector<Vec3>& points, const Index& t,
+                                      double tiny) {
   const Vec3& origin = points[at(t[0])];
   Vec3 n = (points[at(t[1])] - origin).cross(points[at(t[2])] - origin);
   // In line but for rounding: the normal would be noise.
@@ -142,17 +152,20 @@ std::optional<Plane> supporting_plane(const std::vector<Vec3>& points, const Ind
   return Plane{n, n.dot(origin)};
 }
 
-/// Near enough for the faces of one plane; opposite sides of a thin plate have opposite normals and stay two.
+/// Near enough for the faces of one plane; opposite sides of a thin plate have opposite normals and
+/// stay two.
 bool same_plane(const Plane& a, const Plane& b, double tiny) {
   return (a.normal - b.normal).norm() < 1e-6 && std::abs(a.offset - b.offset) < tiny * 10;
 }
 
-/// The face that a triangle of the hull lies in, laid through the first points of that face. Slivers between points
-/// nearly in line may have none; the faces beside them bound the hull there.
+/// The face that a triangle of the hull lies in, laid through the first points of that face.
+/// Slivers between points nearly in line may have none; the faces beside them bound the hull there.
 std::optional<Face> face_of(const std::vector<Vec3>& points, const Index& triangle, double tiny) {
   const Vec3& origin = points[at(triangle[0])];
-  const Vec3 n = (points[at(triangle[1])] - origin).cross(points[at(triangle[2])] - origin).normalized();
-  // Twice the tolerance: the plane through other points of the face may lie that far from this triangle's.
+  const Vec3 n =
+      (points[at(triangle[1])] - origin).cross(points[at(triangle[2])] - origin).normalized();
+  // Twice the tolerance: the plane through other points of the face may lie that far from this
+  // triangle's.
   std::vector<int> near;
   for (int i = 0; i < static_cast<int>(points.size()); ++i)
     if (std::abs(n.dot(points[at(i)] - origin)) <= 2 * tiny) near.push_back(i);
@@ -160,16 +173,20 @@ std::optional<Face> face_of(const std::vector<Vec3>& points, const Index& triang
     for (std::size_t j = i + 1; j < near.size(); ++j)
       for (std::size_t k = j + 1; k < near.size(); ++k) {
         const Index through = {near[i], near[j], near[k]};
-        if (const auto plane = supporting_plane(points, through, tiny)) return Face{through, *plane};
+        if (const auto plane = supporting_plane(points, through, tiny))
+          return Face{through, *plane};
       }
   return std::nullopt;
 }
 
-std::vector<Plane> planes_of(const std::vector<Vec3>& points, const std::vector<Index>& triangles, double tiny) {
+std::vector<Plane> planes_of(const std::vector<Vec3>& points, const std::vector<Index>& triangles,
+                             double tiny) {
   std::vector<Face> faces;
   for (const Index& t : triangles) {
     // Most triangles of a large face find it known.
-    const Vec3 n = (points[at(t[1])] - points[at(t[0])]).cross(points[at(t[2])] - points[at(t[0])]).normalized();
+    const Vec3 n = (points[at(t[1])] - points[at(t[0])])
+                       .cross(points[at(t[2])] - points[at(t[0])])
+                       .normalized();
     const bool known = std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
       return same_plane(face.plane, {n, n.dot(points[at(t[0])])}, tiny);
     });
@@ -177,10 +194,12 @@ std::vector<Plane> planes_of(const std::vector<Vec3>& points, const std::vector<
     if (auto face = face_of(points, t, tiny)) faces.push_back(*face);
   }
   // In the order of their points, not of the triangles, whose cut of a flat face is arbitrary.
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.points < b.points; });
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return a.points < b.points; });
   std::vector<Plane> planes;
   for (const Face& face : faces)
-    if (std::none_of(planes.begin(), planes.end(), [&](const Plane& p) { return same_plane(p, face.plane, tiny); }))
+    if (std::none_of(planes.begin(), planes.end(),
+                     [&](const Plane& p) { return same_plane(p, face.plane, tiny); }))
       planes.push_back(face.plane);
   return planes;
 }

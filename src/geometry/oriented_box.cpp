@@ -24,7 +24,8 @@ double penetration(const OrientedBox& a, const OrientedBox& b) {
   for (int i = 0; i < 3; ++i) {
     look(a.X_WO.linear().col(i));
     look(b.X_WO.linear().col(i));
-    for (int j = 0; j < 3; ++j) look(Vec3(a.X_WO.linear().col(i)).cross(Vec3(b.X_WO.linear().col(j))));
+    for (int j = 0; j < 3; ++j)
+      look(Vec3(a.X_WO.linear().col(i)).cross(Vec3(b.X_WO.linear().col(j))));
   }
   return least;
 }

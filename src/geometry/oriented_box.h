@@ -12,8 +12,8 @@ struct OrientedBox {
   Vec3 half = Vec3::Zero();  ///< half its edges [m]
 };
 
-/// How far the two must be moved apart to touch no more [m]; zero or less: there is a gap of at least minus that.
-/// By the fifteen axes on which two boxes can be told apart.
+/// How far the two must be moved apart to touch no more [m]; zero or less: there is a gap of at
+/// least minus that. By the fifteen axes on which two boxes can be told apart.
 double penetration(const OrientedBox& a, const OrientedBox& b);
 
 }  // namespace navvy::geometry

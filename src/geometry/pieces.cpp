@@ -4,12 +4,14 @@
 namespace navvy::geometry {
 namespace {
 
-/// Hands each piece to `take` until that answers false. Depth first: a handful of open pieces, however many there are.
+/// Hands each piece to `take` until that answers false. Depth first: a handful of open pieces,
+/// however many there are.
 template <class Take>
 void each_piece(const TriangleMesh& mesh, double longest, const Take& take) {
   std::vector<MeshPiece> open;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    open.push_back({{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, static_cast<int>(t)});
+    open.push_back(
+        {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, static_cast<int>(t)});
     while (!open.empty()) {
       const MeshPiece piece = open.back();
       open.pop_back();
@@ -27,7 +29,8 @@ void each_piece(const TriangleMesh& mesh, double longest, const Take& take) {
         continue;
       }
       // Halve the longest edge.
-      const Vec3 a = piece.corner[worst], b = piece.corner[(worst + 1) % 3], c = piece.corner[(worst + 2) % 3];
+      const Vec3 a = piece.corner[worst], b = piece.corner[(worst + 1) % 3],
+                 c = piece.corner[(worst + 2) % 3];
       const Vec3 middle = 0.5 * (a + b);
       open.push_back({{middle, b, c}, piece.triangle});
       open.push_back({{a, middle, c}, piece.triangle});

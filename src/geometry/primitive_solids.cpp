@@ -18,10 +18,13 @@ Mat3 lever(const Vec3& r) { return r.squaredNorm() * Mat3::Identity() - r * r.tr
 
 }  // namespace
 
-SolidProperties solid_box(const Vec3& edges) { return from_squares(edges.prod(), edges.cwiseProduct(edges) / 12); }
+SolidProperties solid_box(const Vec3& edges) {
+  return from_squares(edges.prod(), edges.cwiseProduct(edges) / 12);
+}
 
 SolidProperties solid_sphere(double radius) {
-  return from_squares(4.0 / 3 * kPi * radius * radius * radius, Vec3::Constant(radius * radius / 5));
+  return from_squares(4.0 / 3 * kPi * radius * radius * radius,
+                      Vec3::Constant(radius * radius / 5));
 }
 
 SolidProperties solid_cylinder(double radius, double length) {
@@ -32,15 +35,16 @@ SolidProperties solid_cylinder(double radius, double length) {
 SolidProperties solid_cone(double radius, double length) {
   // Of the slices' squares, weighed by their areas; along z about the centre of mass.
   const double r2 = 3 * radius * radius / 20;
-  SolidProperties out = from_squares(kPi * radius * radius * length / 3, Vec3(r2, r2, 3 * length * length / 80));
+  SolidProperties out =
+      from_squares(kPi * radius * radius * length / 3, Vec3(r2, r2, 3 * length * length / 80));
   out.p_BCom = Vec3(0, 0, -length / 4);
   return out;
 }
 
 SolidProperties solid_capsule(double radius, double length) {
   const SolidProperties middle = solid_cylinder(radius, length);
-  // Half a sphere has its centre of mass 3/8 of the radius from its flat face, and half of the sphere's inertia about
-  // the middle of that face.
+  // Half a sphere has its centre of mass 3/8 of the radius from its flat face, and half of the
+  // sphere's inertia about the middle of that face.
   SolidProperties cap;
   cap.volume = 2.0 / 3 * kPi * radius * radius * radius;
   cap.inertia = 0.5 * solid_sphere(radius).inertia - cap.volume * lever(Vec3(0, 0, 3 * radius / 8));
@@ -62,8 +66,8 @@ SolidProperties joined(const SolidProperties& a, const SolidProperties& b) {
   out.volume = a.volume + b.volume;
   if (!(out.volume > 0)) return out;
   out.p_BCom = (a.volume * a.p_BCom + b.volume * b.p_BCom) / out.volume;
-  out.inertia =
-      a.inertia + a.volume * lever(a.p_BCom - out.p_BCom) + b.inertia + b.volume * lever(b.p_BCom - out.p_BCom);
+  out.inertia = a.inertia + a.volume * lever(a.p_BCom - out.p_BCom) + b.inertia +
+                b.volume * lever(b.p_BCom - out.p_BCom);
   return out;
 }
 

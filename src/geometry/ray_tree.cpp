@@ -13,13 +13,15 @@ namespace navvy::geometry {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;  // triangles that are not worth two more boxes
-constexpr std::size_t kDepth = 64;  // halving 2^32 triangles takes 32 levels, each keeps one sibling waiting
+// Halving 2^32 triangles takes 32 levels, each keeps one sibling waiting
+constexpr std::size_t kDepth = 64;
 
-// Distances to boxes are rounded a few times, each by 1e-16 of itself; so is the hit on a triangle inside. The margin
-// lets the box keep what its triangle would answer.
+// Distances to boxes are rounded a few times, each by 1e-16 of itself; so is the hit on a triangle
+// inside. The margin lets the box keep what its triangle would answer.
 constexpr double kMargin = 1e-12;
 
-/// Along which axis a ray goes most, and by how much others are sheared so that it runs along that axis [Woop 2013].
+/// Along which axis a ray goes most, and by how much others are sheared so that it runs along that
+/// axis [Woop 2013].
 struct Shear {
   int x, y, z;
   double sx, sy, sz;
@@ -42,9 +44,9 @@ std::optional<double> meet(const Vec3& origin, const Shear& s, const std::array<
     const Vec3 d = corners[i] - origin;
     p[i] = Vec3(d[s.x] - s.sx * d[s.z], d[s.y] - s.sy * d[s.z], s.sz * d[s.z]);
   }
-  // Each edge's function is worked out from the same two numbers in both its triangles, so a ray on the edge is on the
-  // border of both, and no gap opens between them. Rounding is the same either way as a product does not depend on the
-  // order of its factors.
+  // Each edge's function is worked out from the same two numbers in both its triangles, so a ray on
+  // the edge is on the border of both, and no gap opens between them. Rounding is the same either
+  // way as a product does not depend on the order of its factors.
   const double u = p[2].x() * p[1].y() - p[2].y() * p[1].x();
   const double v = p[0].x() * p[2].y() - p[0].y() * p[2].x();
   const double w = p[1].x() * p[0].y() - p[1].y() * p[0].x();
@@ -63,18 +65,20 @@ struct Slabs {
 
   Slabs(const Vec3& p, const Vec3& direction) : origin(p), inverse(direction.cwiseInverse()) {}
 
-  /// The distance at which the ray enters the box, lowered by the margin; none when it passes by or enters beyond
-  /// `limit`.
+  /// The distance at which the ray enters the box, lowered by the margin; none when it passes by or
+  /// enters beyond `limit`.
   std::optional<double> enter(const Box& box, double limit) const {
     double near = 0, far = limit;
     for (int k = 0; k < 3; ++k) {
-      // Along a plane of the box a product would be 0 x inf: such a ray is inside the slab all the way, or never.
+      // Along a plane of the box a product would be 0 x inf: such a ray is inside the slab all the
+      // way, or never.
       if (!std::isfinite(inverse[k])) {
         const double slack = kMargin * std::max(std::abs(origin[k]), box.high[k] - box.low[k]);
         if (origin[k] < box.low[k] - slack || origin[k] > box.high[k] + slack) return std::nullopt;
         continue;
       }
-      const double a = (box.low[k] - origin[k]) * inverse[k], b = (box.high[k] - origin[k]) * inverse[k];
+      const double a = (box.low[k] - origin[k]) * inverse[k],
+                   b = (box.high[k] - origin[k]) * inverse[k];
       // Which of the two planes is met first depends on the way the ray goes.
       const double enters = std::min(a, b), leaves = std::max(a, b);
       near = std::max(near, enters - kMargin * std::abs(enters));
@@ -94,7 +98,8 @@ struct Slabs {
 
 }  // namespace
 
-std::optional<double> ray_triangle(const Vec3& origin, const Vec3& direction, const std::array<Vec3, 3>& corners) {
+std::optional<double> ray_triangle(const Vec3& origin, const Vec3& direction,
+                                   const std::array<Vec3, 3>& corners) {
   return meet(origin, Shear(direction), corners);
 }
 
@@ -113,7 +118,8 @@ RayTree::RayTree(const TriangleMesh& mesh, const std::string& name) {
   split(0, 0, static_cast<std::uint32_t>(order_.size()), centres);
 }
 
-void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& centres) {
+void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last,
+                    const std::vector<Vec3>& centres) {
   Box box{triangles_[order_[first]][0], triangles_[order_[first]][0]};
   Vec3 low = centres[order_[first]], high = low;
   for (std::uint32_t i = first; i < last; ++i) {
@@ -126,8 +132,8 @@ void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last, c
   }
   nodes_[node] = {box, first, last - first};
   if (last - first <= kLeaf) return;
-  // Halves of equal number along the longest way between the middles; the triangle's number settles ties, so that the
-  // tree is the same on every machine.
+  // Halves of equal number along the longest way between the middles; the triangle's number settles
+  // ties, so that the tree is the same on every machine.
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const std::uint32_t middle = first + (last - first) / 2;
@@ -135,7 +141,8 @@ void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last, c
                    [&](std::uint32_t a, std::uint32_t b) {
                      return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
                    });
-  // Children lie side by side, and `nodes_` may move while they are made: nodes are known by number.
+  // Children lie side by side, and `nodes_` may move while they are made: nodes are known by
+  // number.
   const std::size_t child = nodes_.size();
   nodes_[node].first = static_cast<std::uint32_t>(child);
   nodes_[node].count = 0;
@@ -144,7 +151,8 @@ void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last, c
   split(child + 1, middle, last, centres);
 }
 
-std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& direction, double reach) const {
+std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& direction,
+                                         double reach) const {
   if (!origin.allFinite() || !direction.allFinite()) refuse("origin and direction must be finite");
   if (std::isnan(reach)) refuse("the reach must be a number");
   // Normalised in two steps, so that a direction of 1e-200 has a length too.
@@ -167,13 +175,15 @@ std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& directi
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const int triangle = static_cast<int>(order_[i]);
       const auto distance = meet(origin, shear, triangles_[order_[i]]);
-      if (!distance || *distance > best || (*distance == best && hit >= 0 && triangle > hit)) continue;
+      if (!distance || *distance > best || (*distance == best && hit >= 0 && triangle > hit))
+        continue;
       best = *distance;
       hit = triangle;
     }
     if (node.count > 0) continue;
     // The nearer box is looked at first and shortens the ray for the other.
-    auto left = slabs.enter(nodes_[node.first].box, best), right = slabs.enter(nodes_[node.first + 1].box, best);
+    auto left = slabs.enter(nodes_[node.first].box, best),
+         right = slabs.enter(nodes_[node.first + 1].box, best);
     const bool left_first = left && (!right || *left <= *right);
     if (left && !left_first) waiting[count++] = {*left, node.first};
     if (right) waiting[count++] = {*right, node.first + 1};

@@ -13,7 +13,9 @@ namespace {
 /// Connected pieces of vertex numbers: a forest whose roots name the pieces.
 class Pieces {
  public:
-  explicit Pieces(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit Pieces(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t find(int vertex) {
     auto i = static_cast<std::size_t>(vertex);
     // Halving the way up at each look keeps later looks short.
@@ -41,7 +43,8 @@ struct Runs {
   int up = 0, down = 0;
 };
 
-/// By the edge's lower and higher vertex. A sorted map: what is found first does not depend on hashing.
+/// By the edge's lower and higher vertex. A sorted map: what is found first does not depend on
+/// hashing.
 std::map<std::pair<int, int>, Runs> runs_of(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, Runs> runs;
   for (const auto& t : mesh.triangles)
@@ -65,7 +68,8 @@ MeshReport inspect(const TriangleMesh& mesh) {
     // Fronts agree where one triangle goes up the edge and the other down.
     report.clashing_edges += runs.up > 1 || runs.down > 1;
   }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.flat_triangles += !(mesh.area_vector(t).norm() > 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    report.flat_triangles += !(mesh.area_vector(t).norm() > 0);
   Pieces pieces = pieces_of(mesh);
   // Roots of triangles only: a loose vertex is a root of its own.
   std::set<std::size_t> roots;
@@ -89,16 +93,19 @@ std::optional<WindingClash> find_winding_clash(const TriangleMesh& mesh) {
 
 bool is_solid(const TriangleMesh& loose) {
   const TriangleMesh mesh = welded(loose);
-  // More than two triangles may meet at an edge where bodies touch; up and down must balance there too.
+  // More than two triangles may meet at an edge where bodies touch; up and down must balance there
+  // too.
   for (const auto& [edge, runs] : runs_of(mesh))
     if (edge.first != edge.second && runs.up != runs.down) return false;
   Pieces pieces = pieces_of(mesh);
-  // Six times the volume between the piece's triangles and the origin; a piece turned inwards must not hide behind a
-  // larger one.
+  // Six times the volume between the piece's triangles and the origin; a piece turned inwards must
+  // not hide behind a larger one.
   std::map<std::size_t, double> volume;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    volume[pieces.find(mesh.triangles[t][0])] += mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2)));
-  return std::all_of(volume.begin(), volume.end(), [](const auto& piece) { return piece.second > 0; });
+    volume[pieces.find(mesh.triangles[t][0])] +=
+        mesh.corner(t, 0).dot(mesh.corner(t, 1).cross(mesh.corner(t, 2)));
+  return std::all_of(volume.begin(), volume.end(),
+                     [](const auto& piece) { return piece.second > 0; });
 }
 
 }  // namespace navvy::geometry

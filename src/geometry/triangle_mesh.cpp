@@ -36,13 +36,16 @@ Box bounds(const TriangleMesh& mesh) {
 void require_valid(const TriangleMesh& mesh, const std::string& name) {
   // A single NaN would pass every comparison of a box or a plane unseen.
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (!mesh.vertices[v].allFinite()) refuse(name, "vertex", v, "coordinates must be finite numbers");
+    if (!mesh.vertices[v].allFinite())
+      refuse(name, "vertex", v, "coordinates must be finite numbers");
   const int count = static_cast<int>(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int v : mesh.triangles[t])
       if (v < 0 || v >= count)
-        refuse(name, "triangle", t, "a corner names vertex " + std::to_string(v) + " of " + std::to_string(count));
-  // Materials travel beside the triangles; lists of different length would shift every colour by one.
+        refuse(name, "triangle", t,
+               "a corner names vertex " + std::to_string(v) + " of " + std::to_string(count));
+  // Materials travel beside the triangles; lists of different length would shift every colour by
+  // one.
   if (mesh.material_of.empty()) return;
   const int materials = static_cast<int>(mesh.materials.size());
   if (mesh.material_of.size() != mesh.triangles.size())
@@ -51,7 +54,8 @@ void require_valid(const TriangleMesh& mesh, const std::string& name) {
   for (std::size_t t = 0; t < mesh.material_of.size(); ++t)
     if (mesh.material_of[t] < -1 || mesh.material_of[t] >= materials)
       refuse(name, "triangle", t,
-             "names material " + std::to_string(mesh.material_of[t]) + " of " + std::to_string(materials));
+             "names material " + std::to_string(mesh.material_of[t]) + " of " +
+                 std::to_string(materials));
 }
 
 TriangleMesh welded(const TriangleMesh& mesh) {

@@ -26,9 +26,9 @@ std::string lower(std::string_view text) {
 }
 
 bool is_key(std::string_view word) {
-  static const char* const keys[] = {"ncols",     "nrows",     "xllcorner", "yllcorner", "xllcenter",
-                                     "yllcenter", "cellsize",  "dx",        "dy",        "nodata_value",
-                                     "nodata",    "byteorder", "xllcentre", "yllcentre"};
+  static const char* const keys[] = {
+      "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
+      "dx",    "dy",    "nodata_value", "nodata",    "byteorder", "xllcentre", "yllcentre"};
   const std::string low = lower(word);
   return std::any_of(std::begin(keys), std::end(keys), [&](const char* key) { return low == key; });
 }
@@ -44,9 +44,11 @@ bool is_not_finite(std::string_view word) {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// [+-]digits[.digits], as nearly every height is written: to know that costs a fifth of reading it.
+/// [+-]digits[.digits], as nearly every height is written: to know that costs a fifth of reading
+/// it.
 bool is_plain_number(std::string_view word) {
-  std::size_t at = !word.empty() && (word.front() == '-' || word.front() == '+') ? 1 : 0, digits = 0;
+  std::size_t at = !word.empty() && (word.front() == '-' || word.front() == '+') ? 1 : 0,
+              digits = 0;
   const auto count = [&] {
     for (; at < word.size() && word[at] >= '0' && word[at] <= '9'; ++at) ++digits;
   };
@@ -72,11 +74,12 @@ bool is_number(std::string_view word) {
 /// Words of a file with their lines.
 class Words {
  public:
-  explicit Words(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
+  explicit Words(const std::string& path)
+      : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
     if (!file_) throw FileError("cannot read '" + path + "': " + std::strerror(errno));
   }
-  /// False at the end. Of a word that is no number for its length alone the rest is left out. It lies in the buffer,
-  /// and is good until the next call.
+  /// False at the end. Of a word that is no number for its length alone the rest is left out. It
+  /// lies in the buffer, and is good until the next call.
   bool next(std::string_view& word, std::int64_t& line) {
     word = {};
     do {
@@ -89,7 +92,8 @@ class Words {
     // It goes on in the next piece of the file.
     long_.clear();
     do {
-      long_ += word.substr(0, limits::kMapWordBytes + 1 - std::min(long_.size(), limits::kMapWordBytes + 1));
+      long_ += word.substr(
+          0, limits::kMapWordBytes + 1 - std::min(long_.size(), limits::kMapWordBytes + 1));
       if (at_ < held_ || !refill()) break;
       word = rest_of_word();
     } while (!word.empty());
@@ -150,13 +154,15 @@ void check_words(const std::string& path, std::int64_t numbers) {
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
   if (!unknown && bytes > limits::kMapTextBytes)
-    throw InputError(Fault{Fault::Severity::kError, path, 0, "terrain", std::to_string(bytes) + " bytes",
-                           "an ESRI ASCII map may have at most " + std::to_string(limits::kMapTextBytes),
-                           "convert it with gdal_translate -of GTiff -co TILED=YES"});
+    throw InputError(
+        Fault{Fault::Severity::kError, path, 0, "terrain", std::to_string(bytes) + " bytes",
+              "an ESRI ASCII map may have at most " + std::to_string(limits::kMapTextBytes),
+              "convert it with gdal_translate -of GTiff -co TILED=YES"});
   try {
     look_through(path, numbers);
   } catch (const FileError& failure) {
-    throw InputError(Fault{Fault::Severity::kError, path, 0, "terrain", "", failure.what(), "check the path"});
+    throw InputError(
+        Fault{Fault::Severity::kError, path, 0, "terrain", "", failure.what(), "check the path"});
   }
 }
 

@@ -22,7 +22,8 @@ constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 
 // May turn out empty, even turned round; `empty` knows.
 CellRect CellRect::cut(const CellRect& other) const {
-  return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1), std::min(y1, other.y1)};
+  return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1),
+          std::min(y1, other.y1)};
 }
 
 void CellRect::include(int ix, int iy) { include(CellRect{ix, iy, ix + 1, iy + 1}); }
@@ -51,7 +52,8 @@ void RectList::find_partner(std::size_t i) {
   }
 }
 
-// Who was bound to i looks around anew; who was bound to the last entry follows it to its new place.
+// Who was bound to i looks around anew; who was bound to the last entry follows it to its new
+// place.
 void RectList::erase(std::size_t i) {
   const std::size_t last = entries_.size() - 1;
   // By their places after the move.
@@ -69,7 +71,8 @@ void RectList::erase(std::size_t i) {
 
 void RectList::add(const CellRect& rect) {
   if (rect.empty()) return;
-  // What makes a full rectangle with the new one becomes part of it; that may open the way for others.
+  // What makes a full rectangle with the new one becomes part of it; that may open the way for
+  // others.
   CellRect grown = rect;
   for (std::size_t i = 0; i < entries_.size();) {
     if (added_area(entries_[i].rect, grown) > 0) {
@@ -83,10 +86,11 @@ void RectList::add(const CellRect& rect) {
   entries_.push_back({grown, 0, kNone});
   find_partner(entries_.size() - 1);
   if (entries_.size() <= kMost) return;
-  // The pair whose union costs its readers least. Both leave and the union comes in like any other, so that it too can
-  // complete a larger rectangle.
-  const auto least = std::min_element(entries_.begin(), entries_.end(),
-                                      [](const Entry& a, const Entry& b) { return a.added < b.added; });
+  // The pair whose union costs its readers least. Both leave and the union comes in like any other,
+  // so that it too can complete a larger rectangle.
+  const auto least =
+      std::min_element(entries_.begin(), entries_.end(),
+                       [](const Entry& a, const Entry& b) { return a.added < b.added; });
   const auto a = static_cast<std::size_t>(least - entries_.begin()), b = least->partner;
   CellRect united = entries_[a].rect;
   united.include(entries_[b].rect);

@@ -15,7 +15,9 @@ struct CellRect {
   /// Whether it holds column (ix, iy).
   bool contains(int ix, int iy) const { return ix >= x0 && ix < x1 && iy >= y0 && iy < y1; }
   /// Whether the two share a column.
-  bool meets(const CellRect& other) const { return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1; }
+  bool meets(const CellRect& other) const {
+    return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
+  }
   /// Number of columns; 0 when empty.
   std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(x1 - x0) * (y1 - y0); }
   /// The part that lies in `other` too; may be empty.
@@ -25,11 +27,12 @@ struct CellRect {
   void include(const CellRect& other);
 };
 
-/// A set of columns told by at most kMost rectangles, for who keeps a copy of a map and renews what changed.
+/// A set of columns told by at most kMost rectangles, for who keeps a copy of a map and renews what
+/// changed.
 ///
-/// Rectangles that fill a larger one together become that one; when there are too many, the two whose union adds the
-/// fewest columns are united. So the list covers everything added, exactly while it is short. Adding one costs about
-/// 100 ns.
+/// Rectangles that fill a larger one together become that one; when there are too many, the two
+/// whose union adds the fewest columns are united. So the list covers everything added, exactly
+/// while it is short. Adding one costs about 100 ns.
 class RectList {
  public:
   static constexpr std::size_t kMost = 64;

@@ -22,7 +22,8 @@ class TileFace {
   /// Whether a whole row of the tile has the same bits; most rows do, and are passed over by this.
   bool same_row(const TileFace& other, int y) const {
     const auto i = static_cast<std::size_t>(y * kTileSide);
-    if (tile_ == nullptr || other.tile_ == nullptr || tile_->loose || other.tile_->loose) return false;
+    if (tile_ == nullptr || other.tile_ == nullptr || tile_->loose || other.tile_->loose)
+      return false;
     const auto equal = [&](const auto& a, const auto& b) {
       return std::memcmp(&a[i], &b[i], kTileSide * sizeof a[0]) == 0;
     };
@@ -36,13 +37,18 @@ class TileFace {
   }
 
  private:
-  // Fields by value, whether stored or implied: a column dug and refilled with the same soil is no change.
+  // Fields by value, whether stored or implied: a column dug and refilled with the same soil is no
+  // change.
   std::uint16_t soil(std::size_t i, int x, int y) const {
     const std::uint16_t soil = tile_ != nullptr ? tile_->soil[i] : kSoilAsAtStart;
     return soil != kSoilAsAtStart ? soil : site_.surface_soil(x0_ + x, y0_ + y);
   }
-  float specific_volume(std::size_t i) const { return tile_ != nullptr ? tile_->specific_volume[i] : 1.0f; }
-  float loose(std::size_t i) const { return tile_ != nullptr && tile_->loose ? (*tile_->loose)[i] : 0.0f; }
+  float specific_volume(std::size_t i) const {
+    return tile_ != nullptr ? tile_->specific_volume[i] : 1.0f;
+  }
+  float loose(std::size_t i) const {
+    return tile_ != nullptr && tile_->loose ? (*tile_->loose)[i] : 0.0f;
+  }
 
   const SurfaceTile* tile_;
   const StartSite& site_;
@@ -50,7 +56,8 @@ class TileFace {
   int x0_, y0_;
 };
 
-/// Adds the runs of columns that differ, row by row; the list puts equal runs of neighbouring rows together.
+/// Adds the runs of columns that differ, row by row; the list puts equal runs of neighbouring rows
+/// together.
 void compare(const TileFace& a, const TileFace& b, const CellRect& tile, RectList& out) {
   for (int iy = tile.y0; iy < tile.y1; ++iy) {
     if (a.same_row(b, iy - tile.y0)) continue;
@@ -78,8 +85,8 @@ std::vector<CellRect> ChangeFollower::take(const TerrainView& view) {
     seen_ = view;
     return out.rects();
   }
-  // Tiles are shared between views until they are written to: equal pointers mean equal columns, and a whole square of
-  // 1024 tiles is passed over at once.
+  // Tiles are shared between views until they are written to: equal pointers mean equal columns,
+  // and a whole square of 1024 tiles is passed over at once.
   const SurfaceTable &old = seen_->table_, &now = view.table_;
   TileHeights buffer;
   for (std::size_t s = 0; s < now.squares(); ++s) {
@@ -90,7 +97,8 @@ std::vector<CellRect> ChangeFollower::take(const TerrainView& view) {
       for (int tx = now.first_tx(s); tx < tx1; ++tx) {
         const SurfaceTile *before = old.find(tx, ty), *after = now.find(tx, ty);
         if (before == after) continue;
-        const CellRect tile{tx * kTileSide, ty * kTileSide, (tx + 1) * kTileSide, (ty + 1) * kTileSide};
+        const CellRect tile{tx * kTileSide, ty * kTileSide, (tx + 1) * kTileSide,
+                            (ty + 1) * kTileSide};
         // At most one of the two is untouched, so one buffer does.
         compare({before, *view.start_, tx, ty, buffer}, {after, *view.start_, tx, ty, buffer},
                 tile.cut(view.site_rect()), out);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who asks often gets exact answers, who asks seldom a bounding one, and nobody has to be known by name.
+// Who asks often gets exact answers, who asks seldom a bounding one, and nobody has to be known by
+// name.
 #include "heightfield/change_log.h"
 
 #include <algorithm>
 
 #include "core/archive.h"
 
-// A full log is 48 KiB, which is saved and hashed in one run: a number of 8 bytes and four of 4 leave no gap.
-static_assert(sizeof(navvy::heightfield::ChangeLog::Edit) == sizeof(std::uint64_t) + 4 * sizeof(int));
+// A full log is 48 KiB, which is saved and hashed in one run: a number of 8 bytes and four of 4
+// leave no gap.
+static_assert(sizeof(navvy::heightfield::ChangeLog::Edit) ==
+              sizeof(std::uint64_t) + 4 * sizeof(int));
 template <>
 inline constexpr bool navvy::kPlain<navvy::heightfield::ChangeLog::Edit> = true;
 
@@ -29,7 +32,8 @@ void ChangeLog::add(int ix, int iy) {
       return;
     }
   }
-  // Full: pairs in the older half are united, which frees a quarter at once and keeps the cost per edit constant.
+  // Full: pairs in the older half are united, which frees a quarter at once and keeps the cost per
+  // edit constant.
   if (edits_.size() == kMostEdits) {
     for (std::size_t i = 0; i < kMostEdits / 4; ++i) {
       Edit united = edits_[2 * i];
@@ -46,13 +50,15 @@ CellRect ChangeLog::since(std::uint64_t sequence, const CellRect& everything) co
   if (sequence > sequence_) return everything;
   // From the newest back, as questions are mostly about the last step.
   CellRect rect;
-  for (auto edit = edits_.rbegin(); edit != edits_.rend() && edit->last > sequence; ++edit) rect.include(edit->rect);
+  for (auto edit = edits_.rbegin(); edit != edits_.rend() && edit->last > sequence; ++edit)
+    rect.include(edit->rect);
   return rect;
 }
 
 bool ChangeLog::lies_in(const CellRect& site) const {
   return std::all_of(edits_.begin(), edits_.end(), [&](const Edit& edit) {
-    return edit.rect.x0 >= site.x0 && edit.rect.y0 >= site.y0 && edit.rect.x1 <= site.x1 && edit.rect.y1 <= site.y1;
+    return edit.rect.x0 >= site.x0 && edit.rect.y0 >= site.y0 && edit.rect.x1 <= site.x1 &&
+           edit.rect.y1 <= site.y1;
   });
 }
 

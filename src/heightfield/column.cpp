@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers are cut, put down and pressed in whole units of mass: what leaves one column arrives in another to the last
-// unit, whatever rounding its thickness suffers.
+// Layers are cut, put down and pressed in whole units of mass: what leaves one column arrives in
+// another to the last unit, whatever rounding its thickness suffers.
 #include "heightfield/column.h"
 
 #include <algorithm>
@@ -14,35 +14,41 @@ namespace {
 
 // Layers whose specific volume agrees this well are one layer.
 constexpr float kSameSpecificVolume = 1e-3f;
-// ... and whose plastic shear does: cohesion over this span of the remoulding law differs by less than a fifth.
+// ... and whose plastic shear does: cohesion over this span of the remoulding law differs by less
+// than a fifth.
 constexpr float kSameShear = 0.05f;
 // Shear beyond which the soil is remoulded for good, so that differences mean nothing any more.
 constexpr float kFullShear = 4.0f;
-// Less than this of a drop is what the subtraction of doubles left of it, and less than a unit of mass is thick [m].
+// Less than this of a drop is what the subtraction of doubles left of it, and less than a unit of
+// mass is thick [m].
 constexpr double kNoDrop = 1e-9;
 // Past this many layers alike neighbours are united. tuned: Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
-bool alike(const Layer& a, const Layer& b) {
-  return a.soil == b.soil && std::abs(a.specific_volume - b.specific_volume) <= kSameSpecificVolume &&
-         std::abs(std::min(a.plastic_shear, kFullShear) - std::min(b.plastic_shear, kFullShear)) <= kSameShear;
+bool alike(const SoilLayer& a, const SoilLayer& b) {
+  return a.soil == b.soil &&
+         std::abs(a.specific_volume - b.specific_volume) <= kSameSpecificVolume &&
+         std::abs(std::min(a.plastic_shear, kFullShear) - std::min(b.plastic_shear, kFullShear)) <=
+             kSameShear;
 }
 
 // Adds b to a: masses and volumes are summed, shear is the mass mean.
-void unite(Layer& a, const Layer& b) {
-  // Volume is what neighbours feel, so volumes add; shear is a memory of the material and goes with the mass.
+void unite(SoilLayer& a, const SoilLayer& b) {
+  // Volume is what neighbours feel, so volumes add; shear is a memory of the material and goes with
+  // the mass.
   const double ma = static_cast<double>(a.mass), mb = static_cast<double>(b.mass), m = ma + mb;
   a.specific_volume = static_cast<float>((ma * a.specific_volume + mb * b.specific_volume) / m);
   a.plastic_shear = static_cast<float>((ma * a.plastic_shear + mb * b.plastic_shear) / m);
   a.mass += b.mass;
 }
 
-// Unites the two neighbours of one soil that differ least; leaves a column of ever-changing soils alone.
+// Unites the two neighbours of one soil that differ least; leaves a column of ever-changing soils
+// alone.
 void shorten(Column& column) {
   std::size_t best = column.size();
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i + 1 < column.size(); ++i) {
-    const Layer &a = column[i], &b = column[i + 1];
+    const SoilLayer &a = column[i], &b = column[i + 1];
     if (a.soil != b.soil) continue;
     const float difference = std::abs(a.specific_volume - b.specific_volume);
     if (difference < least) {
@@ -58,7 +64,7 @@ void shorten(Column& column) {
 // Splits layer `i` so that `top` [m] of it becomes layer i + 1.
 void split(Column& column, std::size_t i, double top, const UnitThickness& unit) {
   // By rounded mass; the two halves sum to what was there.
-  Layer upper = column[i];
+  SoilLayer upper = column[i];
   upper.mass = std::llround(top / (static_cast<double>(upper.specific_volume) * unit[upper.soil]));
   upper.mass = std::clamp<std::int64_t>(upper.mass, 0, column[i].mass);
   column[i].mass -= upper.mass;
@@ -66,7 +72,8 @@ void split(Column& column, std::size_t i, double top, const UnitThickness& unit)
 }
 
 // See compact.
-void press(Column& column, double drop, double zone, float min_specific_volume, const UnitThickness& unit) {
+void press(Column& column, double drop, double zone, float min_specific_volume,
+           const UnitThickness& unit) {
   for (std::size_t i = column.size(); i-- > 0 && drop > kNoDrop;) {
     // Only a thick layer is split: the next pass of the same wheel finds its zone already cut out.
     if (thickness(column[i], unit) > 1.5 * zone) {
@@ -74,17 +81,18 @@ void press(Column& column, double drop, double zone, float min_specific_volume, 
       ++i;
     }
     // From the surface down, until the drop is used up or everything is as dense as it gets.
-    Layer& layer = column[i];
+    SoilLayer& layer = column[i];
     if (layer.mass == 0 || layer.specific_volume <= min_specific_volume) continue;
     const double old = thickness(layer, unit);
     const double least = old * (static_cast<double>(min_specific_volume) / layer.specific_volume);
     const double target = std::max(old - drop, least);
-    layer.specific_volume =
-        target == least ? min_specific_volume : static_cast<float>(layer.specific_volume * (target / old));
+    layer.specific_volume = target == least
+                                ? min_specific_volume
+                                : static_cast<float>(layer.specific_volume * (target / old));
     drop -= old - target;
   }
   // A split may have left nothing of a layer, and splits of many passes add up.
-  std::erase_if(column, [](const Layer& layer) { return layer.mass == 0; });
+  std::erase_if(column, [](const SoilLayer& layer) { return layer.mass == 0; });
   while (column.size() > kMostLayers) {
     const std::size_t before = column.size();
     shorten(column);
@@ -94,7 +102,8 @@ void press(Column& column, double drop, double zone, float min_specific_volume, 
 
 }  // namespace
 
-void take_above(Column& column, double height, const UnitThickness& unit, std::vector<Layer>& taken) {
+void take_above(Column& column, double height, const UnitThickness& unit,
+                std::vector<SoilLayer>& taken) {
   // The first layer that reaches above the height is the one to cut.
   double bottom = 0;
   std::size_t i = 0;
@@ -106,10 +115,12 @@ void take_above(Column& column, double height, const UnitThickness& unit, std::v
   }
   if (i == column.size()) return;
   // The layer that is cut keeps its rounded share; the rest is what is taken, so no unit is lost.
-  Layer& cut = column[i];
-  const double share = (height - bottom) / (static_cast<double>(cut.specific_volume) * unit[cut.soil]);
-  const std::int64_t kept = height <= bottom ? 0 : std::clamp<std::int64_t>(std::llround(share), 0, cut.mass);
-  Layer upper = cut;
+  SoilLayer& cut = column[i];
+  const double share =
+      (height - bottom) / (static_cast<double>(cut.specific_volume) * unit[cut.soil]);
+  const std::int64_t kept =
+      height <= bottom ? 0 : std::clamp<std::int64_t>(std::llround(share), 0, cut.mass);
+  SoilLayer upper = cut;
   upper.mass -= kept;
   cut.mass = kept;
   if (upper.mass > 0) taken.push_back(upper);
@@ -117,7 +128,7 @@ void take_above(Column& column, double height, const UnitThickness& unit, std::v
   column.resize(kept > 0 ? i + 1 : i);
 }
 
-void put(Column& column, const Layer& layer) {
+void put(Column& column, const SoilLayer& layer) {
   if (!column.empty() && alike(column.back(), layer)) {
     unite(column.back(), layer);
     return;
@@ -126,8 +137,10 @@ void put(Column& column, const Layer& layer) {
   if (column.size() > kMostLayers) shorten(column);
 }
 
-void compact(Column& column, double drop, double zone, float min_specific_volume, const UnitThickness& unit) {
-  // Splits may take several times the layers that are left in the end, and a column would keep that room.
+void compact(Column& column, double drop, double zone, float min_specific_volume,
+             const UnitThickness& unit) {
+  // Splits may take several times the layers that are left in the end, and a column would keep that
+  // room.
   thread_local Column work;
   work = column;
   press(work, drop, zone, min_specific_volume, unit);

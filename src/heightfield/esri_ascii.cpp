@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A text format of rows from north to south. Written to a file beside the target and renamed at the end, so that a
-// reader never meets half a map.
+// A text format of rows from north to south. Written to a file beside the target and renamed at the
+// end, so that a reader never meets half a map.
 #include "heightfield/esri_ascii.h"
 
 #include <unistd.h>
@@ -31,8 +31,8 @@ void append(std::string& out, T value) {
 // Corner and cell in the file's own coordinates; the format knows square cells and no CRS.
 std::string header(const Terrain& terrain) {
   const GroundSetup& setup = terrain.setup();
-  std::string out =
-      "ncols " + std::to_string(terrain.nx()) + "\nnrows " + std::to_string(terrain.ny()) + "\nxllcorner ";
+  std::string out = "ncols " + std::to_string(terrain.nx()) + "\nnrows " +
+                    std::to_string(terrain.ny()) + "\nxllcorner ";
   append(out, setup.easting);
   out += "\nyllcorner ";
   append(out, setup.northing);

@@ -8,8 +8,9 @@
 
 namespace navvy::heightfield {
 
-/// Writes the present heights of the whole site, north row first, in the coordinates, units and datum of the file the
-/// site came from; every float reads back to the same bits. The format holds no CRS. Atomic.
+/// Writes the present heights of the whole site, north row first, in the coordinates, units and
+/// datum of the file the site came from; every float reads back to the same bits. The format holds
+/// no CRS. Atomic.
 /// @throws FileError naming path and cause.
 void write_esri_ascii(const Terrain& terrain, const std::string& path);
 

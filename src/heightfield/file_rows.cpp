@@ -16,8 +16,8 @@ void file_rows(const Terrain& terrain, int y0, int y1, std::vector<float>& out) 
     for (int iy = y0; iy < y1; ++iy)
       for (int ix = x0; ix < std::min(x0 + kBlock, nx); ++ix)
         // In double up to here: float is the format's limit, not ours.
-        out[static_cast<std::size_t>(iy - y0) * nx + ix] =
-            static_cast<float>((terrain.height(ix, iy) + setup.height_offset) / setup.file_height_unit);
+        out[static_cast<std::size_t>(iy - y0) * nx + ix] = static_cast<float>(
+            (terrain.height(ix, iy) + setup.height_offset) / setup.file_height_unit);
 }
 
 }  // namespace navvy::heightfield

@@ -11,7 +11,8 @@ namespace navvy::heightfield {
 /// Written where a map has no height.
 inline constexpr double kExportNodata = -9999;
 
-/// Rows [y0, y1) of the whole site, row y0 first, x fastest; in double until the last rounding to float.
+/// Rows [y0, y1) of the whole site, row y0 first, x fastest; in double until the last rounding to
+/// float.
 void file_rows(const Terrain& terrain, int y0, int y1, std::vector<float>& out);
 
 }  // namespace navvy::heightfield

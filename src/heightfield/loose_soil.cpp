@@ -7,7 +7,8 @@
 namespace navvy::heightfield {
 LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
   // Soil beyond the site's edge has no column to lie on.
-  std::erase_if(grains, [&](const LooseGrain& grain) { return !columns.contains(grain.ix, grain.iy); });
+  std::erase_if(grains,
+                [&](const LooseGrain& grain) { return !columns.contains(grain.ix, grain.iy); });
   std::sort(grains.begin(), grains.end(), [](const LooseGrain& a, const LooseGrain& b) {
     return std::tie(a.iy, a.ix, a.z) < std::tie(b.iy, b.ix, b.z);
   });

@@ -9,7 +9,8 @@
 
 namespace navvy::heightfield {
 
-/// A particle this far above the surface reached so far has a gap under it [cells] [docs/exchange.md, maps].
+/// A particle this far above the surface reached so far has a gap under it [cells]
+/// [docs/exchange.md, maps].
 inline constexpr double kLooseGap = 2.0;
 
 /// A particle as a heightfield sees it. Who owns particles hands them in like this.
@@ -24,9 +25,10 @@ struct LooseGrain {
 
 /// The surface of loose soil, column by column.
 ///
-/// Grains are stacked on their column from the lowest up, each raising the surface by its volume over the column's
-/// area. A grain more than two cells above the surface reached so far is in the air or in a bucket: it does not lie
-/// there, and neither do those above it, until the gap is closed. Holds only columns where something lies.
+/// Grains are stacked on their column from the lowest up, each raising the surface by its volume
+/// over the column's area. A grain more than two cells above the surface reached so far is in the
+/// air or in a bucket: it does not lie there, and neither do those above it, until the gap is
+/// closed. Holds only columns where something lies.
 class LooseSoil {
  public:
   struct Column {

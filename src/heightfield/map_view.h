@@ -10,8 +10,8 @@
 
 namespace navvy::heightfield {
 
-/// A number that every column has. One row of the table in map_layers.cpp; a new layer is a row there and its function,
-/// and nothing else.
+/// A number that every column has. One row of the table in map_layers.cpp; a new layer is a row
+/// there and its function, and nothing else.
 struct MapLayer {
   std::string name;
   std::string unit;                                                   ///< "m", "rad", "-"
@@ -19,12 +19,14 @@ struct MapLayer {
   double (*value)(const Terrain& terrain, int ix, int iy) = nullptr;  ///< of a column of the site
 };
 
-/// All layers: elevation, change, slope, normal_x, normal_y, normal_z, soil, specific_volume, loose_depth, awake.
+/// All layers: elevation, change, slope, normal_x, normal_y, normal_z, soil, specific_volume,
+/// loose_depth, awake.
 const std::vector<MapLayer>& map_layers();
 /// @throws InputError listing the names when there is none like it.
 const MapLayer& map_layer(const std::string& name);
 
-/// One layer over `rect`, which is cut to the site. Column (0, 0) of the view has least x and least y, x fastest.
+/// One layer over `rect`, which is cut to the site. Column (0, 0) of the view has least x and least
+/// y, x fastest.
 struct MapView {
   CellRect rect;
   double cell = 0;             ///< [m]
@@ -36,11 +38,12 @@ struct MapView {
   int ny() const { return rect.y1 - rect.y0; }
   /// Of column (ix, iy) of the view.
   float at(int ix, int iy) const {
-    return values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) + static_cast<std::size_t>(ix)];
+    return values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) +
+                  static_cast<std::size_t>(ix)];
   }
 };
-/// Computes every column anew; costs 10 to 60 ns a column. @throws InputError when the rectangle has more than 2^28
-/// columns or no layer is called `layer`.
+/// Computes every column anew; costs 10 to 60 ns a column. @throws InputError when the rectangle
+/// has more than 2^28 columns or no layer is called `layer`.
 MapView map_view(const Terrain& terrain, const std::string& layer, const CellRect& rect);
 /// Of the whole site. @throws like the other one.
 MapView map_view(const Terrain& terrain, const std::string& layer);

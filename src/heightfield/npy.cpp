@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header is a Python dictionary as text: its three keys are looked for by name and nothing is evaluated.
+// The header is a Python dictionary as text: its three keys are looked for by name and nothing is
+// evaluated.
 #include "heightfield/npy.h"
 
 #include <array>
@@ -46,7 +47,8 @@ struct Header {
   /// What stands behind 'key': without blanks; up to the end of the header.
   std::string after(const std::string& key) const {
     const std::size_t found = text.find("'" + key + "'");
-    std::size_t from = found == std::string::npos ? found : text.find_first_not_of(' ', found + key.size() + 2);
+    std::size_t from =
+        found == std::string::npos ? found : text.find_first_not_of(' ', found + key.size() + 2);
     if (from == std::string::npos || text[from] != ':')
       fail("byte " + std::to_string(at), text.substr(0, 60), "the header has no '" + key + "'",
            "write the file with numpy.save");
@@ -59,15 +61,17 @@ const TypeRow& type_of(const Header& header) {
   const std::string value = header.after("descr");
   for (const TypeRow& row : kTypes)
     if (value.rfind("'" + std::string(row.name) + "'", 0) == 0) return row;
-  header.fail("descr", value.substr(0, value.find(',')),
-              "heights are '<f4', '<f8', '<i2', '<i4', '<u2' or '|u1': one little-endian number a cell",
-              "numpy.save(PATH, array.astype('<f4'))");
+  header.fail(
+      "descr", value.substr(0, value.find(',')),
+      "heights are '<f4', '<f8', '<i2', '<i4', '<u2' or '|u1': one little-endian number a cell",
+      "numpy.save(PATH, array.astype('<f4'))");
 }
 
 /// The two lengths of "(7, 13), ...".
 void read_shape(const Header& header, NpyGrid& grid) {
   const std::string value = header.after("shape");
-  const std::string told = value.substr(0, value.find(')') == std::string::npos ? 40 : value.find(')') + 1);
+  const std::string told =
+      value.substr(0, value.find(')') == std::string::npos ? 40 : value.find(')') + 1);
   std::array<int, 2> sides = {};
   const char* p = value.data();
   const char* end = p + value.size();
@@ -90,8 +94,11 @@ void read_shape(const Header& header, NpyGrid& grid) {
 /// Cuts magic, version and header off the front of `bytes`.
 Header take_header(const std::string& path, std::vector<char>& bytes) {
   Header header{path, "", 0};
-  const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i])); };
-  const bool long_length = bytes.size() > kMagicBytes && (bytes[kMagicBytes] == 2 || bytes[kMagicBytes] == 3);
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
+  };
+  const bool long_length =
+      bytes.size() > kMagicBytes && (bytes[kMagicBytes] == 2 || bytes[kMagicBytes] == 3);
   header.at = kMagicBytes + 2 + (long_length ? 4 : 2);
   if (bytes.size() < header.at || std::memcmp(bytes.data(), kMagic, kMagicBytes) != 0 ||
       (!long_length && bytes[kMagicBytes] != 1))
@@ -99,7 +106,8 @@ Header take_header(const std::string& path, std::vector<char>& bytes) {
   std::size_t length = byte(8) + 256 * byte(9);
   if (long_length) length += (byte(10) << 16) + (byte(11) << 24);
   if (length > kMostHeader || header.at + length > bytes.size())
-    header.fail("byte 8", std::to_string(length), "is longer than the file, or than any map's header",
+    header.fail("byte 8", std::to_string(length),
+                "is longer than the file, or than any map's header",
                 "the file is damaged: save it again");
   header.text.assign(bytes.data() + header.at, length);
   bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(header.at + length));
@@ -131,9 +139,11 @@ NpyGrid read_npy(const std::string& path) {
                 "numpy.save(PATH, numpy.ascontiguousarray(array))");
   read_shape(header, grid);
   // In double: the product of a damaged header's numbers may not fit an integer.
-  const double wanted = static_cast<double>(grid.rows) * grid.columns * static_cast<double>(type.bytes);
+  const double wanted =
+      static_cast<double>(grid.rows) * grid.columns * static_cast<double>(type.bytes);
   if (wanted != static_cast<double>(grid.bytes.size()))
-    header.fail("byte " + std::to_string(header.at + header.text.size()), std::to_string(grid.bytes.size()) + " bytes",
+    header.fail("byte " + std::to_string(header.at + header.text.size()),
+                std::to_string(grid.bytes.size()) + " bytes",
                 std::to_string(grid.rows) + " x " + std::to_string(grid.columns) + " numbers of " +
                     std::to_string(type.bytes) + " bytes have to follow the header",
                 "the file is cut or damaged: save it again");

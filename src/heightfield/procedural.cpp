@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of a scene as heights. Everything here is a function of place and of the feature's own numbers: no tables, no
-// state, so tiles can be made in any order and by any thread.
+// Shapes of a scene as heights. Everything here is a function of place and of the feature's own
+// numbers: no tables, no state, so tiles can be made in any order and by any thread.
 #include "heightfield/procedural.h"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ double lattice(std::int64_t i, std::int64_t j, std::uint64_t seed) {
   return second.uniform() - 0.5;
 }
 
-// Value noise with continuous curvature, in [-0.5, 0.5) [Perlin 2002, "Improving noise", the quintic fade].
+// Value noise with continuous curvature, in [-0.5, 0.5)
+// [Perlin 2002, "Improving noise", the quintic fade].
 double value_noise(double x, double y, std::uint64_t seed) {
   const double fx = std::floor(x), fy = std::floor(y);
   const auto i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
@@ -32,16 +33,19 @@ double value_noise(double x, double y, std::uint64_t seed) {
   return (1 - v) * low + v * high;
 }
 
-// Two octaves; a wave is two lattice steps long. The second one is turned so that the lattice does not show.
+// Two octaves; a wave is two lattice steps long. The second one is turned so that the lattice does
+// not show.
 double hills(const GroundFeature& f, double along, double across) {
   const double x = 2 * along / f.length, y = 2 * across / f.length;
-  return f.height *
-         (0.75 * value_noise(x, y, f.seed) + 0.25 * value_noise(1.6 * x + 1.2 * y, 1.6 * y - 1.2 * x, ~f.seed));
+  return f.height * (0.75 * value_noise(x, y, f.seed) +
+                     0.25 * value_noise(1.6 * x + 1.2 * y, 1.6 * y - 1.2 * x, ~f.seed));
 }
 
-// The floor is flat; outside it the walls lean from the distance to the floor's rectangle, which rounds their corners.
+// The floor is flat; outside it the walls lean from the distance to the floor's rectangle, which
+// rounds their corners.
 double trench(const GroundFeature& f, double along, double across) {
-  const double du = std::max(std::abs(along) - f.length / 2, 0.0), dv = std::max(std::abs(across) - f.width / 2, 0.0);
+  const double du = std::max(std::abs(along) - f.length / 2, 0.0),
+               dv = std::max(std::abs(across) - f.width / 2, 0.0);
   const double outside = std::hypot(du, dv);
   if (outside <= 0) return -f.height;
   return f.angle > 0 ? -std::max(0.0, f.height - outside / std::tan(f.angle)) : 0;
@@ -51,12 +55,15 @@ double trench(const GroundFeature& f, double along, double across) {
 double bank(const GroundFeature& f, double left) {
   if (left < 0) return 0;
   const bool vertical = f.angle <= 0 || f.angle >= kPi / 2;
-  return vertical ? f.height : std::clamp(left * std::tan(f.angle), std::min(f.height, 0.0), std::max(f.height, 0.0));
+  return vertical ? f.height
+                  : std::clamp(left * std::tan(f.angle), std::min(f.height, 0.0),
+                               std::max(f.height, 0.0));
 }
 
 // Height that one feature adds at W (x, y) [m].
 double shape(const GroundFeature& f, double friction_angle, double x, double y) {
-  const double c = std::cos(f.yaw), s = std::sin(f.yaw), dx = x - f.center.x(), dy = y - f.center.y();
+  const double c = std::cos(f.yaw), s = std::sin(f.yaw), dx = x - f.center.x(),
+               dy = y - f.center.y();
   const double along = c * dx + s * dy, across = c * dy - s * dx;
   switch (f.kind) {
     case GroundFeature::Kind::kSlope:
@@ -64,7 +71,8 @@ double shape(const GroundFeature& f, double friction_angle, double x, double y) 
     case GroundFeature::Kind::kHills:
       return hills(f, along, across);
     case GroundFeature::Kind::kStockpile:
-      return std::max(0.0, f.height - std::hypot(along, across) * std::tan(f.angle > 0 ? f.angle : friction_angle));
+      return std::max(0.0, f.height - std::hypot(along, across) *
+                                          std::tan(f.angle > 0 ? f.angle : friction_angle));
     case GroundFeature::Kind::kTrench:
       return trench(f, along, across);
     case GroundFeature::Kind::kBank:
@@ -75,7 +83,8 @@ double shape(const GroundFeature& f, double friction_angle, double x, double y) 
   return 0;
 }
 
-// A bound, not the minimum: bedrock lies below it by the depth of the scene, so a little too low does no harm.
+// A bound, not the minimum: bedrock lies below it by the depth of the scene, so a little too low
+// does no harm.
 double lowest(const GroundFeature& f, const Vec2& min, const Vec2& max) {
   switch (f.kind) {
     case GroundFeature::Kind::kSlope: {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A map at its own resolution. It is kept as read and interpolated for each column, instead of being resampled to
-// columns at once: a map of 1 m under columns of 0.1 m is a hundredth of their number.
+// A map at its own resolution. It is kept as read and interpolated for each column, instead of
+// being resampled to columns at once: a map of 1 m under columns of 0.1 m is a hundredth of their
+// number.
 #include "heightfield/raster.h"
 
 #include <algorithm>
@@ -11,7 +12,8 @@
 namespace navvy::heightfield {
 double HeightRaster::sample(double x, double y) const {
   return bilinear(*this, x, y, [&](int ix, int iy, int jx, int jy, float* corners) {
-    corners[0] = at(ix, iy), corners[1] = at(jx, iy), corners[2] = at(ix, jy), corners[3] = at(jx, jy);
+    corners[0] = at(ix, iy), corners[1] = at(jx, iy), corners[2] = at(ix, jy),
+    corners[3] = at(jx, jy);
   });
 }
 
@@ -21,7 +23,8 @@ double HeightRaster::mean(double x, double y, double edge) const {
 
 GapFill fill_gaps(HeightRaster& raster) {
   GapFill result;
-  result.gaps = std::count_if(raster.z.begin(), raster.z.end(), [](float z) { return std::isnan(z); });
+  result.gaps =
+      std::count_if(raster.z.begin(), raster.z.end(), [](float z) { return std::isnan(z); });
   if (result.gaps == 0) return result;  // as most maps are
   // From the known cells inwards, ring by ring, each cell queued once.
   std::vector<std::int64_t> ring, next;
@@ -39,14 +42,17 @@ GapFill fill_gaps(HeightRaster& raster) {
   };
   for (std::size_t i = 0; i < raster.z.size(); ++i)
     if (!std::isnan(raster.z[i])) queue_gaps_around(static_cast<std::int64_t>(i), ring);
-  // Each ring sees only the ring before it, so the result does not depend on the order of the cells.
+  // Each ring sees only the ring before it, so the result does not depend on the order of the
+  // cells.
   std::vector<float> values;
   while (!ring.empty()) {
     values.clear();
     for (const std::int64_t i : ring)
-      values.push_back(mean_of_neighbours(raster, static_cast<int>(i % raster.nx), static_cast<int>(i / raster.nx),
+      values.push_back(mean_of_neighbours(raster, static_cast<int>(i % raster.nx),
+                                          static_cast<int>(i / raster.nx),
                                           [&](int x, int y) { return raster.at(x, y); }));
-    for (std::size_t k = 0; k < ring.size(); ++k) raster.z[static_cast<std::size_t>(ring[k])] = values[k];
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      raster.z[static_cast<std::size_t>(ring[k])] = values[k];
     next.clear();
     for (const std::int64_t i : ring) queue_gaps_around(i, next);
     ring.swap(next);
@@ -60,8 +66,8 @@ SlopeRange slopes(const HeightRaster& raster, double limit) {
   std::vector<float> tangents;
   for (int iy = 0; iy + 1 < raster.ny; ++iy)
     for (int ix = 0; ix + 1 < raster.nx; ++ix) {
-      tangents.push_back(
-          tangent(raster, raster.at(ix, iy), raster.at(ix + 1, iy), raster.at(ix, iy + 1), raster.at(ix + 1, iy + 1)));
+      tangents.push_back(tangent(raster, raster.at(ix, iy), raster.at(ix + 1, iy),
+                                 raster.at(ix, iy + 1), raster.at(ix + 1, iy + 1)));
     }
   SlopeRange range;
   if (tangents.empty()) return range;
@@ -73,7 +79,8 @@ SlopeRange slopes(const HeightRaster& raster, double limit) {
   range.least = std::atan(*least);
   range.most = std::atan(*most);
   const double steep = std::tan(limit);
-  const auto above = std::count_if(tangents.begin(), tangents.end(), [&](float t) { return t > steep; });
+  const auto above =
+      std::count_if(tangents.begin(), tangents.end(), [&](float t) { return t > steep; });
   range.share_above = static_cast<double>(above) / static_cast<double>(tangents.size());
   return range;
 }

@@ -7,10 +7,11 @@
 
 namespace navvy::heightfield {
 
-/// A map in the simulator's orientation: cell (0, 0) has least x and least y, x fastest. NaN marks a gap.
+/// A map in the simulator's orientation: cell (0, 0) has least x and least y, x fastest. NaN marks
+/// a gap.
 ///
-/// Between cell centres heights are bilinear: nothing overshoots and no slope of the finer soil grid exceeds the
-/// steepest one between two cells of the map.
+/// Between cell centres heights are bilinear: nothing overshoots and no slope of the finer soil
+/// grid exceeds the steepest one between two cells of the map.
 struct HeightRaster {
   int nx = 0, ny = 0;
   double cell_x = 1, cell_y = 1;  ///< [m]
@@ -29,15 +30,16 @@ struct GapFill {
   std::int64_t gaps = 0;  ///< cells that were NaN
   int farthest = 0;       ///< how many cells the farthest one was from a measured one
 };
-/// Fills every NaN from its neighbours, ring by ring inward: a cell gets the mean of the known among its eight, nearer
-/// ones counting more. A map of gaps only stays as it is.
+/// Fills every NaN from its neighbours, ring by ring inward: a cell gets the mean of the known
+/// among its eight, nearer ones counting more. A map of gaps only stays as it is.
 GapFill fill_gaps(HeightRaster& raster);
 
 struct SlopeRange {
   double least = 0, median = 0, most = 0;  ///< [rad]
   double share_above = 0;                  ///< of the places steeper than the limit, 0..1
 };
-/// Slopes between neighbouring cell centres, from the mean gradient of each 2 x 2 square. No gaps allowed.
+/// Slopes between neighbouring cell centres, from the mean gradient of each 2 x 2 square. No gaps
+/// allowed.
 SlopeRange slopes(const HeightRaster& raster, double limit);
 
 }  // namespace navvy::heightfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is computed from a few cells of a map, the same for maps that are held and for those read by windows. A raster
-// here has nx, ny, cell_x, cell_y, x0, y0 as HeightRaster has them.
+// What is computed from a few cells of a map, the same for maps that are held and for those read by
+// windows. A raster here has nx, ny, cell_x, cell_y, x0, y0 as HeightRaster has them.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace navvy::heightfield {
 /// A soil cell averages at most this many map cells a side; finer maps are sampled that densely.
 inline constexpr int kMostSamples = 16;
 
-/// Bilinear height [m]. `corners(ix, iy, jx, jy, z)` fills z with cells (ix, iy), (jx, iy), (ix, jy), (jx, jy), where
-/// jx and jy are ix and iy or one more.
+/// Bilinear height [m]. `corners(ix, iy, jx, jy, z)` fills z with cells (ix, iy), (jx, iy), (ix,
+/// jy), (jx, jy), where jx and jy are ix and iy or one more.
 template <class Raster, class Corners>
 double bilinear(const Raster& raster, double x, double y, const Corners& corners) {
   // Outside the outermost centres the nearest value: a site may reach half a cell beyond them.
@@ -25,21 +25,26 @@ double bilinear(const Raster& raster, double x, double y, const Corners& corners
   return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);
 }
 
-/// Mean of `sample(x, y)` over a square of `edge` [m] round (x, y): one sample where the map is coarser than that.
+/// Mean of `sample(x, y)` over a square of `edge` [m] round (x, y): one sample where the map is
+/// coarser than that.
 template <class Raster, class Sample>
-double mean_of_samples(const Raster& raster, double x, double y, double edge, const Sample& sample) {
-  const int sx = static_cast<int>(std::clamp(std::ceil(edge / raster.cell_x - 1e-9), 1.0, double{kMostSamples}));
-  const int sy = static_cast<int>(std::clamp(std::ceil(edge / raster.cell_y - 1e-9), 1.0, double{kMostSamples}));
+double mean_of_samples(const Raster& raster, double x, double y, double edge,
+                       const Sample& sample) {
+  const int sx = static_cast<int>(
+      std::clamp(std::ceil(edge / raster.cell_x - 1e-9), 1.0, double{kMostSamples}));
+  const int sy = static_cast<int>(
+      std::clamp(std::ceil(edge / raster.cell_y - 1e-9), 1.0, double{kMostSamples}));
   // Where the map is the coarser one, its own smoothness is all there is.
   if (sx == 1 && sy == 1) return sample(x, y);
   double sum = 0;
   for (int j = 0; j < sy; ++j)
-    for (int i = 0; i < sx; ++i) sum += sample(x + ((i + 0.5) / sx - 0.5) * edge, y + ((j + 0.5) / sy - 0.5) * edge);
+    for (int i = 0; i < sx; ++i)
+      sum += sample(x + ((i + 0.5) / sx - 0.5) * edge, y + ((j + 0.5) / sy - 0.5) * edge);
   return sum / (sx * sy);
 }
 
-/// Mean of the known among the eight neighbours of a gap, diagonal ones by 1 / sqrt 2; NaN when there is none.
-/// `at(ix, iy)` is a cell, NaN where it is not known.
+/// Mean of the known among the eight neighbours of a gap, diagonal ones by 1 / sqrt 2; NaN when
+/// there is none. `at(ix, iy)` is a cell, NaN where it is not known.
 template <class Raster, class At>
 float mean_of_neighbours(const Raster& raster, int ix, int iy, const At& at) {
   double sum = 0, weights = 0;
@@ -60,7 +65,8 @@ float mean_of_neighbours(const Raster& raster, int ix, int iy, const At& at) {
 /// Tangent of the mean gradient of the 2 x 2 cells a (least x and y), b, c (larger y), d.
 template <class Raster>
 float tangent(const Raster& raster, double a, double b, double c, double d) {
-  return static_cast<float>(std::hypot((b - a + d - c) / (2 * raster.cell_x), (c - a + d - b) / (2 * raster.cell_y)));
+  return static_cast<float>(
+      std::hypot((b - a + d - c) / (2 * raster.cell_x), (c - a + d - b) / (2 * raster.cell_y)));
 }
 
 }  // namespace navvy::heightfield

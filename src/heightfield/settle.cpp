@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Relaxation by pairs: wherever two neighbours differ by more than repose allows, half of the excess moves. It is not
-// how soil slides; it finds a surface near the given one that the running simulation leaves alone.
+// Relaxation by pairs: wherever two neighbours differ by more than repose allows, half of the
+// excess moves. It is not how soil slides; it finds a surface near the given one that the running
+// simulation leaves alone.
 #include "heightfield/settle.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
   // In heights, not angles: one comparison a pair.
   const double most = std::tan(repose) * surface.cell, tolerance = 0.02 * most;
   const auto rows = static_cast<std::size_t>(surface.ny);
-  // Only rows in which or beside which something moved are looked at again, between the columns that moved.
+  // Only rows in which or beside which something moved are looked at again, between the columns
+  // that moved.
   struct Span {
     int x0, x1;
   };
@@ -47,8 +49,11 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
       const int iy = sweep % 2 == 0 ? n : surface.ny - 1 - n;
       for (int m = active[iy].x0; m < active[iy].x1; ++m) {
         const int ix = sweep % 2 == 0 ? m : active[iy].x1 - 1 - (m - active[iy].x0);
-        if (ix + 1 < surface.nx && exchange(surface.at(ix, iy), surface.at(ix + 1, iy), most, tolerance)) wake(ix, iy);
-        if (iy + 1 < surface.ny && exchange(surface.at(ix, iy), surface.at(ix, iy + 1), most, tolerance)) {
+        if (ix + 1 < surface.nx &&
+            exchange(surface.at(ix, iy), surface.at(ix + 1, iy), most, tolerance))
+          wake(ix, iy);
+        if (iy + 1 < surface.ny &&
+            exchange(surface.at(ix, iy), surface.at(ix, iy + 1), most, tolerance)) {
           wake(ix, iy);
           wake(ix, iy + 1);
         }

@@ -16,9 +16,10 @@ struct DenseSurface {
   double at(int ix, int iy) const { return height[static_cast<std::size_t>(iy) * nx + ix]; }
 };
 
-/// Moves soil downhill between edge neighbours until no drop between them exceeds tan(repose) x cell by more than a
-/// fiftieth. Volume is kept to rounding; the order is fixed, so the result repeats bit for bit. Costs sweeps over the
-/// steep part only. Returns the number of sweeps, or -1 when `most_sweeps` did not suffice.
+/// Moves soil downhill between edge neighbours until no drop between them exceeds tan(repose) x
+/// cell by more than a fiftieth. Volume is kept to rounding; the order is fixed, so the result
+/// repeats bit for bit. Costs sweeps over the steep part only. Returns the number of sweeps, or -1
+/// when `most_sweeps` did not suffice.
 int settle(DenseSurface& surface, double repose, int most_sweeps = 20000);
 
 }  // namespace navvy::heightfield

@@ -13,7 +13,8 @@ namespace navvy::heightfield {
 inline std::string span_text(const Vec2& low, const Vec2& high) {
   // Room for four numbers as long as a double may be.
   char text[1400];
-  std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(), high.y());
+  std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(),
+                high.y());
   return text;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The untouched site and the memory of its heights. Most of a large site is never touched, and wheels, soil and
-// pictures ask for the same part of it over and over: that part is remembered, by tile, whoever asks first.
+// The untouched site and the memory of its heights. Most of a large site is never touched, and
+// wheels, soil and pictures ask for the same part of it over and over: that part is remembered, by
+// tile, whoever asks first.
 #include "heightfield/start_site.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ StartSite::StartSite(GroundSetup setup) : setup_(std::move(setup)) {
     unit_.push_back(kMassQuantum / (soil.bank_density * setup_.cell * setup_.cell));
   stack_ = make_stack(setup_.layers);
   for (const scene::GroundPatch& patch : setup_.patches)
-    patches_.push_back({patch.min.x(), patch.min.y(), patch.max.x(), patch.max.y(), make_stack(patch.layers)});
+    patches_.push_back(
+        {patch.min.x(), patch.min.y(), patch.max.x(), patch.max.y(), make_stack(patch.layers)});
 }
 
 StartSite::Stack StartSite::make_stack(const std::vector<scene::GroundLayer>& layers) const {
@@ -33,7 +35,8 @@ StartSite::Stack StartSite::make_stack(const std::vector<scene::GroundLayer>& la
 const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
   // Most sites have none.
   if (patches_.empty()) return stack_;
-  const double x = setup_.origin.x() + (ix + 0.5) * setup_.cell, y = setup_.origin.y() + (iy + 0.5) * setup_.cell;
+  const double x = setup_.origin.x() + (ix + 0.5) * setup_.cell,
+               y = setup_.origin.y() + (iy + 0.5) * setup_.cell;
   // Where patches overlap the last one counts, as if it had been laid over the others.
   for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch)
     if (x >= patch->x0 && x < patch->x1 && y >= patch->y0 && y < patch->y1) return patch->stack;
@@ -42,12 +45,14 @@ const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
 
 void StartSite::column(int ix, int iy, Column& out) const {
   const double surface = setup_.surface(ix, iy);
-  // Only now: a surface may be made of another site's, whose heights work in the same column of this thread.
+  // Only now: a surface may be made of another site's, whose heights work in the same column of
+  // this thread.
   out.clear();
   if (!std::isfinite(surface))
     throw InputError(Fault{Fault::Severity::kError, "", 0,
                            "ground column (" + std::to_string(ix) + ", " + std::to_string(iy) + ")",
-                           std::to_string(surface), "a height must be a finite number", "repair the height source"});
+                           std::to_string(surface), "a height must be a finite number",
+                           "repair the height source"});
   const Stack& stack = stack_at(ix, iy);
   // The last layer reaches down to bedrock, whatever its thickness says.
   double rest = surface - setup_.datum;
@@ -64,8 +69,8 @@ void StartSite::column(int ix, int iy, Column& out) const {
 }
 
 double StartSite::height(int ix, int iy) const {
-  // From the layers, as for every other column, so that what was dug and put back has the same bits. One column a
-  // thread, kept for its memory only.
+  // From the layers, as for every other column, so that what was dug and put back has the same
+  // bits. One column a thread, kept for its memory only.
   thread_local Column column_of_thread;
   column(ix, iy, column_of_thread);
   return setup_.datum + column_height(column_of_thread, unit_);
@@ -122,9 +127,11 @@ const TileHeights* StartHeights::fill(int tx, int ty) const {
     auto fresh = std::make_unique<Group>();
     for (auto& tile : *fresh) tile.store(nullptr, std::memory_order_relaxed);
     // Where another thread was first, its group is the one; `group` then names it.
-    if (slot.compare_exchange_strong(group, fresh.get(), std::memory_order_acq_rel)) group = fresh.release();
+    if (slot.compare_exchange_strong(group, fresh.get(), std::memory_order_acq_rel))
+      group = fresh.release();
   }
-  // The same for the tile. Two threads computed the same numbers, so it does not matter whose are kept.
+  // The same for the tile. Two threads computed the same numbers, so it does not matter whose are
+  // kept.
   const TileHeights* known = nullptr;
   std::atomic<const TileHeights*>& place = (*group)[tile_in_group(tx, ty)];
   if (!place.compare_exchange_strong(known, heights.get(), std::memory_order_acq_rel)) return known;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copy on write in two steps, squares of tiles and tiles. Whether something is shared is not read off a count of
-// owners, which other threads change, but off a mark that only the writing thread sets and reads.
+// Copy on write in two steps, squares of tiles and tiles. Whether something is shared is not read
+// off a count of owners, which other threads change, but off a mark that only the writing thread
+// sets and reads.
 #include "heightfield/surface_table.h"
 
 namespace navvy::heightfield {
@@ -22,7 +23,8 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
     square = std::make_shared<Square>(*square);
     square->frozen = false;
   }
-  std::shared_ptr<SurfaceTile>& tile = square->tiles[static_cast<std::size_t>(index_in_tile(tx, ty))];
+  std::shared_ptr<SurfaceTile>& tile =
+      square->tiles[static_cast<std::size_t>(index_in_tile(tx, ty))];
   // The common case: the second and later columns of a tile after a view was taken.
   if (tile && !tile->frozen) return *tile;
   if (tile) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of the tiles that differ from the untouched site, shared between a live ground and the views of it.
+// The surface of the tiles that differ from the untouched site, shared between a live ground and
+// the views of it.
 #pragma once
 
 #include <array>
@@ -16,18 +17,24 @@ inline constexpr std::uint16_t kSoilAsAtStart = 0xFFFF;
 
 /// What can be seen of the 1024 columns of a tile, x fastest.
 struct SurfaceTile {
-  TileHeights height;                                      ///< surface in W [m], loose soil included where there is any
-  std::array<std::uint16_t, kTileColumns> soil;            ///< of the uppermost layer; kSoilAsAtStart
-  std::array<float, kTileColumns> specific_volume;         ///< of the uppermost layer: volume / bank volume
-  std::shared_ptr<const TileHeights> start;                ///< W [m] of the untouched site
-  std::shared_ptr<std::array<float, kTileColumns>> loose;  ///< depth of loose soil [m]; null: there is none
+  /// Surface in W [m], loose soil included where there is any.
+  TileHeights height;
+  /// Of the uppermost layer; kSoilAsAtStart.
+  std::array<std::uint16_t, kTileColumns> soil;
+  /// Of the uppermost layer: volume / bank volume.
+  std::array<float, kTileColumns> specific_volume;
+  std::shared_ptr<const TileHeights> start;  ///< W [m] of the untouched site
+  /// Depth of loose soil [m]; null: there is none.
+  std::shared_ptr<std::array<float, kTileColumns>> loose;
   bool frozen = false;  ///< shared with a copy of the table; only who writes asks for it
 };
 
-/// A sparse table of surface tiles that is cheap to copy: copies share tiles, and who writes to a shared one first
-/// makes its own (14 KiB). A copy costs 1.6 kB a km2 of 0.1 m columns, however much was dug.
+/// A sparse table of surface tiles that is cheap to copy: copies share tiles, and who writes to a
+/// shared one first makes its own (14 KiB). A copy costs 1.6 kB a km2 of 0.1 m columns, however
+/// much was dug.
 ///
-/// One thread writes. Copies made after `freeze` may be read by any thread, also while the original is written to.
+/// One thread writes. Copies made after `freeze` may be read by any thread, also while the original
+/// is written to.
 class SurfaceTable {
  public:
   /// Of an untouched site.
@@ -36,16 +43,19 @@ class SurfaceTable {
   /// The tile, null where the site is untouched.
   const SurfaceTile* find(int tx, int ty) const {
     const Square* square = squares_[square_of(tx, ty)].get();
-    return square != nullptr ? square->tiles[static_cast<std::size_t>(index_in_tile(tx, ty))].get() : nullptr;
+    return square != nullptr ? square->tiles[static_cast<std::size_t>(index_in_tile(tx, ty))].get()
+                             : nullptr;
   }
   /// The tile to write to, made from the untouched site where there is none.
   SurfaceTile& own(int tx, int ty, const StartHeights& start);
-  /// Marks everything as shared. To be called before a copy that lives on; costs what was written since the last call.
+  /// Marks everything as shared. To be called before a copy that lives on; costs what was written
+  /// since the last call.
   void freeze() const;
   /// Back to the untouched site; copies keep what they have.
   void clear();
 
-  // For who compares two tables: they differ in no tile of a square for which both give the same pointer.
+  // For who compares two tables: they differ in no tile of a square for which both give the same
+  // pointer.
   std::size_t squares() const { return squares_.size(); }
   /// Identity of a square of 32 x 32 tiles, null while it is untouched; not to be followed.
   const void* square(std::size_t s) const { return squares_[s].get(); }
@@ -56,8 +66,8 @@ class SurfaceTable {
   int tiles_y() const { return tiles_y_; }
 
  private:
-  // Pointers to tiles stand in squares that are shared like the tiles themselves: a copy of the table copies one
-  // pointer for every 1024 tiles.
+  // Pointers to tiles stand in squares that are shared like the tiles themselves: a copy of the
+  // table copies one pointer for every 1024 tiles.
   struct Square {
     std::array<std::shared_ptr<SurfaceTile>, kTileColumns> tiles;
     bool frozen = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading of the surface, for live grounds and for views. Between column centres it is bilinear over the dual cells,
-// whose corners are four column centres; beyond the outermost centres it goes on level.
+// Reading of the surface, for live grounds and for views. Between column centres it is bilinear
+// over the dual cells, whose corners are four column centres; beyond the outermost centres it goes
+// on level.
 #include "heightfield/terrain.h"
 
 #include <algorithm>
@@ -11,7 +12,9 @@ namespace navvy::heightfield {
 namespace {
 
 // Like std::clamp, but a NaN gives `low` instead of an undefined conversion later.
-double bounded(double value, double low, double high) { return value > low ? std::min(value, high) : low; }
+double bounded(double value, double low, double high) {
+  return value > low ? std::min(value, high) : low;
+}
 
 // Smallest t in [0, range] with f0 + f1 t + f2 t^2 <= 0, negative when there is none.
 double first_root(double f0, double f1, double f2, double range) {
@@ -48,7 +51,8 @@ double Terrain::start_height(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
   const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
-  return tile != nullptr ? (*tile->start)[static_cast<std::size_t>(index_in_tile(ix, iy))] : start_->height(ix, iy);
+  return tile != nullptr ? (*tile->start)[static_cast<std::size_t>(index_in_tile(ix, iy))]
+                         : start_->height(ix, iy);
 }
 
 std::uint16_t Terrain::surface_soil(int ix, int iy) const {
@@ -56,8 +60,9 @@ std::uint16_t Terrain::surface_soil(int ix, int iy) const {
   iy = std::clamp(iy, 0, ny() - 1);
   // Most columns of a touched tile still show the soil they always had.
   const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
-  const std::uint16_t soil =
-      tile != nullptr ? tile->soil[static_cast<std::size_t>(index_in_tile(ix, iy))] : kSoilAsAtStart;
+  const std::uint16_t soil = tile != nullptr
+                                 ? tile->soil[static_cast<std::size_t>(index_in_tile(ix, iy))]
+                                 : kSoilAsAtStart;
   return soil != kSoilAsAtStart ? soil : start_->site().surface_soil(ix, iy);
 }
 
@@ -65,23 +70,28 @@ float Terrain::specific_volume(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
   const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
-  return tile != nullptr ? tile->specific_volume[static_cast<std::size_t>(index_in_tile(ix, iy))] : 1.0f;
+  return tile != nullptr ? tile->specific_volume[static_cast<std::size_t>(index_in_tile(ix, iy))]
+                         : 1.0f;
 }
 
 float Terrain::loose_depth(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
   const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
-  return tile != nullptr && tile->loose ? (*tile->loose)[static_cast<std::size_t>(index_in_tile(ix, iy))] : 0.0f;
+  return tile != nullptr && tile->loose
+             ? (*tile->loose)[static_cast<std::size_t>(index_in_tile(ix, iy))]
+             : 0.0f;
 }
 
-// Heights at the corners (ix, iy), (ix+1, iy), (ix, iy+1), (ix+1, iy+1) of the dual cell between column centres.
+// Heights at the corners (ix, iy), (ix+1, iy), (ix, iy+1), (ix+1, iy+1) of the dual cell between
+// column centres.
 void Terrain::corners(int ix, int iy, double z[4]) const {
   // Most dual cells lie within one tile, which is then found once.
   if (ix >= 0 && iy >= 0 && ix + 1 < nx() && iy + 1 < ny() && ix % kTileSide + 1 < kTileSide &&
       iy % kTileSide + 1 < kTileSide) {
     const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
-    const TileHeights* heights = tile != nullptr ? &tile->height : start_->tile(ix / kTileSide, iy / kTileSide);
+    const TileHeights* heights =
+        tile != nullptr ? &tile->height : start_->tile(ix / kTileSide, iy / kTileSide);
     if (heights != nullptr) {
       const double* h = heights->data() + index_in_tile(ix, iy);
       z[0] = h[0], z[1] = h[1], z[2] = h[kTileSide], z[3] = h[kTileSide + 1];
@@ -129,14 +139,17 @@ double Terrain::highest(const CellRect& rect) const {
   const int y0 = std::clamp(rect.y0, 0, ny() - 1), y1 = std::clamp(rect.y1 - 1, 0, ny() - 1);
   for (int ty = y0 / kTileSide; ty <= y1 / kTileSide; ++ty)
     for (int tx = x0 / kTileSide; tx <= x1 / kTileSide; ++tx) {
-      const int left = std::max(x0 - tx * kTileSide, 0), right = std::min(x1 - tx * kTileSide, kTileSide - 1);
-      const int front = std::max(y0 - ty * kTileSide, 0), back = std::min(y1 - ty * kTileSide, kTileSide - 1);
+      const int left = std::max(x0 - tx * kTileSide, 0),
+                right = std::min(x1 - tx * kTileSide, kTileSide - 1);
+      const int front = std::max(y0 - ty * kTileSide, 0),
+                back = std::min(y1 - ty * kTileSide, kTileSide - 1);
       const SurfaceTile* tile = table_.find(tx, ty);
       const TileHeights* heights = tile != nullptr ? &tile->height : start_->tile(tx, ty);
       for (int iy = front; iy <= back; ++iy)
         for (int ix = left; ix <= right; ++ix)
-          out = std::max(out, heights != nullptr ? (*heights)[static_cast<std::size_t>(index_in_tile(ix, iy))]
-                                                 : start_->height(tx * kTileSide + ix, ty * kTileSide + iy));
+          out = std::max(out, heights != nullptr
+                                  ? (*heights)[static_cast<std::size_t>(index_in_tile(ix, iy))]
+                                  : start_->height(tx * kTileSide + ix, ty * kTileSide + iy));
     }
   return out;
 }
@@ -144,8 +157,10 @@ double Terrain::highest(const CellRect& rect) const {
 void Terrain::copy_heights(const CellRect& rect, std::vector<float>& out) const {
   out.clear();
   if (rect.empty()) return;
-  out.resize(static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0));
-  // Tile by tile, so that each untouched one is computed once, and none pushes out what wheels and soil ask for.
+  out.resize(static_cast<std::size_t>(rect.x1 - rect.x0) *
+             static_cast<std::size_t>(rect.y1 - rect.y0));
+  // Tile by tile, so that each untouched one is computed once, and none pushes out what wheels and
+  // soil ask for.
   TileHeights buffer;
   const auto tile_of = [](int i, int n) { return std::clamp(i, 0, n - 1) / kTileSide; };
   for (int ty = tile_of(rect.y0, ny()); ty <= tile_of(rect.y1 - 1, ny()); ++ty)
@@ -179,9 +194,9 @@ double Terrain::ray(const Vec3& p, const Vec3& d, double range) const {
   const auto exit_of = [&](double g, double dg, int i) {
     return dg > 0 ? (i + 1 - g) / dg : dg < 0 ? (i - g) / dg : infinity;
   };
-  // Walk the dual cells between column centres; in each the surface is bilinear and the ray's height above it a
-  // quadratic in t.
-  // Cells are entered and left at the lines between column centres.
+  // Walk the dual cells between column centres; in each the surface is bilinear and the ray's
+  // height above it a quadratic in t. Cells are entered and left at the lines between column
+  // centres.
   double t0 = 0;
   while (t0 < range) {
     const double tx = exit_of(gx, dx, ix), ty = exit_of(gy, dy, iy);

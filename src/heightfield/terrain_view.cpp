@@ -7,7 +7,8 @@ TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const
   TerrainView out = *this;
   out.surface_ = surface;
   for (const LooseSoil::Column& column : loose.columns()) {
-    // Everything in a view is shared, so the first column of a tile makes the copy that the others write to.
+    // Everything in a view is shared, so the first column of a tile makes the copy that the others
+    // write to.
     SurfaceTile& tile = out.table_.own(column.ix / kTileSide, column.iy / kTileSide, *out.start_);
     const auto i = static_cast<std::size_t>(index_in_tile(column.ix, column.iy));
     // Most tiles have no loose soil and carry no depths.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Storage of layers: a map of touched tiles for walks in a fixed order, and pointers in groups for finding one at once.
+// Storage of layers: a map of touched tiles for walks in a fixed order, and pointers in groups for
+// finding one at once.
 #include "heightfield/tiles.h"
 
 #include <algorithm>
@@ -11,12 +12,12 @@
 namespace navvy::heightfield {
 namespace {
 
-/// No column of a ground reaches as high above its rock [m]; one of a snapshot that does would wake to more soil than
-/// memory holds.
+/// No column of a ground reaches as high above its rock [m]; one of a snapshot that does would wake
+/// to more soil than memory holds.
 constexpr double kMostHeight = 3e4;
 
-/// The changed columns of a tile as they are hashed and saved: field after field, as a Layer has gaps and a tile of
-/// plain runs takes a fifth of the time that its numbers take one by one.
+/// The changed columns of a tile as they are hashed and saved: field after field, as a Layer has
+/// gaps and a tile of plain runs takes a fifth of the time that its numbers take one by one.
 struct TileColumns {
   std::vector<std::uint16_t> place;   // of the columns in the tile
   std::vector<std::uint32_t> layers;  // how many each has
@@ -37,7 +38,8 @@ struct TileColumns {
   }
   /// Refuses what no ground of `soils` soils has.
   void check(Archive& a, std::size_t soils) const;
-  /// Replaces the layers of a column by those of the one numbered `c`, which begin at `layer`; moves that on.
+  /// Replaces the layers of a column by those of the one numbered `c`, which begin at `layer`;
+  /// moves that on.
   void give(std::size_t c, std::size_t& layer, Column& column) const;
 };
 
@@ -55,7 +57,7 @@ void TileColumns::take(const Tile& tile) {
     const Column& column = tile.columns[static_cast<std::size_t>(tile.slot[i])];
     place.push_back(static_cast<std::uint16_t>(i));
     layers.push_back(static_cast<std::uint32_t>(column.size()));
-    for (const Layer& layer : column) {
+    for (const SoilLayer& layer : column) {
       soil[next] = layer.soil;
       mass[next] = layer.mass;
       specific_volume[next] = layer.specific_volume;
@@ -66,18 +68,24 @@ void TileColumns::take(const Tile& tile) {
 }
 
 void TileColumns::check(Archive& a, std::size_t soils) const {
-  const auto all = [](const auto& list, const auto& good) { return std::all_of(list.begin(), list.end(), good); };
-  const bool ascend = std::adjacent_find(place.begin(), place.end(), std::greater_equal<>()) == place.end();
-  a.require(ascend && (place.empty() || place.back() < kTileColumns), "place", "columns must ascend in their tile");
+  const auto all = [](const auto& list, const auto& good) {
+    return std::all_of(list.begin(), list.end(), good);
+  };
+  const bool ascend =
+      std::adjacent_find(place.begin(), place.end(), std::greater_equal<>()) == place.end();
+  a.require(ascend && (place.empty() || place.back() < kTileColumns), "place",
+            "columns must ascend in their tile");
   const auto wanted = std::accumulate(layers.begin(), layers.end(), std::uint64_t{0});
   a.require(layers.size() == place.size() && soil.size() == wanted && mass.size() == wanted &&
                 specific_volume.size() == wanted && plastic_shear.size() == wanted,
             "layers", "lists of columns and layers have other lengths");
-  a.require(all(soil, [&](std::uint16_t s) { return s < soils; }), "soil", "the scene has fewer soils");
+  a.require(all(soil, [&](std::uint16_t s) { return s < soils; }), "soil",
+            "the scene has fewer soils");
   a.require(all(mass, [](std::int64_t m) { return m > 0; }), "mass", "must be > 0");
-  a.require(all(specific_volume, [](float v) { return v > 0 && std::isfinite(v); }), "specific_volume",
-            "must be finite and > 0");
-  a.require(all(plastic_shear, [](float v) { return std::isfinite(v); }), "plastic_shear", "must be finite");
+  a.require(all(specific_volume, [](float v) { return v > 0 && std::isfinite(v); }),
+            "specific_volume", "must be finite and > 0");
+  a.require(all(plastic_shear, [](float v) { return std::isfinite(v); }), "plastic_shear",
+            "must be finite");
 }
 
 void TileColumns::give(std::size_t c, std::size_t& layer, Column& column) const {
@@ -89,7 +97,9 @@ void TileColumns::give(std::size_t c, std::size_t& layer, Column& column) const 
 }  // namespace
 
 Tiles::Tiles(std::shared_ptr<const StartSite> site)
-    : site_(std::move(site)), tiles_x_(site_->tiles_x()), groups_x_((tiles_x_ + kTileSide - 1) / kTileSide) {
+    : site_(std::move(site)),
+      tiles_x_(site_->tiles_x()),
+      groups_x_((tiles_x_ + kTileSide - 1) / kTileSide) {
   start_mass_.assign(site_->setup().soils.size(), 0);
   groups_.resize(static_cast<std::size_t>(groups_x_) *
                  static_cast<std::size_t>((site_->tiles_y() + kTileSide - 1) / kTileSide));
@@ -131,7 +141,7 @@ Column& Tiles::touch_column(int ix, int iy) {
     // Made before a slot is taken: the source may throw.
     Column column;
     site_->column(ix, iy, column);
-    for (const Layer& layer : column) start_mass_[layer.soil] += layer.mass;
+    for (const SoilLayer& layer : column) start_mass_[layer.soil] += layer.mass;
     slot = static_cast<std::int16_t>(tile.columns.size());
     tile.columns.push_back(std::move(column));
   }
@@ -151,7 +161,8 @@ void Tiles::update_surface(int ix, int iy, SurfaceTable& table, const StartHeigh
 
 void Tiles::update_surfaces(SurfaceTable& table, const StartHeights& start) const {
   for (const auto& [key, tile] : touched_) {
-    const int x = static_cast<int>(key % tiles_x_) * kTileSide, y = static_cast<int>(key / tiles_x_) * kTileSide;
+    const int x = static_cast<int>(key % tiles_x_) * kTileSide,
+              y = static_cast<int>(key / tiles_x_) * kTileSide;
     for (int i = 0; i < kTileColumns; ++i)
       if (tile->slot[static_cast<std::size_t>(i)] >= 0)
         update_surface(x + i % kTileSide, y + i / kTileSide, table, start);
@@ -180,11 +191,13 @@ void Tiles::visit(Archive& a) {
         const int place = columns.place[c];
         const int ix = tx * kTileSide + place % kTileSide, iy = ty * kTileSide + place / kTileSide;
         // The last tiles of a row or column reach beyond the site.
-        a.require(ix < site_->setup().nx && iy < site_->setup().ny, "place", "a column is outside the site");
+        a.require(ix < site_->setup().nx && iy < site_->setup().ny, "place",
+                  "a column is outside the site");
         // Touching it counts its start mass; its layers are those that were saved.
         Column& column = touch_column(ix, iy);
         columns.give(c, layer, column);
-        a.require(column_height(column, unit()) < kMostHeight, "layers", "a column reaches higher than any ground");
+        a.require(column_height(column, unit()) < kMostHeight, "layers",
+                  "a column reaches higher than any ground");
       }
     });
   }

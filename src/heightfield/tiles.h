@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the layers of changed columns are kept: a sparse table of 32 x 32 tiles over the untouched site.
+// Where the layers of changed columns are kept: a sparse table of 32 x 32 tiles over the untouched
+// site.
 #pragma once
 
 #include <array>
@@ -23,8 +24,8 @@ struct Tile {
   std::vector<Column> columns;
 };
 
-/// Layers of the columns that differ from the untouched site. What can be seen of them stands in a SurfaceTable, which
-/// `update_surface` keeps in step.
+/// Layers of the columns that differ from the untouched site. What can be seen of them stands in a
+/// SurfaceTable, which `update_surface` keeps in step.
 class Tiles {
  public:
   /// None touched yet.
@@ -44,8 +45,8 @@ class Tiles {
   /// Mass that the changed columns held at the start, per soil.
   const std::vector<std::int64_t>& start_mass() const { return start_mass_; }
 
-  /// Layers of the changed columns, in the order of tiles and of columns within them, not of the edits that brought
-  /// them into being. A tile without changed columns counts too: it was touched.
+  /// Layers of the changed columns, in the order of tiles and of columns within them, not of the
+  /// edits that brought them into being. A tile without changed columns counts too: it was touched.
   /// @throws InputError for a column outside the site or a layer that is not soil.
   void visit(Archive& a);
 
@@ -53,7 +54,8 @@ class Tiles {
   const UnitThickness& unit() const { return site_->unit(); }
 
  private:
-  // Tiles are found through groups of 32 x 32 pointers, so a 1 km2 site costs 800 bytes until it is touched.
+  // Tiles are found through groups of 32 x 32 pointers, so a 1 km2 site costs 800 bytes until it is
+  // touched.
   using Group = std::array<Tile*, kTileColumns>;
   std::size_t group_of(int tx, int ty) const {
     return static_cast<std::size_t>(ty / kTileSide) * static_cast<std::size_t>(groups_x_) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Windows overlap by one row and one column, so that the four cells of a bilinear height lie in one of them. Each
-// thread remembers the last few that it looked at, and asks for the lock only when it needs another.
+// Windows overlap by one row and one column, so that the four cells of a bilinear height lie in one
+// of them. Each thread remembers the last few that it looked at, and asks for the lock only when it
+// needs another.
 #include "heightfield/windowed_raster.h"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ class HashInParts {
     }
   }
   StateHash& end() {
-    for (int byte = 0; waits_ && byte < 4; ++byte) hash_.value(static_cast<std::uint8_t>(first_ >> (8 * byte)));
+    for (int byte = 0; waits_ && byte < 4; ++byte)
+      hash_.value(static_cast<std::uint8_t>(first_ >> (8 * byte)));
     waits_ = false;
     return hash_;
   }
@@ -61,7 +63,8 @@ struct WindowedRaster::Window {
   int x0 = 0, y0 = 0, width = 0;
   std::vector<float> z;
   float at(int ix, int iy) const {
-    return z[static_cast<std::size_t>(iy - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(ix - x0)];
+    return z[static_cast<std::size_t>(iy - y0) * static_cast<std::size_t>(width) +
+             static_cast<std::size_t>(ix - x0)];
   }
 };
 
@@ -97,9 +100,11 @@ void WindowedRaster::read(const CellRect& cells, float* out) const {
   for (int iy = cells.y0; iy < cells.y1; ++iy) {
     const std::int64_t row = static_cast<std::int64_t>(iy) * frame_.nx;
     const auto end = gaps_.begin() + row_begin_[static_cast<std::size_t>(iy) + 1];
-    for (auto gap = std::lower_bound(gaps_.begin() + row_begin_[static_cast<std::size_t>(iy)], end, row + cells.x0);
+    for (auto gap = std::lower_bound(gaps_.begin() + row_begin_[static_cast<std::size_t>(iy)], end,
+                                     row + cells.x0);
          gap != end && *gap < row + cells.x1; ++gap)
-      out[static_cast<std::size_t>(iy - cells.y0) * width + static_cast<std::size_t>(*gap - row - cells.x0)] =
+      out[static_cast<std::size_t>(iy - cells.y0) * width +
+          static_cast<std::size_t>(*gap - row - cells.x0)] =
           filled_[static_cast<std::size_t>(gap - gaps_.begin())];
   }
 }
@@ -150,8 +155,10 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
   row_begin_.resize(static_cast<std::size_t>(frame_.ny) + 1);
   for (int iy = 0; iy <= frame_.ny; ++iy)
     row_begin_[static_cast<std::size_t>(iy)] =
-        std::lower_bound(gaps_.begin(), gaps_.end(), static_cast<std::int64_t>(iy) * frame_.nx) - gaps_.begin();
-  // Windows that come in meanwhile have gaps where cells are not filled yet: gaps are asked for here first.
+        std::lower_bound(gaps_.begin(), gaps_.end(), static_cast<std::int64_t>(iy) * frame_.nx) -
+        gaps_.begin();
+  // Windows that come in meanwhile have gaps where cells are not filled yet: gaps are asked for
+  // here first.
   const auto at = [&](int x, int y) {
     const std::int64_t gap = gap_at(x, y);
     return gap >= 0 ? filled_[static_cast<std::size_t>(gap)] : window(x, y).at(x, y);
@@ -173,7 +180,8 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
   while (!ring.empty()) {
     values.clear();
     for (const std::int64_t gap : ring) values.push_back(value(gap));
-    for (std::size_t k = 0; k < ring.size(); ++k) filled_[static_cast<std::size_t>(ring[k])] = values[k];
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      filled_[static_cast<std::size_t>(ring[k])] = values[k];
     next.clear();
     for (const std::int64_t gap : ring) {
       const auto [ix, iy] = place(gap);
@@ -213,14 +221,16 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
       read({0, y0, frame_.nx, y0 + count}, strip);
     }
     hash.add(strip, nx * static_cast<std::size_t>(count));
-    const auto [low, high] = std::minmax_element(strip, strip + nx * static_cast<std::size_t>(count));
+    const auto [low, high] =
+        std::minmax_element(strip, strip + nx * static_cast<std::size_t>(count));
     out.least = std::min(out.least, *low);
     out.most = std::max(out.most, *high);
     for (int y = y0 == 0 ? 1 : 0; y < count; ++y) {
       const float *below = strip + nx * static_cast<std::size_t>(y) - nx, *here = below + nx;
       for (std::size_t x = 0; x + 1 < nx; ++x) {
-        const float t = tangent(frame_, static_cast<double>(below[x]), static_cast<double>(below[x + 1]),
-                                static_cast<double>(here[x]), static_cast<double>(here[x + 1]));
+        const float t =
+            tangent(frame_, static_cast<double>(below[x]), static_cast<double>(below[x + 1]),
+                    static_cast<double>(here[x]), static_cast<double>(here[x + 1]));
         least = std::min(least, t);
         most = std::max(most, t);
         above += static_cast<double>(t) > steep ? 1 : 0;
@@ -229,8 +239,8 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
         ++tangents;
       }
     }
-    std::copy(strip + nx * static_cast<std::size_t>(count - 1), strip + nx * static_cast<std::size_t>(count),
-              rows.begin());
+    std::copy(strip + nx * static_cast<std::size_t>(count - 1),
+              strip + nx * static_cast<std::size_t>(count), rows.begin());
   }
   StateHash& all = hash.end();
   for (const double one : {frame_.cell_x, frame_.cell_y, frame_.x0, frame_.y0}) all.value(one);
@@ -240,7 +250,8 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
   std::uint64_t before = 0;
   std::size_t bucket = 0;
   while (before + counts[bucket] <= tangents / 2) before += counts[bucket++];
-  const auto middle = static_cast<std::uint32_t>(bucket << kLeftOut | std::size_t{1} << (kLeftOut - 1));
+  const auto middle =
+      static_cast<std::uint32_t>(bucket << kLeftOut | std::size_t{1} << (kLeftOut - 1));
   out.slope.median = std::atan(std::bit_cast<float>(middle));
   out.slope.least = std::atan(least);
   out.slope.most = std::atan(most);
@@ -252,7 +263,8 @@ double WindowedRaster::mean(double x, double y, double edge) const {
   const auto sample = [&](double px, double py) {
     return bilinear(frame_, px, py, [&](int ix, int iy, int jx, int jy, float* corners) {
       const Window& in = window(ix, iy);
-      corners[0] = in.at(ix, iy), corners[1] = in.at(jx, iy), corners[2] = in.at(ix, jy), corners[3] = in.at(jx, jy);
+      corners[0] = in.at(ix, iy), corners[1] = in.at(jx, iy), corners[2] = in.at(ix, jy),
+      corners[3] = in.at(jx, jy);
     });
   };
   return mean_of_samples(frame_, x, y, edge, sample);

@@ -12,17 +12,19 @@
 
 namespace navvy::heightfield {
 
-/// What a HeightRaster is, of any size: its columns have the same bits. Any number of threads may ask it.
+/// What a HeightRaster is, of any size: its columns have the same bits. Any number of threads may
+/// ask it.
 ///
-/// Holds at most kMostWindows windows of kSide x kSide cells (128 MiB), those that came in last, and what its gaps were
-/// filled with. A height costs 20 ns more than from a HeightRaster where its window is there, a read where it is not.
+/// Holds at most kMostWindows windows of kSide x kSide cells (128 MiB), those that came in last,
+/// and what its gaps were filled with. A height costs 20 ns more than from a HeightRaster where its
+/// window is there, a read where it is not.
 class WindowedRaster {
  public:
   static constexpr int kSide = 256;
   static constexpr std::size_t kMostWindows = 512;
 
-  /// Fills `out` with the heights [m] of some cells, x fastest, NaN in gaps: a pure function, called by one thread at a
-  /// time. @throws InputError where the file cannot be read.
+  /// Fills `out` with the heights [m] of some cells, x fastest, NaN in gaps: a pure function,
+  /// called by one thread at a time. @throws InputError where the file cannot be read.
   using Source = std::function<void(const CellRect& cells, float* out)>;
 
   /// Of `frame` size, cells and place count; its z is empty. `side` is for tests.
@@ -31,15 +33,16 @@ class WindowedRaster {
   WindowedRaster(const WindowedRaster&) = delete;
   WindowedRaster& operator=(const WindowedRaster&) = delete;
 
-  /// As heightfield::fill_gaps. `gaps` are the cells without a height, iy * nx + ix, ascending. To be called once,
-  /// before anything else is asked; costs 30 bytes a gap.
+  /// As heightfield::fill_gaps. `gaps` are the cells without a height, iy * nx + ix, ascending. To
+  /// be called once, before anything else is asked; costs 30 bytes a gap.
   GapFill fill_gaps(std::vector<std::int64_t> gaps);
 
   /// What one pass over all cells tells.
   struct Summary {
     float least = 0, most = 0;  ///< [m]
     SlopeRange slope;           ///< as heightfield::slopes; the median to 1 part in 30 000
-    std::uint64_t hash = 0;     ///< what StateHash::bytes makes of all z and StateHash::value of the frame behind them
+    /// What StateHash::bytes makes of all z and StateHash::value of the frame behind them.
+    std::uint64_t hash = 0;
   };
   /// Reads the whole map once. No gaps may be left.
   Summary summary(double limit) const;
@@ -50,7 +53,8 @@ class WindowedRaster {
  private:
   struct Window;
   struct Cache;
-  /// The window that holds cell (ix, iy) as its first ones do; valid until this thread asks for another.
+  /// The window that holds cell (ix, iy) as its first ones do; valid until this thread asks for
+  /// another.
   const Window& window(int ix, int iy) const;
   /// Cells with what gaps were filled with.
   void read(const CellRect& cells, float* out) const;

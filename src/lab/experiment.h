@@ -35,10 +35,12 @@ struct Experiment {
   /// Numbers by their names in scene files (scene/soil_values.h), in that unit. They win over
   /// `soil_values`.
   std::vector<std::pair<std::string, std::string>> settings;
-  std::map<std::string, std::string> geometry;  ///< by Parameter::name, as written; lists with commas
-  std::vector<double> cells;                    ///< edges of the soil cells [m]; none: the rig's own
-  bool energy = false;                          ///< report the soil's energy account
-  std::function<void(double share)> progress;   ///< as Setup::progress
+  /// By Parameter::name, as written; lists with commas.
+  std::map<std::string, std::string> geometry;
+  /// Edges of the soil cells [m]; none: the rig's own.
+  std::vector<double> cells;
+  bool energy = false;                         ///< report the soil's energy account
+  std::function<void(double share)> progress;  ///< as Setup::progress
 };
 
 /// One run of a plan.
@@ -47,15 +49,17 @@ struct PlannedRun {
   Setup setup;
 };
 
-/// The axes of an experiment and a run for each combination of their values; without a list one run.
+/// The axes of an experiment and a run for each combination of their values; without a list one
+/// run.
 struct ExperimentPlan {
   std::vector<SweepAxis> axes;
   std::vector<PlannedRun> runs;
 };
 
-/// Makes the soil of an experiment: `soil` with the first of each list of values, then the settings.
-/// Values that follow others by default (residual and loose cohesion, stiffness) follow the changes
-/// unless they are given. @throws InputError for an unknown name or text that is no number.
+/// Makes the soil of an experiment: `soil` with the first of each list of values, then the
+/// settings. Values that follow others by default (residual and loose cohesion, stiffness) follow
+/// the changes unless they are given. @throws InputError for an unknown name or text that is no
+/// number.
 scene::Soil soil_of(const Experiment& experiment, scene::Soil soil);
 
 /// Makes and checks all runs, so that a fault of the last one shows before the first one runs.

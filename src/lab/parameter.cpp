@@ -20,7 +20,7 @@ std::string joined(const std::vector<Choice>& choices) {
 
 }  // namespace
 
-bool Range::contains(double value) const {
+bool ParameterRange::contains(double value) const {
   // Infinite limits alone would let infinity pass.
   if (!std::isfinite(value) || (whole && value != std::round(value))) return false;
   const bool high_enough = open_least ? value > least : value >= least;
@@ -28,44 +28,47 @@ bool Range::contains(double value) const {
   return high_enough && low_enough;
 }
 
-std::string Range::text() const {
+std::string ParameterRange::text() const {
   const bool from = std::isfinite(least), to = std::isfinite(most);
   // A count says so first: most ranges are of lengths.
   const std::string kind = whole ? "a whole number, " : "";
   // Both ends closed is the common case and has the shortest form; anything else is said in words.
-  if (from && to && !open_least && !open_most) return kind + short_text(least) + " .. " + short_text(most);
+  if (from && to && !open_least && !open_most)
+    return kind + short_text(least) + " .. " + short_text(most);
   std::string out;
   if (from) out = (open_least ? "above " : "at least ") + short_text(least);
-  if (to) out += (from ? " and " : "") + std::string(open_most ? "below " : "at most ") + short_text(most);
+  if (to)
+    out +=
+        (from ? " and " : "") + std::string(open_most ? "below " : "at most ") + short_text(most);
   if (out.empty()) return whole ? "a whole number" : "a finite number";
   return kind + out;
 }
 
-Range any() { return {}; }
+ParameterRange any() { return {}; }
 
 // These five are all that rigs need; a half-open range is made by setting its flags.
-Range above(double least) {
-  Range out;
+ParameterRange above(double least) {
+  ParameterRange out;
   out.least = least;
   out.open_least = true;
   return out;
 }
 
-Range at_least(double least) {
-  Range out;
+ParameterRange at_least(double least) {
+  ParameterRange out;
   out.least = least;
   return out;
 }
 
-Range between(double least, double most) {
-  Range out;
+ParameterRange between(double least, double most) {
+  ParameterRange out;
   out.least = least;
   out.most = most;
   return out;
 }
 
-Range count_from(int least) {
-  Range out = at_least(least);
+ParameterRange count_from(int least) {
+  ParameterRange out = at_least(least);
   out.whole = true;
   return out;
 }
@@ -93,7 +96,8 @@ std::string Parameter::text(double wanted) const {
 std::optional<double> Parameter::read(const std::string& written) const {
   for (const Choice& choice : choices)
     if (choice.word == written) return choice.number;
-  // from_chars takes no leading '+', which people write before angles and travels that may be negative.
+  // from_chars takes no leading '+', which people write before angles and travels that may be
+  // negative.
   const char* begin = written.data() + (written.rfind('+', 0) == 0 ? 1 : 0);
   const char* end = written.data() + written.size();
   double number = 0;
@@ -111,10 +115,12 @@ Parameter choice(const std::string& name, const std::string& word, const std::st
     out.value = one.number;
     return out;
   }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, name, word, out.rule(), "the default must be a choice"});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, name, word, out.rule(),
+                         "the default must be a choice"});
 }
 
-Parameter yes_no(const std::string& name, bool value, const std::string& yes, const std::string& no) {
+Parameter yes_no(const std::string& name, bool value, const std::string& yes,
+                 const std::string& no) {
   // Kept as 1 and 0 in the setup and in result files.
   return choice(name, value ? "yes" : "no", "", {{"yes", 1, yes}, {"no", 0, no}});
 }

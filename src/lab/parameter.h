@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers that describe a rig's own geometry and procedure, each with what it may be.
 //
-// A parameter is declared once, where the rig is. What a person may write, what `check` (lab/rig.h) refuses and what
-// the program's help says about it all come from that one declaration.
+// A parameter is declared once, where the rig is. What a person may write, what `check` (lab/rig.h)
+// refuses and what the program's help says about it all come from that one declaration.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,7 @@
 namespace navvy::lab {
 
 /// The numbers a parameter may take. Only finite ones lie in any range.
-struct Range {
+struct ParameterRange {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool open_least = false;  ///< `least` itself is not allowed
@@ -26,12 +26,13 @@ struct Range {
 };
 
 /// Any finite number.
-Range any();
-Range above(double least);                 ///< value > least: what a rig divides by, or what would be no body at all
-Range at_least(double least);              ///< value >= least: what may be left out
-Range between(double least, double most);  ///< both ends allowed
+ParameterRange any();
+/// Value > least: what a rig divides by, or what would be no body at all.
+ParameterRange above(double least);
+ParameterRange at_least(double least);              ///< value >= least: what may be left out
+ParameterRange between(double least, double most);  ///< both ends allowed
 /// Whole numbers from `least` on.
-Range count_from(int least);
+ParameterRange count_from(int least);
 
 /// One of the ways in which a rig can be run.
 struct Choice {
@@ -42,11 +43,12 @@ struct Choice {
 
 /// One number of a rig; the soil is not among them. SI units unless `unit` says otherwise.
 struct Parameter {
-  std::string name;                  ///< as on the command line, words joined by '-'
-  double value = 0;                  ///< default
-  std::string unit;                  ///< "" for a pure number; may be a length of the rig's own, as "cells" or "depths"
+  std::string name;  ///< as on the command line, words joined by '-'
+  double value = 0;  ///< default
+  /// "" for a pure number; may be a length of the rig's own, as "cells" or "depths".
+  std::string unit;
   std::string help;                  ///< what it is, continuing the name: `depth` "of the pit"
-  Range range;                       ///< unused when there are choices
+  ParameterRange range;              ///< unused when there are choices
   std::vector<Choice> choices = {};  ///< empty for a number
 
   bool allows(double value) const;
@@ -54,8 +56,8 @@ struct Parameter {
   std::string rule() const;
   /// A value as a person reads it: the word of a choice, else the number.
   std::string text(double value) const;
-  /// The number that `written` stands for: a word of the choices or a number, whether or not it is allowed. Empty for
-  /// text that is neither.
+  /// The number that `written` stands for: a word of the choices or a number, whether or not it is
+  /// allowed. Empty for text that is neither.
   std::optional<double> read(const std::string& written) const;
 };
 
@@ -64,7 +66,8 @@ struct Parameter {
 Parameter choice(const std::string& name, const std::string& word, const std::string& help,
                  const std::vector<Choice>& choices);
 /// A parameter that is yes (1) or no (0), with what each means.
-Parameter yes_no(const std::string& name, bool value, const std::string& yes, const std::string& no);
+Parameter yes_no(const std::string& name, bool value, const std::string& yes,
+                 const std::string& no);
 
 /// A number in as few digits as tell it, at most five: "0.0625", "12000".
 std::string short_text(double value);

@@ -6,23 +6,25 @@
 
 namespace navvy::lab {
 
-bool Quantity::has_gate() const { return !std::isnan(low) || !std::isnan(high); }
+bool Quantity::has_tolerance() const { return !std::isnan(low) || !std::isnan(high); }
 
 bool Quantity::missed() const {
   if (!judged()) return false;
   // Written so that a measured NaN misses.
-  const bool above = std::isnan(low) || measured >= low, below = std::isnan(high) || measured <= high;
+  const bool above = std::isnan(low) || measured >= low,
+             below = std::isnan(high) || measured <= high;
   return !(above && below) || std::isnan(measured);
 }
 
-Quantity& Report::add(const std::string& name, double measured, const std::string& unit, double expected, double low,
-                      double high, const std::string& source) {
+Quantity& Report::add(const std::string& name, double measured, const std::string& unit,
+                      double expected, double low, double high, const std::string& source) {
   // Order of adding is order of printing.
   results.push_back({name, measured, unit, expected, low, high, source});
   return results.back();
 }
 
-void Report::note(const std::string& name, double measured, const std::string& unit, const std::string& source) {
+void Report::note(const std::string& name, double measured, const std::string& unit,
+                  const std::string& source) {
   results.push_back({name, measured, unit, kNone, kNone, kNone, source});
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an experiment of the laboratory gives: numbers held against theory, curves, and what the run was.
+// What an experiment of the laboratory gives: numbers held against theory, curves, and what the run
+// was.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +13,26 @@
 
 namespace navvy::lab {
 
-inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< "there is none" in a Quantity
+/// "there is none" in a Quantity.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// One result. `expected` is what theory or the cited experiment says, `low` .. `high` the gate; kNone where there is
-/// none. Units are those a reader wants (mm, deg, %), spelled out in `unit`.
+/// One result. `expected` is what theory or the cited experiment says, `low` .. `high` the gate;
+/// kNone where there is none. Units are those a reader wants (mm, deg, %), spelled out in `unit`.
 struct Quantity {
   std::string name;
   double measured = kNone;
   std::string unit;  ///< "" for a pure number
   double expected = kNone;
   double low = kNone, high = kNone;  ///< either may be kNone: an open side
-  std::string source;      ///< of expected and gate: a reference as in docs/bibliography.md, a heading of docs/, words
-  std::string range = "";  ///< what the gate holds for, in words; empty where it holds for every setup of the rig
-  bool in_range = true;    ///< whether this setup lies there
+  /// Of expected and gate: a reference as in docs/bibliography.md, a heading of docs/, words.
+  std::string source;
+  /// What the gate holds for, in words; empty where it holds for every setup of the rig.
+  std::string range = "";
+  bool in_range = true;  ///< whether this setup lies there
 
-  bool has_gate() const;
+  bool has_tolerance() const;
   /// Whether the gate says anything about this setup.
-  bool judged() const { return has_gate() && in_range; }
+  bool judged() const { return has_tolerance() && in_range; }
   /// Judged, and outside the gate or not a number.
   bool missed() const;
   /// Limits the gate to what its source speaks of. Of a setup outside it nothing can be missed.
@@ -41,7 +45,8 @@ struct Series {
   std::vector<double> values;
 };
 
-/// Everything one experiment gives. A rig that runs several beds one after the other sums their steps and times.
+/// Everything one experiment gives. A rig that runs several beds one after the other sums their
+/// steps and times.
 struct Report {
   std::vector<Quantity> results;  ///< in the order in which a reader wants them
   std::vector<Series> series;
@@ -52,11 +57,13 @@ struct Report {
   std::optional<soil::EnergyAccount> energy;  ///< of all beds, when the setup asks for it
   std::string state_hash;                     ///< of the soil at the end, repeatable on one device
 
-  /// Adds a result with a gate around the expected value. What it returns is good until the next is added.
-  Quantity& add(const std::string& name, double measured, const std::string& unit, double expected, double low,
-                double high, const std::string& source);
+  /// Adds a result with a gate around the expected value. What it returns is good until the next is
+  /// added.
+  Quantity& add(const std::string& name, double measured, const std::string& unit, double expected,
+                double low, double high, const std::string& source);
   /// Adds a result without gate.
-  void note(const std::string& name, double measured, const std::string& unit, const std::string& source = "");
+  void note(const std::string& name, double measured, const std::string& unit,
+            const std::string& source = "");
   const Quantity* find(const std::string& name) const;  ///< null when there is none
   bool missed() const;                                  ///< any of the results
 };

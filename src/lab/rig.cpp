@@ -11,7 +11,8 @@ namespace navvy::lab {
 namespace {
 
 /// No file, no line: the fault is on the command line or in a caller's setup.
-Fault fault(const std::string& where, const std::string& value, const std::string& rule, const std::string& remedy) {
+Fault fault(const std::string& where, const std::string& value, const std::string& rule,
+            const std::string& remedy) {
   return Fault{Fault::Severity::kError, "", 0, where, value, rule, remedy};
 }
 
@@ -22,10 +23,12 @@ std::string did_you_mean(const std::vector<std::string>& names, const std::strin
 
 /// "lab column --l0", or "lab column" for the rig as a whole. A setup made by hand may have no rig.
 std::string place(const Rig* rig, const std::string& parameter = "") {
-  return "lab" + (rig == nullptr ? "" : " " + rig->name) + (parameter.empty() ? "" : " --" + parameter);
+  return "lab" + (rig == nullptr ? "" : " " + rig->name) +
+         (parameter.empty() ? "" : " --" + parameter);
 }
 
-Fault no_such_parameter(const Rig* rig, const std::string& name, const std::vector<std::string>& known) {
+Fault no_such_parameter(const Rig* rig, const std::string& name,
+                        const std::vector<std::string>& known) {
   return fault(place(rig), name, "there is no parameter of this name", did_you_mean(known, name));
 }
 
@@ -46,7 +49,9 @@ double Setup::operator[](const std::string& name) const {
   throw InputError(no_such_parameter(rig, name, names));
 }
 
-int Setup::whole(const std::string& name) const { return static_cast<int>(std::lround((*this)[name])); }
+int Setup::whole(const std::string& name) const {
+  return static_cast<int>(std::lround((*this)[name]));
+}
 
 bool Setup::is(const std::string& name, const std::string& word) const {
   const double value = (*this)[name];
@@ -77,7 +82,8 @@ const Rig& find_rig(const std::string& name) {
     if (rig.name == name) return rig;
     names.push_back(rig.name);
   }
-  throw InputError(fault(place(nullptr), name, "there is no rig of this name", did_you_mean(names, name)));
+  throw InputError(
+      fault(place(nullptr), name, "there is no rig of this name", did_you_mean(names, name)));
 }
 
 Setup default_setup(const Rig& rig, device::Device& device) {
@@ -87,7 +93,8 @@ Setup default_setup(const Rig& rig, device::Device& device) {
   setup.soil = rig.default_soil;
   setup.cell = rig.default_cell;
   // Every parameter is in the setup from the start: a rig never asks whether it was given.
-  for (const Parameter& parameter : rig.parameters) setup.geometry[parameter.name] = parameter.value;
+  for (const Parameter& parameter : rig.parameters)
+    setup.geometry[parameter.name] = parameter.value;
   return setup;
 }
 
@@ -107,20 +114,23 @@ void set_written(Setup& setup, const std::map<std::string, std::string>& written
     if (value)
       setup.geometry[name] = *value;
     else
-      faults.push_back(fault(place(setup.rig, name), text, parameter->rule(), did_you_mean(words(*parameter), text)));
+      faults.push_back(fault(place(setup.rig, name), text, parameter->rule(),
+                             did_you_mean(words(*parameter), text)));
   }
   if (!faults.empty()) throw InputError(faults);
 }
 
 void check(const Rig& rig, const Setup& setup) {
-  // All faults at once: who mends one wants to know of the next. The soil's here too: a rig may compute without a site.
+  // All faults at once: who mends one wants to know of the next. The soil's here too: a rig may
+  // compute without a site.
   std::vector<Fault> faults = scene::check_soil(setup.soil);
   for (const Parameter& p : rig.parameters) {
     const double value = setup[p.name];
     if (p.allows(value)) continue;
     const std::string unit = p.unit.empty() ? "" : " " + p.unit;
-    faults.push_back(fault(place(&rig, p.name), short_text(value), p.rule(),
-                           (p.help.empty() ? "" : p.help + ", ") + "by default " + p.text(p.value) + unit));
+    faults.push_back(
+        fault(place(&rig, p.name), short_text(value), p.rule(),
+              (p.help.empty() ? "" : p.help + ", ") + "by default " + p.text(p.value) + unit));
   }
   if (!faults.empty()) throw InputError(faults);
 }

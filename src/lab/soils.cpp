@@ -40,11 +40,14 @@ double friction_from_repose(double repose) {
   const double sine = std::tan(repose);
   // Beyond 45 degrees no friction alone holds a slope by this rule.
   if (repose > 0 && sine < 1) return std::asin(sine);
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "repose", std::to_string(degrees(repose)) + " deg",
-                         "above 0 and below 45 degrees", "give phi and cohesion instead"});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "repose",
+                         std::to_string(degrees(repose)) + " deg", "above 0 and below 45 degrees",
+                         "give phi and cohesion instead"});
 }
 
 // A billionth is rounding of a file's value.
-bool softens(const scene::Soil& soil) { return soil.residual_cohesion < soil.cohesion * (1 - 1e-9); }
+bool softens(const scene::Soil& soil) {
+  return soil.residual_cohesion < soil.cohesion * (1 - 1e-9);
+}
 
 }  // namespace navvy::lab

@@ -33,7 +33,8 @@ struct Axis {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  for (const char c : text)
+    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
   return out;
 }
 
@@ -45,17 +46,19 @@ std::string at(double value) {
 }
 
 std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
-  return "<line x1=\"" + at(x1) + "\" y1=\"" + at(y1) + "\" x2=\"" + at(x2) + "\" y2=\"" + at(y2) + "\" " + style +
-         "/>\n";
+  return "<line x1=\"" + at(x1) + "\" y1=\"" + at(y1) + "\" x2=\"" + at(x2) + "\" y2=\"" + at(y2) +
+         "\" " + style + "/>\n";
 }
 
 std::string text(double x, double y, const std::string& anchor, const std::string& words,
                  const std::string& more = "") {
-  return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" + escaped(words) +
-         "</text>\n";
+  return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" text-anchor=\"" + anchor + "\"" + more +
+         ">" + escaped(words) + "</text>\n";
 }
 
-bool drawn(const PlotLine& l, std::size_t i) { return std::isfinite(l.x[i]) && std::isfinite(l.y[i]); }
+bool drawn(const PlotLine& l, std::size_t i) {
+  return std::isfinite(l.x[i]) && std::isfinite(l.y[i]);
+}
 
 /// All abscissae once, in order.
 std::set<double> abscissae(const Plot& plot) {
@@ -84,7 +87,7 @@ Axis y_axis(const Plot& plot) {
   for (const PlotLine& l : plot.lines)
     for (const double v : l.y) take(v);
   for (const double v : plot.expected) take(v);
-  for (const auto& [from, to] : plot.gates) take(from), take(to);
+  for (const auto& [from, to] : plot.tolerances) take(from), take(to);
   if (!(low <= high)) low = 0, high = 1;
   // Zero is a good beginning where the values are not crowded far from it.
   if (low > 0 && low < 0.4 * high) low = 0;
@@ -94,8 +97,10 @@ Axis y_axis(const Plot& plot) {
 
 /// One mark a line, so that a print in grey can be read too.
 std::string mark(double x, double y, std::size_t index, const std::string& fill) {
-  if (index % 2 == 0) return "<circle cx=\"" + at(x) + "\" cy=\"" + at(y) + "\" r=\"4\" " + fill + "/>\n";
-  return "<rect x=\"" + at(x - 4) + "\" y=\"" + at(y - 4) + "\" width=\"8\" height=\"8\" " + fill + "/>\n";
+  if (index % 2 == 0)
+    return "<circle cx=\"" + at(x) + "\" cy=\"" + at(y) + "\" r=\"4\" " + fill + "/>\n";
+  return "<rect x=\"" + at(x - 4) + "\" y=\"" + at(y - 4) + "\" width=\"8\" height=\"8\" " + fill +
+         "/>\n";
 }
 
 std::string frame(const Plot& plot, const Axis& x, const Axis& y, const std::set<double>& values) {
@@ -112,11 +117,12 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y, const std::set
     out += line(x.at(tick), kBottom, x.at(tick), kBottom + 5, "stroke=\"black\"");
     out += text(x.at(tick), kBottom + 20, "middle", short_text(tick));
   }
-  out += "<rect x=\"" + at(kLeft) + "\" y=\"" + at(kTop) + "\" width=\"" + at(kRight - kLeft) + "\" height=\"" +
-         at(kBottom - kTop) + "\" fill=\"none\" stroke=\"black\"/>\n";
-  out += text((kLeft + kRight) / 2, kBottom + 44, "middle", plot.x_label + (x.logarithmic ? ", logarithmic" : ""));
-  out +=
-      text(0, 0, "middle", plot.y_label, " transform=\"translate(20 " + at((kTop + kBottom) / 2) + ") rotate(-90)\"");
+  out += "<rect x=\"" + at(kLeft) + "\" y=\"" + at(kTop) + "\" width=\"" + at(kRight - kLeft) +
+         "\" height=\"" + at(kBottom - kTop) + "\" fill=\"none\" stroke=\"black\"/>\n";
+  out += text((kLeft + kRight) / 2, kBottom + 44, "middle",
+              plot.x_label + (x.logarithmic ? ", logarithmic" : ""));
+  out += text(0, 0, "middle", plot.y_label,
+              " transform=\"translate(20 " + at((kTop + kBottom) / 2) + ") rotate(-90)\"");
   return out + text(kLeft, 26, "start", plot.title, " font-size=\"16\"");
 }
 
@@ -125,7 +131,10 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y, const std::set
 std::vector<double> round_ticks(double low, double high, int count) {
   if (!(high > low) || count < 1) return {low};
   const double rough = (high - low) / count, power = std::pow(10, std::floor(std::log10(rough)));
-  const double step = power * (rough > 5 * power ? 10 : rough > 2 * power ? 5 : rough > power ? 2 : 1);
+  const double step = power * (rough > 5 * power   ? 10
+                               : rough > 2 * power ? 5
+                               : rough > power     ? 2
+                                                   : 1);
   std::vector<double> out;
   // By whole numbers of steps: a sum would drift, and zero would not be zero.
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1)
@@ -136,15 +145,18 @@ std::vector<double> round_ticks(double low, double high, int count) {
 std::string svg_of(const Plot& plot) {
   const std::set<double> values = abscissae(plot);
   const Axis x = x_axis(values), y = y_axis(plot);
-  std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + at(kWidth) + "\" height=\"" + at(kHeight) +
+  std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + at(kWidth) +
+                    "\" height=\"" + at(kHeight) +
                     "\" viewBox=\"0 0 760 480\" font-family=\"sans-serif\" font-size=\"13\">\n" +
                     "<rect width=\"760\" height=\"480\" fill=\"white\"/>\n";
-  for (const auto& [low, high] : plot.gates)
-    out += "<rect x=\"" + at(kLeft) + "\" y=\"" + at(y.at(high)) + "\" width=\"" + at(kRight - kLeft) + "\" height=\"" +
-           at(y.at(low) - y.at(high)) + "\" fill=\"#eeeeee\"/>\n";
+  for (const auto& [low, high] : plot.tolerances)
+    out += "<rect x=\"" + at(kLeft) + "\" y=\"" + at(y.at(high)) + "\" width=\"" +
+           at(kRight - kLeft) + "\" height=\"" + at(y.at(low) - y.at(high)) +
+           "\" fill=\"#eeeeee\"/>\n";
   out += frame(plot, x, y, values);
   for (const double height : plot.expected)
-    out += line(kLeft, y.at(height), kRight, y.at(height), "stroke=\"#555555\" stroke-dasharray=\"6 4\"");
+    out += line(kLeft, y.at(height), kRight, y.at(height),
+                "stroke=\"#555555\" stroke-dasharray=\"6 4\"");
   for (std::size_t k = 0; k < plot.lines.size(); ++k) {
     const PlotLine& l = plot.lines[k];
     const std::string colour = kColours[k % kColours.size()];
@@ -154,9 +166,11 @@ std::string svg_of(const Plot& plot) {
       points += (points.empty() ? "" : " ") + at(x.at(l.x[i])) + "," + at(y.at(l.y[i]));
       marks += mark(x.at(l.x[i]), y.at(l.y[i]), k, "fill=\"" + colour + "\"");
     }
-    out += "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"2\"/>\n" + marks;
+    out += "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + colour +
+           "\" stroke-width=\"2\"/>\n" + marks;
     const double row = kTop + 14 + 20 * static_cast<double>(k);
-    out += mark(kRight + 18, row - 4, k, "fill=\"" + colour + "\"") + text(kRight + 30, row, "start", l.name);
+    out += mark(kRight + 18, row - 4, k, "fill=\"" + colour + "\"") +
+           text(kRight + 30, row, "start", l.name);
   }
   return out + "</svg>\n";
 }

@@ -48,7 +48,8 @@ std::vector<std::string> listed(const std::string& option, const std::string& wr
   }
   for (const std::string& part : out)
     if (part.empty())
-      throw InputError(Fault{Fault::Severity::kError, "", 0, option, written, "a value or a list of values",
+      throw InputError(Fault{Fault::Severity::kError, "", 0, option, written,
+                             "a value or a list of values",
                              "write them with commas and no space between, as 0.05,0.15"});
   return out;
 }
@@ -81,7 +82,8 @@ std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& swee
   if (sweep.runs.empty()) return out;
   for (const SweepAxis& axis : sweep.axes) out[0].push_back(heading(axis.name, axis.unit));
   const std::vector<std::string> shown = shown_results(rig, sweep.runs.front().report);
-  for (const std::string& name : shown) out[0].push_back(heading(name, sweep.runs.front().report.find(name)->unit));
+  for (const std::string& name : shown)
+    out[0].push_back(heading(name, sweep.runs.front().report.find(name)->unit));
   out[0].insert(out[0].end(), {"steps", "s", "gates"});
   for (const SweepRun& run : sweep.runs) {
     std::vector<std::string> row;
@@ -135,7 +137,7 @@ Plot plot_of(const Rig& rig, const Sweep& sweep) {
   }
   // NaN is not equal to itself: what none has is not drawn.
   if (same(expected)) out.expected.push_back(expected.front());
-  if (same(low) && same(high)) out.gates.emplace_back(low.front(), high.front());
+  if (same(low) && same(high)) out.tolerances.emplace_back(low.front(), high.front());
   return out;
 }
 

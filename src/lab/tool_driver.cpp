@@ -14,7 +14,8 @@ void ToolDriver::set_twist(const Vec3& v_W, const Vec3& w_W) {
   site_->tool(tool_).motion.v_WT = v_W;
   site_->tool(tool_).motion.w_WT = w_W;
   // Shells of one rig have one frame.
-  for (const int other : carried_) site_->tool(other).motion.v_WT = v_W, site_->tool(other).motion.w_WT = w_W;
+  for (const int other : carried_)
+    site_->tool(other).motion.v_WT = v_W, site_->tool(other).motion.w_WT = w_W;
 }
 
 void ToolDriver::step(double dt) {
@@ -110,7 +111,8 @@ Vec3 force_scatter(const Trace& trace, double from, double to) {
   return count > 0 ? Vec3((sum / count).cwiseSqrt()) : Vec3::Constant(kNone);
 }
 
-std::vector<double> low_pass(const std::vector<double>& time, const std::vector<double>& values, double cutoff) {
+std::vector<double> low_pass(const std::vector<double>& time, const std::vector<double>& values,
+                             double cutoff) {
   std::vector<double> out = values;
   const auto follow = [&](std::size_t to, std::size_t from) {
     // Backward Euler of a first-order filter, stable for any spacing of the samples.

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lab/site.h"
+#include "lab/lab_site.h"
 
 namespace navvy::lab {
 
@@ -16,8 +16,8 @@ struct Trace {
   std::vector<Vec3> moment;    ///< about the frame's origin [N m]
 };
 
-/// One shell on a prescribed path. All tools of the site move with every step; each driver keeps its own trace, so two
-/// drivers must not both step. The site must outlive it.
+/// One shell on a prescribed path. All tools of the site move with every step; each driver keeps
+/// its own trace, so two drivers must not both step. The site must outlive it.
 class ToolDriver {
  public:
   /// Adds the shell to the site, at rest.
@@ -34,17 +34,20 @@ class ToolDriver {
 
   /// One step; books the trace.
   void step(double dt);
-  /// Steps for `seconds`, at the step limit or at most `dt`; returns the mean force of that stretch [N].
+  /// Steps for `seconds`, at the step limit or at most `dt`; returns the mean force of that stretch
+  /// [N].
   Vec3 run(double seconds, double dt = 0);
   /// Moves along v for a path of `distance` [m]; returns the mean force of that stretch [N].
   Vec3 advance(double distance, const Vec3& v_W, double dt = 0);
 
-  /// From rest to v over `ramp` [m] of path, evenly accelerated (0: at once), then on at v until `distance` is done. A
-  /// tool that starts at once sends a wave of rho c_p v through the soil. Returns the mean force of it all [N].
+  /// From rest to v over `ramp` [m] of path, evenly accelerated (0: at once), then on at v until
+  /// `distance` is done. A tool that starts at once sends a wave of rho c_p v through the soil.
+  /// Returns the mean force of it all [N].
   Vec3 start(double distance, const Vec3& v_W, double ramp);
 
   const Trace& trace() const { return trace_; }
-  /// Adds time, travel and the force's components (low-passed when `cutoff` [Hz] > 0) to the report's series.
+  /// Adds time, travel and the force's components (low-passed when `cutoff` [Hz] > 0) to the
+  /// report's series.
   void write(Report& report, double cutoff = 0, const std::string& prefix = "") const;
 
  private:
@@ -59,7 +62,9 @@ class ToolDriver {
 Vec3 mean_force(const Trace& trace, double from, double to);
 /// Root mean square of the force about its mean while travel was in [from, to), per axis [N].
 Vec3 force_scatter(const Trace& trace, double from, double to);
-/// First-order low-pass, forward and backward (no lag). `cutoff` [Hz]; samples may be unevenly spaced in `time` [s].
-std::vector<double> low_pass(const std::vector<double>& time, const std::vector<double>& values, double cutoff);
+/// First-order low-pass, forward and backward (no lag). `cutoff` [Hz]; samples may be unevenly
+/// spaced in `time` [s].
+std::vector<double> low_pass(const std::vector<double>& time, const std::vector<double>& values,
+                             double cutoff);
 
 }  // namespace navvy::lab

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums run in one fixed order and in double: the bits depend on the columns alone, not on the rectangle asked for.
+// Sums run in one fixed order and in double: the bits depend on the columns alone, not on the
+// rectangle asked for.
 #include "planner/derived.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 namespace navvy::planner {
 namespace {
 
-constexpr int kWidestReach = 64;  // columns; a window of 129 x 129 costs a tenth of a millisecond a column
+// Columns; a window of 129 x 129 costs a tenth of a millisecond a column
+constexpr int kWidestReach = 64;
 
 /// NaN is the one number that differs from itself.
 bool known(float value) { return value == value; }
@@ -18,7 +20,8 @@ bool known(float value) { return value == value; }
 /// Height gained per column along one axis; NaN where neither neighbour is known.
 double gradient(float before, float here, float after) {
   const auto z = static_cast<double>(here);
-  if (known(before) && known(after)) return (static_cast<double>(after) - static_cast<double>(before)) / 2;
+  if (known(before) && known(after))
+    return (static_cast<double>(after) - static_cast<double>(before)) / 2;
   if (known(after)) return static_cast<double>(after) - z;
   if (known(before)) return z - static_cast<double>(before);
   return static_cast<double>(kUnknown);
@@ -33,8 +36,9 @@ int TraversabilityLimits::reach(double cell) const {
 void TraversabilityLimits::require_valid(double cell) const {
   const auto check = [](const char* name, double value, double most, const char* remedy) {
     if (std::isfinite(value) && value > 0 && value <= most) return;
-    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("traversability ") + name, std::to_string(value),
-                           "above 0, at most " + std::to_string(most), remedy});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("traversability ") + name,
+                           std::to_string(value), "above 0, at most " + std::to_string(most),
+                           remedy});
   };
   check("slope", slope, kPi / 2, "the steepest slope to drive on, in radians");
   check("step height", step_height, 1e6, "the highest step to drive over, in metres");
@@ -43,7 +47,8 @@ void TraversabilityLimits::require_valid(double cell) const {
 }
 
 float slope_at(const ElevationPatch& patch, int ix, int iy) {
-  // A value of its own first: nothing is told of an unknown column, however well known those round it are.
+  // A value of its own first: nothing is told of an unknown column, however well known those round
+  // it are.
   const float z = patch.at(ix, iy);
   if (!known(z)) return kUnknown;
   const double gx = gradient(patch.at(ix - 1, iy), z, patch.at(ix + 1, iy)) / patch.cell;
@@ -60,8 +65,10 @@ float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
     for (int x = ix - reach; x <= ix + reach; ++x) {
       const float z = patch.at(x, y);
       // A comparison with an unknown neighbour is false.
-      if (x < ix + reach && std::abs(patch.at(x + 1, y) - z) > most) most = std::abs(patch.at(x + 1, y) - z);
-      if (y < iy + reach && std::abs(patch.at(x, y + 1) - z) > most) most = std::abs(patch.at(x, y + 1) - z);
+      if (x < ix + reach && std::abs(patch.at(x + 1, y) - z) > most)
+        most = std::abs(patch.at(x + 1, y) - z);
+      if (y < iy + reach && std::abs(patch.at(x, y + 1) - z) > most)
+        most = std::abs(patch.at(x, y + 1) - z);
     }
   return most;
 }
@@ -89,12 +96,14 @@ float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
 }
 
-float traversability(float slope, float step_height, float roughness, const TraversabilityLimits& limits) {
+float traversability(float slope, float step_height, float roughness,
+                     const TraversabilityLimits& limits) {
   // Added in this order always. A good slope does not make up for a step that is too high.
   double sum = 0;
   bool bad = false;
-  for (const auto& [value, limit] : {std::pair{slope, limits.slope}, std::pair{step_height, limits.step_height},
-                                     std::pair{roughness, limits.roughness}}) {
+  for (const auto& [value, limit] :
+       {std::pair{slope, limits.slope}, std::pair{step_height, limits.step_height},
+        std::pair{roughness, limits.roughness}}) {
     if (!known(value)) return kUnknown;
     const double share = static_cast<double>(value) / limit;
     bad = bad || share >= 1;

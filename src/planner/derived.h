@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers that follow from elevation alone: a pure function of the columns nearby, so that a part of a map may be
-// brought up to date and comes out as if all of it had been.
+// Layers that follow from elevation alone: a pure function of the columns nearby, so that a part of
+// a map may be brought up to date and comes out as if all of it had been.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,8 @@ struct TraversabilityLimits {
   double roughness = 0.10;     ///< [m] (U)
   /// Half the side of the square that step height and roughness look at [m]; at least one column.
   double window = 0.20;
-  /// @throws InputError naming the number that is not finite and above zero, or a window of more than 64 columns.
+  /// @throws InputError naming the number that is not finite and above zero, or a window of more
+  /// than 64 columns.
   void require_valid(double cell) const;
   /// Columns to either side that a value looks at.
   int reach(double cell) const;
@@ -34,14 +35,19 @@ struct ElevationPatch {
   }
 };
 
-// Of column (ix, iy) of the site, at least `reach` columns within the patch; unknown where its elevation is.
-/// Central differences, one-sided beside unknown columns and the edge; unknown where an axis has no neighbour.
+// Of column (ix, iy) of the site, at least `reach` columns within the patch; unknown where its
+// elevation is.
+/// Central differences, one-sided beside unknown columns and the edge; unknown where an axis has no
+/// neighbour.
 float slope_at(const ElevationPatch& patch, int ix, int iy);
 /// Largest |z_a - z_b| of two edge neighbours a, b that both lie in the window.
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Rms of the residuals of the least-squares plane through the window; unknown where known columns span no plane.
+/// Rms of the residuals of the least-squares plane through the window; unknown where known columns
+/// span no plane.
 float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Mean of 1 - value / limit of the three; 0 where one of them reaches its limit, unknown where one is unknown.
-float traversability(float slope, float step_height, float roughness, const TraversabilityLimits& limits);
+/// Mean of 1 - value / limit of the three; 0 where one of them reaches its limit, unknown where one
+/// is unknown.
+float traversability(float slope, float step_height, float roughness,
+                     const TraversabilityLimits& limits);
 
 }  // namespace navvy::planner

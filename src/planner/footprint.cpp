@@ -49,7 +49,8 @@ double distance(const Box& a, const Box& b) {
   return least;
 }
 
-/// Of neighbours in a row, by a loop that is never left early: compilers make it wide. Unknown is not above.
+/// Of neighbours in a row, by a loop that is never left early: compilers make it wide. Unknown is
+/// not above.
 bool all_above(const float* row, int count, float least) {
   int bad = 0;
   for (int k = 0; k < count; ++k) bad |= static_cast<int>(!(row[k] > least));
@@ -58,11 +59,13 @@ bool all_above(const float* row, int count, float least) {
 
 void require_valid(const Footprint& f, double x, double y, double yaw, double range) {
   const auto fault = [](const char* name, double value, const char* rule) {
-    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("clearance ") + name, std::to_string(value),
-                           rule, "lengths in metres from the reference point"});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("clearance ") + name,
+                           std::to_string(value), rule,
+                           "lengths in metres from the reference point"});
   };
-  for (const auto& [name, value] : {std::pair{"front", f.front}, std::pair{"rear", f.rear}, std::pair{"left", f.left},
-                                    std::pair{"right", f.right}, std::pair{"range", range}})
+  for (const auto& [name, value] :
+       {std::pair{"front", f.front}, std::pair{"rear", f.rear}, std::pair{"left", f.left},
+        std::pair{"right", f.right}, std::pair{"range", range}})
     if (!(value >= 0 && value <= 1000)) fault(name, value, "0 to 1000 m");
   for (const auto& [name, value] : {std::pair{"x", x}, std::pair{"y", y}, std::pair{"yaw", yaw}})
     if (!(std::abs(value) <= 1e7)) fault(name, value, "a finite place");
@@ -85,29 +88,36 @@ Footprint footprint_of(const scene::Machine& machine) {
       const int joint = machine.joint_index(wheel.joint);
       if (joint < 0) continue;
       // A wheel turns about y.
-      const auto link = static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
+      const auto link =
+          static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
       const double width = wheel.width + wheel.twin_spacing;
       extend(X_BM * machine.links[link].X_ML, Vec3(wheel.radius, width / 2, wheel.radius));
     }
   }
   if (!(low.x() <= high.x()))
-    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name, "",
-                           "a machine without wheels and collision shapes of its base has no footprint",
-                           "add a <collision> to its base link"});
+    throw InputError(
+        Fault{Fault::Severity::kError, machine.file, 0, machine.name, "",
+              "a machine without wheels and collision shapes of its base has no footprint",
+              "add a <collision> to its base link"});
   // The reference point need not lie inside, but a rectangle round it is all that is asked for.
-  return {std::max(0.0, high.x()), std::max(0.0, -low.x()), std::max(0.0, high.y()), std::max(0.0, -low.y())};
+  return {std::max(0.0, high.x()), std::max(0.0, -low.x()), std::max(0.0, high.y()),
+          std::max(0.0, -low.y())};
 }
 
-double clearance(const TerrainMap& map, const Footprint& footprint, double x, double y, double yaw, double range,
-                 float least) {
+double clearance(const TerrainMap& map, const Footprint& footprint, double x, double y, double yaw,
+                 double range, float least) {
   require_valid(footprint, x, y, yaw, range);
   const Vec2 ax(std::cos(yaw), std::sin(yaw)), ay(-ax.y(), ax.x());
-  Box body{Vec2(x, y), Vec2(footprint.front + footprint.rear, footprint.left + footprint.right) / 2, ax};
-  body.middle += ax * (footprint.front - footprint.rear) / 2 + ay * (footprint.left - footprint.right) / 2;
+  Box body{Vec2(x, y), Vec2(footprint.front + footprint.rear, footprint.left + footprint.right) / 2,
+           ax};
+  body.middle +=
+      ax * (footprint.front - footprint.rear) / 2 + ay * (footprint.left - footprint.right) / 2;
   // Columns are squares; in units of the cell about the site's corner their numbers are whole.
   const double cell = map.cell();
-  const Vec2 extent = ax.cwiseAbs() * body.half.x() + ay.cwiseAbs() * body.half.y() + Vec2(range, range);
-  const Vec2 low = (body.middle - extent - map.origin()) / cell, high = (body.middle + extent - map.origin()) / cell;
+  const Vec2 extent =
+      ax.cwiseAbs() * body.half.x() + ay.cwiseAbs() * body.half.y() + Vec2(range, range);
+  const Vec2 low = (body.middle - extent - map.origin()) / cell,
+             high = (body.middle + extent - map.origin()) / cell;
   const double corner = cell * std::sqrt(0.5);  // from a column's middle to its corners
   double best = range;
   const LayerTiles& tiles = map.tiles(Layer::kTraversability);
@@ -117,9 +127,11 @@ double clearance(const TerrainMap& map, const Footprint& footprint, double x, do
     if (body.distance(centre) - corner >= best) return;
     best = std::min(best, distance(body, Box{centre, Vec2(cell, cell) / 2, Vec2(1, 0)}));
   };
-  const auto last = Vec2i(static_cast<int>(std::floor(high.x())), static_cast<int>(std::floor(high.y())));
+  const auto last =
+      Vec2i(static_cast<int>(std::floor(high.x())), static_cast<int>(std::floor(high.y())));
   for (int iy = static_cast<int>(std::floor(low.y())); iy <= last.y() && best > 0; ++iy)
-    for (int ix = static_cast<int>(std::floor(low.x())), count = 1; ix <= last.x() && best > 0; ix += count) {
+    for (int ix = static_cast<int>(std::floor(low.x())), count = 1; ix <= last.x() && best > 0;
+         ix += count) {
       count = 1;
       // Outside the site nothing is known.
       const bool inside = map.contains(ix, iy) && !tiles.empty();

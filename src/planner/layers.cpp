@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of layers and the look-up in it. What a layer's value is stands in map_maker.cpp and derived.cpp.
+// The table of layers and the look-up in it. What a layer's value is stands in map_maker.cpp and
+// derived.cpp.
 #include "planner/layers.h"
 
 #include <algorithm>
@@ -18,10 +19,13 @@ const std::array<LayerInfo, kLayers>& layers() {
       {Layer::kTarget, "target", "m", "height of the design surface", true},
       {Layer::kCutFill, "cut_fill", "m", "elevation minus target"},
       {Layer::kSlope, "slope", "rad", "angle of the surface from the horizontal"},
-      {Layer::kStepHeight, "step_height", "m", "largest height between neighbouring columns nearby"},
-      {Layer::kRoughness, "roughness", "m", "rms distance from the plane through the columns nearby"},
+      {Layer::kStepHeight, "step_height", "m",
+       "largest height between neighbouring columns nearby"},
+      {Layer::kRoughness, "roughness", "m",
+       "rms distance from the plane through the columns nearby"},
       {Layer::kTraversability, "traversability", "-", "0 bad .. 1 good"},
-      {Layer::kLooseDepth, "loose_depth", "m", "depth of the soil that lies on the columns as particles"},
+      {Layer::kLooseDepth, "loose_depth", "m",
+       "depth of the soil that lies on the columns as particles"},
       {Layer::kDensity, "density", "kg/m3", "bulk density of the uppermost soil as it lies"},
       {Layer::kSoil, "soil", "-", "index of the uppermost soil"},
       {Layer::kDisturbedAt, "disturbed_at", "s", "time of the last change that was seen"},
@@ -37,7 +41,8 @@ Layer layer_named(const std::string& name) {
     if (each.name == name) return each.layer;
     names.push_back(each.name);
   }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "layer", name, "no such layer", suggestion(name, names)});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "layer", name, "no such layer",
+                         suggestion(name, names)});
 }
 
 std::vector<Layer> layers_named(const std::string& list) {

@@ -10,8 +10,8 @@
 
 namespace navvy::planner {
 
-/// A layer of a map: one float32 for every column of the site, NaN where it is unknown. src/planner/README.md has the
-/// formulas.
+/// A layer of a map: one float32 for every column of the site, NaN where it is unknown.
+/// src/planner/README.md has the formulas.
 enum class Layer : std::uint8_t {
   kElevation,       ///< surface in W [m]
   kElevationStart,  ///< of the untouched site [m]
@@ -44,7 +44,8 @@ inline std::size_t index_of(Layer layer) { return static_cast<std::size_t>(layer
 inline const LayerInfo& info(Layer layer) { return layers()[index_of(layer)]; }
 /// The layer called `name`. @throws InputError naming the nearest one.
 Layer layer_named(const std::string& name);
-/// Of "slope,soil"; each once, in the order asked for. @throws InputError likewise, also for an empty list.
+/// Of "slope,soil"; each once, in the order asked for. @throws InputError likewise, also for an
+/// empty list.
 std::vector<Layer> layers_named(const std::string& list);
 std::vector<Layer> all_layers();
 

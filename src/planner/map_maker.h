@@ -17,28 +17,33 @@ namespace navvy::planner {
 struct MapOptions {
   std::vector<Layer> layers = all_layers();  ///< what these are made from is added
   TraversabilityLimits limits;
-  /// Design surface in W [m], a value for each column, x fastest, NaN where there is none; empty: none anywhere.
+  /// Design surface in W [m], a value for each column, x fastest, NaN where there is none; empty:
+  /// none anywhere.
   std::vector<float> target;
 };
 
 /// Makes maps of one site, each of the view it was shown last.
 ///
-/// Only columns that changed, and for the derived layers those round them, are computed anew; the result is that of a
-/// full computation to the bit. What is as in the first view is computed from that when a reader asks, so the first
-/// update costs nothing and a site takes memory only where it changed or was looked at. An update costs what changed
-/// and a pointer for each tile of 64 x 64 columns and layer. Maps taken before stay as they were. One thread makes, any
-/// number reads the maps.
+/// Only columns that changed, and for the derived layers those round them, are computed anew; the
+/// result is that of a full computation to the bit. What is as in the first view is computed from
+/// that when a reader asks, so the first update costs nothing and a site takes memory only where it
+/// changed or was looked at. An update costs what changed and a pointer for each tile of 64 x 64
+/// columns and layer. Maps taken before stay as they were. One thread makes, any number reads the
+/// maps.
 class MapMaker {
  public:
   explicit MapMaker(MapOptions options);
 
-  /// Brings the map up to date. Returns the columns with any changed value, as rectangles: at most 64, they may
-  /// overlap, and may tell some that did not change. The whole site the first time, and for a view of another site.
-  /// @throws InputError for a target that does not have a value a column, and for limits that make no sense.
+  /// Brings the map up to date. Returns the columns with any changed value, as rectangles: at most
+  /// 64, they may overlap, and may tell some that did not change. The whole site the first time,
+  /// and for a view of another site.
+  /// @throws InputError for a target that does not have a value a column, and for limits that make
+  /// no sense.
   const std::vector<heightfield::CellRect>& update(const heightfield::TerrainView& view);
   /// The map as it is now. @throws Error before the first update.
   TerrainMap map();
-  /// The next view is taken as the first of a site: nothing is known any more of what was before it (`disturbed_at`).
+  /// The next view is taken as the first of a site: nothing is known any more of what was before it
+  /// (`disturbed_at`).
   void forget();
 
  private:
@@ -47,7 +52,8 @@ class MapMaker {
   void update_base(const heightfield::TerrainView& view, const heightfield::CellRect& rect);
   void update_derived(const heightfield::CellRect& rect);
   bool wants(Layer layer) const { return !map_->tiles_[index_of(layer)].empty(); }
-  /// Whether that changed the value; an equal one is not written. Nothing happens to a layer that the map lacks.
+  /// Whether that changed the value; an equal one is not written. Nothing happens to a layer that
+  /// the map lacks.
   bool set(Layer layer, int ix, int iy, float value);
 
   std::shared_ptr<const MapOptions> options_;  // the maps' tiles are made by them, too

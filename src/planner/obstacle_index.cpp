@@ -24,12 +24,14 @@ ObstacleIndex::ObstacleIndex(const TerrainMap& map, float least)
         count = std::min(count, map.nx() - ix);
         for (int k = 0; k < count; ++k)
           // Unknown is no better than bad: the comparison is false.
-          if (row == nullptr || !(row[k] > least)) bad[static_cast<std::size_t>((ix + k) / kBlock)] = 1;
+          if (row == nullptr || !(row[k] > least))
+            bad[static_cast<std::size_t>((ix + k) / kBlock)] = 1;
       }
     const std::size_t width = static_cast<std::size_t>(across_) + 1;
     std::uint32_t* sums = &sums_[static_cast<std::size_t>(j + 1) * width];
     for (std::size_t i = 1; i < width; ++i) {
-      const std::uint32_t left = sums[i - 1], below = *(sums + i - width), corner = *(sums + i - 1 - width);
+      const std::uint32_t left = sums[i - 1], below = *(sums + i - width),
+                          corner = *(sums + i - 1 - width);
       sums[i] = left + below - corner + bad[i - 1];
     }
   }
@@ -37,18 +39,22 @@ ObstacleIndex::ObstacleIndex(const TerrainMap& map, float least)
 
 bool ObstacleIndex::empty(const Vec2& low, const Vec2& high) const {
   // Beyond the site nothing is known.
-  if (!((low - origin_).minCoeff() >= 0) || !((origin_ + extent_ - high).minCoeff() >= 0)) return false;
+  if (!((low - origin_).minCoeff() >= 0) || !((origin_ + extent_ - high).minCoeff() >= 0))
+    return false;
   const Vec2i a = ((low - origin_) / side_).cast<int>(), b = ((high - origin_) / side_).cast<int>();
   const int x1 = std::min(b.x() + 1, across_), y1 = std::min(b.y() + 1, along_);
   const auto sum = [&](int i, int j) {
-    return sums_[static_cast<std::size_t>(j) * (static_cast<std::size_t>(across_) + 1) + static_cast<std::size_t>(i)];
+    return sums_[static_cast<std::size_t>(j) * (static_cast<std::size_t>(across_) + 1) +
+                 static_cast<std::size_t>(i)];
   };
   return sum(x1, y1) + sum(a.x(), a.y()) == sum(a.x(), y1) + sum(x1, a.y());
 }
 
-bool ObstacleIndex::surely_clear(const Footprint& footprint, double x, double y, double yaw, double range) const {
+bool ObstacleIndex::surely_clear(const Footprint& footprint, double x, double y, double yaw,
+                                 double range) const {
   const Vec2 ax(std::cos(yaw), std::sin(yaw)), ay(-ax.y(), ax.x());
-  // The footprint grown by the range to all sides holds every place that is nearer. A hair more for rounding.
+  // The footprint grown by the range to all sides holds every place that is nearer. A hair more for
+  // rounding.
   const double grown = range + 1e-6, length = footprint.front + footprint.rear + 2 * grown;
   const Vec2 half(length / (2 * kSlices), (footprint.left + footprint.right) / 2 + grown);
   const Vec2 reach = ax.cwiseAbs() * half.x() + ay.cwiseAbs() * half.y();

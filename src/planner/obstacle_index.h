@@ -10,9 +10,10 @@
 
 namespace navvy::planner {
 
-/// Counts the columns that are not traversable, in blocks of 4 x 4 and summed over rectangles of blocks from the site's
-/// corner. A search asks it for most of its poses: in the open it answers fifty times faster than `clearance`. Making
-/// one costs a look at every column, and a byte for each in two.
+/// Counts the columns that are not traversable, in blocks of 4 x 4 and summed over rectangles of
+/// blocks from the site's corner. A search asks it for most of its poses: in the open it answers
+/// fifty times faster than `clearance`. Making one costs a look at every column, and a byte for
+/// each in two.
 class ObstacleIndex {
  public:
   explicit ObstacleIndex(const TerrainMap& map, float least = 0);

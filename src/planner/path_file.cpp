@@ -35,8 +35,9 @@ std::string path_rows(const std::string& machine, const std::vector<control::Pla
       for (const control::PathLeg& leg : each.path.legs())
         if (s >= leg.begin) sense = leg.sense;
       char text[160];
-      std::snprintf(text, sizeof text, ",%lld,%d,%.6g,%.4f,%.4f,%.4f,%.5f,%g\n", static_cast<long long>(each.step),
-                    plan, each.time, s, at.p.x(), at.p.y(), at.yaw, sense);
+      std::snprintf(text, sizeof text, ",%lld,%d,%.6g,%.4f,%.4f,%.4f,%.5f,%g\n",
+                    static_cast<long long>(each.step), plan, each.time, s, at.p.x(), at.p.y(),
+                    at.yaw, sense);
       out += machine + text;
     }
   }
@@ -58,10 +59,13 @@ std::vector<PathLine> read_paths(const std::string& file) {
     int plan = 0;
     double time = 0, s = 0, x = 0, y = 0;
     if (header || comma == std::string::npos ||
-        std::sscanf(row.c_str() + comma, ",%lld,%d,%lf,%lf,%lf,%lf", &step, &plan, &time, &s, &x, &y) != 6)
+        std::sscanf(row.c_str() + comma, ",%lld,%d,%lf,%lf,%lf,%lf", &step, &plan, &time, &s, &x,
+                    &y) != 6)
       throw InputError(Fault{Fault::Severity::kError, file, line, "paths", row.substr(0, 60),
-                             "must be " + path_header(), "give the folder of a run whose program has a go_to"});
-    const std::string now = row.substr(0, comma) + "," + std::to_string(step) + "," + std::to_string(plan);
+                             "must be " + path_header(),
+                             "give the folder of a run whose program has a go_to"});
+    const std::string now =
+        row.substr(0, comma) + "," + std::to_string(step) + "," + std::to_string(plan);
     if (out.empty() || now != whose) out.push_back({plan, {}});
     whose = now;
     out.back().places.emplace_back(x, y);

@@ -16,9 +16,10 @@
 namespace navvy::planner {
 namespace {
 
-// What the search keeps over the clearance asked for: the machine is a little beside its path, and poses in between two
-// that are asked for come a little nearer.
-constexpr double kReserve = 0.2;  // [m] tuned: GoToStep.DrivesRoundATrenchThatWasNotThereWhenItPlanned
+// What the search keeps over the clearance asked for: the machine is a little beside its path, and
+// poses in between two that are asked for come a little nearer. [m] tuned:
+// GoToStep.DrivesRoundATrenchThatWasNotThereWhenItPlanned
+constexpr double kReserve = 0.2;
 
 class MapPathPlanner final : public control::PathPlanner {
  public:
@@ -48,14 +49,18 @@ class MapPathPlanner final : public control::PathPlanner {
     const ObstacleIndex index(*map_);
     double wanted = 0;
     problem.valid = [&](const control::PlanePose& at) {
-      return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, wanted) || clearance(at, wanted) >= wanted;
+      return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, wanted) ||
+             clearance(at, wanted) >= wanted;
     };
-    // Without it where the machine stands or shall stand nearer than that, or where the way is too narrow.
+    // Without it where the machine stands or shall stand nearer than that, or where the way is too
+    // narrow.
     for (const double reserve : {kReserve, 0.0}) {
       wanted = query.clearance + reserve;
       if (!problem.valid(query.start) || !problem.valid(query.goal)) continue;
       std::optional<control::Path> path = plan_reeds_shepp(problem);
-      if (path && clearance_along(*this, *path, 0, query.clearance, query.clearance) >= query.clearance) return path;
+      if (path &&
+          clearance_along(*this, *path, 0, query.clearance, query.clearance) >= query.clearance)
+        return path;
     }
     return std::nullopt;
   }

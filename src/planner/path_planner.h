@@ -6,10 +6,12 @@
 
 namespace navvy::planner {
 
-/// Planners for machines by their own footprint, tightest turn and navvy:traversability. Unknown columns and everything
-/// beyond the site's edge are not traversable. Empty in a build without OMPL.
+/// Planners for machines by their own footprint, tightest turn and navvy:traversability. Unknown
+/// columns and everything beyond the site's edge are not traversable. Empty in a build without
+/// OMPL.
 ///
-/// A look costs what changed since the last one, a plan a pass over the site's columns and its search.
+/// A look costs what changed since the last one, a plan a pass over the site's columns and its
+/// search.
 control::MakePathPlanner path_planners();
 
 }  // namespace navvy::planner

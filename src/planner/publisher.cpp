@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that waits for readers, and one for each of them: how slow a reader is, only its own thread knows.
+// A thread that waits for readers, and one for each of them: how slow a reader is, only its own
+// thread knows.
 #include "planner/publisher.h"
 
 #include <arpa/inet.h>
@@ -36,7 +37,8 @@ namespace fs = std::filesystem;
 /// How often a waiting thread looks whether it shall end [s].
 constexpr double kGlance = 0.2;
 
-[[noreturn]] void refuse(const std::string& place, const std::string& rule, const std::string& remedy) {
+[[noreturn]] void refuse(const std::string& place, const std::string& rule,
+                         const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--publish", place, rule, remedy});
 }
 
@@ -84,7 +86,8 @@ void require_folder(const std::string& place) {
   // "udp:5005" is meant as an address; whoever wants a folder of that name writes "./udp:5005".
   const std::size_t colon = place.find(':');
   if (colon != std::string::npos && colon > 0 && place.find('/') == std::string::npos)
-    refuse(place, "is no address that is known", "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
+    refuse(place, "is no address that is known",
+           "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
   std::error_code failed;
   const fs::file_status there = fs::status(place, failed);
   if (!fs::exists(there)) return;
@@ -92,8 +95,10 @@ void require_folder(const std::string& place) {
   const fs::directory_iterator entries(place, failed);
   if (failed) refuse(place, "cannot be read: " + failed.message(), "name a new folder");
   if (entries != fs::directory_iterator())
-    refuse(place, "holds '" + entries->path().filename().string() + "' already: patches are numbered from 1",
-           "name a new folder");
+    refuse(
+        place,
+        "holds '" + entries->path().filename().string() + "' already: patches are numbered from 1",
+        "name a new folder");
 }
 
 bool is_address(const std::string& place) { return place.rfind("tcp:", 0) == 0; }
@@ -139,8 +144,8 @@ struct Publisher::State {
   bool send_all(int file, const char* bytes, std::size_t count, double& waited) const;
   /// Piece by piece; whole or not there. @throws FileError.
   void write_patch(const std::string& path, const MapUpdate& update) const;
-  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false to end, and so does
-  /// `alive`, which is asked while there is nothing to deliver.
+  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false
+  /// to end, and so does `alive`, which is asked while there is nothing to deliver.
   template <class Deliver, class Alive>
   void follow(const Deliver& deliver, const Alive& alive);
 };
@@ -176,7 +181,8 @@ void Publisher::State::serve_files() {
   follow(
       [&](const MapUpdate& update) {
         char name[40];
-        std::snprintf(name, sizeof name, "patch_%09llu.navvymap", static_cast<unsigned long long>(++number));
+        std::snprintf(name, sizeof name, "patch_%09llu.navvymap",
+                      static_cast<unsigned long long>(++number));
         return attempt([&] { write_patch((fs::path(folder) / name).string(), update); });
       },
       [] { return true; });
@@ -193,8 +199,10 @@ void Publisher::State::write_patch(const std::string& path, const MapUpdate& upd
   file.commit();
 }
 
-/// False when the reader is gone, or too slow at the end; `waited` counts how long it kept us since then [s].
-bool Publisher::State::send_all(int file, const char* bytes, std::size_t count, double& waited) const {
+/// False when the reader is gone, or too slow at the end; `waited` counts how long it kept us since
+/// then [s].
+bool Publisher::State::send_all(int file, const char* bytes, std::size_t count,
+                                double& waited) const {
   Stopwatch lap;
   for (std::size_t at = 0; at < count;) {
     pollfd out{file, POLLOUT, 0};
@@ -218,8 +226,11 @@ void Publisher::State::serve(int file, std::atomic<bool>& done) {
   watch_connection(file);
   try {
     double waited = 0;
-    const PatchSink sink = [&](const char* bytes, std::size_t count) { return send_all(file, bytes, count, waited); };
-    follow([&](const MapUpdate& update) { return send_patch(update, layers, sink); }, [&] { return is_there(file); });
+    const PatchSink sink = [&](const char* bytes, std::size_t count) {
+      return send_all(file, bytes, count, waited);
+    };
+    follow([&](const MapUpdate& update) { return send_patch(update, layers, sink); },
+           [&] { return is_there(file); });
   } catch (const std::exception&) {
     // No memory for its patch: this reader is let go, and may come back.
   }
@@ -255,7 +266,8 @@ void Publisher::State::accept_readers() {
       continue;
     }
     if (readers.size() >= kMostReaders) {
-      tell("a reader of the map was turned away: " + std::to_string(kMostReaders) + " are connected");
+      tell("a reader of the map was turned away: " + std::to_string(kMostReaders) +
+           " are connected");
       ::close(file);
       continue;
     }
@@ -291,7 +303,8 @@ Publisher::~Publisher() { finish(); }
 
 void Publisher::require_place(const std::string& place) {
   int port = 0;
-  // Taken and let go: what is free now is free in a minute but for a rare race, which the making tells.
+  // Taken and let go: what is free now is free in a minute but for a rare race, which the making
+  // tells.
   if (is_address(place))
     ::close(listening(place, port));
   else

@@ -11,37 +11,43 @@
 
 namespace navvy::planner {
 
-/// Sends every update of a feed to whoever reads, from threads of its own: the loop that publishes never waits.
+/// Sends every update of a feed to whoever reads, from threads of its own: the loop that publishes
+/// never waits.
 ///
-/// `tcp:PORT` listens on 127.0.0.1 (`tcp:HOST:PORT` on the address HOST; port 0: a free one): each reader that connects
-/// gets one patch with the whole map, then patches in order, each from the number of the one before. A slow reader gets
-/// one patch for all that it missed; one that goes away, or shuts its own direction, is let go within a second and may
-/// come back. The 65th at a time is turned away, which is logged. A folder gets `patch_000000001.navvymap` and so on,
-/// each whole or not there, the first the whole map, to be read in the order of their numbers, and last an empty file
-/// `end`.
+/// `tcp:PORT` listens on 127.0.0.1 (`tcp:HOST:PORT` on the address HOST; port 0: a free one): each
+/// reader that connects gets one patch with the whole map, then patches in order, each from the
+/// number of the one before. A slow reader gets one patch for all that it missed; one that goes
+/// away, or shuts its own direction, is let go within a second and may come back. The 65th at a
+/// time is turned away, which is logged. A folder gets `patch_000000001.navvymap` and so on, each
+/// whole or not there, the first the whole map, to be read in the order of their numbers, and last
+/// an empty file `end`.
 class Publisher {
  public:
-  /// @throws InputError for a place that is none, or a port that is taken; FileError for a folder that cannot be made.
+  /// @throws InputError for a place that is none, or a port that is taken; FileError for a folder
+  /// that cannot be made.
   Publisher(UpdateFeed& feed, const std::string& place, std::vector<Layer> layers);
   /// As `finish`.
   ~Publisher();
-  /// Whether one could publish there: makes no folder and keeps no port. @throws InputError as the constructor does.
+  /// Whether one could publish there: makes no folder and keeps no port. @throws InputError as the
+  /// constructor does.
   static void require_place(const std::string& place);
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
-  /// Closes the feed, sends what is left, at most kPatience seconds to each reader, and ends its threads; what went
-  /// wrong until then `fault` tells. Once.
+  /// Closes the feed, sends what is left, at most kPatience seconds to each reader, and ends its
+  /// threads; what went wrong until then `fault` tells. Once.
   void finish();
 
   /// That it listens on; 0 for a folder.
   int port() const;
-  /// What ended a folder's writing; empty while nothing did. Readers over TCP that go away are no fault.
+  /// What ended a folder's writing; empty while nothing did. Readers over TCP that go away are no
+  /// fault.
   std::string fault() const;
 
   static constexpr double kPatience = 2;           ///< [s]
   static constexpr std::size_t kMostReaders = 64;  ///< over TCP, at a time
-  static constexpr const char* kEnd = "end";       ///< file of a folder to which no more patches come
+  /// File of a folder to which no more patches come.
+  static constexpr const char* kEnd = "end";
 
  private:
   struct State;

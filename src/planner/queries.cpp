@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface is bilinear over dual cells, whose corners are four column centres, as heightfield::Terrain has it.
+// The surface is bilinear over dual cells, whose corners are four column centres, as
+// heightfield::Terrain has it.
 #include "planner/queries.h"
 
 #include <algorithm>
@@ -12,8 +13,11 @@ namespace {
 /// A dual cell, the place in it (0..1), and its corner heights.
 struct Patch {
   double u = 0, v = 0;
-  std::array<double, 4> z{};  ///< at (0,0), (1,0), (0,1), (1,1); NaN where a corner that counts is unknown
-  double height() const { return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]); }
+  /// At (0,0), (1,0), (0,1), (1,1); NaN where a corner that counts is unknown.
+  std::array<double, 4> z{};
+  double height() const {
+    return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);
+  }
 };
 
 /// Whether W (x, y) is on the site, its edge included; false for what is no number.
@@ -27,13 +31,16 @@ void corners(const TerrainMap& map, int ix, int iy, std::array<double, 4>& z) {
   // Beyond the outermost centres the surface goes on level.
   const int x0 = std::clamp(ix, 0, map.nx() - 1), x1 = std::clamp(ix + 1, 0, map.nx() - 1);
   const int y0 = std::clamp(iy, 0, map.ny() - 1), y1 = std::clamp(iy + 1, 0, map.ny() - 1);
-  const auto at = [&](int x, int y) { return static_cast<double>(map.at(Layer::kElevation, x, y)); };
+  const auto at = [&](int x, int y) {
+    return static_cast<double>(map.at(Layer::kElevation, x, y));
+  };
   z = {at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)};
 }
 
 /// Of a place on the site.
 Patch patch_at(const TerrainMap& map, double x, double y) {
-  const double gx = (x - map.origin().x()) / map.cell() - 0.5, gy = (y - map.origin().y()) / map.cell() - 0.5;
+  const double gx = (x - map.origin().x()) / map.cell() - 0.5,
+               gy = (y - map.origin().y()) / map.cell() - 0.5;
   const double ix = std::floor(gx), iy = std::floor(gy);
   Patch patch{gx - ix, gy - iy, {}};
   corners(map, static_cast<int>(ix), static_cast<int>(iy), patch.z);
@@ -106,7 +113,9 @@ Sight line_of_sight(const TerrainMap& map, const Vec3& p, const Vec3& q) {
   if (begin > end) return Sight::kUnsure;
   Vec2i i = (g + begin * d).array().floor().cast<int>();
   const auto exit_of = [&](int axis) {
-    return d[axis] > 0 ? (i[axis] + 1 - g[axis]) / d[axis] : d[axis] < 0 ? (i[axis] - g[axis]) / d[axis] : 2.0;
+    return d[axis] > 0   ? (i[axis] + 1 - g[axis]) / d[axis]
+           : d[axis] < 0 ? (i[axis] - g[axis]) / d[axis]
+                         : 2.0;
   };
   for (double t0 = begin; t0 <= end;) {
     const double tx = exit_of(0), ty = exit_of(1), t1 = std::min({tx, ty, end});
@@ -116,7 +125,8 @@ Sight line_of_sight(const TerrainMap& map, const Vec3& p, const Vec3& q) {
     const double b = z[1] - z[0], c = z[2] - z[0], e = z[3] - z[2] - b;
     const double u = g.x() + d.x() * t0 - i.x(), v = g.y() + d.y() * t0 - i.y();
     const double f0 = p.z() + (q.z() - p.z()) * t0 - (z[0] + b * u + c * v + e * u * v);
-    const double f1 = q.z() - p.z() - b * d.x() - c * d.y() - e * (u * d.y() + v * d.x()), f2 = -e * d.x() * d.y();
+    const double f1 = q.z() - p.z() - b * d.x() - c * d.y() - e * (u * d.y() + v * d.x()),
+                 f2 = -e * d.x() * d.y();
     const double low = least(f0, f1, f2, std::max(t1 - t0, 0.0));
     if (low < 0) return Sight::kHidden;
     all_known = all_known && low == low;

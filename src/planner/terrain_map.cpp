@@ -14,7 +14,8 @@ namespace navvy::planner {
 
 using heightfield::CellRect;
 
-/// Filled in by const calls: atomic, and never changed once set. Shared by all maps that have the source.
+/// Filled in by const calls: atomic, and never changed once set. Shared by all maps that have the
+/// source.
 struct LayerTiles::Asked {
   Asked(Layer l, std::shared_ptr<const LayerSource> s, std::size_t tiles)
       : layer(l), source(std::move(s)), values(tiles) {}
@@ -30,7 +31,8 @@ LayerTiles::LayerTiles(int nx, int ny, Layer layer, std::shared_ptr<const LayerS
     : nx_(nx),
       ny_(ny),
       across_((nx + kSide - 1) / kSide),
-      tiles_(static_cast<std::size_t>(across_) * static_cast<std::size_t>((ny + kSide - 1) / kSide)) {
+      tiles_(static_cast<std::size_t>(across_) *
+             static_cast<std::size_t>((ny + kSide - 1) / kSide)) {
   if (source) asked_ = std::make_shared<const Asked>(layer, std::move(source), tiles_.size());
 }
 
@@ -39,7 +41,8 @@ void LayerTiles::compute(std::size_t tile, Values& to) const {
   const int y0 = static_cast<int>(tile / static_cast<std::size_t>(across_)) * kSide;
   to.fill(kUnknown);
   if (asked_)
-    asked_->source->fill(asked_->layer, CellRect{x0, y0, x0 + kSide, y0 + kSide}.cut({0, 0, nx_, ny_}), to.data(),
+    asked_->source->fill(asked_->layer,
+                         CellRect{x0, y0, x0 + kSide, y0 + kSide}.cut({0, 0, nx_, ny_}), to.data(),
                          kSide);
 }
 
@@ -89,7 +92,8 @@ bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   const float before = known != nullptr ? known[at] : kUnknown;
   if (std::bit_cast<std::uint32_t>(before) == std::bit_cast<std::uint32_t>(value)) return false;
   if (!tile || tile->edition != edition) {
-    // A map of an earlier edition may hold it; how many do is not asked, as their threads may drop it this moment.
+    // A map of an earlier edition may hold it; how many do is not asked, as their threads may drop
+    // it this moment.
     auto fresh = std::make_shared<Tile>();
     if (known != nullptr)
       std::copy(known, known + fresh->values.size(), fresh->values.begin());
@@ -114,11 +118,13 @@ LayerTiles::View LayerTiles::view(int tx, int ty) const {
 }
 
 void LayerTiles::copy(const CellRect& rect, float* out, std::size_t stride) const {
-  // Four tiles a side at once: layers that look around compute as many columns beside them for one tile as for sixteen.
+  // Four tiles a side at once: layers that look around compute as many columns beside them for one
+  // tile as for sixteen.
   constexpr int kBlock = 4 * kSide;
   const auto next = [](int i, int by, int end) { return std::min((i / by + 1) * by, end); };
   const auto target = [&](int ix, int iy) {
-    return out + static_cast<std::size_t>(iy - rect.y0) * stride + static_cast<std::size_t>(ix - rect.x0);
+    return out + static_cast<std::size_t>(iy - rect.y0) * stride +
+           static_cast<std::size_t>(ix - rect.x0);
   };
   for (int y0 = rect.y0, y1 = 0; y0 < rect.y1; y0 = y1) {
     y1 = next(y0, kBlock, rect.y1);
@@ -126,9 +132,11 @@ void LayerTiles::copy(const CellRect& rect, float* out, std::size_t stride) cons
       x1 = next(x0, kBlock, rect.x1);
       bool all = true;
       for (int iy = y0; iy < y1; iy = next(iy, kSide, y1))
-        for (int ix = x0; ix < x1; ix = next(ix, kSide, x1)) all = all && present(tile_of(ix, iy)) != nullptr;
+        for (int ix = x0; ix < x1; ix = next(ix, kSide, x1))
+          all = all && present(tile_of(ix, iy)) != nullptr;
       // What is in memory comes over it.
-      if (!all && asked_) asked_->source->fill(asked_->layer, {x0, y0, x1, y1}, target(x0, y0), stride);
+      if (!all && asked_)
+        asked_->source->fill(asked_->layer, {x0, y0, x1, y1}, target(x0, y0), stride);
       for (int iy = y0; iy < y1; ++iy)
         for (int ix = x0, end = 0; ix < x1; ix = end) {
           end = next(ix, kSide, x1);
@@ -173,16 +181,18 @@ TerrainMap TerrainMap::with(Layer layer, std::shared_ptr<const LayerSource> sour
 
 TerrainMap TerrainMap::with(Layer layer, std::span<const float> values) const {
   if (static_cast<std::int64_t>(values.size()) != rect().area())
-    throw Error("TerrainMap::with: " + std::to_string(values.size()) + " values for " + std::to_string(nx()) + " x " +
-                std::to_string(ny()) + " columns");
+    throw Error("TerrainMap::with: " + std::to_string(values.size()) + " values for " +
+                std::to_string(nx()) + " x " + std::to_string(ny()) + " columns");
   // Shares every other layer with this map.
   TerrainMap out = *this;
   LayerTiles& to = out.tiles_[index_of(layer)];
   to = LayerTiles(nx(), ny(), layer, nullptr);
   for (int iy = 0; iy < ny(); ++iy)
     for (int ix = 0; ix < nx(); ++ix) {
-      const float value = values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) + ix];
-      // Unknown tiles stay without memory. Every NaN is the same one, so that maps compare bit by bit.
+      const float value =
+          values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) + ix];
+      // Unknown tiles stay without memory. Every NaN is the same one, so that maps compare bit by
+      // bit.
       if (value == value) to.set(ix, iy, value, sequence_);
     }
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps share their tiles, so an update is a few pointers: publishing copies nothing and readers lock for a moment only.
+// Maps share their tiles, so an update is a few pointers: publishing copies nothing and readers
+// lock for a moment only.
 #include "planner/updates.h"
 
 #include <algorithm>
@@ -28,7 +29,8 @@ class TileComparison {
   }
   std::int64_t changed(int tx, int ty) {
     constexpr int kSide = LayerTiles::kSide;
-    const CellRect tile = CellRect{tx * kSide, ty * kSide, (tx + 1) * kSide, (ty + 1) * kSide}.cut(b_.rect());
+    const CellRect tile =
+        CellRect{tx * kSide, ty * kSide, (tx + 1) * kSide, (ty + 1) * kSide}.cut(b_.rect());
     bool any = false;
     for (const Layer layer : layers_) {
       const bool had = a_.has(layer);
@@ -44,7 +46,8 @@ class TileComparison {
         for (int ix = 0; ix < tile.x1 - tile.x0; ++ix) {
           const auto i = static_cast<std::size_t>(iy * kSide + ix);
           const float u = p != nullptr ? p[i] : kUnknown, v = q != nullptr ? q[i] : kUnknown;
-          if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v)) differs_[i] = true;
+          if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v))
+            differs_[i] = true;
         }
     }
     return any ? std::count(differs_.begin(), differs_.end(), true) : 0;
@@ -83,8 +86,8 @@ UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
   if (restart_) maker_.forget();
   const std::vector<CellRect>& rects = maker_.update(view);
   MapUpdate update{0, number, view.time(), rects, 0, false, maker_.map().numbered(number)};
-  const bool same_site =
-      before && !restart_ && before->map.nx() == update.map.nx() && before->map.ny() == update.map.ny();
+  const bool same_site = before && !restart_ && before->map.nx() == update.map.nx() &&
+                         before->map.ny() == update.map.ny();
   update.since = same_site ? before->sequence : 0;
   update.changed = same_site ? count_changed(before->map, update.map) : update.map.rect().area();
   if (same_site && update.changed == 0) return before;
@@ -122,7 +125,8 @@ UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
   if (latest_->since == seen && seen != 0) return latest_;
   MapUpdate out = *latest_;
   // What it missed must be in the list from its first step on.
-  const bool known = seen > 0 && seen < latest_->sequence && !steps_.empty() && steps_.front().sequence <= seen + 1;
+  const bool known = seen > 0 && seen < latest_->sequence && !steps_.empty() &&
+                     steps_.front().sequence <= seen + 1;
   out.since = known ? seen : 0;
   heightfield::RectList all;
   if (!known) all.add(out.map.rect());
@@ -172,19 +176,21 @@ bool UpdateFeed::closed() const {
 
 bool send_patch(const MapUpdate& update, const std::vector<Layer>& wanted, const PatchSink& sink) {
   const TerrainMap& map = update.map;
-  std::string head = "{\"format\": 1, \"since\": " + std::to_string(update.since) +
-                     ", \"sequence\": " + std::to_string(update.sequence) +
-                     ", \"time_s\": " + json_number(update.time) + ", \"nx\": " + std::to_string(map.nx()) +
-                     ", \"ny\": " + std::to_string(map.ny()) + ", \"cell_m\": " + json_number(map.cell()) +
-                     ", \"origin_m\": [" + json_number(map.origin().x()) + ", " + json_number(map.origin().y()) +
-                     "], \"changed\": " + std::to_string(update.changed) +
-                     ", \"merged\": " + (update.merged ? "true" : "false") + ", \"layers\": [";
-  for (std::size_t i = 0; i < wanted.size(); ++i) head += (i > 0 ? ", " : "") + json_string(info(wanted[i]).name);
+  std::string head =
+      "{\"format\": 1, \"since\": " + std::to_string(update.since) +
+      ", \"sequence\": " + std::to_string(update.sequence) +
+      ", \"time_s\": " + json_number(update.time) + ", \"nx\": " + std::to_string(map.nx()) +
+      ", \"ny\": " + std::to_string(map.ny()) + ", \"cell_m\": " + json_number(map.cell()) +
+      ", \"origin_m\": [" + json_number(map.origin().x()) + ", " + json_number(map.origin().y()) +
+      "], \"changed\": " + std::to_string(update.changed) +
+      ", \"merged\": " + (update.merged ? "true" : "false") + ", \"layers\": [";
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    head += (i > 0 ? ", " : "") + json_string(info(wanted[i]).name);
   head += "], \"rects\": [";
   for (std::size_t i = 0; i < update.rects.size(); ++i) {
     const CellRect& r = update.rects[i];
-    head += (i > 0 ? ", [" : "[") + std::to_string(r.x0) + ", " + std::to_string(r.y0) + ", " + std::to_string(r.x1) +
-            ", " + std::to_string(r.y1) + "]";
+    head += (i > 0 ? ", [" : "[") + std::to_string(r.x0) + ", " + std::to_string(r.y0) + ", " +
+            std::to_string(r.x1) + ", " + std::to_string(r.y1) + "]";
   }
   head += "]}";
   // Numbers begin at a multiple of 4.
@@ -198,11 +204,13 @@ bool send_patch(const MapUpdate& update, const std::vector<Layer>& wanted, const
   for (const CellRect& rect : update.rects)
     for (const Layer layer : wanted) {
       const auto width = static_cast<std::int64_t>(rect.x1 - rect.x0);
-      const int rows =
-          static_cast<int>(std::clamp<std::int64_t>(kPieceValues / std::max<std::int64_t>(width, 1), 1, 256));
+      const int rows = static_cast<int>(
+          std::clamp<std::int64_t>(kPieceValues / std::max<std::int64_t>(width, 1), 1, 256));
       for (int y0 = rect.y0; y0 < rect.y1; y0 += rows) {
-        const std::vector<float> values = map.copy(layer, {rect.x0, y0, rect.x1, std::min(y0 + rows, rect.y1)});
-        if (!sink(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float))) return false;
+        const std::vector<float> values =
+            map.copy(layer, {rect.x0, y0, rect.x1, std::min(y0 + rows, rect.y1)});
+        if (!sink(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)))
+          return false;
       }
     }
   return true;

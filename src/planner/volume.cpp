@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The polygon is cut to a row of columns, and that to each column: areas by the shoelace formula, which stays right
-// where clipping leaves edges that run to and fro.
+// The polygon is cut to a row of columns, and that to each column: areas by the shoelace formula,
+// which stays right where clipping leaves edges that run to and fro.
 #include "planner/volume.h"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 
 using Polygon = std::vector<Vec2>;
 
-/// Appends to `out` the part of `in` with sign * (coordinate - line) >= 0 along `axis` [Sutherland 1974].
+/// Appends to `out` the part of `in` with sign * (coordinate - line) >= 0 along `axis`
+/// [Sutherland 1974].
 void clip(const Polygon& in, int axis, double line, double sign, Polygon& out) {
   out.clear();
   for (std::size_t i = 0; i < in.size(); ++i) {
@@ -45,7 +46,8 @@ double area(const Polygon& polygon) {
 
 /// Adds `share` [m2] of one column.
 void add(const TerrainMap& map, Layer reference, int ix, int iy, double share, CutFill& sum) {
-  const double rise = static_cast<double>(map.at(Layer::kElevation, ix, iy)) - map.at(reference, ix, iy);
+  const double rise =
+      static_cast<double>(map.at(Layer::kElevation, ix, iy)) - map.at(reference, ix, iy);
   if (!(rise == rise)) {
     sum.unknown_area += share;
     return;
@@ -56,18 +58,21 @@ void add(const TerrainMap& map, Layer reference, int ix, int iy, double share, C
   sum.fill += rise * share;
   // The whole rise is taken to be as dense as its surface.
   const float soil = map.at(Layer::kSoil, ix, iy);
-  const double bank = soil >= 0 ? map.setup().soils[static_cast<std::size_t>(soil)].bank_density : NAN;
+  const double bank =
+      soil >= 0 ? map.setup().soils[static_cast<std::size_t>(soil)].bank_density : NAN;
   sum.fill_bank += rise * share * static_cast<double>(map.at(Layer::kDensity, ix, iy)) / bank;
-  sum.awake += std::min(rise, static_cast<double>(map.at(Layer::kLooseDepth, ix, iy))) * share;
+  sum.active += std::min(rise, static_cast<double>(map.at(Layer::kLooseDepth, ix, iy))) * share;
 }
 
 void require_valid(std::span<const Vec2> polygon, Layer reference) {
   const auto fault = [](const std::string& value, const char* rule, const char* remedy) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, "polygon", value, rule, remedy});
   };
-  if (polygon.size() < 3) fault(std::to_string(polygon.size()) + " corners", "at least three", "add corners");
+  if (polygon.size() < 3)
+    fault(std::to_string(polygon.size()) + " corners", "at least three", "add corners");
   for (const Vec2& corner : polygon)
-    if (!corner.allFinite()) fault("a corner that is no number", "finite coordinates in W", "mend it");
+    if (!corner.allFinite())
+      fault("a corner that is no number", "finite coordinates in W", "mend it");
   if (!info(reference).height || reference == Layer::kElevation)
     fault(info(reference).name, "elevation_start or target as reference", "pick one of them");
 }
@@ -85,8 +90,8 @@ CutFill cut_and_fill(const TerrainMap& map, std::span<const Vec2> polygon, Layer
   Polygon a, row, column;
   double inside = 0;
   const auto range = [](const Polygon& p, int axis, int most, int& first, int& last) {
-    const auto [low, high] =
-        std::minmax_element(p.begin(), p.end(), [&](const Vec2& l, const Vec2& r) { return l[axis] < r[axis]; });
+    const auto [low, high] = std::minmax_element(
+        p.begin(), p.end(), [&](const Vec2& l, const Vec2& r) { return l[axis] < r[axis]; });
     first = static_cast<int>(std::clamp(std::floor((*low)[axis]), 0.0, static_cast<double>(most)));
     last = static_cast<int>(std::clamp(std::ceil((*high)[axis]), 0.0, static_cast<double>(most)));
   };

@@ -5,33 +5,34 @@
 #include <map>
 #include <utility>
 
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::record {
 namespace {
 
 /// Bank volume of each soil in a column [m3].
-void bank_volumes(const std::vector<heightfield::Layer>& column, const std::vector<scene::Soil>& soils,
-                  std::vector<double>& volumes) {
+void bank_volumes(const std::vector<heightfield::SoilLayer>& column,
+                  const std::vector<scene::Soil>& soils, std::vector<double>& volumes) {
   // The caller keeps the vector: this is called for every touched column.
   volumes.assign(soils.size(), 0.0);
-  for (const heightfield::Layer& layer : column)
+  for (const heightfield::SoilLayer& layer : column)
     volumes[layer.soil] += kilograms(layer.mass) / soils[layer.soil].bank_density;
 }
 
 }  // namespace
 
 Earthwork measure_earthwork(const sim::World& world) {
-  return measure_earthwork(world, sim::awake_places(world).lying);
+  return measure_earthwork(world, sim::active_places(world).lying);
 }
 
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;
-  const heightfield::TerrainView surface = ground.view(world.time()).with(lying, heightfield::SurfaceKind::kMapped);
-  std::map<std::pair<int, int>, std::vector<double>> awake;  // bank volumes on columns [m3]
+  const heightfield::TerrainView surface =
+      ground.view(world.time()).with(lying, heightfield::SurfaceKind::kMapped);
+  std::map<std::pair<int, int>, std::vector<double>> active;  // bank volumes on columns [m3]
   for (const heightfield::LooseGrain& grain : lying.grains()) {
-    std::vector<double>& volumes = awake[{grain.ix, grain.iy}];
+    std::vector<double>& volumes = active[{grain.ix, grain.iy}];
     volumes.resize(soils.size());
     volumes[grain.soil] += kilograms(grain.mass) / soils[grain.soil].bank_density;
   }
@@ -44,7 +45,7 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
   const double area = ground.cell() * ground.cell();
   // A twentieth of a cell keeps the rounding of woken and rebooked columns out of the sums.
   const double least = 0.05 * area * ground.cell();
-  std::vector<heightfield::Layer> now, start;
+  std::vector<heightfield::SoilLayer> now, start;
   std::vector<double> after, before;
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, ground.nx()); ++ix) {
@@ -53,19 +54,23 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
       ground.start_column(ix, iy, start);
       bank_volumes(now, soils, after);
       bank_volumes(start, soils, before);
-      const auto above = awake.find({ix, iy});
+      const auto above = active.find({ix, iy});
       double gain = 0;
       // By soil: a layer dug away and another dumped in its place are both earthwork.
       for (std::size_t i = 0; i < soils.size(); ++i) {
-        const double change = after[i] + (above == awake.end() ? 0.0 : above->second[i]) - before[i];
+        const double change =
+            after[i] + (above == active.end() ? 0.0 : above->second[i]) - before[i];
         gain += change;
         if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
         if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
       }
-      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where it gained. Spoil
-      // that a wheel pressed may lie lower than the ground was; it has no negative volume.
+      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where
+      // it gained. Spoil that a wheel pressed may lie lower than the ground was; it has no negative
+      // volume.
       if (gain < -least) sum.bank_volume -= gain;
-      if (gain > least) sum.loose_volume += area * std::max(0.0, surface.height(ix, iy) - surface.start_height(ix, iy));
+      if (gain > least)
+        sum.loose_volume +=
+            area * std::max(0.0, surface.height(ix, iy) - surface.start_height(ix, iy));
     }
   return sum;
 }

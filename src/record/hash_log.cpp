@@ -24,7 +24,8 @@ HashLog::HashLog(const session::Session& session, std::string path, double every
     : session_(session), file_(std::move(path), header_of(session)), every_(every) {
   const sim::World& world = session_.world();
   // A resumed run goes on at the next distance, so that its rows equal those of the whole run.
-  if (world.steps() > 0) next_ = static_cast<std::uint64_t>(std::floor(world.time() / every_ + kHair)) + 1;
+  if (world.steps() > 0)
+    next_ = static_cast<std::uint64_t>(std::floor(world.time() / every_ + kHair)) + 1;
   observe();
 }
 
@@ -32,7 +33,8 @@ void HashLog::row() {
   const sim::World& world = session_.world();
   // Time with six digits tells steps apart; the step itself is exact.
   char start[64];
-  std::snprintf(start, sizeof start, "%llu,%.6f,", static_cast<unsigned long long>(world.steps()), world.time());
+  std::snprintf(start, sizeof start, "%llu,%.6f,", static_cast<unsigned long long>(world.steps()),
+                world.time());
   std::string text = start + session_.state_hash();
   for (const auto& [part, hash] : session_.hash_parts()) text += "," + hash;
   last_step_ = world.steps();

@@ -10,8 +10,9 @@
 
 namespace navvy::record {
 
-/// One row per distance: step, time [s], the whole state, then part by part, so that two runs compared line by line
-/// show when they parted and which part did first. Each row costs a pass over everything.
+/// One row per distance: step, time [s], the whole state, then part by part, so that two runs
+/// compared line by line show when they parted and which part did first. Each row costs a pass over
+/// everything.
 class HashLog {
  public:
   /// `every` [s]; a row at the start of a fresh run, none where a resumed one begins.

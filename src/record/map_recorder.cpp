@@ -11,8 +11,8 @@
 #include "planner/map_maker.h"
 #include "planner/ros/streams.h"
 #include "planner/sources.h"
-#include "sim/terrain_view.h"
 #include "sim/timing.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::record {
 namespace {
@@ -26,7 +26,9 @@ std::vector<Layer> layers_of(const scene::MapRecord& record) {
   return out;
 }
 
-bool is_bag(const scene::MapRecord& record) { return record.format == "mcap" || record.format == "bag"; }
+bool is_bag(const scene::MapRecord& record) {
+  return record.format == "mcap" || record.format == "bag";
+}
 
 }  // namespace
 
@@ -41,14 +43,15 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
     };
     try {
       if (planner::format_named(record.format).needs_design && !scene.design.any())
-        add({Fault::Severity::kError, "", 0, "", record.format, "needs a design: without one nothing is to be dug",
-             "give the scene a <navvy:design>"},
+        add({Fault::Severity::kError, "", 0, "", record.format,
+             "needs a design: without one nothing is to be dug", "give the scene a <navvy:design>"},
             "format");
     } catch (const InputError& error) {
       add(error.faults().front(), "format");
     }
     if (record.machine_rate > 0 && !is_bag(record))
-      add({Fault::Severity::kError, "", 0, "", record.format, "only mcap and bag hold machines", "leave it away"},
+      add({Fault::Severity::kError, "", 0, "", record.format, "only mcap and bag hold machines",
+           "leave it away"},
           "machine_rate_hz");
     for (const std::string& name : record.layers) try {
         planner::layer_named(name);
@@ -62,7 +65,9 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
 struct MapRecorder::Stream {
   Stream(const scene::MapRecord& r, planner::MapOptions options)
       : record(r), label(r.name), layers(layers_of(r)), maker(std::move(options)) {}
-  double machine_rate() const { return record.machine_rate > 0 ? record.machine_rate : record.kMachineRate; }
+  double machine_rate() const {
+    return record.machine_rate > 0 ? record.machine_rate : record.kMachineRate;
+  }
 
   scene::MapRecord record;
   std::string label;  ///< of its files now
@@ -71,7 +76,8 @@ struct MapRecorder::Stream {
   std::unique_ptr<planner::ros::Bag> bag;
 };
 
-MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder) : session_(session), folder_(folder) {
+MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
+    : session_(session), folder_(folder) {
   const scene::Scene& scene = session.world().description();
   std::vector<Fault> faults = check_records(scene);
   if (!faults.empty()) throw InputError(std::move(faults));
@@ -81,14 +87,16 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder) : s
     std::vector<Layer> layers = layers_of(record);
     layers.push_back(Layer::kElevation);
     streams_.push_back(std::make_unique<Stream>(
-        record, planner::options_for(scene, session.world().ground(), std::move(layers), session.design())));
+        record, planner::options_for(scene, session.world().ground(), std::move(layers),
+                                     session.design())));
     open(*streams_.back());
   }
 }
 
 void MapRecorder::open(Stream& stream) {
   const std::string& label = stream.label;
-  if (stream.record.format == "mcap") stream.bag = planner::ros::make_mcap(folder_.path(label + ".mcap"));
+  if (stream.record.format == "mcap")
+    stream.bag = planner::ros::make_mcap(folder_.path(label + ".mcap"));
   if (stream.record.format == "bag") {
     // Both files are the run's before they are there.
     const std::string data = folder_.path(label + "/" + label + "_0.db3");
@@ -115,7 +123,8 @@ void MapRecorder::observe() {
   for (const auto& stream : streams_) {
     const scene::MapRecord& record = stream->record;
     const auto due = [&](double rate) { return sim::sample_due(world.steps(), world.dt(), rate); };
-    const bool map_due = due(record.rate), machines_due = stream->bag && due(stream->machine_rate());
+    const bool map_due = due(record.rate),
+               machines_due = stream->bag && due(stream->machine_rate());
     const std::int64_t now = planner::ros::stamp(world.time());
     if (stream->bag && (map_due || machines_due)) planner::ros::write_clock(*stream->bag, now);
     if (machines_due) planner::ros::write_machines(*stream->bag, world, now);
@@ -131,7 +140,8 @@ void MapRecorder::observe() {
     const planner::Format& format = planner::format_named(record.format);
     char number[24];
     std::snprintf(number, sizeof number, "_%05llu",
-                  static_cast<unsigned long long>(sim::sample_number(world.steps(), world.dt(), record.rate)));
+                  static_cast<unsigned long long>(
+                      sim::sample_number(world.steps(), world.dt(), record.rate)));
     // All its files are the run's before they are there.
     const std::string name = "maps/" + stream->label + number + format.extension;
     for (const std::string& file : planner::files_of(format, name)) folder_.path(file);

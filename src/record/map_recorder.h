@@ -13,16 +13,17 @@
 
 namespace navvy::record {
 
-/// Faults of a scene's navvy:record elements that its reader cannot know: names of formats and layers. With their
-/// lines.
+/// Faults of a scene's navvy:record elements that its reader cannot know: names of formats and
+/// layers. With their lines.
 std::vector<Fault> check_records(const scene::Scene& scene);
 
 /// Writes each record of the scene at its rate, into the run's folder: a format of one instant as
-/// `maps/<name>_<number>.<extension>` (`terra` as a folder), the number counting periods from time zero; `mcap` and
-/// `bag` as one file `<name>.mcap` or one folder `<name>/` over the whole run, with clock, tf, odometry and joint
-/// states of all machines at a rate of their own. After each `restart` the files are called `<name>_2`, `<name>_3`, ...
-/// (the next that is no record's): none holds two states of one time, none is written over. Costs nothing in steps in
-/// which none is due; then a map brought up to date and the file.
+/// `maps/<name>_<number>.<extension>` (`terra` as a folder), the number counting periods from time
+/// zero; `mcap` and `bag` as one file `<name>.mcap` or one folder `<name>/` over the whole run,
+/// with clock, tf, odometry and joint states of all machines at a rate of their own. After each
+/// `restart` the files are called `<name>_2`, `<name>_3`, ... (the next that is no record's): none
+/// holds two states of one time, none is written over. Costs nothing in steps in which none is due;
+/// then a map brought up to date and the file.
 class MapRecorder {
  public:
   /// @throws InputError as check_records, FileError.

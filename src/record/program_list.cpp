@@ -17,13 +17,14 @@ json step_entry(const control::StepReport& report) {
               {"start_s", report.start},
               {"end_s", report.end},
               {"place_m", {report.place.x(), report.place.y(), report.place.z()}}};
-  for (const control::Figure& figure : report.figures) out[figure.name] = figure.value;
+  for (const control::Measurement& figure : report.figures) out[figure.name] = figure.value;
   return out;
 }
 
 /// What the run's own end makes of a step that still ran: nothing goes on in a run that is over.
 void end_with(json& entry, const std::string& status, bool taken) {
-  if (entry["state"] != control::name_of(control::StepState::kRunning) || status == "running") return;
+  if (entry["state"] != control::name_of(control::StepState::kRunning) || status == "running")
+    return;
   entry["state"] = taken ? "inputs" : "interrupted";
   entry["reason"] = taken                     ? "inputs drive the machine"
                     : status == "failed"      ? "the run stopped itself"
@@ -42,14 +43,16 @@ json program_list(const session::Session& session, const std::string& status) {
       end_with(steps.back(), status, report.taken);
     }
     const json& last = steps.back();
-    json entry = {{"machine", session.world().description().machines[static_cast<std::size_t>(report.machine)].name},
-                  {"steps", report.steps},
-                  {"step", last["step"]},
-                  {"kind", last["kind"]},
-                  {"state", last["state"]},
-                  {"reason", last["reason"]},
-                  {"time_s", last["end_s"]},
-                  {"place_m", last["place_m"]}};
+    json entry = {
+        {"machine",
+         session.world().description().machines[static_cast<std::size_t>(report.machine)].name},
+        {"steps", report.steps},
+        {"step", last["step"]},
+        {"kind", last["kind"]},
+        {"state", last["state"]},
+        {"reason", last["reason"]},
+        {"time_s", last["end_s"]},
+        {"place_m", last["place_m"]}};
     if (report.by_inputs()) entry["state"] = "inputs", entry["reason"] = "inputs drive the machine";
     entry["step_list"] = std::move(steps);
     out.push_back(std::move(entry));

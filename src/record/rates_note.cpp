@@ -42,19 +42,23 @@ std::string rates_note(const sim::World& world, double control_rate) {
   look("control", control_rate);
   look("telemetry", world.description().recording.telemetry_rate);
   if (world.description().recording.render)
-    for (const scene::Camera& camera : world.description().cameras) look("camera '" + camera.name + "'", camera.rate);
+    for (const scene::Camera& camera : world.description().cameras)
+      look("camera '" + camera.name + "'", camera.rate);
 
   std::vector<std::string> parts;
-  // A step shorter than the soil asks for costs time and changes results a little: its cause is told.
+  // A step shorter than the soil asks for costs time and changes results a little: its cause is
+  // told.
   if (dt < world.longest_step() * (1 - kWhole))
-    parts.push_back("a whole number of base steps makes up a control step; without it they would be " +
-                    number("%.4g", 1e3 * world.longest_step()) + " ms");
+    parts.push_back(
+        "a whole number of base steps makes up a control step; without it they would be " +
+        number("%.4g", 1e3 * world.longest_step()) + " ms");
   if (!nearest.empty())
-    parts.push_back(list(nearest) + (nearest.size() == 1 ? " takes" : " take") + " the nearest step, at most " +
-                    number("%.2g", 0.5e3 * dt) + " ms off at any time");
+    parts.push_back(list(nearest) + (nearest.size() == 1 ? " takes" : " take") +
+                    " the nearest step, at most " + number("%.2g", 0.5e3 * dt) +
+                    " ms off at any time");
   if (!every.empty())
-    parts.push_back(list(every) + (every.size() == 1 ? " gets" : " get") + " every step, " + number("%.4g", 1 / dt) +
-                    " a second");
+    parts.push_back(list(every) + (every.size() == 1 ? " gets" : " get") + " every step, " +
+                    number("%.4g", 1 / dt) + " a second");
   if (parts.empty()) return "";
   std::string out = "base step " + number("%.4g", 1e3 * dt) + " ms: ";
   for (std::size_t i = 0; i < parts.size(); ++i) out += (i == 0 ? "" : "; ") + parts[i];

@@ -13,8 +13,8 @@
 #include "planner/path_file.h"
 #include "record/array_recorder.h"
 #include "record/camera_pictures.h"
+#include "record/crash_summary.h"
 #include "record/hash_log.h"
-#include "record/last_words.h"
 #include "record/map_recorder.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
@@ -29,7 +29,7 @@ struct Recorder::State {
       : session(s),
         options(std::move(o)),
         folder(std::move(f)),
-        last_words(folder->path("summary.reserve"), folder->path("summary.json")),
+        crash_summary(folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
         arrays(s, *folder),
         pictures(s.world()) {
@@ -41,7 +41,7 @@ struct Recorder::State {
   session::Session& session;
   Options options;
   std::unique_ptr<RunFolder> folder;
-  LastWords last_words;
+  CrashSummary crash_summary;
   Telemetry telemetry;
   ArrayRecorder arrays;
   CameraPictures pictures;
@@ -76,26 +76,27 @@ Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<R
   try {
     state_->write_start();
   } catch (const std::exception& error) {
-    leave_last_words("failed", error.what());
+    write_crash_summary("failed", error.what());
     throw;
   }
 }
 
 void Recorder::State::write_start() {
-  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can be left that says
-  // how it ended.
+  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can
+  // be left that says how it ended.
   write_summary(false);
   // What it was comes next.
   const scene::Scene& scene = session.world().description();
   if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
-  write_file_atomically(path("run.json"),
-                        run_json({kRunFormat, navvy_version(), options.command, scene.file, session.device_name()}));
+  write_file_atomically(path("run.json"), run_json({kRunFormat, navvy_version(), options.command,
+                                                    scene.file, session.device_name()}));
   write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
   sample_when_due();
   record_arrays();
   draw_when_due();
-  if (options.hash_every > 0) hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
+  if (options.hash_every > 0)
+    hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
   if (!scene.records.empty()) maps = std::make_unique<MapRecorder>(session, *folder);
   map_when_due();
   checkpoint(true);
@@ -104,7 +105,8 @@ void Recorder::State::write_start() {
 Recorder::~Recorder() = default;
 
 bool Recorder::State::due(double rate) const {
-  // By the step's number, counted from time zero: a resumed run records the steps that the whole one would.
+  // By the step's number, counted from time zero: a resumed run records the steps that the whole
+  // one would.
   return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
 }
 
@@ -112,8 +114,9 @@ bool Recorder::State::due(double rate) const {
 void Recorder::State::write_paths() {
   std::string rows;
   for (const session::ProgramReport& report : session.programs())
-    rows += planner::path_rows(session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
-                               report.paths);
+    rows += planner::path_rows(
+        session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
+        report.paths);
   if (!rows.empty()) write_file_atomically(path("paths.csv"), planner::path_header() + "\n" + rows);
 }
 
@@ -179,7 +182,7 @@ void Recorder::State::checkpoint(bool force) {
 /// Kept ready as well, for whoever has to leave it in a hurry.
 void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
-  last_words.keep(text);
+  crash_summary.keep(text);
   write_file_atomically(path("summary.json"), text);
   summary_bytes = text.size();
   since_summary.restart();
@@ -211,8 +214,8 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
-  // Each file for itself: one that the disk refuses keeps none of the others from being written, and the summary, which
-  // comes last, tells of it.
+  // Each file for itself: one that the disk refuses keeps none of the others from being written,
+  // and the summary, which comes last, tells of it.
   std::exception_ptr first;
   const auto attempt = [&](const auto& write) {
     try {
@@ -220,7 +223,8 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     } catch (const std::exception& error) {
       // The first cause is what the user reads.
       if (s.status.status == "failed")
-        log(LogLevel::kError, std::string("results of the failed run are incomplete: ") + error.what());
+        log(LogLevel::kError,
+            std::string("results of the failed run are incomplete: ") + error.what());
       else
         s.status.message = error.what();
       s.status.status = "failed";
@@ -255,7 +259,8 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     } catch (const std::exception&) {
       text.clear();
     }
-    if (text.empty() || !s.last_words.write(text)) leave_last_words("failed", s.status.message.c_str());
+    if (text.empty() || !s.crash_summary.write(text))
+      write_crash_summary("failed", s.status.message.c_str());
   }
   // A failed run has told its cause already.
   if (first && status != "failed") std::rethrow_exception(first);

@@ -20,9 +20,10 @@ namespace {
 
 }  // namespace
 
-RowFile::RowFile(std::string path, std::string header) : path_(std::move(path)), waiting_(std::move(header)) {
-  // All it will ever hold, so that a run of days takes no more after hours than at its start; pages that stay unused
-  // cost nothing.
+RowFile::RowFile(std::string path, std::string header)
+    : path_(std::move(path)), waiting_(std::move(header)) {
+  // All it will ever hold, so that a run of days takes no more after hours than at its start; pages
+  // that stay unused cost nothing.
   waiting_.reserve(kMostWaiting + kMostWaiting / 16);
   waiting_ += '\n';
 }
@@ -55,8 +56,10 @@ void RowFile::flush() {
     if (n < 0) {
       if (errno == EINTR) continue;
       const int code = errno;
-      // A full disk may have taken a part of it. If even the cut fails, the row without an end is left to readers.
-      if (done > 0 && ::ftruncate(file_, static_cast<off_t>(on_disk_)) != 0) fail("cut", path_, errno);
+      // A full disk may have taken a part of it. If even the cut fails, the row without an end is
+      // left to readers.
+      if (done > 0 && ::ftruncate(file_, static_cast<off_t>(on_disk_)) != 0)
+        fail("cut", path_, errno);
       fail("append to", path_, code);
     }
     done += static_cast<std::size_t>(n);

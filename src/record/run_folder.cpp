@@ -23,8 +23,9 @@ namespace {
 const std::string kHead = "navvy run folder 1";
 const std::string kMoving = kHead + " moving";
 /// What runs write: a file of one of these names that no list knows is somebody's own.
-const char* const kNames[] = {"scene.sdf",         "run.json",        "summary.json",    "telemetry.csv",  "hashes.csv",
-                              "terrain_start.tif", "terrain_end.tif", "failed.snapshot", "summary.reserve"};
+const char* const kNames[] = {"scene.sdf",       "run.json",        "summary.json",
+                              "telemetry.csv",   "hashes.csv",      "terrain_start.tif",
+                              "terrain_end.tif", "failed.snapshot", "summary.reserve"};
 
 /// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
 std::string clean(const std::string& directory) {
@@ -32,12 +33,14 @@ std::string clean(const std::string& directory) {
   return (path.has_filename() ? path : path.parent_path()).string();
 }
 
-/// A list is a file like any other and may be damaged: only names below its own folder are believed.
+/// A list is a file like any other and may be damaged: only names below its own folder are
+/// believed.
 bool is_plain(const std::string& name) {
   const fs::path path(name);
   if (name.empty() || path.is_absolute()) return false;
-  return std::none_of(path.begin(), path.end(),
-                      [](const fs::path& part) { return part.empty() || part == "." || part == ".."; });
+  return std::none_of(path.begin(), path.end(), [](const fs::path& part) {
+    return part.empty() || part == "." || part == "..";
+  });
 }
 
 /// Also a link that leads nowhere is something of somebody's.
@@ -46,7 +49,8 @@ bool is_there(const fs::path& path) {
   return fs::symlink_status(path, code).type() != fs::file_type::not_found;
 }
 
-[[noreturn]] void refuse(const std::string& folder, const std::string& rule, const std::string& remedy) {
+[[noreturn]] void refuse(const std::string& folder, const std::string& rule,
+                         const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", folder, rule, remedy});
 }
 
@@ -66,10 +70,12 @@ void write_all(int file, const std::string& text, const std::string& path) {
 }  // namespace
 
 bool RunFolder::writes(const std::string& name) {
-  return name == kMarker || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+  return name == kMarker ||
+         std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// An open list: its lock, what it names, and whether its folder was being filled when it was written.
+/// An open list: its lock, what it names, and whether its folder was being filled when it was
+/// written.
 struct RunFolder::Marker {
   int file = -1;
   bool unused = false;  ///< no run has written into it
@@ -81,31 +87,37 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
   Marker out;
   const std::string path = folder + "/" + kMarker;
   for (;;) {
-    out.file = ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (make ? O_CREAT : 0), 0644);
+    out.file = ::open(path.c_str(),
+                      O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (make ? O_CREAT : 0), 0644);
     if (out.file < 0 && errno == ENOENT && !make) return out;
     if (out.file < 0) fail("write", path, errno);
     // A file system without locks is used as if alone.
     if (flock(out.file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(out.file);
-      refuse(folder, "another run is writing into this folder", "choose another with --out, or wait for its end");
+      refuse(folder, "another run is writing into this folder",
+             "choose another with --out, or wait for its end");
     }
     struct stat found {};
     const bool known = fstat(out.file, &found) == 0;
-    // Empty: made just now, by this run or by one that lost the race for its lock, or before a kill.
+    // Empty: made just now, by this run or by one that lost the race for its lock, or before a
+    // kill.
     out.unused = known && found.st_size == 0;
-    // The run that held it a moment ago may have removed it: a lock on a file without a name keeps nobody out.
+    // The run that held it a moment ago may have removed it: a lock on a file without a name keeps
+    // nobody out.
     if (!known || found.st_nlink > 0) break;
     ::close(out.file);
   }
   try {
     const std::vector<char> bytes = read_file(path);
     const std::string text(bytes.begin(), bytes.end());
-    std::istringstream lines(text.substr(0, text.rfind('\n') + 1));  // a line without its end was cut by a kill
+    // A line without its end was cut by a kill
+    std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
     std::string line;
     if (std::getline(lines, line)) {
       out.moving = line == kMoving;
       if (!out.moving && line != kHead)
-        refuse(folder, "its '" + std::string(kMarker) + "' was not written by this version of Navvy",
+        refuse(folder,
+               "its '" + std::string(kMarker) + "' was not written by this version of Navvy",
                "choose another folder with --out");
     }
     while (std::getline(lines, line))
@@ -121,7 +133,9 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
 void RunFolder::require_free(const Marker& marker, const std::string& folder) const {
   for (const char* name : kNames)
     if (marker.names.count(name) == 0 && is_there(fs::path(folder) / name))
-      refuse(folder, "it holds a '" + std::string(name) + "' that no run wrote here, or one of an older version",
+      refuse(folder,
+             "it holds a '" + std::string(name) +
+                 "' that no run wrote here, or one of an older version",
              "choose another folder with --out, or move the file away");
 }
 
@@ -132,10 +146,10 @@ void RunFolder::require_unread(const Marker& marker, const std::string& folder,
     if (read.empty()) continue;
     for (const std::string& name : marker.names)
       if (fs::equivalent(read, fs::path(folder) / name, code) && !code)
-        refuse(
-            directory_,
-            "this run reads '" + read + "', which would be removed: the results in '" + directory_ + "' take its place",
-            "choose another folder with --out, or move the file away");
+        refuse(directory_,
+               "this run reads '" + read + "', which would be removed: the results in '" +
+                   directory_ + "' take its place",
+               "choose another folder with --out, or move the file away");
   }
 }
 
@@ -191,8 +205,10 @@ void RunFolder::close_previous() {
   previous_lock_ = -1;
 }
 
-/// Cut and written anew under the lock: the file keeps its place, or the lock would be on a file without a name.
-void RunFolder::write_list(const std::string& folder, int file, const std::set<std::string>& names, bool moving) const {
+/// Cut and written anew under the lock: the file keeps its place, or the lock would be on a file
+/// without a name.
+void RunFolder::write_list(const std::string& folder, int file, const std::set<std::string>& names,
+                           bool moving) const {
   const std::string path = folder + "/" + kMarker;
   if (ftruncate(file, 0) != 0) fail("write", path, errno);
   std::string text = (moving ? kMoving : kHead) + "\n";
@@ -204,10 +220,12 @@ namespace {
 
 /// Adds the folders that lie between `folder` and a file in it.
 void add_folders_of(const fs::path& file, const fs::path& folder, std::set<fs::path>& folders) {
-  for (fs::path path = file.parent_path(); path != folder; path = path.parent_path()) folders.insert(path);
+  for (fs::path path = file.parent_path(); path != folder; path = path.parent_path())
+    folders.insert(path);
 }
 
-/// Empty ones only: what else lies in them is not ours. Inner ones first, which sort behind those that hold them.
+/// Empty ones only: what else lies in them is not ours. Inner ones first, which sort behind those
+/// that hold them.
 void remove_empty(const std::set<fs::path>& folders) {
   for (auto path = folders.rbegin(); path != folders.rend(); ++path) ::rmdir(path->c_str());
 }
@@ -220,7 +238,9 @@ void remove_listed(const std::string& folder, const std::set<std::string>& names
     const fs::path path = fs::path(folder) / name;
     // Folders of that name are nobody's results.
     if (!fs::is_directory(fs::symlink_status(path, code))) fs::remove(path, code);
-    if (code) throw FileError("cannot remove the earlier result '" + path.string() + "': " + code.message());
+    if (code)
+      throw FileError("cannot remove the earlier result '" + path.string() +
+                      "': " + code.message());
     fs::remove(partial_name(path.string()), code);
     add_folders_of(path, folder, folders);
   }
@@ -249,10 +269,13 @@ void RunFolder::begin() {
       fs::remove(partial_name(from.string()), code);
       if (!is_there(from)) continue;
       if (is_there(to) && !previous_moving_)
-        throw FileError("cannot move '" + from.string() + "' aside: '" + to.string() + "' is there and of no run");
+        throw FileError("cannot move '" + from.string() + "' aside: '" + to.string() +
+                        "' is there and of no run");
       fs::create_directories(to.parent_path(), code);
       fs::rename(from, to, code);
-      if (code) throw FileError("cannot move '" + from.string() + "' to '" + to.string() + "': " + code.message());
+      if (code)
+        throw FileError("cannot move '" + from.string() + "' to '" + to.string() +
+                        "': " + code.message());
       add_folders_of(from, directory_, folders);
     }
     remove_empty(folders);
@@ -267,7 +290,8 @@ std::string RunFolder::path(const std::string& name) {
   const std::string path = directory_ + "/" + name;
   if (listed_.count(name) > 0) return path;
   if (!is_plain(name)) throw Error("run folder: '" + name + "' is no name of a file in it");
-  if (is_there(path)) throw FileError("cannot write '" + path + "': it is there and this run did not write it");
+  if (is_there(path))
+    throw FileError("cannot write '" + path + "': it is there and this run did not write it");
   std::error_code code;
   fs::create_directories(fs::path(path).parent_path(), code);
   if (code) throw FileError("cannot create the folder of '" + path + "': " + code.message());

@@ -10,26 +10,33 @@ namespace navvy::record {
 
 /// A folder that one run at a time owns.
 ///
-/// The file `navvy.run` in it is both lock and list: it is locked while the run lives, and names every file before it
-/// is written. What an earlier run listed moves to "<folder>.previous" when the next one begins, and is removed from
-/// there by the one after; files that no list names are never touched, whatever they are called.
+/// The file `navvy.run` in it is both lock and list: it is locked while the run lives, and names
+/// every file before it is written. What an earlier run listed moves to "<folder>.previous" when
+/// the next one begins, and is removed from there by the one after; files that no list names are
+/// never touched, whatever they are called.
 class RunFolder {
  public:
-  /// Takes the folder, making it and those above it if need be; nothing in it changes yet but for the marker.
-  /// @param reads files that the run goes on from or reads; none may be among those that are about to be removed
-  /// @throws InputError when another run owns it, when it or "<folder>.previous" holds a file of somebody else where
-  /// this run would write, or one of `reads`; FileError when it cannot be made or written.
+  /// Takes the folder, making it and those above it if need be; nothing in it changes yet but for
+  /// the marker.
+  /// @param reads files that the run goes on from or reads; none may be among those that are about
+  /// to be removed
+  /// @throws InputError when another run owns it, when it or "<folder>.previous" holds a file of
+  /// somebody else where this run would write, or one of `reads`; FileError when it cannot be made
+  /// or written.
   explicit RunFolder(const std::string& directory, const std::vector<std::string>& reads = {});
-  /// Unlocks. What was taken and not used is left as it was found: the marker and the folders that were made go again.
+  /// Unlocks. What was taken and not used is left as it was found: the marker and the folders that
+  /// were made go again.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  /// Moves what the run before left to "<folder>.previous" and starts a new list. A kill in between loses nothing: the
-  /// next run goes on with the moving. @throws FileError.
+  /// Moves what the run before left to "<folder>.previous" and starts a new list. A kill in between
+  /// loses nothing: the next run goes on with the moving. @throws FileError.
   void begin();
-  /// Path of the file `name`, "summary.json" or "frames/left_00001.png", listed as this run's from now on.
-  /// @throws FileError when somebody else has put a file there since, or the list cannot be written.
+  /// Path of the file `name`, "summary.json" or "frames/left_00001.png", listed as this run's from
+  /// now on.
+  /// @throws FileError when somebody else has put a file there since, or the list cannot be
+  /// written.
   std::string path(const std::string& name);
   /// Without a slash at its end.
   const std::string& directory() const { return directory_; }
@@ -42,8 +49,10 @@ class RunFolder {
  private:
   struct Marker;
   void require_free(const Marker& marker, const std::string& folder) const;
-  void require_unread(const Marker& marker, const std::string& folder, const std::vector<std::string>& reads) const;
-  void write_list(const std::string& folder, int file, const std::set<std::string>& names, bool moving) const;
+  void require_unread(const Marker& marker, const std::string& folder,
+                      const std::vector<std::string>& reads) const;
+  void write_list(const std::string& folder, int file, const std::set<std::string>& names,
+                  bool moving) const;
   /// Opens and locks the list of `folder`. @throws InputError when a run holds it, FileError.
   Marker open_marker(const std::string& folder, bool make) const;
   void close_previous();

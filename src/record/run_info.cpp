@@ -20,7 +20,8 @@ std::string run_json(const RunInfo& info) {
                     {"command", info.command},
                     {"scene", info.scene},
                     {"device", info.device}};
-  // Paths and device names may hold bytes that are no UTF-8: they are replaced, a run is not lost to its label.
+  // Paths and device names may hold bytes that are no UTF-8: they are replaced, a run is not lost
+  // to its label.
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
@@ -29,16 +30,19 @@ RunInfo read_run_info(const std::string& folder) {
   const std::string path = folder + "/run.json";
   const std::vector<char> bytes = read_file(path);
   const json in = json::parse(bytes.begin(), bytes.end(), nullptr, false);
-  const auto refuse = [&](const std::string& value, const std::string& rule, const std::string& remedy) {
+  const auto refuse = [&](const std::string& value, const std::string& rule,
+                          const std::string& remedy) {
     throw InputError(Fault{Fault::Severity::kError, path, 0, "format", value, rule, remedy});
   };
   // Anything without a format is no folder of ours, whatever else it holds.
   if (!in.is_object() || !in.contains("format") || !in["format"].is_number_integer())
-    refuse("", "the file must be the run.json of a run's folder", "name a folder that `navvy run` wrote");
+    refuse("", "the file must be the run.json of a run's folder",
+           "name a folder that `navvy run` wrote");
   RunInfo info;
   info.format = in["format"].get<int>();
   if (info.format > kRunFormat)
-    refuse(std::to_string(info.format), "this version reads folders up to format " + std::to_string(kRunFormat),
+    refuse(std::to_string(info.format),
+           "this version reads folders up to format " + std::to_string(kRunFormat),
            "use the version of Navvy that wrote it");
   // What an older format lacks stays empty.
   info.version = in.value("navvy", "");

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "heightfield/design.h"
+#include "heightfield/design_surface.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::record {
 namespace {
@@ -46,21 +46,26 @@ json soil_energy(const sim::SoilEnergy& now, const sim::SoilEnergy* before) {
 json cycle_list(const session::Session& session) {
   json cycles = json::array();
   for (const session::Cycle& cycle : session.cycles())
-    cycles.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(cycle.machine)].name},
-                      {"start_s", cycle.start},
-                      {"curl_s", cycle.curl},
-                      {"lift_out_s", cycle.lift_out},
-                      {"dump_start_s", cycle.dump_start},
-                      {"end_s", cycle.end},
-                      {"payload_at_lift_out_kg", cycle.payload_lift_out},
-                      {"payload_at_dump_kg", cycle.payload_dump},
-                      {"force_peak_n", cycle.force_peak},
-                      {"draft_peak_n", cycle.draft_peak},
-                      {"uplift_peak_n", cycle.uplift_peak}});
-  // From the end of the cycle before, or from the start: together they are the run's up to the last one's end.
+    cycles.push_back(
+        {{"machine",
+          session.world().description().machines[static_cast<std::size_t>(cycle.machine)].name},
+         {"start_s", cycle.start},
+         {"curl_s", cycle.curl},
+         {"lift_out_s", cycle.lift_out},
+         {"dump_start_s", cycle.dump_start},
+         {"end_s", cycle.end},
+         {"payload_at_lift_out_kg", cycle.payload_lift_out},
+         {"payload_at_dump_kg", cycle.payload_dump},
+         {"force_peak_n", cycle.force_peak},
+         {"draft_peak_n", cycle.draft_peak},
+         {"uplift_peak_n", cycle.uplift_peak}});
+  // From the end of the cycle before, or from the start: together they are the run's up to the last
+  // one's end.
   const auto& ends = session.energy_at_ends();
   for (std::size_t i = 0; i < std::min(ends.size(), cycles.size()); ++i)
-    if (ends[i]) cycles[i]["soil_energy_j"] = soil_energy(*ends[i], i > 0 && ends[i - 1] ? &*ends[i - 1] : nullptr);
+    if (ends[i])
+      cycles[i]["soil_energy_j"] =
+          soil_energy(*ends[i], i > 0 && ends[i - 1] ? &*ends[i - 1] : nullptr);
   return cycles;
 }
 
@@ -68,11 +73,13 @@ json cycle_list(const session::Session& session) {
 json tip_list(const session::Session& session) {
   json tips = json::array();
   for (const session::BedTip& tip : session.tips())
-    tips.push_back({{"machine", session.world().description().machines[static_cast<std::size_t>(tip.machine)].name},
-                    {"start_s", tip.start},
-                    {"end_s", tip.end},
-                    {"payload_at_start_kg", tip.payload_start},
-                    {"payload_at_end_kg", tip.payload_end}});
+    tips.push_back(
+        {{"machine",
+          session.world().description().machines[static_cast<std::size_t>(tip.machine)].name},
+         {"start_s", tip.start},
+         {"end_s", tip.end},
+         {"payload_at_start_kg", tip.payload_start},
+         {"payload_at_end_kg", tip.payload_end}});
   return tips;
 }
 
@@ -87,7 +94,7 @@ json carried(const session::Session& session) {
 }
 
 /// In integers as the books are kept; kilograms are for people.
-json ledger(const session::Session& session, const sim::AwakePlaces& awake) {
+json ledger(const session::Session& session, const sim::ActivePlaces& active) {
   const sim::MassLedger sums = session.world().mass_ledger();
   json soils = json::array();
   // By soil, under the scene's names.
@@ -95,18 +102,20 @@ json ledger(const session::Session& session, const sim::AwakePlaces& awake) {
     soils.push_back({{"soil", session.world().description().soils[i].name},
                      {"columns_change_kg", kilograms(sums.columns[i])},
                      {"particles_kg", kilograms(sums.particles[i])},
-                     {"lying_kg", kilograms(awake.lies[i])},
-                     {"held_kg", kilograms(awake.held[i])},
-                     {"elsewhere_kg", kilograms(awake.elsewhere[i])},
+                     {"lying_kg", kilograms(active.lies[i])},
+                     {"held_kg", kilograms(active.held[i])},
+                     {"elsewhere_kg", kilograms(active.elsewhere[i])},
                      {"left_site_kg", kilograms(sums.left_site[i])},
                      {"loaded_kg", kilograms(sums.inserted[i])}});
   return {{"error_units", sums.error}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
 /// The ground against its design; awake soil counts where it lies.
-json design_figures(const sim::World& world, const sim::AwakePlaces& awake, const heightfield::DesignSurface& design) {
-  const heightfield::DesignFigures f = heightfield::against_design(
-      world.ground().view(world.time()).with(awake.lying, heightfield::SurfaceKind::kMapped), design);
+json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
+                       const heightfield::DesignSurface& design) {
+  const heightfield::DesignComparison f = heightfield::against_design(
+      world.ground().view(world.time()).with(active.lying, heightfield::SurfaceKind::kMapped),
+      design);
   return {{"area_m2", f.area},
           {"design_cut_m3", f.design_cut},
           {"design_fill_m3", f.design_fill},
@@ -124,8 +133,8 @@ json design_figures(const sim::World& world, const sim::AwakePlaces& awake, cons
 /// Keys are an interface: they are added to, never renamed (scenarios/README.md lists them).
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
-  const sim::AwakePlaces awake = sim::awake_places(world);
-  const Earthwork earth = measure_earthwork(world, awake.lying);
+  const sim::ActivePlaces active = sim::active_places(world);
+  const Earthwork earth = measure_earthwork(world, active.lying);
   const sim::SoilCounts counts = world.soil_counts();
   json out;
   // What it was, how it stands, how fast it went.
@@ -141,15 +150,18 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["render_time_s"] = status.render_time;
   out["simulated_time_s"] = world.time();
   // Of the time this process simulated, pictures and files apart.
-  out["real_time_factor"] = status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
+  out["real_time_factor"] =
+      status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
-  for (const auto& [stage, seconds] : world.soil_stage_times()) out["soil_stage_s"][stage] = seconds;
+  for (const auto& [stage, seconds] : world.soil_stage_times())
+    out["soil_stage_s"][stage] = seconds;
   // What the programs came to.
   out["programs"] = program_list(session, status.status);
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
   out["payload_kg"] = json::array();
-  for (const session::Cycle& cycle : session.cycles()) out["payload_kg"].push_back(cycle.payload_lift_out);
+  for (const session::Cycle& cycle : session.cycles())
+    out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
   // What became of the ground.
@@ -160,7 +172,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
                                 {"dug_kg", earth.soils[i].dug},
                                 {"spoil_kg", earth.soils[i].spoil}});
   if (const heightfield::DesignSurface* design = session.design())
-    out["design"] = design_figures(world, awake, *design);
+    out["design"] = design_comparison(world, active, *design);
   // Of all machines together.
   out["energy_j"] = session.energy();
   // Of the awake soil, when its account is kept.
@@ -176,10 +188,10 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["particle_steps"] = counts.particle_steps;
   out["shell_crossings"] = counts.shell_crossings;
   out["rebins"] = counts.rebins;
-  out["woken_columns"] = counts.woken_columns;
+  out["woken_columns"] = counts.activated_columns;
   out["deposited_blocks"] = counts.deposited_blocks;
   out["frames"] = status.frames;
-  out["mass_ledger"] = ledger(session, awake);
+  out["mass_ledger"] = ledger(session, active);
   // Null while it runs: the hash costs a pass over everything.
   out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
   return out.dump(2) + "\n";

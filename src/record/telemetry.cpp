@@ -8,7 +8,8 @@ namespace navvy::record {
 
 namespace {
 
-/// Every row has the columns of the header: outputs, then machine phases as text, where a reader of numbers may stop.
+/// Every row has the columns of the header: outputs, then machine phases as text, where a reader of
+/// numbers may stop.
 std::string header_of(const session::Session& session) {
   std::string header;
   for (const sim::Channel& channel : session.world().outputs()) {
@@ -23,12 +24,16 @@ std::string header_of(const session::Session& session) {
 }  // namespace
 
 Telemetry::Telemetry(const session::Session& session, std::string path)
-    : session_(session), file_(std::move(path), header_of(session)), channels_(session.world().outputs().size()) {}
+    : session_(session),
+      file_(std::move(path), header_of(session)),
+      channels_(session.world().outputs().size()) {}
 
 std::string time_stamp(double time) {
-  // Twelve digits tell the shortest steps apart after a million seconds, the longest that a run may last.
+  // Twelve digits tell the shortest steps apart after a million seconds, the longest that a run may
+  // last.
   char text[32];
-  return std::string(text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.12g", time)));
+  return std::string(text,
+                     static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.12g", time)));
 }
 
 void Telemetry::sample() {

@@ -14,17 +14,20 @@ namespace navvy::record {
 /// Simulated time [s] as text of at most twelve digits: two steps of one run never share a stamp.
 std::string time_stamp(double time);
 
-/// Appends a row for each sample (record/row_file.h): what it costs, in memory and on disk, does not grow with the run.
+/// Appends a row for each sample (record/row_file.h): what it costs, in memory and on disk, does
+/// not grow with the run.
 ///
-/// The first line holds the channel names with units in brackets, then machine phases as text. Outputs that a sampler
-/// adds later are left out: add samplers first.
+/// The first line holds the channel names with units in brackets, then machine phases as text.
+/// Outputs that a sampler adds later are left out: add samplers first.
 class Telemetry {
  public:
   /// Writes nothing yet. The session must outlive it.
   Telemetry(const session::Session& session, std::string path);
-  /// One row of what the outputs say now. @throws FileError when many rows wait and the disk takes none.
+  /// One row of what the outputs say now. @throws FileError when many rows wait and the disk takes
+  /// none.
   void sample();
-  /// Appends what waits to the file; at the `end` also waits until the disk has it. @throws FileError.
+  /// Appends what waits to the file; at the `end` also waits until the disk has it. @throws
+  /// FileError.
   void checkpoint(bool end) { end ? file_.sync() : file_.flush(); }
   std::uint64_t rows() const { return file_.rows(); }
 

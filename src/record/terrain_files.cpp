@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #endif
@@ -19,12 +19,13 @@ namespace {
 
 void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  const bool awake = world.soil_counts().particles > 0;
+  const bool active = world.soil_counts().particles > 0;
   heightfield::write_geotiff(sim::terrain_view(world, heightfield::SurfaceKind::kMapped), path,
-                             awake ? kAwake : std::vector<std::string>{});
+                             active ? kAwake : std::vector<std::string>{});
 #else
   (void)world;
-  throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
+  throw FileError("cannot write '" + path +
+                  "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
 #endif
 }
 

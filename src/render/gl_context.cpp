@@ -13,8 +13,8 @@
 namespace navvy::render {
 
 GlContext::GlContext() {
-  // The fixed-function pipeline is what Coin draws with, hence the compatibility profile. No stencil: nothing here uses
-  // one, and it would cost memory at every pixel.
+  // The fixed-function pipeline is what Coin draws with, hence the compatibility profile. No
+  // stencil: nothing here uses one, and it would cost memory at every pixel.
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -41,8 +41,10 @@ void GlContext::begin(int width, int height, int samples) {
                 " pixels cannot be drawn (allowed: 1 to 16384 each way)");
   // OSMesa draws into this memory, so it is made current again whenever the vector may have moved.
   pixels_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(), GL_UNSIGNED_BYTE, width, height) == 0)
-    throw Error("OSMesa refuses a buffer of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+  if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(), GL_UNSIGNED_BYTE,
+                        width, height) == 0)
+    throw Error("OSMesa refuses a buffer of " + std::to_string(width) + " x " +
+                std::to_string(height) + " pixels");
   width_ = width;
   height_ = height;
   if (samples > 1) bind_multisample(samples);
@@ -51,7 +53,8 @@ void GlContext::begin(int width, int height, int samples) {
 
 void GlContext::bind_multisample(int samples) {
   // Kept from picture to picture, as cameras of one size follow each other.
-  if (frame_ != 0 && (buffer_width_ != width_ || buffer_height_ != height_ || buffer_samples_ != samples))
+  if (frame_ != 0 &&
+      (buffer_width_ != width_ || buffer_height_ != height_ || buffer_samples_ != samples))
     release_multisample();
   if (frame_ == 0) {
     glGenFramebuffers(1, &frame_);
@@ -60,7 +63,8 @@ void GlContext::bind_multisample(int samples) {
     glBindRenderbuffer(GL_RENDERBUFFER, color_);
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width_, height_);
     glBindRenderbuffer(GL_RENDERBUFFER, depth_);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width_, height_);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width_,
+                                     height_);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
@@ -71,7 +75,8 @@ void GlContext::bind_multisample(int samples) {
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     release_multisample();
-    throw Error("the drawing context has no buffer with " + std::to_string(samples) + " samples a pixel");
+    throw Error("the drawing context has no buffer with " + std::to_string(samples) +
+                " samples a pixel");
   }
   glEnable(GL_MULTISAMPLE);
 }
@@ -95,12 +100,14 @@ std::vector<float> GlContext::depth() const {
 
 void GlContext::finish() {
   GLint bound = 0;
-  // The samples of each pixel become one here; without multisampling everything is in the buffer already.
+  // The samples of each pixel become one here; without multisampling everything is in the buffer
+  // already.
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   if (bound != 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
   // OSMesa writes the pixels into our memory by the end of this call.

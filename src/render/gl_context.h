@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drawing context behind one small class, so that another road to GL (EGL, hardware) replaces one file.
+// The drawing context behind one small class, so that another road to GL (EGL, hardware) replaces
+// one file.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@ namespace navvy::render {
 
 /// An OSMesa context with an own colour buffer, RGBA 8 bits, depth 24 bits, bottom row first.
 ///
-/// Not thread-safe: use it from the thread that made it. Several buffer sizes share the one context.
+/// Not thread-safe: use it from the thread that made it. Several buffer sizes share the one
+/// context.
 class GlContext {
  public:
   /// Takes the context only; memory for pictures comes with `begin`.
@@ -19,8 +21,9 @@ class GlContext {
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// Makes the context current with a buffer of width x height pixels. With `samples` > 1 everything drawn goes into a
-  /// multisample buffer until `resolve`. @throws Error when the size is refused.
+  /// Makes the context current with a buffer of width x height pixels. With `samples` > 1
+  /// everything drawn goes into a multisample buffer until `resolve`. @throws Error when the size
+  /// is refused.
   void begin(int width, int height, int samples);
   /// Ends drawing; afterwards `pixels` hold the picture.
   void finish();

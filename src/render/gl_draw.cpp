@@ -14,13 +14,15 @@ namespace {
 constexpr int kGrainSize = 256;       // texels
 constexpr float kGrainLength = 2.2f;  // [m] that the grain covers before it repeats
 
-/// Noise that repeats after `period` lattice cells. It comes from integers by a hash, so that a picture is the same on
-/// every machine.
+/// Noise that repeats after `period` lattice cells. It comes from integers by a hash, so that a
+/// picture is the same on every machine.
 float periodic_noise(float x, float y, int period, std::uint32_t seed) {
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
-  const float tx = smooth_step(0, 1, x - static_cast<float>(ix)), ty = smooth_step(0, 1, y - static_cast<float>(iy));
+  const float tx = smooth_step(0, 1, x - static_cast<float>(ix)),
+              ty = smooth_step(0, 1, y - static_cast<float>(iy));
   const auto at = [&](int kx, int ky) {
-    return hash_unit(static_cast<std::uint32_t>(kx % period), static_cast<std::uint32_t>(ky % period), seed);
+    return hash_unit(static_cast<std::uint32_t>(kx % period),
+                     static_cast<std::uint32_t>(ky % period), seed);
   };
   const float low = at(ix, iy) + (at(ix + 1, iy) - at(ix, iy)) * tx;
   const float high = at(ix, iy + 1) + (at(ix + 1, iy + 1) - at(ix, iy + 1)) * tx;
@@ -33,7 +35,8 @@ void set_plane(GLenum coordinate, const Eigen::Vector4f& plane) {
 }
 
 void elements(const std::vector<std::uint32_t>& indices) {
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, indices.data());
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT,
+                 indices.data());
 }
 
 void set_enabled(GLenum what, bool on) {
@@ -60,7 +63,8 @@ void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
   glShadeModel(GL_SMOOTH);
 }
 
-/// Whether any point of the box is at least `distance` from the eye. The farthest corner of the box decides.
+/// Whether any point of the box is at least `distance` from the eye. The farthest corner of the box
+/// decides.
 bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
   return (part.low - eye).cwiseAbs().cwiseMax((part.high - eye).cwiseAbs()).norm() >= distance;
 }
@@ -68,8 +72,8 @@ bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
 }  // namespace
 
 void GlDraw::begin(const View& view, const Lighting& lighting) {
-  // Coin keeps its own record of GL's state and would not notice a change, so all of it is saved here and given back by
-  // end().
+  // Coin keeps its own record of GL's state and would not notice a change, so all of it is saved
+  // here and given back by end().
   glPushAttrib(GL_ALL_ATTRIB_BITS);
   glPushClientAttrib(GL_CLIENT_ALL_ATTRIB_BITS);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -102,24 +106,28 @@ void GlDraw::begin(const View& view, const Lighting& lighting) {
   glFogfv(GL_FOG_COLOR, fog);
 }
 
-// A dome around the eye, only where nothing was drawn: haze at the horizon, blue above, a glow around the sun.
+// A dome around the eye, only where nothing was drawn: haze at the horizon, blue above, a glow
+// around the sun.
 void GlDraw::sky(const View& view, const Lighting& lighting) {
   constexpr int kSides = 40, kRings = 18;
   Mesh dome;
   for (int r = 0; r <= kRings; ++r)
     for (int i = 0; i <= kSides; ++i) {
       const float t = static_cast<float>(r) / kRings;
-      // Rings lie closer together near the horizon, where the colours change most; the dome reaches a little below it.
-      const float up = -0.3f + 1.87f * t * t, a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / kSides;
+      // Rings lie closer together near the horizon, where the colours change most; the dome reaches
+      // a little below it.
+      const float up = -0.3f + 1.87f * t * t,
+                  a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / kSides;
       const Vec3f ray(std::cos(up) * std::cos(a), std::cos(up) * std::sin(a), std::sin(up));
       const float blue = std::pow(std::clamp(ray.z(), 0.0f, 1.0f), 0.55f);
       const float glow = std::pow(std::max(0.0f, ray.dot(lighting.to_sun)), 12.0f);
       Vec3f color = lighting.haze + (lighting.zenith - lighting.haze) * blue;
       color += (Vec3f(1.0f, 0.97f, 0.88f) - color) * 0.45f * glow;
-      // The radius does not matter, as the dome is pushed to the far end of the depth range; it must only lie between
-      // the clipping planes.
+      // The radius does not matter, as the dome is pushed to the far end of the depth range; it
+      // must only lie between the clipping planes.
       const Vec3f p = view.eye + 100.0f * ray;
-      dome.vertices.push_back({p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
+      dome.vertices.push_back(
+          {p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
       if (r == 0 || i == 0) continue;
       const auto c = static_cast<std::uint32_t>(dome.vertices.size() - 1), below = c - (kSides + 1);
       dome.indices.insert(dome.indices.end(), {below - 1, below, c, below - 1, c, c - 1});
@@ -133,14 +141,17 @@ void GlDraw::sky(const View& view, const Lighting& lighting) {
 }
 
 void GlDraw::make_grain() {
-  // Three octaves, a little noise at every texel and a few pebbles; made once, and it repeats without a seam.
+  // Three octaves, a little noise at every texel and a few pebbles; made once, and it repeats
+  // without a seam.
   std::vector<std::uint8_t> texels(kGrainSize * kGrainSize);
   for (int y = 0; y < kGrainSize; ++y)
     for (int x = 0; x < kGrainSize; ++x) {
       const float u = static_cast<float>(x) / kGrainSize, v = static_cast<float>(y) / kGrainSize;
-      float tone = 0.045f * periodic_noise(12 * u, 12 * v, 12, 21) + 0.06f * periodic_noise(31 * u, 31 * v, 31, 22) +
+      float tone = 0.045f * periodic_noise(12 * u, 12 * v, 12, 21) +
+                   0.06f * periodic_noise(31 * u, 31 * v, 31, 22) +
                    0.07f * periodic_noise(77 * u, 77 * v, 77, 23);
-      tone += 0.05f * (hash_unit(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 24) - 0.5f);
+      tone += 0.05f *
+              (hash_unit(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 24) - 0.5f);
       const float pebble = periodic_noise(45 * u, 45 * v, 45, 25);
       if (pebble > 0.72f) tone += 0.10f;
       texels[static_cast<std::size_t>(y * kGrainSize + x)] = to_byte(0.5f + tone);
@@ -148,19 +159,21 @@ void GlDraw::make_grain() {
   glGenTextures(1, &grain_);
   glBindTexture(GL_TEXTURE_2D, grain_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, kGrainSize, kGrainSize, 0, GL_LUMINANCE, GL_UNSIGNED_BYTE,
-               texels.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, kGrainSize, kGrainSize, 0, GL_LUMINANCE,
+               GL_UNSIGNED_BYTE, texels.data());
   // Far away the grain must blend into its mean, or it would flicker.
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-// From above, a little skewed by height so that slopes facing any way keep their grain's size; on walls from the side.
-void GlDraw::lay_grain(bool on_walls) {
+// From above, a little skewed by height so that slopes facing any way keep their grain's size; on
+// walls from the side.
+void GlDraw::place_grain(bool on_walls) {
   glActiveTexture(GL_TEXTURE0);
   const float k = 1.0f / kGrainLength;
-  set_plane(GL_S, on_walls ? Eigen::Vector4f(0.9f * k, 0.6f * k, 0, 0) : Eigen::Vector4f(k, 0, 0.35f * k, 0));
+  set_plane(GL_S, on_walls ? Eigen::Vector4f(0.9f * k, 0.6f * k, 0, 0)
+                           : Eigen::Vector4f(k, 0, 0.35f * k, 0));
   set_plane(GL_T, on_walls ? Eigen::Vector4f(0, 0, k, 0) : Eigen::Vector4f(0, k, -0.35f * k, 0));
 }
 
@@ -173,7 +186,7 @@ void GlDraw::bind_grain() {
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
   glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_MODULATE);
   glTexEnvi(GL_TEXTURE_ENV, GL_RGB_SCALE, 2);
-  lay_grain(false);
+  place_grain(false);
   glEnable(GL_TEXTURE_GEN_S);
   glEnable(GL_TEXTURE_GEN_T);
 }
@@ -185,8 +198,8 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   // The mask is a picture of 512 x 512 texels; it is sent anew only when the casters have moved.
   if (shadow_version_ != shadows.version()) {
     shadow_version_ = shadows.version();
-    // What is left of level ground's light without the sun. A shadow is not black: the sky still lights it, so colours
-    // go from that share up to themselves.
+    // What is left of level ground's light without the sun. A shadow is not black: the sky still
+    // lights it, so colours go from that share up to themselves.
     const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
     const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
     std::array<std::array<std::uint8_t, 4>, 256> tone;
@@ -196,8 +209,8 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
     }
     std::vector<std::array<std::uint8_t, 4>> texels(shadows.mask().size());
     for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = tone[shadows.mask()[i]];
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, ShadowMap::kSize, ShadowMap::kSize, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 texels.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, ShadowMap::kSize, ShadowMap::kSize, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, texels.data());
   }
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -211,18 +224,19 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   glEnable(GL_TEXTURE_GEN_T);
 }
 
-void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view, const ShadowMap& shadows,
-                    const Lighting& lighting) {
+void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view,
+                    const ShadowMap& shadows, const Lighting& lighting) {
   bind_grain();
   if (!shadows.empty()) bind_shadow(shadows, lighting);
-  // Walls after tops, as the grain lies otherwise on them and the texture's planes are set once for all tiles.
+  // Walls after tops, as the grain lies otherwise on them and the texture's planes are set once for
+  // all tiles.
   for (const bool walls : {false, true}) {
-    if (walls) lay_grain(true);
+    if (walls) place_grain(true);
     glActiveTexture(GL_TEXTURE1);
     for (const GroundPart& part : parts) {
       if (walls && part.mesh->walls.empty()) continue;
-      // A tile that no shadow reaches, or that is near, is drawn without the unit: software GL pays for it at every
-      // pixel.
+      // A tile that no shadow reaches, or that is near, is drawn without the unit: software GL pays
+      // for it at every pixel.
       set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
       set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
       if (!walls) draw(*part.mesh, part.skirts);

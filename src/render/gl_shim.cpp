@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coin asks the process for glXGetProcAddress (dlsym) to fetch vertex arrays, buffers and textures. Debian's would
-// answer with functions of a GL that has no context: silent no-ops, pictures with holes. These two answer for OSMesa
-// instead. The link options in CMakeLists.txt keep and export them in every program.
+// Coin asks the process for glXGetProcAddress (dlsym) to fetch vertex arrays, buffers and textures.
+// Debian's would answer with functions of a GL that has no context: silent no-ops, pictures with
+// holes. These two answer for OSMesa instead. The link options in CMakeLists.txt keep and export
+// them in every program.
 #include <GL/osmesa.h>
 
 #include <cstring>
@@ -16,6 +17,8 @@ __attribute__((visibility("default"), used)) Function glXGetProcAddress(const un
   return OSMesaGetProcAddress(text);
 }
 
-__attribute__((visibility("default"), used)) void* glXGetCurrentContext() { return OSMesaGetCurrentContext(); }
+__attribute__((visibility("default"), used)) void* glXGetCurrentContext() {
+  return OSMesaGetCurrentContext();
+}
 
 }  // extern "C"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light on the ground is worked out by column, once a change: what a column sees of sky and sun depends on heights some
-// columns around, so a changed rectangle is renewed with its surroundings.
+// Light on the ground is worked out by column, once a change: what a column sees of sky and sun
+// depends on heights some columns around, so a changed rectangle is renewed with its surroundings.
 #include "render/ground_surface.h"
 
 #include <cstring>
@@ -10,8 +10,8 @@
 namespace navvy::render {
 namespace {
 
-/// The slope on one axis from its one-sided slopes: the mean where smooth, the flatter one at an edge, so that a floor
-/// next to a wall stays lit as a floor.
+/// The slope on one axis from its one-sided slopes: the mean where smooth, the flatter one at an
+/// edge, so that a floor next to a wall stays lit as a floor.
 float edge_slope(float a, float b) {
   constexpr float kEdge = 1.2f;  // difference of slopes that is an edge, about 50 degrees
   if (std::abs(a - b) < kEdge) return 0.5f * (a + b);
@@ -26,16 +26,17 @@ Vec3f desaturate(const Vec3f& color, float share) {
 
 /// By bits: any other colour is another ground to paint.
 bool same(const std::vector<scene::Color>& a, const std::vector<scene::Color>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
-/// Unites what is cheaper to do at once: rectangles that, each with its surroundings of `reach` columns, cover no fewer
-/// columns than their union does with its own.
-std::vector<CellRect> united(std::vector<CellRect> rects, int reach, int nx, int ny) {
+/// Unites what is cheaper to do at once: rectangles that, each with its surroundings of `reach`
+/// columns, cover no fewer columns than their union does with its own.
+std::vector<ColumnRect> united(std::vector<ColumnRect> rects, int reach, int nx, int ny) {
   for (std::size_t i = 0; i < rects.size(); ++i)
     for (std::size_t k = i + 1; k < rects.size();) {
-      const CellRect both = rects[i].with(rects[k]);
-      const auto cost = [&](const CellRect& rect) { return rect.grown(reach, nx, ny).area(); };
+      const ColumnRect both = rects[i].with(rects[k]);
+      const auto cost = [&](const ColumnRect& rect) { return rect.grown(reach, nx, ny).area(); };
       if (cost(both) > cost(rects[i]) + cost(rects[k])) {
         ++k;
         continue;
@@ -50,39 +51,44 @@ std::vector<CellRect> united(std::vector<CellRect> rects, int reach, int nx, int
 
 }  // namespace
 
-std::vector<CellRect> GroundSurface::update(const scene::FrameGround& ground, const Lighting& lighting) {
-  const std::size_t n =
-      static_cast<std::size_t>(std::max(0, ground.nx)) * static_cast<std::size_t>(std::max(0, ground.ny));
+std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground,
+                                              const Lighting& lighting) {
+  const std::size_t n = static_cast<std::size_t>(std::max(0, ground.nx)) *
+                        static_cast<std::size_t>(std::max(0, ground.ny));
   if (ground.height.size() != n || (!ground.change.empty() && ground.change.size() != n) ||
       (!ground.soil.empty() && ground.soil.size() != n) || !(ground.cell > 0))
-    throw Error("the frame's ground arrays do not have nx * ny = " + std::to_string(n) + " entries");
+    throw Error("the frame's ground arrays do not have nx * ny = " + std::to_string(n) +
+                " entries");
   // Anything that concerns all columns means starting anew.
-  const bool fresh = nx_ != ground.nx || ny_ != ground.ny || cell_ != static_cast<float>(ground.cell) ||
-                     x0_ != static_cast<float>(ground.origin.x()) || y0_ != static_cast<float>(ground.origin.y()) ||
-                     !(lighting == lighting_) || !same(soil_color_, ground.soil_color) || height_.size() != n;
+  const bool fresh = nx_ != ground.nx || ny_ != ground.ny ||
+                     cell_ != static_cast<float>(ground.cell) ||
+                     x0_ != static_cast<float>(ground.origin.x()) ||
+                     y0_ != static_cast<float>(ground.origin.y()) || !(lighting == lighting_) ||
+                     !same(soil_color_, ground.soil_color) || height_.size() != n;
   // A frame may be drawn more than once.
   if (!fresh && revision_ == ground.revision) return {};
-  const std::vector<CellRect> changed =
-      fresh ? std::vector<CellRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
+  const std::vector<ColumnRect> changed =
+      fresh ? std::vector<ColumnRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
   if (fresh) start(ground, lighting, n);
   revision_ = ground.revision;
-  for (const CellRect& rect : changed) copy(ground, rect);
+  for (const ColumnRect& rect : changed) copy(ground, rect);
   if (fresh && n > 0) measure_relief();
-  // A column's light depends on the ground as far as shadows fall, so all heights are in place before any of it is
-  // made.
-  std::vector<CellRect> lit;
-  for (const CellRect& rect : united(changed, kShadowReach, nx_, ny_)) {
+  // A column's light depends on the ground as far as shadows fall, so all heights are in place
+  // before any of it is made.
+  std::vector<ColumnRect> lit;
+  for (const ColumnRect& rect : united(changed, kShadowReach, nx_, ny_)) {
     if (rect.empty()) continue;
-    const CellRect sun = rect.grown(kShadowReach, nx_, ny_);
+    const ColumnRect sun = rect.grown(kShadowReach, nx_, ny_);
     find_openness(rect.grown(kOpenReach, nx_, ny_));
     find_sun(sun);
     lit.push_back(sun);
   }
-  for (const CellRect& rect : lit) paint(rect);
+  for (const ColumnRect& rect : lit) paint(rect);
   return lit;
 }
 
-void GroundSurface::start(const scene::FrameGround& ground, const Lighting& lighting, std::size_t columns) {
+void GroundSurface::start(const scene::FrameGround& ground, const Lighting& lighting,
+                          std::size_t columns) {
   nx_ = ground.nx;
   ny_ = ground.ny;
   cell_ = static_cast<float>(ground.cell);
@@ -112,24 +118,27 @@ void GroundSurface::measure_relief() {
   relief_ = std::max(high - low, 2.0f);
 }
 
-std::vector<CellRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
-  // Frames in between were not seen: what they told is lost, so the heights themselves are compared.
+std::vector<ColumnRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
+  // Frames in between were not seen: what they told is lost, so the heights themselves are
+  // compared.
   if (ground.revision != revision_ + 1) return {compared(ground)};
-  std::vector<CellRect> told;
+  std::vector<ColumnRect> told;
   for (const scene::FrameRect& rect : ground.changed)
-    told.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1), std::min(ny_, rect.y1)});
-  std::erase_if(told, [](const CellRect& rect) { return rect.empty(); });
+    told.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1),
+                    std::min(ny_, rect.y1)});
+  std::erase_if(told, [](const ColumnRect& rect) { return rect.empty(); });
   return told;
 }
 
-CellRect GroundSurface::compared(const scene::FrameGround& ground) const {
-  CellRect rect = {nx_, ny_, 0, 0};
+ColumnRect GroundSurface::compared(const scene::FrameGround& ground) const {
+  ColumnRect rect = {nx_, ny_, 0, 0};
   // Whole rows first: hardly any differs.
   for (int iy = 0; iy < ny_; ++iy) {
     const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);
     const bool equal =
         std::memcmp(&height_[row], &ground.height[row], width * sizeof(float)) == 0 &&
-        (ground.change.empty() || std::memcmp(&change_[row], &ground.change[row], width * sizeof(float)) == 0) &&
+        (ground.change.empty() ||
+         std::memcmp(&change_[row], &ground.change[row], width * sizeof(float)) == 0) &&
         (ground.soil.empty() || std::memcmp(&soil_[row], &ground.soil[row], width) == 0);
     if (equal) continue;
     rect.y0 = std::min(rect.y0, iy);
@@ -147,7 +156,7 @@ CellRect GroundSurface::compared(const scene::FrameGround& ground) const {
   return rect;
 }
 
-void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect) {
+void GroundSurface::copy(const scene::FrameGround& ground, const ColumnRect& rect) {
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);
@@ -158,14 +167,17 @@ void GroundSurface::copy(const scene::FrameGround& ground, const CellRect& rect)
     }
 }
 
-// How much of the sky a column sees, from the mean height around it: a box mean by running sums along x, then y.
-void GroundSurface::find_openness(const CellRect& rect) {
+// How much of the sky a column sees, from the mean height around it: a box mean by running sums
+// along x, then y.
+void GroundSurface::find_openness(const ColumnRect& rect) {
   const int width = rect.x1 - rect.x0;
-  const CellRect tall = {rect.x0, std::max(0, rect.y0 - kOpenReach), rect.x1, std::min(ny_, rect.y1 + kOpenReach)};
+  const ColumnRect tall = {rect.x0, std::max(0, rect.y0 - kOpenReach), rect.x1,
+                           std::min(ny_, rect.y1 + kOpenReach)};
   // Sums along x of the rows that the sums along y need.
   scratch_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(tall.y1 - tall.y0));
   for (int iy = tall.y0; iy < tall.y1; ++iy) {
-    float* out = &scratch_[static_cast<std::size_t>(iy - tall.y0) * static_cast<std::size_t>(width)];
+    float* out =
+        &scratch_[static_cast<std::size_t>(iy - tall.y0) * static_cast<std::size_t>(width)];
     const float* row = &height_[index(0, iy)];
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       float sum = 0;
@@ -187,8 +199,9 @@ void GroundSurface::find_openness(const CellRect& rect) {
     }
 }
 
-// Share of the sun: the highest ground towards the sun against the ray, softened over the sun's (widened) disc.
-void GroundSurface::find_sun(const CellRect& rect) {
+// Share of the sun: the highest ground towards the sun against the ray, softened over the sun's
+// (widened) disc.
+void GroundSurface::find_sun(const ColumnRect& rect) {
   const Vec3f& to_sun = lighting_.to_sun;
   const float flat = to_sun.head<2>().norm();
   // The sun overhead casts no shadow of the ground.
@@ -202,11 +215,13 @@ void GroundSurface::find_sun(const CellRect& rect) {
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const float base = height_[index(ix, iy)];
-      // Every column close by, every second farther off: far ground moves the edge of a shadow less.
+      // Every column close by, every second farther off: far ground moves the edge of a shadow
+      // less.
       float worst = -1e9f;
       for (int k = 1; k <= kShadowReach; k += k < 8 ? 1 : 2) {
         const float d = static_cast<float>(k);
-        const int x = ix + static_cast<int>(std::lround(dx * d)), y = iy + static_cast<int>(std::lround(dy * d));
+        const int x = ix + static_cast<int>(std::lround(dx * d)),
+                  y = iy + static_cast<int>(std::lround(dy * d));
         if (x < 0 || y < 0 || x >= nx_ || y >= ny_) break;
         const float run = d * cell_;
         worst = std::max(worst, (height_[index(x, y)] - base) / run - rise);
@@ -222,24 +237,31 @@ Vec3f GroundSurface::normal(int ix, int iy) const {
   const float east = ix + 1 < nx_ ? (height_[index(ix + 1, iy)] - h) * inverse : west;
   const float south = iy > 0 ? (h - height_[index(ix, iy - 1)]) * inverse : 0;
   const float north = iy + 1 < ny_ ? (height_[index(ix, iy + 1)] - h) * inverse : south;
-  return Vec3f(-edge_slope(ix > 0 ? west : east, east), -edge_slope(iy > 0 ? south : north, north), 1).normalized();
+  return Vec3f(-edge_slope(ix > 0 ? west : east, east), -edge_slope(iy > 0 ? south : north, north),
+               1)
+      .normalized();
 }
 
 Vec3f GroundSurface::albedo(int ix, int iy) const {
   // A frame without soils is brown.
   const std::size_t i = index(ix, iy);
   Vec3f base(0.50f, 0.40f, 0.28f);
-  if (soil_[i] < soil_color_.size()) base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
-  const float x = (static_cast<float>(ix) + x0_ / cell_) * cell_, y = (static_cast<float>(iy) + y0_ / cell_) * cell_;
+  if (soil_[i] < soil_color_.size())
+    base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
+  const float x = (static_cast<float>(ix) + x0_ / cell_) * cell_,
+              y = (static_cast<float>(iy) + y0_ / cell_) * cell_;
   // Patches go with the place in the world, so that a moved window keeps its looks.
-  const float broad = value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
-  const float fine = 2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
+  const float broad =
+      value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
+  const float fine =
+      2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
 
   // The old surface: dried out, dusty, patchy, a little lighter with height.
   const float tint = std::clamp((height_[i] - mean_height_) / relief_, -0.5f, 0.5f);
   Vec3f color = desaturate(base, 0.28f) * (1.07f + 0.09f * broad + 0.03f * fine + 0.14f * tint);
   // Freshly cut: moist, darker, more colourful. Dumped: loose and lighter, uneven.
-  const float dug = smooth_step(0.008f, 0.07f, -change_[i]), dumped = smooth_step(0.008f, 0.06f, change_[i]);
+  const float dug = smooth_step(0.008f, 0.07f, -change_[i]),
+              dumped = smooth_step(0.008f, 0.06f, change_[i]);
   const Vec3f moist = desaturate(base, -0.18f) * (0.66f + 0.03f * broad + 0.03f * fine);
   const Vec3f loose = desaturate(base, 0.05f) * (0.98f + 0.04f * broad + 0.10f * fine);
   color += (moist - color) * dug;
@@ -247,11 +269,12 @@ Vec3f GroundSurface::albedo(int ix, int iy) const {
   return color.cwiseMax(0.0f);
 }
 
-void GroundSurface::paint(const CellRect& rect) {
+void GroundSurface::paint(const ColumnRect& rect) {
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);
-      const float sun = static_cast<float>(sun_[i]) / 255.0f, open = static_cast<float>(open_[i]) / 255.0f;
+      const float sun = static_cast<float>(sun_[i]) / 255.0f,
+                  open = static_cast<float>(open_[i]) / 255.0f;
       const Vec3f color = shade(lighting_, albedo(ix, iy), normal(ix, iy), sun, open);
       lit_[i] = {to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255};
     }
@@ -260,17 +283,20 @@ void GroundSurface::paint(const CellRect& rect) {
 Vec3f GroundSurface::wall_color(int ix, int iy, const Vec3f& face) const {
   const std::size_t i = index(ix, iy);
   Vec3f base(0.50f, 0.40f, 0.28f);
-  if (soil_[i] < soil_color_.size()) base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
+  if (soil_[i] < soil_color_.size())
+    base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
   const float fine = hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 9);
   const Vec3f moist = desaturate(base, -0.15f) * (0.70f + 0.10f * fine);
-  return shade(lighting_, moist, face, static_cast<float>(sun_[i]) / 255.0f, static_cast<float>(open_[i]) / 255.0f);
+  return shade(lighting_, moist, face, static_cast<float>(sun_[i]) / 255.0f,
+               static_cast<float>(open_[i]) / 255.0f);
 }
 
 bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
   // The nearest column: who asks places lumps, which are larger than the difference.
   if (nx_ < 2 || ny_ < 2) return false;
   const float u = (x - x0_) / cell_ - 0.5f, v = (y - y0_) / cell_ - 0.5f;
-  const int ix = static_cast<int>(std::floor(u + 0.5f)), iy = static_cast<int>(std::floor(v + 0.5f));
+  const int ix = static_cast<int>(std::floor(u + 0.5f)),
+            iy = static_cast<int>(std::floor(v + 0.5f));
   if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) return false;
   height = height_[index(ix, iy)];
   sun = static_cast<float>(sun_[index(ix, iy)]) / 255.0f;

@@ -13,9 +13,11 @@ namespace navvy::render {
 std::vector<char> encode_png(const Image& image) {
   // What a caller puts together by hand may not fit; libpng would read beyond the end.
   if (image.width <= 0 || image.height <= 0 ||
-      image.rgb.size() != 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-    throw Error("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels with " +
-                std::to_string(image.rgb.size()) + " bytes cannot become a PNG");
+      image.rgb.size() !=
+          3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    throw Error("an image of " + std::to_string(image.width) + " x " +
+                std::to_string(image.height) + " pixels with " + std::to_string(image.rgb.size()) +
+                " bytes cannot become a PNG");
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width);
@@ -32,7 +34,9 @@ std::vector<char> encode_png(const Image& image) {
   return out;
 }
 
-void write_png(const std::string& path, const Image& image) { write_file_atomically(path, encode_png(image)); }
+void write_png(const std::string& path, const Image& image) {
+  write_file_atomically(path, encode_png(image));
+}
 
 Image read_png(const std::string& path) {
   const std::vector<char> bytes = read_file(path);

@@ -17,7 +17,8 @@ Body octahedron() {
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 }
 
-// Corners of three golden rectangles. Back faces are culled, so the corners' order has all faces turned outwards.
+// Corners of three golden rectangles. Back faces are culled, so the corners' order has all faces
+// turned outwards.
 Body icosahedron() {
   const float t = 0.5f * (1.0f + std::sqrt(5.0f));
   Body b{{{-1, t, 0},
@@ -39,17 +40,19 @@ Body icosahedron() {
   return b;
 }
 
-/// Farthest corner of a lump in units of its radius: dents go both ways, and a body of eight faces is drawn larger.
+/// Farthest corner of a lump in units of its radius: dents go both ways, and a body of eight faces
+/// is drawn larger.
 constexpr float kFarthestCorner = 1.26f * 1.25f;
 
-/// Eight dented and turned copies of a body, so that no two neighbours look alike. Lumps are dented by up to a quarter
-/// of their radius.
+/// Eight dented and turned copies of a body, so that no two neighbours look alike. Lumps are dented
+/// by up to a quarter of their radius.
 std::vector<Body> variants(const Body& base, std::uint32_t seed) {
   std::vector<Body> out;
   for (std::uint32_t v = 0; v < 8; ++v) {
     Body body = base;
-    const Eigen::Quaternionf turn = Eigen::AngleAxisf(6.28f * hash_unit(v, 1, seed), Vec3f::UnitZ()) *
-                                    Eigen::AngleAxisf(6.28f * hash_unit(v, 2, seed), Vec3f::UnitX());
+    const Eigen::Quaternionf turn =
+        Eigen::AngleAxisf(6.28f * hash_unit(v, 1, seed), Vec3f::UnitZ()) *
+        Eigen::AngleAxisf(6.28f * hash_unit(v, 2, seed), Vec3f::UnitX());
     for (std::uint32_t i = 0; i < body.points.size(); ++i)
       body.points[i] = turn * body.points[i] * (0.74f + 0.52f * hash_unit(v, i + 3, seed));
     out.push_back(body);
@@ -57,8 +60,9 @@ std::vector<Body> variants(const Body& base, std::uint32_t seed) {
   return out;
 }
 
-// A cell's three numbers in 21 bits each, with an offset for negative ones; the highest bit keeps a key from being 0,
-// which marks a free slot. A cell more than a million cells from the origin would wrap around; sites are far smaller.
+// A cell's three numbers in 21 bits each, with an offset for negative ones; the highest bit keeps a
+// key from being 0, which marks a free slot. A cell more than a million cells from the origin would
+// wrap around; sites are far smaller.
 std::uint64_t key(std::int32_t x, std::int32_t y, std::int32_t z) {
   constexpr std::uint64_t kMask = (1u << 21) - 1;
   const auto part = [](std::int32_t k) {
@@ -91,7 +95,8 @@ void ParticleMesh::fill_table(const scene::FrameParticles& particles) {
   table_mask_ = size - 1;
   for (std::size_t i = 0; i < n; ++i) {
     const float* p = &particles.position[3 * i];
-    const std::uint64_t k = key(cell_of(p[0], pitch_), cell_of(p[1], pitch_), cell_of(p[2], pitch_));
+    const std::uint64_t k =
+        key(cell_of(p[0], pitch_), cell_of(p[1], pitch_), cell_of(p[2], pitch_));
     std::size_t s = slot(k) & table_mask_;
     while (table_[s] != 0 && table_[s] != k) s = (s + 1) & table_mask_;
     table_[s] = k;
@@ -108,19 +113,24 @@ bool ParticleMesh::occupied(std::int32_t x, std::int32_t y, std::int32_t z) cons
   return false;
 }
 
-// Hidden: the seven neighbouring cells towards the eye all hold soil. What is left out are lumps within the soil; one
-// that shows through a gap between its neighbours is missed, which nobody sees.
+// Hidden: the seven neighbouring cells towards the eye all hold soil. What is left out are lumps
+// within the soil; one that shows through a gap between its neighbours is missed, which nobody
+// sees.
 bool ParticleMesh::hidden(const Vec3f& local, const Vec3f& to_eye) const {
-  const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_), z = cell_of(local.z(), pitch_);
-  const int sx = to_eye.x() > 0 ? 1 : -1, sy = to_eye.y() > 0 ? 1 : -1, sz = to_eye.z() > 0 ? 1 : -1;
+  const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_),
+                     z = cell_of(local.z(), pitch_);
+  const int sx = to_eye.x() > 0 ? 1 : -1, sy = to_eye.y() > 0 ? 1 : -1,
+            sz = to_eye.z() > 0 ? 1 : -1;
   for (int k = 1; k < 8; ++k)
-    if (!occupied(x + ((k & 1) ? sx : 0), y + ((k & 2) ? sy : 0), z + ((k & 4) ? sz : 0))) return false;
+    if (!occupied(x + ((k & 1) ? sx : 0), y + ((k & 2) ? sy : 0), z + ((k & 4) ? sz : 0)))
+      return false;
   return true;
 }
 
 // `outward` points away from the neighbours, `open` is the share of sky that they leave.
 void ParticleMesh::look_around(const Vec3f& local, Vec3f& outward, float& open) const {
-  const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_), z = cell_of(local.z(), pitch_);
+  const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_),
+                     z = cell_of(local.z(), pitch_);
   outward.setZero();
   int above = 0;
   for (int dz = -1; dz <= 1; ++dz)
@@ -137,9 +147,10 @@ void ParticleMesh::look_around(const Vec3f& local, Vec3f& outward, float& open) 
   outward = length > 0.5f ? Vec3f(outward / length) : Vec3f(0, 0, 1);
 }
 
-void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo, const Lighting& lighting,
-                            float sun) {
-  static const std::vector<Body> kFine = variants(icosahedron(), 11), kCoarse = variants(octahedron(), 12);
+void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo,
+                            const Lighting& lighting, float sun) {
+  static const std::vector<Body> kFine = variants(icosahedron(), 11),
+                                 kCoarse = variants(octahedron(), 12);
   const Body& body = (detail > 0 ? kFine : kCoarse)[lump.seed & 7];
   // A body of eight faces has less volume than one of twenty with the same radius.
   const float size = radius * (detail > 0 ? 1.0f : 1.25f);
@@ -151,19 +162,23 @@ void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Ve
     const float low = 0.86f + 0.14f * point.z();
     const Vec3f color = shade(lighting, albedo, normal, sun, lump.open * low);
     const Vec3f p = lump.center + size * point;
-    mesh_.vertices.push_back({p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
+    mesh_.vertices.push_back(
+        {p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
   }
   for (const auto& f : body.faces)
     mesh_.indices.insert(mesh_.indices.end(), {first + f[0], first + f[1], first + f[2]});
 }
 
-const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
-                                const GroundSurface& surface, const View& view) {
+const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& lighting,
+                                const ShadowMap& shadows, const GroundSurface& surface,
+                                const View& view) {
   const scene::FrameParticles& particles = frame.particles;
   const std::size_t n = particles.position.size() / 3;
   // Arrays come from outside; one that is too short would be read beyond its end.
-  if (particles.position.size() % 3 != 0 || (!particles.soil.empty() && particles.soil.size() != n) ||
-      (!particles.id.empty() && particles.id.size() != n) || (!particles.room.empty() && particles.room.size() != n))
+  if (particles.position.size() % 3 != 0 ||
+      (!particles.soil.empty() && particles.soil.size() != n) ||
+      (!particles.id.empty() && particles.id.size() != n) ||
+      (!particles.room.empty() && particles.room.size() != n))
     throw Error("the frame's particle arrays do not fit each other");
   mesh_.vertices.clear();
   mesh_.indices.clear();
@@ -177,7 +192,8 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
   fill_table(particles);
 
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3f local(particles.position[3 * i], particles.position[3 * i + 1], particles.position[3 * i + 2]);
+    const Vec3f local(particles.position[3 * i], particles.position[3 * i + 1],
+                      particles.position[3 * i + 2]);
     // A particle that is no number is a fault of the run and not of the picture.
     if (!local.allFinite()) continue;
     Lump lump;
@@ -191,12 +207,14 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     lump.seed = hash_u32(particles.id.empty() ? static_cast<std::uint32_t>(i) : particles.id[i]);
     lump.soil = particles.soil.empty() ? std::uint8_t{0} : particles.soil[i];
     // What lies on a plate stays a crumb that can be seen.
-    lump.most = particles.room.empty() ? 2 * radius : std::max(particles.room[i] / kFarthestCorner, 0.2f * radius);
+    lump.most = particles.room.empty()
+                    ? 2 * radius
+                    : std::max(particles.room[i] / kFarthestCorner, 0.2f * radius);
     lumps_.push_back(lump);
   }
 
-  // Twenty faces where a lump is larger than a few pixels and the budget allows, eight elsewhere. The budget bounds
-  // what a picture costs when a whole heap is in view.
+  // Twenty faces where a lump is larger than a few pixels and the budget allows, eight elsewhere.
+  // The budget bounds what a picture costs when a whole heap is in view.
   const bool many = 20 * lumps_.size() > kTriangleBudget;
   mesh_.vertices.reserve(12 * lumps_.size());
   mesh_.indices.reserve(60 * lumps_.size());
@@ -205,16 +223,18 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     const float unit = static_cast<float>(lump.seed >> 8) / 16777216.0f;
     const float pixels = 2 * radius * view.pixels_per_radian / std::max(lump.distance, 0.1f);
     Vec3f albedo(0.50f, 0.40f, 0.28f);
-    if (lump.soil < colors.size()) albedo = {colors[lump.soil].r, colors[lump.soil].g, colors[lump.soil].b};
+    if (lump.soil < colors.size())
+      albedo = {colors[lump.soil].r, colors[lump.soil].g, colors[lump.soil].b};
     albedo *= 0.80f + 0.22f * hash_unit(lump.seed, 5);
     // Asked a little towards the sun, or a lump would stand in its own shadow.
     const Vec3f sunward = lump.center + 1.5f * radius * lighting.to_sun;
     float sun = shadows.sun_at(sunward, 2.5f * radius), height = 0, ground_sun = 1;
     // Low over the ground the ground's own shadow counts as well.
-    if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) && lump.center.z() < height + 0.25f)
+    if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) &&
+        lump.center.z() < height + 0.25f)
       sun *= 0.35f + 0.65f * ground_sun;
-    add_lump(lump, std::min(lump.most, radius * (0.80f + 0.50f * unit * unit)), pixels > 7 && !many ? 1 : 0, albedo,
-             lighting, sun);
+    add_lump(lump, std::min(lump.most, radius * (0.80f + 0.50f * unit * unit)),
+             pixels > 7 && !many ? 1 : 0, albedo, lighting, sun);
   }
   drawn_ = static_cast<int>(lumps_.size());
   return mesh_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose soil as lit crumbs: irregular lumps of a few triangles; those buried in others are left out.
+// Loose soil as lit crumbs: irregular lumps of a few triangles; those buried in others are left
+// out.
 #pragma once
 
 #include <vector>
@@ -11,15 +12,16 @@
 
 namespace navvy::render {
 
-/// Makes one mesh of all visible particles. Cost grows with the particles on the outside of the soil. It hides what
-/// nobody can see: particles shut in by others, and those outside the picture.
+/// Makes one mesh of all visible particles. Cost grows with the particles on the outside of the
+/// soil. It hides what nobody can see: particles shut in by others, and those outside the picture.
 class ParticleMesh {
  public:
-  /// Above it lumps are drawn with eight faces instead of twenty, however large they are [triangles].
+  /// Above it lumps are drawn with eight faces instead of twenty, however large they are
+  /// [triangles].
   static constexpr int kTriangleBudget = 100000;
 
-  /// Positions, sizes and colours follow from the particle's number (or id), so that a lump keeps its looks. The mesh
-  /// lives here until the next `build`.
+  /// Positions, sizes and colours follow from the particle's number (or id), so that a lump keeps
+  /// its looks. The mesh lives here until the next `build`.
   /// @throws Error when the frame's arrays do not fit each other.
   const Mesh& build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
                     const GroundSurface& surface, const View& view);
@@ -27,7 +29,8 @@ class ParticleMesh {
   int drawn() const { return drawn_; }
 
  private:
-  // A lump that will be drawn: where, which way is out of the heap, and how much of the sky it sees.
+  // A lump that will be drawn: where, which way is out of the heap, and how much of the sky it
+  // sees.
   struct Lump {
     // In W [m]; `outward` is a unit vector.
     Vec3f center, outward;
@@ -39,15 +42,16 @@ class ParticleMesh {
     // Number of the soil, for its colour.
     std::uint8_t soil;
   };
-  // The set of cells that hold particles, for the three questions below. Only whether a cell holds any is ever asked,
-  // so the particles are not sorted.
+  // The set of cells that hold particles, for the three questions below. Only whether a cell holds
+  // any is ever asked, so the particles are not sorted.
   void fill_table(const scene::FrameParticles& particles);
   bool occupied(std::int32_t x, std::int32_t y, std::int32_t z) const;
   // Whether the cells towards the eye are all taken.
   bool hidden(const Vec3f& local, const Vec3f& to_eye) const;
   void look_around(const Vec3f& local, Vec3f& outward, float& open) const;
   // Adds the lump's corners, lit, and its faces.
-  void add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo, const Lighting& lighting, float sun);
+  void add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo,
+                const Lighting& lighting, float sun);
 
   // Kept from picture to picture for its memory.
   Mesh mesh_;

@@ -27,8 +27,8 @@
 namespace navvy::render {
 namespace {
 
-/// Something to draw with Coin: a cached body at a pose that may stretch it. Two that are equal throw the same shadow,
-/// which is what the comparison is for.
+/// Something to draw with Coin: a cached body at a pose that may stretch it. Two that are equal
+/// throw the same shadow, which is what the comparison is for.
 struct Placed {
   const Shape* shape;
   Eigen::Matrix4f X_WS;
@@ -46,8 +46,8 @@ SbMatrix to_coin(const Eigen::Matrix4f& m) {
   return out;
 }
 
-/// Affine map that lays the unit body (x from 0 to 1, radius 1) from `from` along `axis`. The two other axes may turn
-/// about it, as the body is round.
+/// Affine map that lays the unit body (x from 0 to 1, radius 1) from `from` along `axis`. The two
+/// other axes may turn about it, as the body is round.
 Eigen::Matrix4f stretch(const Vec3& from, const Vec3& axis, double length, double radius) {
   const Vec3 side = axis.unitOrthogonal();
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
@@ -81,7 +81,8 @@ class Renderer::Impl {
   ParticleMesh particles_;
   ShapeCache shapes_;
   std::vector<Placed> placed_;
-  std::vector<Placed> casters_;  ///< what the shadow map holds, with `falling_` under `shadow_lighting_`
+  /// What the shadow map holds, with `falling_` under `shadow_lighting_`.
+  std::vector<Placed> casters_;
   std::vector<Vec3f> falling_;
   Lighting shadow_lighting_;
   SoSeparator* root_ = nullptr;
@@ -100,10 +101,12 @@ Renderer::Impl::Impl(const RenderOptions& options) : options_(options) {
   cache_context_ = SoGLCacheContextElement::getUniqueCacheContext();
   root_ = new SoSeparator;
   root_->ref();
-  // Everything below changes from picture to picture, so a cache would be made and thrown away each time.
+  // Everything below changes from picture to picture, so a cache would be made and thrown away each
+  // time.
   root_->renderCaching = SoSeparator::OFF;
   camera_ = new SoPerspectiveCamera;
-  // The aspect ratio is set with each picture's size; Coin must not fit it to the viewport in its own way.
+  // The aspect ratio is set with each picture's size; Coin must not fit it to the viewport in its
+  // own way.
   camera_->viewportMapping = SoCamera::LEAVE_ALONE;
   root_->addChild(camera_);
   environment_ = new SoEnvironment;
@@ -127,44 +130,53 @@ SoDirectionalLight* Renderer::Impl::add_light() {
 void Renderer::Impl::place(const scene::Frame& frame) {
   placed_.clear();
   for (const scene::FrameShape& shape : frame.shapes)
-    if (shape.visual != nullptr) placed_.push_back({&shapes_.get(*shape.visual), shape.X_WV.matrix().cast<float>()});
+    if (shape.visual != nullptr)
+      placed_.push_back({&shapes_.get(*shape.visual), shape.X_WV.matrix().cast<float>()});
   for (const scene::FrameCylinder& c : frame.cylinders) {
     const double length = (c.p_rod - c.p_base).norm();
     // A cylinder that is shut has no axis to draw along.
     if (!(length > 1e-6)) continue;
     const Vec3 axis = (c.p_rod - c.p_base) / length;
     const double barrel = std::clamp(c.barrel_length, 0.0, length);
-    placed_.push_back({&shapes_.cylinder_along_x(false), stretch(c.p_base, axis, barrel, c.radius)});
-    placed_.push_back({&shapes_.cylinder_along_x(true), stretch(c.p_base, axis, length, 0.55 * c.radius)});
+    placed_.push_back(
+        {&shapes_.cylinder_along_x(false), stretch(c.p_base, axis, barrel, c.radius)});
+    placed_.push_back(
+        {&shapes_.cylinder_along_x(true), stretch(c.p_base, axis, length, 0.55 * c.radius)});
   }
 }
 
 void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lighting) {
-  // The box around all casters in W, from the corners of their own boxes: larger than needed where they are turned,
-  // never smaller.
+  // The box around all casters in W, from the corners of their own boxes: larger than needed where
+  // they are turned, never smaller.
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
   for (const Placed& p : placed_)
     for (int k = 0; k < 8; ++k) {
-      const Vec3f corner((k & 1) ? p.shape->high.x() : p.shape->low.x(), (k & 2) ? p.shape->high.y() : p.shape->low.y(),
+      const Vec3f corner((k & 1) ? p.shape->high.x() : p.shape->low.x(),
+                         (k & 2) ? p.shape->high.y() : p.shape->low.y(),
                          (k & 4) ? p.shape->high.z() : p.shape->low.z());
       const Vec3f w = (p.X_WS * corner.homogeneous()).head<3>();
       low = low.cwiseMin(w);
       high = high.cwiseMax(w);
     }
-  // Only soil in the air throws a shadow here; soil that lies on the ground would only darken its own feet.
+  // Only soil in the air throws a shadow here; soil that lies on the ground would only darken its
+  // own feet.
   const std::vector<float>& xyz = frame.particles.position;
   const Vec3f origin = frame.particles.origin.cast<float>();
   std::vector<Vec3f> falling;
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
     const Vec3f p = origin + Vec3f(xyz[i], xyz[i + 1], xyz[i + 2]);
     float height = 0, sun = 1;
-    if (!p.allFinite() || !terrain_.surface().sample(p.x(), p.y(), height, sun) || p.z() < height + 0.3f) continue;
+    if (!p.allFinite() || !terrain_.surface().sample(p.x(), p.y(), height, sun) ||
+        p.z() < height + 0.3f)
+      continue;
     falling.push_back(p);
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
   // Another camera at the same instant finds the shadow made.
-  if (casters_ == placed_ && falling_ == falling && shadow_lighting_ == lighting && shadows_.version() != 0) return;
+  if (casters_ == placed_ && falling_ == falling && shadow_lighting_ == lighting &&
+      shadows_.version() != 0)
+    return;
   casters_ = placed_;
   falling_ = falling;
   shadow_lighting_ = lighting;
@@ -187,7 +199,8 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
   shadows_.finish();
 }
 
-void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& camera, const Lighting& lighting) {
+void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& camera,
+                                   const Lighting& lighting) {
   machines_->removeAllChildren();
   for (const Placed& p : placed_) {
     auto* group = new SoSeparator;
@@ -206,8 +219,8 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   camera_->heightAngle = static_cast<float>(2 * std::atan(view.tan_y));
   camera_->nearDistance = static_cast<float>(View::kNear);
   camera_->farDistance = static_cast<float>(View::kFar);
-  // Three lights and an ambient part imitate the sky above and the light from the ground, so that bodies drawn by Coin
-  // look as if they stood on ground that is lit by shading.h.
+  // Three lights and an ambient part imitate the sky above and the light from the ground, so that
+  // bodies drawn by Coin look as if they stood on ground that is lit by shading.h.
   environment_->ambientIntensity = 1.0f;
   environment_->ambientColor = to_coin(Vec3f(0.62f * (lighting.sky + lighting.ground)));
   environment_->fogType = SoEnvironment::HAZE;
@@ -223,7 +236,8 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   bounce_->color = to_coin(Vec3f(lighting.ground + 0.3f * lighting.sky));
   bounce_->intensity = 1.0f;
 
-  SoGLRenderAction action(SbViewportRegion(static_cast<short>(view.width), static_cast<short>(view.height)));
+  SoGLRenderAction action(
+      SbViewportRegion(static_cast<short>(view.width), static_cast<short>(view.height)));
   action.setCacheContext(cache_context_);
   action.setTransparencyType(SoGLRenderAction::SORTED_OBJECT_BLEND);
   glEnable(GL_DEPTH_TEST);
@@ -231,12 +245,14 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   action.apply(root_);
 }
 
-Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth) {
+Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera& camera,
+                             DepthImage* depth) {
   const Stopwatch watch;
   context_.begin(camera.width, camera.height, options_.samples);
   const View view(camera);
   const Lighting lighting = make_lighting(frame.lights);
-  // The ground goes first: whether a particle is falling, and how the sun reaches it, is asked of its surface.
+  // The ground goes first: whether a particle is falling, and how the sun reaches it, is asked of
+  // its surface.
   terrain_.update(frame.ground, lighting);
   const std::size_t known = shapes_.size();
   place(frame);
@@ -244,7 +260,8 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   std::vector<GroundPart> tiles = terrain_.select(view, options_.triangle_budget);
   stats = {};
   stats.ground_tiles = static_cast<int>(tiles.size());
-  if (options_.surroundings && !frame.ground.height.empty()) tiles.push_back(terrain_.surroundings(lighting));
+  if (options_.surroundings && !frame.ground.height.empty())
+    tiles.push_back(terrain_.surroundings(lighting));
   for (const GroundPart& tile : tiles) stats.ground_triangles += static_cast<int>(tile.triangles());
   const Mesh& soil = particles_.build(frame, lighting, shadows_, terrain_.surface(), view);
   stats.particles_drawn = particles_.drawn();
@@ -252,10 +269,11 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   stats.tiles_rebuilt = terrain_.rebuilt();
   stats.prepare_ms = 1e3 * watch.seconds();
 
-  // Coin draws a body another way the first time (rounding differs): draw new ones once for nothing.
+  // Coin draws a body another way the first time (rounding differs): draw new ones once for
+  // nothing.
   if (shapes_.size() != known) draw_machines(view, camera, lighting);
-  // Ground first, as it hides most of the sky; machines last, because Coin blends what is transparent over all the
-  // rest.
+  // Ground first, as it hides most of the sky; machines last, because Coin blends what is
+  // transparent over all the rest.
   draw_.begin(view, lighting);
   draw_.ground(tiles, view, shadows_, lighting);
   draw_.lumps(soil);
@@ -263,19 +281,22 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   draw_.end();
   draw_machines(view, camera, lighting);
 
-  const std::size_t w = static_cast<std::size_t>(view.width), h = static_cast<std::size_t>(view.height);
+  const std::size_t w = static_cast<std::size_t>(view.width),
+                    h = static_cast<std::size_t>(view.height);
   if (depth != nullptr) {
     const std::vector<float> raw = context_.depth();
     depth->width = view.width;
     depth->height = view.height;
     depth->depth.resize(w * h);
-    // From the depth buffer's scale, which is finer near the eye, to metres along the camera's axis.
+    // From the depth buffer's scale, which is finer near the eye, to metres along the camera's
+    // axis.
     constexpr double kNear = View::kNear, kFar = View::kFar;
     for (std::size_t y = 0; y < h; ++y)
       for (std::size_t x = 0; x < w; ++x) {
         const float d = raw[(h - 1 - y) * w + x];
-        depth->depth[y * w + x] = d >= 1.0f ? std::numeric_limits<float>::infinity()
-                                            : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
+        depth->depth[y * w + x] =
+            d >= 1.0f ? std::numeric_limits<float>::infinity()
+                      : static_cast<float>(kNear * kFar / (kFar - d * (kFar - kNear)));
       }
   }
   context_.finish();
@@ -300,7 +321,8 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
 Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Renderer::~Renderer() = default;
 
-Image Renderer::render(const scene::Frame& frame, const scene::FrameCamera& camera, DepthImage* depth) {
+Image Renderer::render(const scene::Frame& frame, const scene::FrameCamera& camera,
+                       DepthImage* depth) {
   return impl_->render(frame, camera, depth);
 }
 

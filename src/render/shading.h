@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light on soil, computed on the host per vertex: one sun, a sky above, warm light from the ground below.
-// Everything here is a pure function of its arguments, so that pictures repeat.
+// Light on soil, computed on the host per vertex: one sun, a sky above, warm light from the ground
+// below. Everything here is a pure function of its arguments, so that pictures repeat.
 #pragma once
 
 #include <algorithm>
@@ -37,13 +37,14 @@ struct Lighting {
   bool operator==(const Lighting&) const = default;
 };
 
-/// The first light is the sun; none: the default of scene::Light. There is one sun; lights after the first are not
-/// drawn.
+/// The first light is the sun; none: the default of scene::Light. There is one sun; lights after
+/// the first are not drawn.
 Lighting make_lighting(const std::vector<scene::Light>& lights);
 
-/// Colour of a matt surface; `sun` is the share of the sun that reaches it, `open` the share of the sky.
-/// Light and albedo are factors, so what comes out may exceed 1; `to_byte` cuts it off.
-inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& normal, float sun, float open) {
+/// Colour of a matt surface; `sun` is the share of the sun that reaches it, `open` the share of the
+/// sky. Light and albedo are factors, so what comes out may exceed 1; `to_byte` cuts it off.
+inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& normal, float sun,
+                   float open) {
   // A side that is turned away from the sun gets none of it.
   const float direct = std::max(0.0f, normal.dot(light.to_sun)) * sun;
   // From 0 looking down to 1 looking up, so that the ambient light changes without an edge.
@@ -63,7 +64,8 @@ inline float smooth_step(float low, float high, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Mixes all bits of a number into all others: neighbouring numbers give unlike ones. No secret, only spread.
+/// Mixes all bits of a number into all others: neighbouring numbers give unlike ones. No secret,
+/// only spread.
 inline std::uint32_t hash_u32(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;

@@ -20,12 +20,14 @@ void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& h
   const Vec3f u = side.cross(to_sun_).normalized(), v = to_sun_.cross(u);
   Eigen::Vector2f least(1e30f, 1e30f), most(-1e30f, -1e30f);
   for (int k = 0; k < 8; ++k) {
-    const Vec3f p((k & 1) ? high.x() : low.x(), (k & 2) ? high.y() : low.y(), (k & 4) ? high.z() : low.z());
+    const Vec3f p((k & 1) ? high.x() : low.x(), (k & 2) ? high.y() : low.y(),
+                  (k & 4) ? high.z() : low.z());
     const Eigen::Vector2f q(u.dot(p), v.dot(p));
     least = least.cwiseMin(q);
     most = most.cwiseMax(q);
   }
-  // The longer side sets the scale, so texels are square; half a metre at least also keeps the scale finite.
+  // The longer side sets the scale, so texels are square; half a metre at least also keeps the
+  // scale finite.
   const float extent = std::max({most.x() - least.x(), most.y() - least.y(), 0.5f});
   // Within the margin and two texels for the blur.
   const float scale = (1.0f - 2.0f * (kMargin + 2) / kSize) / extent;
@@ -35,15 +37,15 @@ void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& h
 }
 
 Vec3f ShadowMap::project(const Vec3f& p) const {
-  return {(plane_s_.head<3>().dot(p) + plane_s_.w()) * kSize, (plane_t_.head<3>().dot(p) + plane_t_.w()) * kSize,
-          to_sun_.dot(p)};
+  return {(plane_s_.head<3>().dot(p) + plane_s_.w()) * kSize,
+          (plane_t_.head<3>().dot(p) + plane_t_.w()) * kSize, to_sun_.dot(p)};
 }
 
 // Row by row: the three edges bound the texels of a row, so that the inner loop is only depth.
 void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, bool solid) {
   const Vec3f a = project(wa), b = project(wb), c = project(wc);
-  // Twice the area in texels. Seen from the sun a front face turns counter-clockwise; of a solid body its back faces
-  // lie in the shadow of the front ones.
+  // Twice the area in texels. Seen from the sun a front face turns counter-clockwise; of a solid
+  // body its back faces lie in the shadow of the front ones.
   const float area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
   if (solid ? area < 1e-6f : std::abs(area) < 1e-6f) return;
   used_ = true;
@@ -54,12 +56,15 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
   const int high_y = std::min(kSize - 1 - kMargin, floor_of(std::max({a.y(), b.y(), c.y()})) + 1);
   // Shares of b and c (and a, the rest) at a texel's centre are linear in x and y.
   const float inverse = 1.0f / area;
-  const std::array<float, 3> per_x = {(c.y() - a.y()) * inverse, (a.y() - b.y()) * inverse, (b.y() - c.y()) * inverse};
-  const std::array<float, 3> per_y = {(a.x() - c.x()) * inverse, (b.x() - a.x()) * inverse, (c.x() - b.x()) * inverse};
+  const std::array<float, 3> per_x = {(c.y() - a.y()) * inverse, (a.y() - b.y()) * inverse,
+                                      (b.y() - c.y()) * inverse};
+  const std::array<float, 3> per_y = {(a.x() - c.x()) * inverse, (b.x() - a.x()) * inverse,
+                                      (c.x() - b.x()) * inverse};
   const float slope = per_x[0] * (b.z() - a.z()) + per_x[1] * (c.z() - a.z());
   constexpr float kSlack = -0.02f;  // no gaps between neighbours
   for (int y = low_y; y <= high_y; ++y) {
-    const float px = static_cast<float>(low_x) + 0.5f - a.x(), py = static_cast<float>(y) + 0.5f - a.y();
+    const float px = static_cast<float>(low_x) + 0.5f - a.x(),
+                py = static_cast<float>(y) + 0.5f - a.y();
     std::array<float, 3> share = {per_x[0] * px + per_y[0] * py, per_x[1] * px + per_y[1] * py, 0};
     share[2] = 1 - share[0] - share[1];
     // Each edge bounds the row from one side. An edge along the row has it wholly in or out.
@@ -74,7 +79,8 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
         last = -1;
     }
     if (!(first <= last)) continue;
-    // The height along the sun's direction changes linearly over a triangle, so the inner loop only adds.
+    // The height along the sun's direction changes linearly over a triangle, so the inner loop only
+    // adds.
     float* row = &nearest_[static_cast<std::size_t>(y * kSize + low_x)];
     const float start = a.z() + share[0] * (b.z() - a.z()) + share[1] * (c.z() - a.z());
     const int end = static_cast<int>(last);
@@ -102,7 +108,8 @@ namespace {
 /// Weighted mean (1 2 2 2 1) / 8 of five values `stride` apart, along a run of texels.
 void smooth(const std::uint8_t* __restrict in, std::uint8_t* __restrict out, int n, int stride) {
   for (int i = 0; i < n; ++i) {
-    const int sum = in[i - 2 * stride] + 2 * (in[i - stride] + in[i] + in[i + stride]) + in[i + 2 * stride];
+    const int sum =
+        in[i - 2 * stride] + 2 * (in[i - stride] + in[i] + in[i + stride]) + in[i + 2 * stride];
     out[i] = static_cast<std::uint8_t>(sum >> 3);
   }
 }
@@ -113,7 +120,8 @@ void ShadowMap::finish() {
   mask_.resize(nearest_.size());
   blur_.assign(nearest_.size(), 255);
   for (std::size_t i = 0; i < nearest_.size(); ++i) mask_[i] = nearest_[i] > kNothing ? 0 : 255;
-  constexpr int kInner = (kSize - 4) * kSize - 4;  // rows run on into each other: their ends are margin, all lit
+  // Rows run on into each other: their ends are margin, all lit
+  constexpr int kInner = (kSize - 4) * kSize - 4;
   smooth(&mask_[2 * kSize + 2], &blur_[2 * kSize + 2], kInner, 1);
   smooth(&blur_[2 * kSize + 2], &mask_[2 * kSize + 2], kInner, kSize);
 }
@@ -122,8 +130,10 @@ bool ShadowMap::reaches(const Vec3f& low, const Vec3f& high) const {
   if (!used_) return false;
   const Vec3f middle = 0.5f * (low + high), half = 0.5f * (high - low);
   for (const Eigen::Vector4f* plane : {&plane_s_, &plane_t_}) {
-    // The box's reach along a direction; the test may say yes for a box near the map, never no for one in it.
-    const float at = plane->head<3>().dot(middle) + plane->w(), reach = plane->head<3>().cwiseAbs().dot(half);
+    // The box's reach along a direction; the test may say yes for a box near the map, never no for
+    // one in it.
+    const float at = plane->head<3>().dot(middle) + plane->w(),
+                reach = plane->head<3>().cwiseAbs().dot(half);
     if (at + reach < 0 || at - reach > 1) return false;
   }
   return true;

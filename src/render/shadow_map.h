@@ -8,16 +8,17 @@
 
 namespace navvy::render {
 
-/// A square of texels across the sun's rays. `mask` (255 = lit) is laid over the ground as a texture along the rays;
-/// points in the air ask `sun_at`, which compares depths. One map for a picture: casters inside a box share its texels,
-/// so a machine far from the others makes them coarse.
+/// A square of texels across the sun's rays. `mask` (255 = lit) is laid over the ground as a
+/// texture along the rays; points in the air ask `sun_at`, which compares depths. One map for a
+/// picture: casters inside a box share its texels, so a machine far from the others makes them
+/// coarse.
 class ShadowMap {
  public:
   /// Texels along an edge.
   static constexpr int kSize = 512;
 
-  /// Starts anew for casters inside the box `low`..`high` of W. The box should hold all casters, or their shadows end
-  /// at it.
+  /// Starts anew for casters inside the box `low`..`high` of W. The box should hold all casters, or
+  /// their shadows end at it.
   void begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high);
   /// Of a solid body only the triangles that face the sun count.
   void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool solid);
@@ -33,10 +34,12 @@ class ShadowMap {
   /// Whether the shadow may fall on anything inside a box (never false where it does).
   bool reaches(const Vec3f& low, const Vec3f& high) const;
   const std::vector<std::uint8_t>& mask() const { return mask_; }
-  /// Texture coordinate = dot(plane.head<3>(), p) + plane.w. The coordinate runs from 0 to 1 over the map.
+  /// Texture coordinate = dot(plane.head<3>(), p) + plane.w. The coordinate runs from 0 to 1 over
+  /// the map.
   const Eigen::Vector4f& plane_s() const { return plane_s_; }
   const Eigen::Vector4f& plane_t() const { return plane_t_; }
-  /// Share of the sun (0..1) at p, behind nothing nearer the sun than `bias` [m]. Beyond the map it is 1.
+  /// Share of the sun (0..1) at p, behind nothing nearer the sun than `bias` [m]. Beyond the map it
+  /// is 1.
   float sun_at(const Vec3f& p, float bias) const;
 
  private:

@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "geometry/obj/read_obj.h"
-#include "render/solid.h"
+#include "render/closed_mesh.h"
 
 namespace navvy::render {
 namespace {
@@ -48,9 +48,15 @@ Body box(const Vec3f& size, const Look& look) {
   Body b;
   b.parts.push_back({look, {}});
   for (int k = 0; k < 8; ++k)
-    b.points.emplace_back(0.5f * size.x() * ((k & 1) ? 1.f : -1.f), 0.5f * size.y() * ((k & 2) ? 1.f : -1.f),
+    b.points.emplace_back(0.5f * size.x() * ((k & 1) ? 1.f : -1.f),
+                          0.5f * size.y() * ((k & 2) ? 1.f : -1.f),
                           0.5f * size.z() * ((k & 4) ? 1.f : -1.f));
-  for (const auto& f : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+  for (const auto& f : {std::array{0, 2, 3, 1},
+                        {4, 5, 7, 6},
+                        {0, 1, 5, 4},
+                        {2, 6, 7, 3},
+                        {0, 4, 6, 2},
+                        {1, 3, 7, 5}})
     add_face(b, {f[0], f[1], f[2], f[3]});
   return b;
 }
@@ -59,10 +65,12 @@ Body box(const Vec3f& size, const Look& look) {
 Body cylinder(float radius, float length, const Look& look, int sides = 28) {
   Body b;
   b.parts.push_back({look, {}});
-  // The side's corners come in pairs, lower and upper; the two middles of the ends follow at 2 sides.
+  // The side's corners come in pairs, lower and upper; the two middles of the ends follow at 2
+  // sides.
   for (int i = 0; i < sides; ++i) {
     const float a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / static_cast<float>(sides);
-    for (const float z : {-0.5f, 0.5f}) b.points.emplace_back(radius * std::cos(a), radius * std::sin(a), z * length);
+    for (const float z : {-0.5f, 0.5f})
+      b.points.emplace_back(radius * std::cos(a), radius * std::sin(a), z * length);
   }
   b.points.emplace_back(0, 0, -0.5f * length);
   b.points.emplace_back(0, 0, 0.5f * length);
@@ -104,10 +112,11 @@ Body sphere(float radius, const Look& look, float length = 0) {
     for (int i = 0; i < kSides; ++i) {
       // Rings of the poles have all corners in one place; their empty triangles are left out below.
       const int of_sphere = r <= kHalf ? r : r - (rings - 2 * kHalf);
-      const double up = kPi * (static_cast<double>(of_sphere) / (2 * kHalf) - 0.5), a = 2 * kPi * i / kSides;
-      b.points.push_back(
-          Vec3(radius * std::cos(up) * std::cos(a), radius * std::cos(up) * std::sin(a), radius * std::sin(up))
-              .cast<float>());
+      const double up = kPi * (static_cast<double>(of_sphere) / (2 * kHalf) - 0.5),
+                   a = 2 * kPi * i / kSides;
+      b.points.push_back(Vec3(radius * std::cos(up) * std::cos(a),
+                              radius * std::cos(up) * std::sin(a), radius * std::sin(up))
+                             .cast<float>());
       b.points.back().z() += (r <= kHalf ? -0.5f : 0.5f) * length;
     }
   for (int r = 0; r < rings; ++r)
@@ -127,8 +136,11 @@ Body mesh_body(const geometry::TriangleMesh& mesh, const Vec3f& scale, const Loo
   b.parts.push_back({plain, {}});
   for (const geometry::MeshMaterial& m : mesh.materials) {
     // OpenGL's exponents end at 128.
-    const auto shine = static_cast<float>(std::clamp(static_cast<double>(m.shininess) / 128.0, 0.0, 1.0));
-    b.parts.push_back({{{m.diffuse[0], m.diffuse[1], m.diffuse[2], m.opacity}, Vec3f(m.specular.data()), shine}, {}});
+    const auto shine =
+        static_cast<float>(std::clamp(static_cast<double>(m.shininess) / 128.0, 0.0, 1.0));
+    b.parts.push_back(
+        {{{m.diffuse[0], m.diffuse[1], m.diffuse[2], m.opacity}, Vec3f(m.specular.data()), shine},
+         {}});
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const int material = mesh.material_of.empty() ? -1 : mesh.material_of[t];
@@ -142,8 +154,8 @@ Body mesh_body(const geometry::TriangleMesh& mesh, const Vec3f& scale, const Loo
 Body read_body(const std::string& file, const Vec3f& scale, const Look& plain) {
   const geometry::TriangleMesh mesh = geometry::read_obj(file);
   if (mesh.vertices.empty())
-    throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh", "", "a mesh to draw must have vertices",
-                           "export the mesh again"});
+    throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh", "",
+                           "a mesh to draw must have vertices", "export the mesh again"});
   return mesh_body(mesh, scale, plain);
 }
 
@@ -176,7 +188,8 @@ SoNode* make_node(const Body& body, const std::vector<bool>& solid) {
   auto* coordinates = new SoCoordinate3;
   coordinates->point.setNum(static_cast<int>(body.points.size()));
   for (std::size_t i = 0; i < body.points.size(); ++i)
-    coordinates->point.set1Value(static_cast<int>(i), body.points[i].x(), body.points[i].y(), body.points[i].z());
+    coordinates->point.set1Value(static_cast<int>(i), body.points[i].x(), body.points[i].y(),
+                                 body.points[i].z());
   root->addChild(coordinates);
   for (std::size_t k = 0; k < body.parts.size(); ++k) {
     const Part& part = body.parts[k];
@@ -191,7 +204,8 @@ SoNode* make_node(const Body& body, const std::vector<bool>& solid) {
     const SbColor color(part.look.color.r, part.look.color.g, part.look.color.b);
     material->diffuseColor = color;
     material->ambientColor = color;
-    material->specularColor = SbColor(part.look.specular.x(), part.look.specular.y(), part.look.specular.z());
+    material->specularColor =
+        SbColor(part.look.specular.x(), part.look.specular.y(), part.look.specular.z());
     material->shininess = part.look.shininess;
     material->transparency = std::clamp(1.0f - part.look.color.a, 0.0f, 1.0f);
     root->addChild(material);
@@ -213,7 +227,8 @@ Shape make_shape(const Body& body) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < part.indices.size(); ++i) {
       if (part.indices[i] >= 0) continue;
-      // A face with more than three corners is cut into a fan; that is exact for the flat and convex faces made here.
+      // A face with more than three corners is cut into a fan; that is exact for the flat and
+      // convex faces made here.
       for (std::size_t k = first + 2; k < i; ++k)
         for (const std::size_t j : {first, k - 1, k})
           triangles.push_back(body.points[static_cast<std::size_t>(part.indices[j])]);
@@ -232,10 +247,12 @@ std::string name_of(const scene::Visual& visual) {
   // The whole look as text: numbers to the last digit that a float shows, colours to four.
   const scene::Geometry& g = visual.geometry;
   char text[400];
-  std::snprintf(text, sizeof text, "%d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.4g %.4g %.4g %.4g ",
-                static_cast<int>(g.kind), g.size.x(), g.size.y(), g.size.z(), g.radius, g.length, g.scale.x(),
-                g.scale.y(), g.scale.z(), static_cast<double>(visual.color.r), static_cast<double>(visual.color.g),
-                static_cast<double>(visual.color.b), static_cast<double>(visual.color.a));
+  std::snprintf(text, sizeof text,
+                "%d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.4g %.4g %.4g %.4g ",
+                static_cast<int>(g.kind), g.size.x(), g.size.y(), g.size.z(), g.radius, g.length,
+                g.scale.x(), g.scale.y(), g.scale.z(), static_cast<double>(visual.color.r),
+                static_cast<double>(visual.color.g), static_cast<double>(visual.color.b),
+                static_cast<double>(visual.color.a));
   return text + g.mesh_file;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tile is a grid of vertices at a stride of 2^level columns. Levels follow the size of a cell in the picture; where
-// two levels meet, skirts hang down behind the seam instead of matching vertices.
+// A tile is a grid of vertices at a stride of 2^level columns. Levels follow the size of a cell in
+// the picture; where two levels meet, skirts hang down behind the seam instead of matching
+// vertices.
 #include "render/terrain_mesh.h"
 
 namespace navvy::render {
@@ -21,7 +22,8 @@ Vertex colored(const Vec3f& p, const Vec3f& color) {
   return {p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255};
 }
 
-/// Mean colour over the stride x stride columns around a node, so that coarse levels do not flicker.
+/// Mean colour over the stride x stride columns around a node, so that coarse levels do not
+/// flicker.
 Vertex node_vertex(const GroundSurface& surface, int ix, int iy, int stride) {
   const Vec3f p = surface.point(ix, iy);
   if (stride == 1) {
@@ -31,7 +33,8 @@ Vertex node_vertex(const GroundSurface& surface, int ix, int iy, int stride) {
   const int reach = stride / 2, step = std::max(1, stride / 4);
   int sum[3] = {0, 0, 0}, n = 0;
   for (int y = std::max(0, iy - reach); y <= std::min(surface.ny() - 1, iy + reach); y += step)
-    for (int x = std::max(0, ix - reach); x <= std::min(surface.nx() - 1, ix + reach); x += step, ++n)
+    for (int x = std::max(0, ix - reach); x <= std::min(surface.nx() - 1, ix + reach);
+         x += step, ++n)
       for (int k = 0; k < 3; ++k) sum[k] += surface.lit(x, y)[static_cast<std::size_t>(k)];
   const auto mean = [n](int total) { return static_cast<std::uint8_t>((total + n / 2) / n); };
   return {p.x(), p.y(), p.z(), mean(sum[0]), mean(sum[1]), mean(sum[2]), 255};
@@ -43,8 +46,8 @@ void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std
 }
 
 /// Two triangles of one cell as walls: own vertices, light by the face.
-void add_wall(Mesh& mesh, const GroundSurface& surface, const std::array<std::array<int, 2>, 4>& corner,
-              const std::array<int, 6>& order) {
+void add_wall(Mesh& mesh, const GroundSurface& surface,
+              const std::array<std::array<int, 2>, 4>& corner, const std::array<int, 6>& order) {
   for (std::size_t t = 0; t < 6; t += 3) {
     std::array<Vec3f, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +58,8 @@ void add_wall(Mesh& mesh, const GroundSurface& surface, const std::array<std::ar
     const bool wall = n.z() < 0.62f;  // the cell's other triangle may be level
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = corner[static_cast<std::size_t>(order[t + k])];
-      (wall ? mesh.walls : mesh.indices).push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      (wall ? mesh.walls : mesh.indices)
+          .push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
       const auto& lit = surface.lit(c[0], c[1]);
       if (wall)
         mesh.vertices.push_back(colored(p[k], surface.wall_color(c[0], c[1], n)));
@@ -66,7 +70,8 @@ void add_wall(Mesh& mesh, const GroundSurface& surface, const std::array<std::ar
 }
 
 /// A strip hanging down from a line of vertices.
-void add_skirt(Mesh& mesh, std::vector<std::uint32_t>& skirt, const std::vector<std::uint32_t>& line, float drop) {
+void add_skirt(Mesh& mesh, std::vector<std::uint32_t>& skirt,
+               const std::vector<std::uint32_t>& line, float drop) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     Vertex v = mesh.vertices[line[i]];
     v.z -= drop;
@@ -88,7 +93,7 @@ std::size_t GroundPart::triangles() const {
 
 void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& lighting) {
   const int old_x = surface_.nx(), old_y = surface_.ny();
-  const std::vector<CellRect> changed = surface_.update(ground, lighting);
+  const std::vector<ColumnRect> changed = surface_.update(ground, lighting);
   rebuilt_ = 0;
   if (changed.empty()) return;
   if (old_x != surface_.nx() || old_y != surface_.ny()) {
@@ -98,11 +103,12 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
     tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), {});
   }
   // A tile shares its last nodes with the next one, and coarse colours look half a stride around.
-  std::vector<CellRect> wide;
-  for (const CellRect& rect : changed) wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
+  std::vector<ColumnRect> wide;
+  for (const ColumnRect& rect : changed)
+    wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
   for (int ty = 0; ty < tiles_y_; ++ty)
     for (int tx = 0; tx < tiles_x_; ++tx) {
-      const bool touched = std::any_of(wide.begin(), wide.end(), [&](const CellRect& rect) {
+      const bool touched = std::any_of(wide.begin(), wide.end(), [&](const ColumnRect& rect) {
         return tx * kTile < rect.x1 && (tx + 1) * kTile >= rect.x0 && ty * kTile < rect.y1 &&
                (ty + 1) * kTile >= rect.y0;
       });
@@ -111,7 +117,7 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
       measure(tx, ty);
       tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)].level = -1;
     }
-  const bool at_edge = std::any_of(wide.begin(), wide.end(), [&](const CellRect& rect) {
+  const bool at_edge = std::any_of(wide.begin(), wide.end(), [&](const ColumnRect& rect) {
     return rect.x0 == 0 || rect.y0 == 0 || rect.x1 == surface_.nx() || rect.y1 == surface_.ny();
   });
   surroundings_stale_ = surroundings_stale_ || at_edge;
@@ -129,7 +135,8 @@ void TerrainMesh::measure(int tx, int ty) {
     for (int ix = x0; ix <= x0 + nodes_x(tx); ++ix) {
       tile.low.z() = std::min(tile.low.z(), surface_.height(ix, iy));
       tile.high.z() = std::max(tile.high.z(), surface_.height(ix, iy));
-      if (ix > x0 && std::abs(surface_.height(ix, iy) - surface_.height(ix - 1, iy)) > kWallSlope * surface_.cell())
+      if (ix > x0 && std::abs(surface_.height(ix, iy) - surface_.height(ix - 1, iy)) >
+                         kWallSlope * surface_.cell())
         tile.rough = true;
     }
 }
@@ -139,7 +146,8 @@ int TerrainMesh::wanted_level(const Tile& tile, const View& view, float pixels) 
   const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
   const float distance = (nearest - view.eye).norm();
   const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max(distance, 0.1f);
-  // Level ground seen at a low angle is short in the picture: what counts is the mean of a cell's two sides there.
+  // Level ground seen at a low angle is short in the picture: what counts is the mean of a cell's
+  // two sides there.
   const float rise = std::max(0.0f, view.eye.z() - tile.high.z()) / std::max(distance, 0.1f);
   pixels *= tile.rough ? 0.35f : 1.0f / std::sqrt(std::clamp(rise, 0.15f, 1.0f));
   int level = 0;
@@ -175,7 +183,8 @@ std::vector<GroundPart> TerrainMesh::select(const View& view, int budget) {
   for (; pixels < 64; pixels *= 1.25f) {
     std::int64_t triangles = 0;
     for (const Candidate& c : seen) {
-      const int side = kTile >> wanted_level(tiles_[static_cast<std::size_t>(c.tile)], view, pixels);
+      const int side =
+          kTile >> wanted_level(tiles_[static_cast<std::size_t>(c.tile)], view, pixels);
       triangles += 2 * side * side + 8 * side;
     }
     if (triangles <= budget) break;
@@ -205,8 +214,10 @@ void TerrainMesh::build(int tx, int ty, int level) {
   tile.level = level;
   ++rebuilt_;
   const int stride = 1 << level;
-  const std::vector<int> xs = nodes(tx * kTile, nodes_x(tx), stride), ys = nodes(ty * kTile, nodes_y(ty), stride);
-  const auto width = static_cast<std::uint32_t>(xs.size()), rows = static_cast<std::uint32_t>(ys.size());
+  const std::vector<int> xs = nodes(tx * kTile, nodes_x(tx), stride),
+                         ys = nodes(ty * kTile, nodes_y(ty), stride);
+  const auto width = static_cast<std::uint32_t>(xs.size()),
+             rows = static_cast<std::uint32_t>(ys.size());
   // Shared vertices of the level part; walls add their own.
   for (const int iy : ys)
     for (const int ix : xs) mesh.vertices.push_back(node_vertex(surface_, ix, iy, stride));
@@ -216,14 +227,18 @@ void TerrainMesh::build(int tx, int ty, int level) {
   for (std::uint32_t j = 0; j + 1 < rows; ++j)
     for (std::uint32_t i = 0; i + 1 < width; ++i) {
       const std::uint32_t a = j * width + i, b = a + 1, c = b + width, d = a + width;
-      const float ha = mesh.vertices[a].z, hb = mesh.vertices[b].z, hc = mesh.vertices[c].z, hd = mesh.vertices[d].z;
-      const bool other = std::abs(ha - hc) > std::abs(hb - hd);  // cut along the diagonal of more equal heights
+      const float ha = mesh.vertices[a].z, hb = mesh.vertices[b].z, hc = mesh.vertices[c].z,
+                  hd = mesh.vertices[d].z;
+      // Cut along the diagonal of more equal heights
+      const bool other = std::abs(ha - hc) > std::abs(hb - hd);
       const float range = std::max({ha, hb, hc, hd}) - std::min({ha, hb, hc, hd});
       // Coarser levels are too far away for walls to be told apart.
       if (level == 0 && range > wall) {
         const int x = xs[i], y = ys[j];
-        const std::array<std::array<int, 2>, 4> corner = {{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
-        add_wall(mesh, surface_, corner, other ? std::array{0, 1, 3, 1, 2, 3} : std::array{0, 1, 2, 0, 2, 3});
+        const std::array<std::array<int, 2>, 4> corner = {
+            {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
+        add_wall(mesh, surface_, corner,
+                 other ? std::array{0, 1, 3, 1, 2, 3} : std::array{0, 1, 2, 0, 2, 3});
       } else if (other) {
         mesh.indices.insert(mesh.indices.end(), {a, b, d, b, c, d});
       } else {
@@ -249,11 +264,13 @@ void TerrainMesh::build(int tx, int ty, int level) {
 
 GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
   constexpr float kFar = 1e4f;
-  const GroundPart part{&surroundings_, {true, false, false, false}, Vec3f::Constant(-kFar), Vec3f::Constant(kFar)};
+  const GroundPart part{
+      &surroundings_, {true, false, false, false}, Vec3f::Constant(-kFar), Vec3f::Constant(kFar)};
   if (!surroundings_stale_ || tiles_.empty()) return part;
   surroundings_stale_ = false;
   surroundings_ = {};
-  // The edge as one closed line, counter-clockwise from the lower-left corner, with its way outwards.
+  // The edge as one closed line, counter-clockwise from the lower-left corner, with its way
+  // outwards.
   constexpr int kStep = 4;
   const int nx = surface_.nx(), ny = surface_.ny();
   std::vector<std::array<int, 2>> edge;
@@ -283,17 +300,20 @@ GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
       out.normalize();
       const float share = smooth_step(0, 14, kReach[ring]);
       const Vec3f at = p + out * kReach[ring] * 1.3f;
-      const float patch = value_noise(at.x() / 6, at.y() / 6, 3) + value_noise(at.x() / 31, at.y() / 31, 4);
+      const float patch =
+          value_noise(at.x() / 6, at.y() / 6, 3) + value_noise(at.x() / 31, at.y() / 31, 4);
       const Vec3f plain = color * (1.0f + 0.05f * patch);
       const Vec3f own = Vec3f(c[0], c[1], c[2]) / 255.0f;
       Vec3f tone = own + (plain - own) * share;
       tone += (lighting.haze - tone) * 0.25f * smooth_step(4, 150, kReach[ring]);
-      surroundings_.vertices.push_back(colored({at.x(), at.y(), p.z() + (mean - p.z()) * share}, tone));
+      surroundings_.vertices.push_back(
+          colored({at.x(), at.y(), p.z() + (mean - p.z()) * share}, tone));
     }
   for (std::uint32_t ring = 0; ring + 1 < kReach.size(); ++ring)
     for (std::uint32_t i = 0; i < around; ++i) {
       const std::uint32_t k = (i + 1) % around;
-      add_quad(surroundings_, ring * around + k, ring * around + i, (ring + 1) * around + i, (ring + 1) * around + k);
+      add_quad(surroundings_, ring * around + k, ring * around + i, (ring + 1) * around + i,
+               (ring + 1) * around + k);
     }
   // The site's edge is finer than this one: what shows between the two is soil, not sky.
   std::vector<std::uint32_t> line;

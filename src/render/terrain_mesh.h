@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground as triangles: tiles of 64 x 64 columns, each at the level of detail that the camera needs.
+// The ground as triangles: tiles of 64 x 64 columns, each at the level of detail that the camera
+// needs.
 #pragma once
 
 #include <array>
@@ -15,8 +16,8 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
   std::vector<std::uint32_t> walls;  ///< steep triangles: the grain lies on them from the side
-  /// Strips hanging from the south, east, north and west edge, triangles of one colour each (slivers would smear
-  /// shaded colours).
+  /// Strips hanging from the south, east, north and west edge, triangles of one colour each
+  /// (slivers would smear shaded colours).
   std::array<std::vector<std::uint32_t>, 4> skirts;
 };
 
@@ -29,8 +30,9 @@ struct GroundPart {
   std::size_t triangles() const;
 };
 
-/// Tiles are made when first seen at a level and kept until their columns change. Seams between levels are closed by
-/// skirts. At full detail walls get triangles of their own, so that an edge stays sharp in light.
+/// Tiles are made when first seen at a level and kept until their columns change. Seams between
+/// levels are closed by skirts. At full detail walls get triangles of their own, so that an edge
+/// stays sharp in light.
 class TerrainMesh {
  public:
   static constexpr int kTile = 64;     ///< columns along a tile
@@ -38,8 +40,8 @@ class TerrainMesh {
 
   /// Brings the copy of the ground up to date.
   void update(const scene::FrameGround& ground, const Lighting& lighting);
-  /// Chooses and builds the tiles that `view` needs, nearest first, at most about `budget` triangles. Skirts are wanted
-  /// where the neighbour has another level.
+  /// Chooses and builds the tiles that `view` needs, nearest first, at most about `budget`
+  /// triangles. Skirts are wanted where the neighbour has another level.
   std::vector<GroundPart> select(const View& view, int budget);
   /// Ground beyond the site's edge, from the edge's heights out to the haze.
   GroundPart surroundings(const Lighting& lighting);
@@ -57,8 +59,12 @@ class TerrainMesh {
     Vec3f low, high;
   };
   /// Cells along a tile; fewer at the far edges.
-  int nodes_x(int tile) const { return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile; }
-  int nodes_y(int tile) const { return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile; }
+  int nodes_x(int tile) const {
+    return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile;
+  }
+  int nodes_y(int tile) const {
+    return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile;
+  }
   /// Finds the box of a tile and whether it holds walls.
   void measure(int tx, int ty);
   /// Makes the mesh of a tile at a stride of 2^level columns.

@@ -27,8 +27,9 @@ View::View(const scene::FrameCamera& camera)
 
   // Each side plane holds the eye and an edge of the picture; its normal points inwards.
   const Vec3 right = rotation.col(0), up = rotation.col(1), forward = -rotation.col(2);
-  const std::array<Vec3, 5> normals = {(forward * tan_x + right).eval(), (forward * tan_x - right).eval(),
-                                       (forward * tan_y + up).eval(), (forward * tan_y - up).eval(), forward};
+  const std::array<Vec3, 5> normals = {
+      (forward * tan_x + right).eval(), (forward * tan_x - right).eval(),
+      (forward * tan_y + up).eval(), (forward * tan_y - up).eval(), forward};
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Vec3 n = normals[i].normalized();
     planes[i].head<3>() = n.cast<float>();
@@ -38,7 +39,8 @@ View::View(const scene::FrameCamera& camera)
 
 bool View::sees(const Vec3f& low, const Vec3f& high) const {
   for (const Eigen::Vector4f& plane : planes) {
-    // The corner that lies farthest inside decides: a box is left out only when it lies wholly beyond one plane.
+    // The corner that lies farthest inside decides: a box is left out only when it lies wholly
+    // beyond one plane.
     float most = plane.w();
     for (int i = 0; i < 3; ++i) most += plane[i] * (plane[i] > 0 ? high[i] : low[i]);
     if (most < 0) return false;

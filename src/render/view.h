@@ -9,16 +9,17 @@
 
 namespace navvy::render {
 
-/// Perspective view of one FrameCamera with square pixels. Made from a camera for one picture; everything that depends
-/// on the camera alone is worked out here, once.
+/// Perspective view of one FrameCamera with square pixels. Made from a camera for one picture;
+/// everything that depends on the camera alone is worked out here, once.
 struct View {
-  // The depth buffer's digits are shared out between the two, so the nearer one is as far as a close look allows.
+  // The depth buffer's digits are shared out between the two, so the nearer one is as far as a
+  // close look allows.
   static constexpr double kNear = 0.12, kFar = 1500;  ///< clipping distances [m]
 
   explicit View(const scene::FrameCamera& camera);
 
-  /// True when the box may be visible (never false for a visible one). Five planes are asked: the four sides and the
-  /// eye's; what lies beyond the far distance counts as seen.
+  /// True when the box may be visible (never false for a visible one). Five planes are asked: the
+  /// four sides and the eye's; what lies beyond the far distance counts as seen.
   bool sees(const Vec3f& low, const Vec3f& high) const;
 
   // In W [m].

@@ -19,7 +19,7 @@
 #include "record/run_folder.h"
 #include "record/summary.h"
 #include "run/start_checks.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::run {
 namespace {

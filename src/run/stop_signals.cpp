@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "device/kernel_cache.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 
 namespace navvy::run {
 namespace {
@@ -70,7 +70,7 @@ std::string StopSignals::name() {
 }
 
 void StopSignals::leave(bool again) {
-  record::leave_last_words(
+  record::write_crash_summary(
       "interrupted", again ? "stopped by a second signal: what was not written by then is missing"
                            : "stopped by a signal while the OpenCL driver was busy: it compiles "
                              "kernels or does not answer; results "

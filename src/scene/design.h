@@ -21,19 +21,21 @@ struct Tin {
   std::vector<std::array<int, 3>> faces;  ///< visible ones, indices of points, wound either way
 };
 
-/// A pit or a pad: a plane floor over a simple polygon, with battered sides outside it up or down to the untouched
-/// ground. A place outside belongs to the nearest place of the polygon's edge, so sides turn round outer corners as
-/// cones.
+/// A pit or a pad: a plane floor over a simple polygon, with battered sides outside it up or down
+/// to the untouched ground. A place outside belongs to the nearest place of the polygon's edge, so
+/// sides turn round outer corners as cones.
 struct DesignArea {
-  int line = 0;                 ///< of the scene's file, for messages
-  std::vector<Vec2> polygon;    ///< corners in W [m], closed by itself, wound either way
-  double depth = 0;             ///< of the floor at the first corner below the untouched ground there [m]; < 0: a pad
+  int line = 0;               ///< of the scene's file, for messages
+  std::vector<Vec2> polygon;  ///< corners in W [m], closed by itself, wound either way
+  /// Of the floor at the first corner below the untouched ground there [m]; < 0: a pad.
+  double depth = 0;
   double fall = 0;              ///< angle by which the floor falls along `fall_yaw` [rad]
   double fall_yaw = 0;          ///< from W's x [rad]
   double batter = radians(90);  ///< of the sides from the horizontal [rad]; 90 deg: vertical
 };
 
-/// The design surface: from a file, or of areas that the scene lists. Where neither says anything there is no design.
+/// The design surface: from a file, or of areas that the scene lists. Where neither says anything
+/// there is no design.
 struct Design {
   std::string file;                ///< raster or LandXML; empty: areas, if any
   RasterScale scale;               ///< of a raster

@@ -6,18 +6,19 @@
 
 namespace navvy::scene {
 
-DriveEngine::Point rated_point(const DriveEngine& engine) {
-  DriveEngine::Point best;
+CombustionEngine::Point rated_point(const CombustionEngine& engine) {
+  CombustionEngine::Point best;
   const auto try_at = [&](double speed, double torque) {
     if (speed * torque > best.speed * best.torque) best = {speed, torque};
   };
   for (std::size_t i = 0; i < engine.curve.size(); ++i) {
-    const DriveEngine::Point& to = engine.curve[i];
+    const CombustionEngine::Point& to = engine.curve[i];
     try_at(to.speed, to.torque);
     if (i == 0) continue;
     // On a line T = a + b w power is a parabola, with its top at -a / (2 b).
-    const DriveEngine::Point& from = engine.curve[i - 1];
-    const double b = (to.torque - from.torque) / (to.speed - from.speed), a = from.torque - b * from.speed;
+    const CombustionEngine::Point& from = engine.curve[i - 1];
+    const double b = (to.torque - from.torque) / (to.speed - from.speed),
+                 a = from.torque - b * from.speed;
     const double top = b < 0 ? -0.5 * a / b : to.speed;
     if (top > from.speed && top < to.speed) try_at(top, a + b * top);
   }
@@ -32,10 +33,11 @@ Vec2 steering_arm(const LinkageDrive& drive) {
 bool turns_freely(const LinkageDrive& drive) {
   const Vec2 arm = steering_arm(drive);
   if (!arm.allFinite()) return false;
-  // It locks where tie rod and right arm lie in one line: the left arm's end is then as far from the right king pin as
-  // both are long. Turned to the right it is the same in a mirror.
+  // It locks where tie rod and right arm lie in one line: the left arm's end is then as far from
+  // the right king pin as both are long. Turned to the right it is the same in a mirror.
   for (double angle = 0; angle < drive.max_steer + radians(0.5); angle += radians(0.5)) {
-    const double far = (Vec2(0, drive.track) + Eigen::Rotation2Dd(std::min(angle, drive.max_steer)) * arm).norm();
+    const double far =
+        (Vec2(0, drive.track) + Eigen::Rotation2Dd(std::min(angle, drive.max_steer)) * arm).norm();
     if (far > drive.tie_rod + drive.arm || far < std::abs(drive.tie_rod - drive.arm)) return false;
   }
   return true;

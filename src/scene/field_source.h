@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a thing of the scene gets its values from: the children of one element, seen without any file format.
+// Where a thing of the scene gets its values from: the children of one element, seen without any
+// file format.
 #pragma once
 
 #include <functional>
@@ -19,12 +20,12 @@ struct Range {
 /// Factor from degrees to SI.
 inline constexpr double kDegree = kPi / 180.0;
 
-/// One element of a scene file to whoever knows what belongs into it, so that a reader can stand with the thing it
-/// reads, in a module that knows no file format.
+/// One element of a scene file to whoever knows what belongs into it, so that a reader can stand
+/// with the thing it reads, in a module that knows no file format.
 ///
-/// Nothing here throws: faults are collected with file, line and element, and a target keeps its value where its child
-/// is missing or faulty. Every child, and every attribute, has to be asked for by name before `finish`, which reports
-/// the rest: nothing is skipped in silence.
+/// Nothing here throws: faults are collected with file, line and element, and a target keeps its
+/// value where its child is missing or faulty. Every child, and every attribute, has to be asked
+/// for by name before `finish`, which reports the rest: nothing is skipped in silence.
 class FieldSource {
  public:
   virtual ~FieldSource() = default;
@@ -38,7 +39,8 @@ class FieldSource {
   /// Two numbers, both within `range`.
   virtual FieldSource& vec2(const char* name, Vec2& out, Range range) = 0;
   /// Any number of numbers within `range`, times `factor`.
-  virtual FieldSource& list(const char* name, std::vector<double>& out, Range range, double factor = 1) = 0;
+  virtual FieldSource& list(const char* name, std::vector<double>& out, Range range,
+                            double factor = 1) = 0;
   /// Children that may occur any number of times, each with fields of its own, in file order.
   virtual FieldSource& each(const char* name, const std::function<void(FieldSource&)>& read) = 0;
   /// The child must be there.

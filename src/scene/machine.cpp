@@ -6,10 +6,12 @@
 namespace navvy::scene {
 namespace {
 
-// Buckets and beds name their shells; a shell that neither names holds nothing that counts as a load.
+// Buckets and beds name their shells; a shell that neither names holds nothing that counts as a
+// load.
 template <class Container>
 bool names_shell(const std::vector<Container>& containers, const Shell& shell) {
-  return std::any_of(containers.begin(), containers.end(), [&](const Container& c) { return c.shell == shell.name; });
+  return std::any_of(containers.begin(), containers.end(),
+                     [&](const Container& c) { return c.shell == shell.name; });
 }
 
 }  // namespace
@@ -20,8 +22,12 @@ int Machine::link_index(const std::string& name_of_link) const {
   return -1;
 }
 
-bool Machine::is_bucket(int shell) const { return names_shell(buckets, shells.at(static_cast<std::size_t>(shell))); }
-bool Machine::is_bed(int shell) const { return names_shell(beds, shells.at(static_cast<std::size_t>(shell))); }
+bool Machine::is_bucket(int shell) const {
+  return names_shell(buckets, shells.at(static_cast<std::size_t>(shell)));
+}
+bool Machine::is_bed(int shell) const {
+  return names_shell(beds, shells.at(static_cast<std::size_t>(shell)));
+}
 
 int Machine::joint_index(const std::string& name_of_joint) const {
   for (std::size_t i = 0; i < joints.size(); ++i)

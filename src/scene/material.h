@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rigid bodies are made of, told by pairs: how two materials touch is a property of neither alone.
+// What rigid bodies are made of, told by pairs: how two materials touch is a property of neither
+// alone.
 #pragma once
 
 #include <array>
@@ -14,7 +15,8 @@ struct MaterialPair {
   double static_friction = 0.8;   ///< tan of the steepest slope on which a body at rest stays [-]
   double kinetic_friction = 0.8;  ///< of sliding, at most the static one [-]
   double restitution = 0;         ///< speed of parting / speed of meeting, along the normal [-]
-  double softness = 0;            ///< how deep two bodies reach into each other by the force between them [m/N]
+  /// How deep two bodies reach into each other by the force between them [m/N].
+  double softness = 0;
 };
 
 /// The table of a scene. A link without a material touches by its own friction.
@@ -25,7 +27,8 @@ struct Materials {
   /// Null for a pair that is not in the table. The search is linear: names are resolved once.
   const MaterialPair* pair(const std::string& a, const std::string& b) const {
     for (const MaterialPair& each : pairs)
-      if ((each.materials[0] == a && each.materials[1] == b) || (each.materials[0] == b && each.materials[1] == a))
+      if ((each.materials[0] == a && each.materials[1] == b) ||
+          (each.materials[0] == b && each.materials[1] == a))
         return &each;
     return nullptr;
   }

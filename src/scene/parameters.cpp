@@ -17,19 +17,26 @@ class Writer {
   explicit Writer(Parameters& out, std::string path = "") : out_(out), path_(std::move(path)) {}
   /// One step deeper: "soil", or "soil[loam]".
   Writer at(const std::string& name) const { return Writer(out_, path_ + name + "/"); }
-  Writer at(const std::string& list, const std::string& name) const { return at(list + "[" + name + "]"); }
-  Writer at(const std::string& list, std::size_t number) const { return at(list, std::to_string(number)); }
+  Writer at(const std::string& list, const std::string& name) const {
+    return at(list + "[" + name + "]");
+  }
+  Writer at(const std::string& list, std::size_t number) const {
+    return at(list, std::to_string(number));
+  }
 
   void operator()(const char* name, const std::string& value) const { out_[path_ + name] = value; }
   void operator()(const char* name, const char* value) const { out_[path_ + name] = value; }
   void operator()(const char* name, bool value) const { out_[path_ + name] = value ? "yes" : "no"; }
   void operator()(const char* name, int value) const { out_[path_ + name] = std::to_string(value); }
-  void operator()(const char* name, std::uint64_t value) const { out_[path_ + name] = std::to_string(value); }
+  void operator()(const char* name, std::uint64_t value) const {
+    out_[path_ + name] = std::to_string(value);
+  }
   void operator()(const char* name, double value) const { out_[path_ + name] = text(value); }
   template <class T, int R, int C, int O>
   void operator()(const char* name, const Eigen::Matrix<T, R, C, O, R, C>& value) const {
     std::string all;
-    for (Eigen::Index i = 0; i < value.size(); ++i) all += (i == 0 ? "" : " ") + text(value.data()[i]);
+    for (Eigen::Index i = 0; i < value.size(); ++i)
+      all += (i == 0 ? "" : " ") + text(value.data()[i]);
     out_[path_ + name] = all;
   }
   void operator()(const char* name, const Pose& value) const {
@@ -49,14 +56,16 @@ class Writer {
   std::string path_;
 };
 
-// Every member of a struct is bound here: one that is added does not compile until somebody has decided on which side
-// it belongs. Names in [[maybe_unused]] bindings that are not put are those that a run only shows.
+// Every member of a struct is bound here: one that is added does not compile until somebody has
+// decided on which side it belongs. Names in [[maybe_unused]] bindings that are not put are those
+// that a run only shows.
 
 void put(const Writer& w, const Soil& soil) {
-  const auto& [name, source, bank_density, swell, friction_angle, static_friction_share, cohesion, residual_cohesion,
-               loose_cohesion, remoulding_strain, loosening_strain, opening_strain, young_modulus, poisson,
-               dilatancy_angle, fast_friction_angle, grain_diameter, inertial_number, compaction_pressure,
-               compaction_strain, tool_friction_angle, adhesion, bekker_kc, bekker_kphi, bekker_n, janosi_k, color] =
+  const auto& [name, source, bank_density, swell, friction_angle, static_friction_share, cohesion,
+               residual_cohesion, loose_cohesion, remoulding_strain, loosening_strain,
+               opening_strain, young_modulus, poisson, dilatancy_angle, fast_friction_angle,
+               grain_diameter, inertial_number, compaction_pressure, compaction_strain,
+               tool_friction_angle, adhesion, bekker_kc, bekker_kphi, bekker_n, janosi_k, color] =
       soil;
   w("bank_density", bank_density);
   w("swell", swell);
@@ -85,14 +94,15 @@ void put(const Writer& w, const Soil& soil) {
 }
 
 void put(const Writer& w, const SolverSettings& solver) {
-  // The control rate acts through the base step alone, which the state holds: left out, so that a plain run's snapshot
-  // can be gone on from under a controller.
-  const auto& [cell, courant, max_step, control_rate, max_particles, awake_zone, exchange] = solver;
+  // The control rate acts through the base step alone, which the state holds: left out, so that a
+  // plain run's snapshot can be gone on from under a controller.
+  const auto& [cell, courant, max_step, control_rate, max_particles, active_zone, exchange] =
+      solver;
   w("cell", cell);
   w("courant", courant);
   w("max_step", max_step);
   w("max_particles", max_particles);
-  w("awake_zone", awake_zone);
+  w("awake_zone", active_zone);
   w("exchange", exchange);
 }
 
@@ -117,8 +127,8 @@ void put(const Writer& w, const std::vector<GroundLayer>& layers) {
 }
 
 void put(const Writer& w, const StartGround& ground) {
-  const auto& [file, scale, has_at, at_is_local, at, size, origin, has_origin, surface, depth, has_rock, rock, steep,
-               features, layers, patches, awake] = ground;
+  const auto& [file, scale, has_at, at_is_local, at, size, origin, has_origin, surface, depth,
+               has_rock, rock, steep, features, layers, patches, active] = ground;
   // A map counts by its heights, which the ground itself answers for.
   w("is_map", !file.empty());
   w("has_at", has_at);
@@ -140,8 +150,8 @@ void put(const Writer& w, const StartGround& ground) {
     one("max", max);
     put(one, patch_layers);
   }
-  for (std::size_t i = 0; i < awake.size(); ++i) {
-    const auto& [min, max, bottom] = awake[i];
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const auto& [min, max, bottom] = active[i];
     const Writer one = w.at("awake", i);
     one("min", min);
     one("max", max);
@@ -192,8 +202,8 @@ void put(const Writer& w, const Materials& materials) {
 }
 
 void put(const Writer& w, const Joint& joint) {
-  const auto& [name, type, parent, child, X_LcJ, axis, has_limits, lower, upper, effort, velocity, damping, friction,
-               initial, brake, cone, twist] = joint;
+  const auto& [name, type, parent, child, X_LcJ, axis, has_limits, lower, upper, effort, velocity,
+               damping, friction, initial, brake, cone, twist] = joint;
   w("type", static_cast<int>(type));
   w("parent", parent);
   w("child", child);
@@ -214,8 +224,9 @@ void put(const Writer& w, const Joint& joint) {
 }
 
 void put(const Writer& w, const Cylinder& cylinder) {
-  const auto& [name, joint, base_link, rod_link, p_base, p_rod, has_linkage, p_rocker, rocker_rod, rocker_coupler,
-               coupler, p_coupler, count, bore, rod, pressure, spacing, flow] = cylinder;
+  const auto& [name, joint, base_link, rod_link, p_base, p_rod, has_linkage, p_rocker, rocker_rod,
+               rocker_coupler, coupler, p_coupler, count, bore, rod, pressure, spacing, flow] =
+      cylinder;
   w("joint", joint);
   w("base_link", base_link);
   w("rod_link", rod_link);
@@ -244,8 +255,8 @@ void put(const Writer& w, const Track& track) {
 }
 
 void put(const Writer& w, const Wheel& wheel) {
-  const auto& [joint, steer_joint, driven, radius, width, twin_spacing, stiffness, damping, friction,
-               rolling_resistance, track] = wheel;
+  const auto& [joint, steer_joint, driven, radius, width, twin_spacing, stiffness, damping,
+               friction, rolling_resistance, track] = wheel;
   w("steer_joint", steer_joint);
   w("driven", driven);
   w("radius", radius);
@@ -258,8 +269,9 @@ void put(const Writer& w, const Wheel& wheel) {
   if (track) put(w.at("track"), *track);
 }
 
-void put(const Writer& w, const DriveEngine& engine) {
-  const auto& [kind, curve, braking_torque, max_speed, max_torque, gears, final_ratio, efficiency] = engine;
+void put(const Writer& w, const CombustionEngine& engine) {
+  const auto& [kind, curve, braking_torque, max_speed, max_torque, gears, final_ratio, efficiency] =
+      engine;
   w("kind", static_cast<int>(kind));
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const auto& [speed, torque] = curve[i];
@@ -274,13 +286,15 @@ void put(const Writer& w, const DriveEngine& engine) {
   w("efficiency", efficiency);
 }
 
-// The kinds of drive and the shells have bases, which no binding takes apart: what is added there is added here.
+// The kinds of drive and the shells have bases, which no binding takes apart: what is added there
+// is added here.
 void put(const Writer& w, const AckermannDrive& drive) {
   w("max_steer", drive.max_steer);
   w("wheelbase", drive.wheelbase);
   w("track", drive.track);
   w("steer_rate", drive.steer_rate);
-  for (const auto& [name, differential] : {std::pair{"axles", drive.axles}, std::pair{"centre", drive.centre}}) {
+  for (const auto& [name, differential] :
+       {std::pair{"axles", drive.axles}, std::pair{"centre", drive.centre}}) {
     const auto& [kind, preload, bias] = differential;
     // An open one is what there was before there were others: it hashes as then.
     if (kind == Differential::Kind::kOpen) continue;
@@ -333,8 +347,9 @@ void put(const Writer& w, const Encoder& encoder) {
 }
 
 void put(const Writer& w, const Machine& machine) {
-  const auto& [name, file, kinematic, fixed_base, links, joints, cylinders, has_pump, pump, wheels, has_drive, drive,
-               shells, buckets, beds, arm, traversability, encoders, levers, derived] = machine;
+  const auto& [name, file, kinematic, fixed_base, links, joints, cylinders, has_pump, pump, wheels,
+               has_drive, drive, shells, buckets, beds, arm, traversability, encoders, levers,
+               derived] = machine;
   w("kinematic", kinematic);
   w("fixed_base", fixed_base);
   for (const Link& link : links) put(w.at("link", link.name), link);
@@ -373,7 +388,8 @@ void put(const Writer& w, const Machine& machine) {
   w("arm", swing + " " + boom + " " + stick + " " + bucket);
   for (const Encoder& encoder : encoders) put(w.at("encoder", encoder.joint), encoder);
   const auto& [given, pattern, dead_band] = levers;
-  // Usual levers do nothing that a machine without any could do otherwise: it hashes as before there were any.
+  // Usual levers do nothing that a machine without any could do otherwise: it hashes as before
+  // there were any.
   if (given && pattern != Levers().pattern) w("levers/pattern", static_cast<int>(pattern));
   if (given && dead_band != Levers().dead_band) w("levers/dead_band", dead_band);
 }
@@ -393,8 +409,8 @@ void put(const Writer& w, const MachineInWorld& placed) {
 }
 
 void put(const Writer& w, const Hitch& hitch) {
-  [[maybe_unused]] const auto& [name, parent, child, parent_link, child_link, hook, eye, cone, twist, closed, line] =
-      hitch;
+  [[maybe_unused]] const auto& [name, parent, child, parent_link, child_link, hook, eye, cone,
+                                twist, closed, line] = hitch;
   w("parent", parent);
   w("child", child);
   w("parent_link", parent_link);
@@ -411,8 +427,8 @@ void put(const Writer& w, const Hitch& hitch) {
 Parameters parameters(const Scene& scene) {
   Parameters out;
   const Writer w(out);
-  const auto& [name, file, gravity, seed, solver, soils, ground, design, materials, machines, hitches, cameras, lights,
-               recording, records] = scene;
+  const auto& [name, file, gravity, seed, solver, soils, ground, design, materials, machines,
+               hitches, cameras, lights, recording, records] = scene;
   w("gravity", gravity);
   w("seed", seed);
   put(w.at("solver"), solver);

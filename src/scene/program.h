@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator is told to do, step by step. What steps there are is known to `control`; a scene only keeps them.
+// What an operator is told to do, step by step. What steps there are is known to `control`; a scene
+// only keeps them.
 #pragma once
 
 #include <map>
@@ -35,14 +36,16 @@ class Step {
   Step& operator=(const Step&) = default;
 };
 
-/// A step of any kind, as a value: cheap to copy, the description behind it is shared and never changes.
+/// A step of any kind, as a value: cheap to copy, the description behind it is shared and never
+/// changes.
 class ProgramStep {
  public:
   /// Values by the names of their elements, defaults too, as text in SI units.
   using Values = std::map<std::string, std::string>;
 
   template <class T, class = std::enable_if_t<std::is_base_of_v<Step, T>>>
-  ProgramStep(T step) : step_(std::make_shared<const T>(std::move(step))) {}  // NOLINT: a step of a kind is a step
+  ProgramStep(T step)
+      : step_(std::make_shared<const T>(std::move(step))) {}  // NOLINT: a step of a kind is a step
 
   const Step& operator*() const { return *step_; }
   const Step* operator->() const { return step_.get(); }

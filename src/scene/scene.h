@@ -18,13 +18,15 @@ namespace navvy::scene {
 
 /// How the soil is computed. None of it is a property of the soil.
 struct SolverSettings {
-  double cell = 0.1;            ///< edge of a soil cell and of a column [m]
-  double courant = 0.5;         ///< share of cell / sound speed
-  double max_step = 0.0017;     ///< base step never exceeds this [s]
-  double control_rate = 0;      ///< a whole number of base steps makes up its period [1/s]; 0: no such rate
+  double cell = 0.1;         ///< edge of a soil cell and of a column [m]
+  double courant = 0.5;      ///< share of cell / sound speed
+  double max_step = 0.0017;  ///< base step never exceeds this [s]
+  /// A whole number of base steps makes up its period [1/s]; 0: no such rate.
+  double control_rate = 0;
   int max_particles = 2000000;  ///< the awake budget
-  double awake_zone = 1;        ///< multiplies how far around and below itself a tool wakes soil
-  bool exchange = true;         ///< false: ground neither wakes nor takes soil back by itself (rigs, tests)
+  double active_zone = 1;       ///< multiplies how far around and below itself a tool wakes soil
+  /// false: ground neither wakes nor takes soil back by itself (rigs, tests).
+  bool exchange = true;
 };
 
 /// Soil in a machine's first bed at the start.
@@ -33,8 +35,8 @@ struct BedLoad {
   double mass = 0;  ///< [kg]; 0: empty
 };
 
-/// A machine and what is said of it here: its place, its load and what it does. W is the world, M the machine's own
-/// frame.
+/// A machine and what is said of it here: its place, its load and what it does. W is the world, M
+/// the machine's own frame.
 struct MachineInWorld {
   std::string name;
   Machine machine;
@@ -45,7 +47,8 @@ struct MachineInWorld {
   int line = 0;  ///< of the scene's file, for messages
 };
 
-/// A camera that records pictures at a rate. The frame in which its two points are given follows from the kind.
+/// A camera that records pictures at a rate. The frame in which its two points are given follows
+/// from the kind.
 struct Camera {
   enum class Kind { kFixed, kChase, kOnLink };
   std::string name;
@@ -58,7 +61,8 @@ struct Camera {
   double rate = 4;  ///< frames per simulated second
 };
 
-/// A light from far away: it has a direction and no place. The first one is the sun and throws shadows.
+/// A light from far away: it has a direction and no place. The first one is the sun and throws
+/// shadows.
 struct Light {
   Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< the way the light travels
   Color color{1.0f, 0.97f, 0.9f, 1.0f};
@@ -66,13 +70,16 @@ struct Light {
 
 /// What a run writes and how long it lasts, all in simulated time.
 struct Recording {
-  double duration = 60;        ///< most simulated time [s]; the run ends earlier when every program has ended
-  double settle = 1.0;         ///< after the last program ended; six times as long while soil is awake [s]
+  /// Most simulated time [s]; the run ends earlier when every program has ended.
+  double duration = 60;
+  /// After the last program ended; six times as long while soil is awake [s].
+  double settle = 1.0;
   double telemetry_rate = 50;  ///< [1/s]
   bool render = true;
 };
 
-/// Maps or messages written while a scene runs, at a rate. They decide nothing of what the run comes to.
+/// Maps or messages written while a scene runs, at a rate. They decide nothing of what the run
+/// comes to.
 struct MapRecord {
   static constexpr double kMachineRate = 50;  ///< of a bag that names none [1/s]
 
@@ -81,11 +88,12 @@ struct MapRecord {
   std::string format;               ///< as the planner's formats are called, or "mcap", "bag"
   std::vector<std::string> layers;  ///< by name; empty: what the format is made for
   double rate = 1;                  ///< of maps [1/s]
-  double machine_rate = 0;          ///< of a bag's poses, joints and clock [1/s]; 0: not named, so kMachineRate
+  /// Of a bag's poses, joints and clock [1/s]; 0: not named, so kMachineRate.
+  double machine_rate = 0;
 };
 
-/// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds give equal runs on
-/// one device.
+/// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds
+/// give equal runs on one device.
 struct Scene {
   std::string name;
   // Path of the file it came from; relative names in the scene were resolved against it.

@@ -23,7 +23,8 @@ std::string text_of(double value) {
 }
 
 // The element is written as a scene writes it, so that a loader can find the line.
-Fault fault(const Soil& soil, const char* name, double value, const std::string& rule, const std::string& remedy) {
+Fault fault(const Soil& soil, const char* name, double value, const std::string& rule,
+            const std::string& remedy) {
   Fault out;
   out.element = "soil[" + soil.name + "]/" + name;
   out.value = text_of(value);
@@ -35,11 +36,13 @@ Fault fault(const Soil& soil, const char* name, double value, const std::string&
 constexpr double kSoftest = 1e6;               ///< at which sand is as strong as when stiffer [Pa]
 constexpr double kStiffnessPerCohesion = 200;  ///< default
 constexpr double kLooseShare = 0.2;            ///< default loose cohesion / residual cohesion
-constexpr double kTooSoft = 100;               ///< stiffness / cohesion below which a warning is due
+/// Stiffness / cohesion below which a warning is due.
+constexpr double kTooSoft = 100;
 
-/// Smooth blade 0.3 m deep in soil of phi 30 deg and c 50 kPa, plane strain, cells of 0.1 m, 0.1 m/s: force over
-/// [Rankine 1857] where it has come up, and its travel over the depth. measured: `plane_strain blade phi=30 c=50000
-/// loose=50000 e=... hold=4 crowding=shear opening=seen`, windows of 0.02 m; at 200 it is 1.01.
+/// Smooth blade 0.3 m deep in soil of phi 30 deg and c 50 kPa, plane strain, cells of 0.1 m, 0.1
+/// m/s: force over [Rankine 1857] where it has come up, and its travel over the depth. measured:
+/// `plane_strain blade phi=30 c=50000 loose=50000 e=... hold=4 crowding=shear opening=seen`,
+/// windows of 0.02 m; at 200 it is 1.01.
 struct Mobilised {
   double ratio, share, travel;
 };
@@ -77,10 +80,13 @@ const std::vector<SoilValue>& soil_values() {
   return table;
 }
 
-double default_stiffness(double cohesion) { return std::max(kSoftest, kStiffnessPerCohesion * cohesion); }
+double default_stiffness(double cohesion) {
+  return std::max(kSoftest, kStiffnessPerCohesion * cohesion);
+}
 
 void follow_cohesion(Soil& soil, double before) {
-  if (soil.young_modulus == default_stiffness(before)) soil.young_modulus = default_stiffness(soil.cohesion);
+  if (soil.young_modulus == default_stiffness(before))
+    soil.young_modulus = default_stiffness(soil.cohesion);
 }
 
 double default_loose_cohesion(double residual) { return kLooseShare * residual; }
@@ -97,15 +103,18 @@ std::optional<Fault> too_soft(const Soil& soil) {
   std::size_t row = 1;
   while (row + 1 < std::size(kMobilised) && ratio > kMobilised[row].ratio) ++row;
   const Mobilised &low = kMobilised[row - 1], &high = kMobilised[row];
-  const double way = std::clamp(std::log(ratio / low.ratio) / std::log(high.ratio / low.ratio), 0.0, 1.0);
+  const double way =
+      std::clamp(std::log(ratio / low.ratio) / std::log(high.ratio / low.ratio), 0.0, 1.0);
   const double share = low.share + way * (high.share - low.share),
                travel = low.travel + way * (high.travel - low.travel);
   char rule[200], remedy[200];
   std::snprintf(rule, sizeof rule,
-                "is %.0f times the cohesion: a blade feels %s %.0f %% of the soil's strength, after %.2f of its depth",
+                "is %.0f times the cohesion: a blade feels %s %.0f %% of the soil's strength, "
+                "after %.2f of its depth",
                 ratio, ratio < low.ratio ? "less than" : "about", 100 * share, travel);
   const double wanted = default_stiffness(soil.cohesion);
-  std::snprintf(remedy, sizeof remedy, "leave it out: %.3g, 200 times the cohesion, takes %.1f times as many steps",
+  std::snprintf(remedy, sizeof remedy,
+                "leave it out: %.3g, 200 times the cohesion, takes %.1f times as many steps",
                 wanted, std::sqrt(wanted / soil.young_modulus));
   Fault out = fault(soil, "young_modulus_pa", soil.young_modulus, rule, remedy);
   out.severity = Fault::Severity::kWarning;
@@ -116,16 +125,18 @@ std::vector<Fault> check_relations(const Soil& soil) {
   std::vector<Fault> out;
   if (soil.residual_cohesion > soil.cohesion)
     out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
-                        "must not exceed cohesion_pa, " + text_of(soil.cohesion), "remoulding only weakens soil"));
+                        "must not exceed cohesion_pa, " + text_of(soil.cohesion),
+                        "remoulding only weakens soil"));
   // A swell that is not a number fails as well.
   if (soil.dilatancy_angle > 0 && !(soil.swell > 1))
     out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
                         "needs a swell above 1: soil dilates from its bank to its loose density",
                         "give the soil a swell, or no dilatancy"));
   if (soil.dilatancy_angle > soil.friction_angle)
-    out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
-                        "must not exceed friction_angle_deg, " + text_of(soil.friction_angle / kDegree),
-                        "soil that dilates more than it rubs makes energy"));
+    out.push_back(
+        fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
+              "must not exceed friction_angle_deg, " + text_of(soil.friction_angle / kDegree),
+              "soil that dilates more than it rubs makes energy"));
   return out;
 }
 
@@ -134,9 +145,11 @@ std::vector<Fault> check_soil(const Soil& soil) {
   for (const SoilValue& v : soil_values()) {
     const double value = v.written(soil);
     // Written so that a NaN is outside. The slack is relative, as bounds span nine decades.
-    const bool ok = value >= v.low - kRounding * std::abs(v.low) && value <= v.high + kRounding * std::abs(v.high);
+    const bool ok = value >= v.low - kRounding * std::abs(v.low) &&
+                    value <= v.high + kRounding * std::abs(v.high);
     if (!ok)
-      out.push_back(fault(soil, v.name, value, "must be a number from " + text_of(v.low) + " to " + text_of(v.high),
+      out.push_back(fault(soil, v.name, value,
+                          "must be a number from " + text_of(v.low) + " to " + text_of(v.high),
                           "correct the soil"));
   }
   for (Fault& fault : check_relations(soil)) out.push_back(std::move(fault));

@@ -35,7 +35,8 @@ class NotingSource final : public FieldSource {
     source_.vec2(name, out, range);
     return note(name, text_of(out.x()) + " " + text_of(out.y()));
   }
-  FieldSource& list(const char* name, std::vector<double>& out, Range range, double factor) override {
+  FieldSource& list(const char* name, std::vector<double>& out, Range range,
+                    double factor) override {
     source_.list(name, out, range, factor);
     std::string all;
     for (const double value : out) all += (all.empty() ? "" : " ") + text_of(value);
@@ -60,7 +61,8 @@ class NotingSource final : public FieldSource {
   void finish() override { source_.finish(); }
   bool has(const char* name) const override { return source_.has(name); }
   std::string written(const char* name) const override { return source_.written(name); }
-  void error(const char* name, const std::string& value, const std::string& rule, const std::string& remedy) override {
+  void error(const char* name, const std::string& value, const std::string& rule,
+             const std::string& remedy) override {
     source_.error(name, value, rule, remedy);
   }
 
@@ -82,7 +84,8 @@ class NotingSource final : public FieldSource {
 
 }  // namespace
 
-ProgramStep read_noting(const StepSource& source, const std::function<ProgramStep(const StepSource&)>& read) {
+ProgramStep read_noting(const StepSource& source,
+                        const std::function<ProgramStep(const StepSource&)>& read) {
   ProgramStep::Values values;
   NotingSource noting(source.fields, values);
   ProgramStep step = read({noting, source.machine, source.ground});
@@ -98,7 +101,8 @@ void StepSource::on_site(const char* name, const Vec2& place) const {
   if (!ground || !fields.has(name)) return;
   const Vec2 low = ground->origin, high = ground->origin + ground->size;
   if ((place.array() >= low.array()).all() && (place.array() <= high.array()).all()) return;
-  fields.error(name, fields.written(name), "must lie on the site, " + pair(low) + " to " + pair(high) + " m",
+  fields.error(name, fields.written(name),
+               "must lie on the site, " + pair(low) + " to " + pair(high) + " m",
                "move it, or enlarge size_m of the ground");
 }
 

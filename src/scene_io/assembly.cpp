@@ -16,20 +16,22 @@ namespace navvy::scene_io {
 
 namespace {
 
-bool is_called(const Element& element, const char* name) { return std::strcmp(element.Name(), name) == 0; }
+bool is_called(const Element& element, const char* name) {
+  return std::strcmp(element.Name(), name) == 0;
+}
 
 /// Elements of a machine that hold for it as a whole, and for a part of another one no more.
 bool is_of_whole(const Element& element) {
-  for (const char* name :
-       {"pose", "static", "self_collide", "allow_auto_disable", "enable_wind", "navvy:engine", "navvy:traversability"})
+  for (const char* name : {"pose", "static", "self_collide", "allow_auto_disable", "enable_wind",
+                           "navvy:engine", "navvy:traversability"})
     if (is_called(element, name)) return true;
   return false;
 }
 
 /// Elements whose text is the name of a link, joint, frame or shell.
 bool holds_name(const Element& element) {
-  for (const char* name : {"parent", "child", "link", "joint", "shell", "steer_joint", "base_link", "rod_link",
-                           "swing_joint", "boom_joint", "stick_joint", "bucket_joint"})
+  for (const char* name : {"parent", "child", "link", "joint", "shell", "steer_joint", "base_link",
+                           "rod_link", "swing_joint", "boom_joint", "stick_joint", "bucket_joint"})
     if (is_called(element, name)) return true;
   return false;
 }
@@ -37,7 +39,8 @@ bool holds_name(const Element& element) {
 /// Copies a part's elements into the whole under the part's name.
 class Part {
  public:
-  Part(const Element& model, std::string name, Document& whole) : name_(std::move(name)), whole_(whole) {
+  Part(const Element& model, std::string name, Document& whole)
+      : name_(std::move(name)), whole_(whole) {
     for (const Element* e = model.FirstChildElement(); e; e = e->NextSiblingElement())
       if (const std::string own = attribute(*e, "name"); !own.empty()) names_.insert(own);
   }
@@ -46,7 +49,8 @@ class Part {
   Element& copied(const Element& from) const {
     Element& to = copy(from);
     if (const char* own = from.Attribute("name")) to.SetAttribute("name", under(own).c_str());
-    const bool hangs_on_model = is_called(from, "link") || (is_called(from, "frame") && !from.Attribute("attached_to"));
+    const bool hangs_on_model =
+        is_called(from, "link") || (is_called(from, "frame") && !from.Attribute("attached_to"));
     if (!hangs_on_model) return to;
     // Where nothing else is said, links and frames stand in the frame of their model: the part's.
     Element* pose = to.FirstChildElement("pose");
@@ -134,16 +138,19 @@ class Assembler {
   bool include(Element& model, Element& element) {
     bool sound = true;
     for (const Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
-      if (is_called(*e, "uri") || is_called(*e, "name") || is_called(*e, "pose") || is_called(*e, "navvy:joint"))
+      if (is_called(*e, "uri") || is_called(*e, "name") || is_called(*e, "pose") ||
+          is_called(*e, "navvy:joint"))
         continue;
       faults_.error(*e, "", "has no place in an <include> inside a <model>",
                     "an included part has uri, name, pose and navvy:joint");
       sound = false;
     }
     const Element* uri = element.FirstChildElement("uri");
-    if (uri == nullptr) faults_.error(element, "", "needs <uri>", "the file of the model to include");
+    if (uri == nullptr)
+      faults_.error(element, "", "needs <uri>", "the file of the model to include");
     std::string path;
-    sound = sound && uri != nullptr && resolve_model(*uri, path, faults_) && open(model, element, *uri, path);
+    sound = sound && uri != nullptr && resolve_model(*uri, path, faults_) &&
+            open(model, element, *uri, path);
     // Whatever came of it has been told: nobody shall meet it again.
     model.DeleteChild(&element);
     return sound;
@@ -155,19 +162,23 @@ class Assembler {
     for (const std::string& above : files_)
       if (above == file) {
         faults_.error(uri, text_of(uri), "a model cannot be a part of itself",
-                      files_.back() == file ? "name another file" : "one of the files between includes this one again");
+                      files_.back() == file ? "name another file"
+                                            : "one of the files between includes this one again");
         return false;
       }
     if (files_.size() > limits::kModelNesting) {
       faults_.error(uri, text_of(uri),
-                    "models may include each other at most " + std::to_string(limits::kModelNesting) + " deep",
+                    "models may include each other at most " +
+                        std::to_string(limits::kModelNesting) + " deep",
                     "include the innermost one from further out");
       return false;
     }
-    if (faults_.work.elements > limits::kSceneElements || faults_.work.files > limits::kSceneFiles) {
+    if (faults_.work.elements > limits::kSceneElements ||
+        faults_.work.files > limits::kSceneFiles) {
       faults_.error(uri, text_of(uri),
-                    "a scene and its machines may have at most " + std::to_string(limits::kSceneElements) +
-                        " elements in " + std::to_string(limits::kSceneFiles) + " files together",
+                    "a scene and its machines may have at most " +
+                        std::to_string(limits::kSceneElements) + " elements in " +
+                        std::to_string(limits::kSceneFiles) + " files together",
                     "include fewer parts");
       return false;
     }
@@ -179,7 +190,8 @@ class Assembler {
       faults_.error(*part->root(), "", "a machine file needs a <model>");
       return false;
     }
-    const std::string ours = attribute(*document_.root(), "version"), theirs = attribute(*part->root(), "version");
+    const std::string ours = attribute(*document_.root(), "version"),
+                      theirs = attribute(*part->root(), "version");
     if (ours != theirs) {
       faults_.error(uri, theirs, "a part must be of the same version of SDF, here " + ours,
                     "write version=\"" + ours + "\" in its file");
@@ -193,7 +205,8 @@ class Assembler {
     if (!name_meshes(*root, faults_) || faults_.error_count() > before) return false;
     const Element* name = element.FirstChildElement("name");
     // As in a world, where a file's own place counts for nothing.
-    put(model, element, *root, name ? text_of(*name) : attribute(*root, "name"), element.FirstChildElement("pose"));
+    put(model, element, *root, name ? text_of(*name) : attribute(*root, "name"),
+        element.FirstChildElement("pose"));
     return true;
   }
 
@@ -210,7 +223,8 @@ class Assembler {
   }
 
   /// Copies the elements of `part` before `place` in `model`.
-  void put(Element& model, Element& place, const Element& part, const std::string& name, const Element* pose) {
+  void put(Element& model, Element& place, const Element& part, const std::string& name,
+           const Element* pose) {
     const Part names(part, name, document_);
     found_any_ = true;
     // Without a sibling to stand after, the first goes to the front.
@@ -222,7 +236,8 @@ class Assembler {
     frame.SetAttribute("name", name.c_str());
     if (pose != nullptr) {
       Element& at = *document_.create("pose", *pose);
-      for (const auto* a = pose->FirstAttribute(); a; a = a->Next()) at.SetAttribute(a->Name(), a->Value());
+      for (const auto* a = pose->FirstAttribute(); a; a = a->Next())
+        at.SetAttribute(a->Name(), a->Value());
       at.SetText(text_of(*pose).c_str());
       frame.InsertEndChild(&at);
     }
@@ -230,7 +245,8 @@ class Assembler {
     for (const Element* e = part.FirstChildElement(); e; e = e->NextSiblingElement())
       if (!is_of_whole(*e)) insert(names.copied(*e));
     if (&place == &part) return;
-    for (const Element* e = place.FirstChildElement("navvy:joint"); e; e = e->NextSiblingElement("navvy:joint"))
+    for (const Element* e = place.FirstChildElement("navvy:joint"); e;
+         e = e->NextSiblingElement("navvy:joint"))
       insert(names.copied(*e));
   }
 
@@ -244,7 +260,8 @@ class Assembler {
 
 bool assemble(Document& document, Faults& faults) {
   std::error_code ignored;
-  Assembler assembler(document, {std::filesystem::weakly_canonical(document.file(), ignored).string()}, faults);
+  Assembler assembler(
+      document, {std::filesystem::weakly_canonical(document.file(), ignored).string()}, faults);
   bool sound = true;
   const auto all_of = [&](Element& parent) {
     for (Element* e = parent.FirstChildElement("model"); e; e = e->NextSiblingElement("model"))

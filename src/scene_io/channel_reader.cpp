@@ -29,7 +29,8 @@ void read_encoder(Element& element, const Names& names, scene::Machine& machine,
                  "name a revolute or continuous joint");
   for (const scene::Encoder& other : machine.encoders)
     if (other.joint == encoder.joint)
-      faults.error(*joint, encoder.joint, "this joint has an encoder already", "take one of them out");
+      faults.error(*joint, encoder.joint, "this joint has an encoder already",
+                   "take one of them out");
   machine.encoders.push_back(std::move(encoder));
 }
 
@@ -48,10 +49,12 @@ void read_levers(Element& element, scene::Machine& machine, Faults& faults) {
   for (const std::string& name : {arm.swing, arm.boom, arm.stick, arm.bucket}) {
     const int joint = machine.joint_index(name);
     if (joint < 0 || machine.joints[static_cast<std::size_t>(joint)].velocity < 1e8) continue;
-    const bool has_cylinder = std::any_of(machine.cylinders.begin(), machine.cylinders.end(),
-                                          [&](const scene::Cylinder& c) { return c.joint == name; });
+    const bool has_cylinder =
+        std::any_of(machine.cylinders.begin(), machine.cylinders.end(),
+                    [&](const scene::Cylinder& c) { return c.joint == name; });
     if (!has_cylinder)
-      faults.error(element, name, "a lever asks for a share of a joint's speed, and this joint's has no limit",
+      faults.error(element, name,
+                   "a lever asks for a share of a joint's speed, and this joint's has no limit",
                    "give it a <navvy:cylinder>, or a <velocity> in the <limit> of its <axis>");
   }
 }

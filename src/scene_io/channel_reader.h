@@ -7,7 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Reads a <navvy:encoder> of a machine whose joints are known; adds it unless its joint has one already.
+/// Reads a <navvy:encoder> of a machine whose joints are known; adds it unless its joint has one
+/// already.
 void read_encoder(Element& element, const Names& names, scene::Machine& machine, Faults& faults);
 
 /// Reads <navvy:levers>; the machine's arm is known.

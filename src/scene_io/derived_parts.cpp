@@ -42,7 +42,8 @@ bool touches_otherwise(const scene::Machine& machine, std::size_t link) {
   const std::string& name = machine.links[link].name;
   const auto spins_it = [&](const scene::Wheel& wheel) {
     const int joint = machine.joint_index(wheel.joint);
-    return joint >= 0 && machine.joints[static_cast<std::size_t>(joint)].child == static_cast<int>(link);
+    return joint >= 0 &&
+           machine.joints[static_cast<std::size_t>(joint)].child == static_cast<int>(link);
   };
   return std::any_of(machine.wheels.begin(), machine.wheels.end(), spins_it) ||
          std::any_of(machine.shells.begin(), machine.shells.end(),
@@ -75,16 +76,18 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
       shape.derived = true;
       link.collisions.push_back(shape);
       const bool hull = moves && visual.geometry.kind == Kind::kMesh;
-      told += (told.empty() ? "" : ", ") + std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) +
-              " '" + visual.name + "'";
+      told += (told.empty() ? "" : ", ") +
+              std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) + " '" +
+              visual.name + "'";
     }
-    if (!told.empty()) machine.derived.push_back("link '" + link.name + "' collides as its visuals: " + told);
+    if (!told.empty())
+      machine.derived.push_back("link '" + link.name + "' collides as its visuals: " + told);
   }
 }
 
 /// Of one shape in its link's frame, at 1 kg/m3; false after a fault.
-bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS, geometry::SolidProperties& out,
-              Faults& faults) {
+bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
+              geometry::SolidProperties& out, Faults& faults) {
   switch (shape.kind) {
     case Kind::kBox:
       out = geometry::solid_box(shape.size);
@@ -102,7 +105,8 @@ bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
       out = geometry::solid_capsule(shape.radius, shape.length);
       break;
     case Kind::kPlane:
-      faults.error(at, "plane", "a plane has no volume", "give the link <inertial>, or another shape");
+      faults.error(at, "plane", "a plane has no volume",
+                   "give the link <inertial>, or another shape");
       return false;
     case Kind::kMesh:
       try {
@@ -110,7 +114,8 @@ bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
         for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.scale);
         out = geometry::solid_properties(mesh, shape.mesh_file);
       } catch (const Error& error) {
-        faults.error(at, shape.mesh_file, error.what(), "only a closed mesh has a mass: close it, or give <inertial>");
+        faults.error(at, shape.mesh_file, error.what(),
+                     "only a closed mesh has a mass: close it, or give <inertial>");
         return false;
       }
   }
@@ -133,7 +138,8 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
   bool any = read_density(element, whole, faults);
   geometry::SolidProperties sum;
   // Collisions are what a link is made of; visuals are often thinner than the thing or hollow.
-  const auto add = [&](const char* kind, const std::string& name, const scene::Geometry& shape, const Pose& X_LS) {
+  const auto add = [&](const char* kind, const std::string& name, const scene::Geometry& shape,
+                       const Pose& X_LS) {
     const Element* of = named_child(element, kind, name);
     double density = whole;
     if (of != nullptr && read_density(*of, density, faults)) any = true;
@@ -143,12 +149,14 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
   };
   const std::size_t before = faults.error_count();
   if (link.collisions.empty())
-    for (const scene::Visual& visual : link.visuals) add("visual", visual.name, visual.geometry, visual.X_LV);
+    for (const scene::Visual& visual : link.visuals)
+      add("visual", visual.name, visual.geometry, visual.X_LV);
   for (const scene::Collision& one : link.collisions)
     add(one.derived ? "visual" : "collision", one.name, one.geometry, one.X_LC);
   if (!any || faults.error_count() > before) return;
   if (element.FirstChildElement("inertial")) {
-    faults.error(element, "", std::string("has both <inertial> and <") + kDensity + ">", "remove one of them");
+    faults.error(element, "", std::string("has both <inertial> and <") + kDensity + ">",
+                 "remove one of them");
     return;
   }
   if (!(sum.volume > 0)) {
@@ -168,12 +176,14 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
 
 void derive_parts(const Element& model, scene::Machine& machine, Faults& faults) {
   bool wanted = true;
-  if (const Element* e = model.FirstChildElement("navvy:derive_collisions")) read_flag(*e, wanted, faults);
+  if (const Element* e = model.FirstChildElement("navvy:derive_collisions"))
+    read_flag(*e, wanted, faults);
   const bool given = std::any_of(machine.links.begin(), machine.links.end(),
                                  [](const scene::Link& link) { return !link.collisions.empty(); });
   if (wanted && !given) derive_collisions(model, machine, faults);
   for (scene::Link& link : machine.links)
-    if (const Element* element = named_child(model, "link", link.name)) weigh(*element, link, machine, faults);
+    if (const Element* element = named_child(model, "link", link.name))
+      weigh(*element, link, machine, faults);
 }
 
 }  // namespace navvy::scene_io

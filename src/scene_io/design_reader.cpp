@@ -19,8 +19,10 @@ double side(const Vec2& a, const Vec2& b, const Vec2& c) {
 /// Whether two edges without a common corner meet.
 bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0 &&
-         std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) && std::max(c.x(), d.x()) >= std::min(a.x(), b.x()) &&
-         std::max(a.y(), b.y()) >= std::min(c.y(), d.y()) && std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
+         std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) &&
+         std::max(c.x(), d.x()) >= std::min(a.x(), b.x()) &&
+         std::max(a.y(), b.y()) >= std::min(c.y(), d.y()) &&
+         std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
 }
 
 /// A floor needs an inside: corners apart, edges that meet at their corners only.
@@ -36,7 +38,8 @@ void check_polygon(const Element& at, const std::vector<Vec2>& polygon, Faults& 
     for (std::size_t k = i + 2; k < n && !(i == 0 && k == n - 1); ++k)
       if (cross(a, b, polygon[k], polygon[(k + 1) % n])) {
         faults.error(at, std::to_string(i + 1) + " and " + std::to_string(k + 1),
-                     "the edges that begin at these corners cross", "list the corners once round the area");
+                     "the edges that begin at these corners cross",
+                     "list the corners once round the area");
         return;
       }
   }
@@ -58,16 +61,20 @@ scene::DesignArea read_area(Element& element, Faults& faults) {
       .finish();
   const Element* polygon = fields.child("polygon_m");
   if (polygon == nullptr) return area;
-  if (numbers.size() < 6 || numbers.size() % 2 != 0 || numbers.size() > 2 * limits::kDesignCorners) {
-    faults.error(*polygon, std::to_string(numbers.size()) + " numbers",
-                 "a polygon is x and y of 3 to " + std::to_string(limits::kDesignCorners) + " corners",
-                 "e.g. 0 0 4 0 4 2 0 2");
+  if (numbers.size() < 6 || numbers.size() % 2 != 0 ||
+      numbers.size() > 2 * limits::kDesignCorners) {
+    faults.error(
+        *polygon, std::to_string(numbers.size()) + " numbers",
+        "a polygon is x and y of 3 to " + std::to_string(limits::kDesignCorners) + " corners",
+        "e.g. 0 0 4 0 4 2 0 2");
     return area;
   }
-  for (std::size_t i = 0; i < numbers.size(); i += 2) area.polygon.emplace_back(numbers[i], numbers[i + 1]);
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    area.polygon.emplace_back(numbers[i], numbers[i + 1]);
   check_polygon(*polygon, area.polygon, faults);
   if (fields.has("depth_m") && area.depth == 0)
-    faults.error(*fields.child("depth_m"), "0", "a pit is deeper than 0, a pad less", "0.8 digs, -0.8 fills");
+    faults.error(*fields.child("depth_m"), "0", "a pit is deeper than 0, a pad less",
+                 "0.8 digs, -0.8 fills");
   return area;
 }
 
@@ -79,9 +86,11 @@ scene::Design read_design(Element& element, Faults& faults) {
   Fields fields(element, faults);
   fields.text("file", design.file).text("surface", surface);
   read_raster_scale(fields, design.scale);
-  fields.each("area", [&](Element& area) { design.areas.push_back(read_area(area, faults)); }).finish();
+  fields.each("area", [&](Element& area) { design.areas.push_back(read_area(area, faults)); })
+      .finish();
   if (design.file.empty() == design.areas.empty())
-    faults.error(element, design.file, "needs either a <file> or an <area>", "remove one of them, or add one");
+    faults.error(element, design.file, "needs either a <file> or an <area>",
+                 "remove one of them, or add one");
   if (design.file.empty()) return design;
   Element& file = *fields.child("file");
   const std::size_t before = faults.error_count();
@@ -91,10 +100,12 @@ scene::Design read_design(Element& element, Faults& faults) {
   const bool landxml = is_landxml(design.file);
   if (landxml) design.tin = read_landxml(design.file, surface, faults);
   if (landxml && design.scale.any())
-    faults.error(file, text_of(file), "map_cell_m, map_heights_m, map_corner_m and map_rows are for PNG and NPY only",
+    faults.error(file, text_of(file),
+                 "map_cell_m, map_heights_m, map_corner_m and map_rows are for PNG and NPY only",
                  "remove them: LandXML tells its own unit and coordinates");
   if (!landxml && fields.has("surface"))
-    faults.error(*fields.child("surface"), surface, "only LandXML has surfaces by name", "remove it");
+    faults.error(*fields.child("surface"), surface, "only LandXML has surfaces by name",
+                 "remove it");
   return design;
 }
 

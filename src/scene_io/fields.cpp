@@ -30,7 +30,8 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 }
 }  // namespace
 
-bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out, Faults& faults) {
+bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out,
+                  Faults& faults) {
   // Words of the text, so that line breaks and several blanks count as one.
   const std::vector<std::string> words = words_of(text_of(element));
   if (count > 0 && words.size() != count) {
@@ -41,10 +42,11 @@ bool read_numbers(const Element& element, std::size_t count, Range range, std::v
   }
   out.clear();
   for (const std::string& word : words) {
-    // The first bad word is reported and the rest left alone: one fault an element is enough to find it. Written so
-    // that NaN and infinities, which are numbers to a parser, are refused.
+    // The first bad word is reported and the rest left alone: one fault an element is enough to
+    // find it. Written so that NaN and infinities, which are numbers to a parser, are refused.
     double value = 0;
-    if (!to_number(word, value) || !std::isfinite(value) || value < range.min || value > range.max) {
+    if (!to_number(word, value) || !std::isfinite(value) || value < range.min ||
+        value > range.max) {
       faults.error(element, word, "must be " + range_text(range));
       return false;
     }
@@ -75,7 +77,8 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
     Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     // Normalised below; a sum of squares far from one is a slip of the pen, not rounding.
     if (std::abs(q.norm() - 1) > 1e-3) {
-      faults.error(element, text_of(element), "the last four numbers must be a unit quaternion x y z w");
+      faults.error(element, text_of(element),
+                   "the last four numbers must be a unit quaternion x y z w");
       return false;
     }
     out = Pose::Identity();
@@ -92,30 +95,35 @@ bool read_pose(const Element& element, Pose& out, Faults& faults) {
 
 namespace {
 
-/// Degrees that are a well-known angle in radians to four digits, such as 0.7854 or 1.571, are likely radians.
+/// Degrees that are a well-known angle in radians to four digits, such as 0.7854 or 1.571, are
+/// likely radians.
 void ask_about_radians(const Element& element, double value, Faults& faults) {
   constexpr double kStep = kPi / 12;  // 15 deg
   const double steps = std::round(std::abs(value) / kStep);
   const std::string text = text_of(element);
   const std::size_t point = text.find('.');
   const bool digits = point != std::string::npos && text.size() - point > 3;
-  if (!digits || steps < 1 || steps > 24 || std::abs(std::abs(value) - steps * kStep) > 5e-4) return;
-  faults.warning(element, text,
-                 "is " + std::to_string(static_cast<int>(steps) * 15) + " deg in radians; were radians meant?",
-                 "this element counts in degrees");
+  if (!digits || steps < 1 || steps > 24 || std::abs(std::abs(value) - steps * kStep) > 5e-4)
+    return;
+  faults.warning(
+      element, text,
+      "is " + std::to_string(static_cast<int>(steps) * 15) + " deg in radians; were radians meant?",
+      "this element counts in degrees");
 }
 
 }  // namespace
 
 Element* Fields::take(const char* name) {
-  // Whatever is asked for counts as known, also when it is not there: the list serves `finish` and suggestions.
+  // Whatever is asked for counts as known, also when it is not there: the list serves `finish` and
+  // suggestions.
   known_.push_back(name);
   return element_.FirstChildElement(name);
 }
 
 Fields& Fields::number(const char* name, double& out, Range range, double factor) {
   std::vector<double> v;
-  // A value with a fault leaves the default in place, so reading goes on and finds the other faults.
+  // A value with a fault leaves the default in place, so reading goes on and finds the other
+  // faults.
   if (Element* child = take(name); child && read_numbers(*child, 1, range, v, faults_)) {
     out = v[0] * factor;
     if (factor == kDegree) ask_about_radians(*child, v[0], faults_);
@@ -170,13 +178,15 @@ Fields& Fields::flag(const char* name, bool& out) {
 
 Fields& Fields::vec2(const char* name, Vec2& out, Range range) {
   std::vector<double> v;
-  if (Element* child = take(name); child && read_numbers(*child, 2, range, v, faults_)) out = Vec2(v[0], v[1]);
+  if (Element* child = take(name); child && read_numbers(*child, 2, range, v, faults_))
+    out = Vec2(v[0], v[1]);
   return *this;
 }
 
 Fields& Fields::vec3(const char* name, Vec3& out, Range range) {
   std::vector<double> v;
-  if (Element* child = take(name); child && read_numbers(*child, 3, range, v, faults_)) out = Vec3(v[0], v[1], v[2]);
+  if (Element* child = take(name); child && read_numbers(*child, 3, range, v, faults_))
+    out = Vec3(v[0], v[1], v[2]);
   return *this;
 }
 
@@ -214,7 +224,8 @@ Fields& Fields::nested(const char* name, const std::function<void(Element&)>& re
 }
 
 Fields& Fields::required(const char* name) {
-  if (!has(name)) faults_.error(element_, "", std::string("needs an element <") + name + ">", "add it");
+  if (!has(name))
+    faults_.error(element_, "", std::string("needs an element <") + name + ">", "add it");
   return *this;
 }
 
@@ -223,7 +234,8 @@ Fields& Fields::attribute(const char* name) {
   return *this;
 }
 
-void Fields::one_of(const Element& child, const std::string& value, const std::vector<std::string>& names) {
+void Fields::one_of(const Element& child, const std::string& value,
+                    const std::vector<std::string>& names) {
   if (contains(names, value)) return;
   std::string rule = "must be one of";
   for (const std::string& name : names) rule += " " + name;
@@ -233,7 +245,8 @@ void Fields::one_of(const Element& child, const std::string& value, const std::v
 void Fields::finish() {
   std::set<std::string> seen;
   // One walk over the children that are there, against what the tables asked for.
-  for (const Element* child = element_.FirstChildElement(); child; child = child->NextSiblingElement()) {
+  for (const Element* child = element_.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (!contains(known_, name)) {
       faults_.error(*child, text_of(*child), "unknown element", faults_.nearest(name, known_));
@@ -245,14 +258,17 @@ void Fields::finish() {
     if (!contains(known_, name) || contains(repeatable_, name) || contains(nested_, name)) continue;
     if (child->FirstChildElement())
       faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements");
-    if (child->FirstAttribute()) faults_.error(*child, child->FirstAttribute()->Name(), "takes no attributes");
+    if (child->FirstAttribute())
+      faults_.error(*child, child->FirstAttribute()->Name(), "takes no attributes");
   }
   for (const auto* at = element_.FirstAttribute(); at; at = at->Next())
     if (!contains(attributes_, at->Name()))
-      faults_.error(element_, at->Name(), "unknown attribute", faults_.nearest(at->Name(), attributes_));
+      faults_.error(element_, at->Name(), "unknown attribute",
+                    faults_.nearest(at->Name(), attributes_));
   // A value's own text has been read; text between elements is mostly a forgotten tag.
   if (!text_of(element_).empty() && !known_.empty())
-    faults_.error(element_, text_of(element_), "text is not allowed between the elements here", "remove it");
+    faults_.error(element_, text_of(element_), "text is not allowed between the elements here",
+                  "remove it");
 }
 
 }  // namespace navvy::scene_io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table-driven reader of one element's children: each line of a table gives name (with unit), target, range and the
-// factor to SI. `finish` reports what the table does not know, so nothing is ever skipped in silence.
+// A table-driven reader of one element's children: each line of a table gives name (with unit),
+// target, range and the factor to SI. `finish` reports what the table does not know, so nothing is
+// ever skipped in silence.
 #pragma once
 
 #include <functional>
@@ -17,14 +18,15 @@ namespace navvy::scene_io {
 using scene::kDegree;
 using scene::Range;
 
-/// Reads the children of one element by their names and units, one call a child, in any order of the file. A child that
-/// is absent leaves its target as it is, so defaults stand in the structs alone. Faults go to a list and never stop the
-/// reading. Both arguments must outlive it.
+/// Reads the children of one element by their names and units, one call a child, in any order of
+/// the file. A child that is absent leaves its target as it is, so defaults stand in the structs
+/// alone. Faults go to a list and never stop the reading. Both arguments must outlive it.
 class Fields {
  public:
   Fields(Element& element, Faults& faults) : element_(element), faults_(faults) {}
 
-  /// The value in the struct is the written one times `factor`; the range is of the written one, as messages quote it.
+  /// The value in the struct is the written one times `factor`; the range is of the written one, as
+  /// messages quote it.
   Fields& number(const char* name, double& out, Range range, double factor = 1);
   Fields& number(const char* name, float& out, Range range);
   Fields& whole(const char* name, int& out, Range range);
@@ -52,8 +54,8 @@ class Fields {
     }
     return *this;
   }
-  /// Children that may occur any number of times, handled by `read` in file order. The elements are read by tables of
-  /// their own.
+  /// Children that may occur any number of times, handled by `read` in file order. The elements are
+  /// read by tables of their own.
   Fields& each(const char* name, const std::function<void(Element&)>& read);
   /// A child that holds elements of its own and occurs at most once.
   Fields& nested(const char* name, const std::function<void(Element&)>& read);
@@ -64,23 +66,26 @@ class Fields {
   /// Whether the child stands in the file, whatever its value.
   bool has(const char* name) const { return element_.FirstChildElement(name) != nullptr; }
   Element* child(const char* name) const { return element_.FirstChildElement(name); }
-  /// Reports unknown children, repeated ones, unknown attributes and stray text. Call it last: what has not been asked
-  /// for by then is unknown.
+  /// Reports unknown children, repeated ones, unknown attributes and stray text. Call it last: what
+  /// has not been asked for by then is unknown.
   void finish();
 
  private:
   Element* take(const char* name);
-  void one_of(const Element& child, const std::string& value, const std::vector<std::string>& names);
+  void one_of(const Element& child, const std::string& value,
+              const std::vector<std::string>& names);
   Element& element_;
   Faults& faults_;
   std::vector<std::string> known_, repeatable_, nested_, attributes_;
 };
 
-/// Reads exactly `count` (0: any number) numbers of an element's text. False after a fault. The range holds for each of
-/// them.
-bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out, Faults& faults);
+/// Reads exactly `count` (0: any number) numbers of an element's text. False after a fault. The
+/// range holds for each of them.
+bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out,
+                  Faults& faults);
 bool read_flag(const Element& element, bool& out, Faults& faults);
-/// SDF <pose>: x y z roll pitch yaw, or x y z qx qy qz qw with rotation_format. False after a fault.
+/// SDF <pose>: x y z roll pitch yaw, or x y z qx qy qz qw with rotation_format. False after a
+/// fault.
 bool read_pose(const Element& element, Pose& out, Faults& faults);
 
 }  // namespace navvy::scene_io

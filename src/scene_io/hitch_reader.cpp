@@ -11,8 +11,10 @@ namespace navvy::scene_io {
 
 namespace {
 
-/// One end: the machine and link that `at` names. False after a fault, or for a machine that could not be read.
-bool find_end(const Element& at, const scene::Scene& world, int& machine, int& link, Faults& faults) {
+/// One end: the machine and link that `at` names. False after a fault, or for a machine that could
+/// not be read.
+bool find_end(const Element& at, const scene::Scene& world, int& machine, int& link,
+              Faults& faults) {
   const std::string text = text_of(at);
   // Machines and links may both have names of several parts.
   std::size_t cut = text.find("::");
@@ -22,7 +24,8 @@ bool find_end(const Element& at, const scene::Scene& world, int& machine, int& l
   std::vector<std::string> names;
   if (machine < 0 || cut == std::string::npos) {
     for (const scene::MachineInWorld& placed : world.machines)
-      for (const scene::Link& one : placed.machine.links) names.push_back(placed.name + "::" + one.name);
+      for (const scene::Link& one : placed.machine.links)
+        names.push_back(placed.name + "::" + one.name);
     faults.error(at, text, "must be MACHINE::LINK of this world", faults.nearest(text, names));
     return false;
   }
@@ -60,15 +63,18 @@ scene::Hitch read_hitch(Element& element, const scene::Scene& world, Faults& fau
       .flag("closed", hitch.closed)
       .finish();
   if (hitch.name.empty())
-    faults.error(element, "", "needs an attribute name=\"...\"", "its input is called CHILD/NAME/closed");
+    faults.error(element, "", "needs an attribute name=\"...\"",
+                 "its input is called CHILD/NAME/closed");
   else
     check_name(element, hitch.name, faults);
   if (parent.empty() || child.empty()) return hitch;
   const Element& at_child = *fields.child("child");
-  const bool known = find_end(*fields.child("parent"), world, hitch.parent, hitch.parent_link, faults);
+  const bool known =
+      find_end(*fields.child("parent"), world, hitch.parent, hitch.parent_link, faults);
   if (!find_end(at_child, world, hitch.child, hitch.child_link, faults) || !known) return hitch;
   if (hitch.parent == hitch.child)
-    faults.error(at_child, child, "a machine cannot hang on itself", "name a link of another machine");
+    faults.error(at_child, child, "a machine cannot hang on itself",
+                 "name a link of another machine");
   for (const scene::Hitch& other : world.hitches)
     if (other.child == hitch.child)
       faults.error(at_child, child, "this machine hangs on hitch '" + other.name + "' already",
@@ -79,7 +85,8 @@ scene::Hitch read_hitch(Element& element, const scene::Scene& world, Faults& fau
 }  // namespace
 
 void read_hitches(Element& world_element, scene::Scene& world, Faults& faults) {
-  for (Element* e = world_element.FirstChildElement("navvy:hitch"); e; e = e->NextSiblingElement("navvy:hitch")) {
+  for (Element* e = world_element.FirstChildElement("navvy:hitch"); e;
+       e = e->NextSiblingElement("navvy:hitch")) {
     const std::size_t before = faults.error_count();
     scene::Hitch hitch = read_hitch(*e, world, faults);
     for (const scene::Hitch& other : world.hitches)

@@ -46,7 +46,8 @@ scene::Cylinder read_cylinder(Element& element, const Names& names, Faults& faul
       .number("flow_m3_per_s", cylinder.flow, {1e-7, 1})
       .finish();
   if (fields.has("rod_pin_m") == fields.has("linkage"))
-    faults.error(element, "", "needs either <rod_pin_m> (acts directly) or <linkage> (acts through a rocker)");
+    faults.error(element, "",
+                 "needs either <rod_pin_m> (acts directly) or <linkage> (acts through a rocker)");
   if (cylinder.rod >= cylinder.bore) faults.error(element, "", "rod_m must be less than bore_m");
   if (cylinder.base_link == cylinder.rod_link && !cylinder.base_link.empty())
     faults.error(element, cylinder.rod_link, "base_link and rod_link must be different links");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A namespace of its own and far more elements than a scene may have: read apart from scenes, under limits of its own.
+// A namespace of its own and far more elements than a scene may have: read apart from scenes, under
+// limits of its own.
 #include "scene_io/landxml.h"
 
 #include <algorithm>
@@ -22,11 +23,12 @@ struct Reading {
   Faults& faults;
   std::size_t before = faults.error_count();
 
-  void error(int line, const std::string& element, const std::string& value, const std::string& rule,
-             const std::string& remedy) const {
+  void error(int line, const std::string& element, const std::string& value,
+             const std::string& rule, const std::string& remedy) const {
     faults.add(Fault{Fault::Severity::kError, file, line, element, value, rule, remedy});
   }
-  void error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy) const {
+  void error(const Element& at, const std::string& value, const std::string& rule,
+             const std::string& remedy) const {
     error(at.GetLineNum(), at.Name(), value.substr(0, 80), rule, remedy);
   }
   bool failed() const { return faults.error_count() > before; }
@@ -39,16 +41,19 @@ const Element* child(const Element* of, const char* name) {
 /// Metres a unit; 0 after a fault.
 double read_unit(const Element& root, const Reading& reading) {
   static const std::vector<std::pair<std::string, double>> kUnits = {
-      {"millimeter", 1e-3}, {"centimeter", 1e-2}, {"meter", 1},       {"kilometer", 1e3},
-      {"foot", 0.3048},     {"inch", 0.0254},     {"mile", 1609.344}, {"USSurveyFoot", 1200.0 / 3937.0}};
+      {"millimeter", 1e-3}, {"centimeter", 1e-2},
+      {"meter", 1},         {"kilometer", 1e3},
+      {"foot", 0.3048},     {"inch", 0.0254},
+      {"mile", 1609.344},   {"USSurveyFoot", 1200.0 / 3937.0}};
   const Element* units = child(&root, "Units");
   const Element* kind = units != nullptr ? units->FirstChildElement() : nullptr;
   const char* name = kind != nullptr ? kind->Attribute("linearUnit") : nullptr;
   if (name == nullptr) {
     const Element& at = kind != nullptr ? *kind : units != nullptr ? *units : root;
-    reading.error(at, "", "says no unit, and feet and metres look alike",
-                  "add <Units><Metric linearUnit=\"meter\"/></Units>, or <Imperial linearUnit=\"foot\"/> or "
-                  "\"USSurveyFoot\"");
+    reading.error(
+        at, "", "says no unit, and feet and metres look alike",
+        "add <Units><Metric linearUnit=\"meter\"/></Units>, or <Imperial linearUnit=\"foot\"/> or "
+        "\"USSurveyFoot\"");
     return 0;
   }
   for (const auto& [known, metres] : kUnits)
@@ -56,12 +61,14 @@ double read_unit(const Element& root, const Reading& reading) {
   std::vector<std::string> names;
   names.reserve(kUnits.size());
   for (const auto& [known, metres] : kUnits) names.push_back(known);
-  reading.error(*kind, name, "is no linearUnit that is read here", reading.faults.nearest(name, names));
+  reading.error(*kind, name, "is no linearUnit that is read here",
+                reading.faults.nearest(name, names));
   return 0;
 }
 
 /// The Definition of the surface that is meant; null after a fault.
-const Element* find_definition(const Element& root, const std::string& wanted, const Reading& reading) {
+const Element* find_definition(const Element& root, const std::string& wanted,
+                               const Reading& reading) {
   std::vector<std::string> names;
   const Element* found = nullptr;
   for (const Element* s = child(child(&root, "Surfaces"), "Surface"); s != nullptr;
@@ -70,9 +77,11 @@ const Element* find_definition(const Element& root, const std::string& wanted, c
     if (wanted.empty() || names.back() == wanted) found = s;
   }
   if (names.empty()) {
-    reading.error(root, "", "holds no surface", "export a TIN surface, not only alignments or points");
+    reading.error(root, "", "holds no surface",
+                  "export a TIN surface, not only alignments or points");
   } else if (found == nullptr) {
-    reading.error(root, wanted, "no surface of this name in the file", reading.faults.nearest(wanted, names));
+    reading.error(root, wanted, "no surface of this name in the file",
+                  reading.faults.nearest(wanted, names));
   } else if (wanted.empty() && names.size() > 1) {
     reading.error(root, std::to_string(names.size()) + " surfaces", "one of them has to be meant",
                   "name it, e.g. <surface>" + names.front() + "</surface>");
@@ -107,11 +116,14 @@ struct Ids {
   bool complete = true;  ///< no point is without one
 };
 
-void read_points(const Element& definition, double metres, const Reading& reading, scene::Tin& tin, Ids& ids) {
-  for (const Element* p = child(child(&definition, "Pnts"), "P"); p != nullptr; p = p->NextSiblingElement("P")) {
+void read_points(const Element& definition, double metres, const Reading& reading, scene::Tin& tin,
+                 Ids& ids) {
+  for (const Element* p = child(child(&definition, "Pnts"), "P"); p != nullptr;
+       p = p->NextSiblingElement("P")) {
     const char* text = p->GetText();
     const std::string id = attribute(*p, "id");
-    const bool own_id = !id.empty() && ids.index.emplace(id, static_cast<int>(tin.points.size())).second;
+    const bool own_id =
+        !id.empty() && ids.index.emplace(id, static_cast<int>(tin.points.size())).second;
     ids.complete = ids.complete && !id.empty();
     std::string_view words[3];
     Vec3 at = Vec3::Zero();
@@ -119,7 +131,8 @@ void read_points(const Element& definition, double metres, const Reading& readin
     for (int i = 0; i < 3 && sound; ++i)
       sound = to_number(std::string(words[i]), at[i]) && std::abs(at[i] * metres) <= 1e9;
     if (!sound) {
-      reading.error(*p, text != nullptr ? text : "", "a point is three numbers: northing easting elevation",
+      reading.error(*p, text != nullptr ? text : "",
+                    "a point is three numbers: northing easting elevation",
                     "points that refer to others (pntRef) are not read: export coordinates");
     } else if (!own_id) {
       reading.error(*p, id, "every point needs an id of its own", "give it another one");
@@ -129,14 +142,17 @@ void read_points(const Element& definition, double metres, const Reading& readin
   }
 }
 
-void read_faces(const Element& definition, const Reading& reading, scene::Tin& tin, const Ids& ids) {
-  for (const Element* f = child(child(&definition, "Faces"), "F"); f != nullptr; f = f->NextSiblingElement("F")) {
+void read_faces(const Element& definition, const Reading& reading, scene::Tin& tin,
+                const Ids& ids) {
+  for (const Element* f = child(child(&definition, "Faces"), "F"); f != nullptr;
+       f = f->NextSiblingElement("F")) {
     // Invisible ones fill the hull round a surface that is not convex.
     if (attribute(*f, "i") == "1") continue;
     const char* text = f->GetText();
     std::string_view words[3];
     if (split(text, words) != 3) {
-      reading.error(*f, text != nullptr ? text : "", "a face is the ids of three points", "export it as triangles");
+      reading.error(*f, text != nullptr ? text : "", "a face is the ids of three points",
+                    "export it as triangles");
       continue;
     }
     std::array<int, 3> face = {};
@@ -146,7 +162,8 @@ void read_faces(const Element& definition, const Reading& reading, scene::Tin& t
       if (found != ids.index.end())
         face[i] = found->second;
       else if (ids.complete)
-        reading.error(*f, std::string(words[i]), "no point of this id", "add the point, or remove the face");
+        reading.error(*f, std::string(words[i]), "no point of this id",
+                      "add the point, or remove the face");
       sound = sound && found != ids.index.end();
     }
     if (sound) tin.faces.push_back(face);
@@ -165,10 +182,12 @@ std::vector<char> read_text(const Reading& reading) {
   const auto elements = static_cast<std::size_t>(std::count(text.begin(), text.end(), '<'));
   const std::size_t tag = overloaded_tag({text.data(), text.size()});
   if (tag != std::string_view::npos) {
-    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n');
-    reading.error(1 + static_cast<int>(line), "LandXML", "",
-                  "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element",
-                  "export it again");
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n');
+    reading.error(
+        1 + static_cast<int>(line), "LandXML", "",
+        "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element",
+        "export it again");
     return {};
   }
   if (elements <= 2 * limits::kLandXmlElements) return text;
@@ -189,7 +208,8 @@ bool is_landxml(const std::string& file) {
   return head.find("<LandXML") != std::string::npos;
 }
 
-std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const std::string& surface, Faults& faults) {
+std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const std::string& surface,
+                                               Faults& faults) {
   const Reading reading{file, faults};
   const std::vector<char> text = read_text(reading);
   if (text.empty()) {
@@ -197,8 +217,10 @@ std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const st
     return nullptr;
   }
   tinyxml2::XMLDocument xml;
-  if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS || xml.RootElement() == nullptr) {
-    reading.error(xml.ErrorLineNum(), "LandXML", xml.ErrorName(), "is no sound XML", "export it again");
+  if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
+      xml.RootElement() == nullptr) {
+    reading.error(xml.ErrorLineNum(), "LandXML", xml.ErrorName(), "is no sound XML",
+                  "export it again");
     return nullptr;
   }
   const Element& root = *xml.RootElement();
@@ -213,12 +235,14 @@ std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const st
   const Element* definition = find_definition(root, surface, reading);
   if (definition == nullptr || metres == 0) return nullptr;
   tin->name = attribute(*definition->Parent()->ToElement(), "name");
-  if (const Element* crs = child(&root, "CoordinateSystem")) tin->epsg = crs->IntAttribute("epsgCode", 0);
+  if (const Element* crs = child(&root, "CoordinateSystem"))
+    tin->epsg = crs->IntAttribute("epsgCode", 0);
   Ids ids;
   read_points(*definition, metres, reading, *tin, ids);
   read_faces(*definition, reading, *tin, ids);
   if (tin->faces.empty() && !reading.failed())
-    reading.error(*definition, tin->name, "has no visible face", "export the surface with its faces");
+    reading.error(*definition, tin->name, "has no visible face",
+                  "export the surface with its faces");
   return reading.failed() ? nullptr : tin;
 }
 

@@ -12,7 +12,8 @@ namespace navvy::scene_io {
 
 namespace {
 
-// Principal moments must be positive and none may exceed the sum of the others: no body has such an inertia.
+// Principal moments must be positive and none may exceed the sum of the others: no body has such an
+// inertia.
 void check_inertia(const Element& inertial, Faults& faults) {
   const Element* inertia = inertial.FirstChildElement("inertia");
   if (!inertia) return;
@@ -26,7 +27,8 @@ void check_inertia(const Element& inertial, Faults& faults) {
   Mat3 tensor;
   tensor << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   if (!tensor.allFinite()) return;
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vec3 moments =
+      Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
   if (moments[0] > 0 && moments[2] <= moments[0] + moments[1]) return;
   auto text = [](double number) {
     std::ostringstream stream;
@@ -34,7 +36,8 @@ void check_inertia(const Element& inertial, Faults& faults) {
     return stream.str();
   };
   faults.error(*inertia, text(moments[0]) + " " + text(moments[1]) + " " + text(moments[2]),
-               "the principal moments of inertia must be positive, none larger than the sum of the other two",
+               "the principal moments of inertia must be positive, none larger than the sum of the "
+               "other two",
                "a disc has iyy = ixx + izz at most; mind the rounding");
 }
 
@@ -51,15 +54,19 @@ bool has_density(const Element& link) {
 }  // namespace
 
 void check_joints(const Element& model, const Names& names, Faults& faults) {
-  static const std::set<std::string> types = {"fixed", "revolute", "continuous", "prismatic", "ball"};
+  static const std::set<std::string> types = {"fixed", "revolute", "continuous", "prismatic",
+                                              "ball"};
   std::vector<std::string> ends = names.links;
   ends.insert(ends.end(), names.frames.begin(), names.frames.end());
-  for (const Element* joint = model.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint")) {
+  for (const Element* joint = model.FirstChildElement("joint"); joint;
+       joint = joint->NextSiblingElement("joint")) {
     const std::string type = attribute(*joint, "type");
     if (types.count(type) == 0)
-      faults.error(*joint, type, "the type of a joint must be fixed, revolute, continuous, prismatic or ball");
+      faults.error(*joint, type,
+                   "the type of a joint must be fixed, revolute, continuous, prismatic or ball");
     for (const char* end : {"parent", "child"}) {
-      if (!joint->FirstChildElement(end)) faults.error(*joint, "", std::string("needs an element <") + end + ">");
+      if (!joint->FirstChildElement(end))
+        faults.error(*joint, "", std::string("needs an element <") + end + ">");
       const bool world = std::string(end) == "parent" && child_text(*joint, end) == "world";
       if (!world) require_name(*joint, end, "link or frame", ends, faults);
     }
@@ -83,14 +90,17 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
     if (const Element* limit = axis->FirstChildElement("limit")) {
       to_number(child_text(*limit, "lower"), lower);
       to_number(child_text(*limit, "upper"), upper);
-      if (lower > upper) faults.error(*limit, child_text(*limit, "lower"), "lower must not exceed upper");
+      if (lower > upper)
+        faults.error(*limit, child_text(*limit, "lower"), "lower must not exceed upper");
     }
   }
 }
 
 void check_links(const Element& model, bool needs_mass, Faults& faults) {
-  if (!model.FirstChildElement("link")) faults.error(model, "", "a machine needs at least one <link>");
-  for (const Element* link = model.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+  if (!model.FirstChildElement("link"))
+    faults.error(model, "", "a machine needs at least one <link>");
+  for (const Element* link = model.FirstChildElement("link"); link;
+       link = link->NextSiblingElement("link")) {
     const Element* inertial = link->FirstChildElement("inertial");
     if (needs_mass && !has_density(*link) && (!inertial || !inertial->FirstChildElement("mass")))
       faults.error(*link, "", "a moving link needs <inertial> with <mass> and <inertia>",
@@ -98,7 +108,8 @@ void check_links(const Element& model, bool needs_mass, Faults& faults) {
     if (inertial) check_inertia(*inertial, faults);
     for (const char* kind : {"visual", "collision"})
       for (const Element* e = link->FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
-        if (!e->FirstChildElement("geometry") || !e->FirstChildElement("geometry")->FirstChildElement())
+        if (!e->FirstChildElement("geometry") ||
+            !e->FirstChildElement("geometry")->FirstChildElement())
           faults.error(*e, "", "needs <geometry> with a shape");
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What links and joints of a machine must hold before libsdformat sees them: it would find the faults without a line.
+// What links and joints of a machine must hold before libsdformat sees them: it would find the
+// faults without a line.
 #pragma once
 
 #include "scene_io/machine_names.h"

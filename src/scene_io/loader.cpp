@@ -15,13 +15,14 @@ namespace navvy::scene_io {
 
 namespace {
 
-scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& kinds, const Overrides& overrides,
-                  std::string* resolved, Faults& faults) {
+scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& kinds,
+                  const Overrides& overrides, std::string* resolved, Faults& faults) {
   scene::Scene world;
   // Without a document there is nothing to read, and finish() throws what opening it has found.
   if (document) {
     check_resolved(*document, faults);
-    // Overrides go into the document first, so that one set of rules checks the file's values and the command line's.
+    // Overrides go into the document first, so that one set of rules checks the file's values and
+    // the command line's.
     apply_overrides(*document, overrides, faults);
     world = read_world(*document, kinds, faults);
   }
@@ -33,14 +34,15 @@ scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& ki
 
 }  // namespace
 
-scene::Scene load_scene(const std::string& file, const scene::StepKinds& kinds, const Overrides& overrides,
-                        std::string* resolved) {
+scene::Scene load_scene(const std::string& file, const scene::StepKinds& kinds,
+                        const Overrides& overrides, std::string* resolved) {
   Faults faults;
   return load(Document::open(file, faults), kinds, overrides, resolved, faults);
 }
 
-scene::Scene load_scene_from_string(const std::string& text, const std::string& name, const scene::StepKinds& kinds,
-                                    const Overrides& overrides, std::string* resolved) {
+scene::Scene load_scene_from_string(const std::string& text, const std::string& name,
+                                    const scene::StepKinds& kinds, const Overrides& overrides,
+                                    std::string* resolved) {
   Faults faults;
   return load(Document::parse(text, name, faults), kinds, overrides, resolved, faults);
 }
@@ -75,8 +77,9 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   return soils;
 }
 
-std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds, std::optional<scene::Scene>* world,
-                         const Overrides& overrides, std::optional<scene::Machine>* machine, FaultCount* count) {
+std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
+                         std::optional<scene::Scene>* world, const Overrides& overrides,
+                         std::optional<scene::Machine>* machine, FaultCount* count) {
   Faults faults;
   if (world != nullptr) world->reset();
   if (machine != nullptr) machine->reset();
@@ -87,8 +90,8 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   const auto document = Document::open(file, faults);
   if (!document) return told();
   const Element& root = *document->root();
-  // What the file is follows from what its root holds; a scene is assumed where nothing fits, so that its rules say
-  // what is missing.
+  // What the file is follows from what its root holds; a scene is assumed where nothing fits, so
+  // that its rules say what is missing.
   if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:soil")) {
     read_soil_file(file, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:materials")) {

@@ -35,7 +35,8 @@ void require_name(const Element& element, const char* child_name, const char* wh
 }
 
 void require_attribute_name(const Element& element, Faults& faults) {
-  if (attribute(element, "name").empty()) faults.error(element, "", "needs an attribute name=\"...\"");
+  if (attribute(element, "name").empty())
+    faults.error(element, "", "needs an attribute name=\"...\"");
 }
 
 }  // namespace navvy::scene_io

@@ -18,7 +18,8 @@ struct Names {
 
 Names names_of(const Element& model);
 
-/// A child whose text must be one of `names`; an absent or empty child has been told by the element's own table.
+/// A child whose text must be one of `names`; an absent or empty child has been told by the
+/// element's own table.
 void require_name(const Element& element, const char* child_name, const char* what,
                   const std::vector<std::string>& names, Faults& faults);
 

@@ -54,17 +54,21 @@ scene::Bed read_bed(Element& element, const Names& names, Faults& faults) {
   const auto type = names.joint_type.find(bed.joint);
   // A joint without a name is none that was meant.
   if (joint != nullptr && type != names.joint_type.end() && type->second != "revolute")
-    faults.error(*joint, type->second, "a bed tips on a revolute joint", "name the joint of its hinge");
+    faults.error(*joint, type->second, "a bed tips on a revolute joint",
+                 "name the joint of its hinge");
   return bed;
 }
 
-/// A bed is a shell on its link, and its joint tips that link; unknown names have been told by read_bed.
+/// A bed is a shell on its link, and its joint tips that link; unknown names have been told by
+/// read_bed.
 void check_bed(Element& element, const scene::Machine& machine, std::size_t index, Faults& faults) {
   const scene::Bed& bed = machine.beds[index];
-  if (index > 0) faults.error(element, "", "a machine has one bed", "make the second one a machine of its own");
+  if (index > 0)
+    faults.error(element, "", "a machine has one bed", "make the second one a machine of its own");
   for (const scene::Shell& shell : machine.shells)
     if (shell.name == bed.shell && shell.link != bed.link)
-      faults.error(element, bed.link, "its shell '" + bed.shell + "' is on link '" + shell.link + "'",
+      faults.error(element, bed.link,
+                   "its shell '" + bed.shell + "' is on link '" + shell.link + "'",
                    "name the link of the shell");
   const int joint = machine.joint_index(bed.joint);
   if (joint < 0) return;
@@ -106,12 +110,15 @@ void read_balls(Element& model, scene::Machine& machine, Faults& faults) {
     if (element == nullptr) continue;
     double cone = kPi, twist = kPi;
     Fields fields(*element, faults);
-    fields.number("cone_deg", cone, {0.1, 180}, kDegree).number("twist_deg", twist, {0.1, 180}, kDegree).finish();
+    fields.number("cone_deg", cone, {0.1, 180}, kDegree)
+        .number("twist_deg", twist, {0.1, 180}, kDegree)
+        .finish();
     if (attribute(*of, "type") != "ball")
       faults.error(*element, attribute(*of, "type"), "only a ball joint has a cone and a twist",
                    "give limits in its <axis>");
     else if (!fields.has("cone_deg") && !fields.has("twist_deg"))
-      faults.error(*element, "", "needs <cone_deg>, <twist_deg> or both", "leave it out for a ball that turns freely");
+      faults.error(*element, "", "needs <cone_deg>, <twist_deg> or both",
+                   "leave it out for a ball that turns freely");
     const int joint = machine.joint_index(attribute(*of, "name"));
     if (joint < 0) continue;
     machine.joints[static_cast<std::size_t>(joint)].cone = cone;
@@ -134,14 +141,18 @@ void read_brakes(Element& model, scene::Machine& machine, Faults& faults) {
     scene::Joint& about = machine.joints[static_cast<std::size_t>(joint)];
     const bool turns = about.type == Type::kRevolute;
     if (!turns && about.type != Type::kPrismatic)
-      faults.error(*element, attribute(*of, "type"), "a brake holds a joint that turns or slides", "take it out");
+      faults.error(*element, attribute(*of, "type"), "a brake holds a joint that turns or slides",
+                   "take it out");
     else if (fields.has("torque_nm") != turns || fields.has("force_n") == turns)
-      faults.error(*element, "", turns ? "a revolute joint needs <torque_nm>" : "a prismatic joint needs <force_n>",
-                   "what the brake holds at most");
+      faults.error(
+          *element, "",
+          turns ? "a revolute joint needs <torque_nm>" : "a prismatic joint needs <force_n>",
+          "what the brake holds at most");
     for (const scene::Wheel& wheel : machine.wheels)
       if (wheel.joint == name)
-        faults.error(*element, name, "this joint spins a wheel, which the drive brakes",
-                     "take it out; brake_force_n of <navvy:drive> and the input drive/brake hold wheels");
+        faults.error(
+            *element, name, "this joint spins a wheel, which the drive brakes",
+            "take it out; brake_force_n of <navvy:drive> and the input drive/brake hold wheels");
     about.brake = turns ? torque : force;
   }
 }
@@ -164,7 +175,8 @@ void read_initial_position(Element& element, scene::Machine& machine, Faults& fa
   if (index < 0) {
     std::vector<std::string> names;
     for (const scene::Joint& joint : machine.joints) names.push_back(joint.name);
-    faults.error(element, name, "no joint of this name in the machine", faults.nearest(name, names));
+    faults.error(element, name, "no joint of this name in the machine",
+                 faults.nearest(name, names));
     return;
   }
   scene::Joint& joint = machine.joints[static_cast<std::size_t>(index)];
@@ -172,10 +184,14 @@ void read_initial_position(Element& element, scene::Machine& machine, Faults& fa
   if (!turns && joint.type != scene::Joint::Type::kPrismatic)
     faults.error(element, name, "only revolute and prismatic joints have a position");
   else if (turns != fields.has("initial_deg"))
-    faults.error(element, name, turns ? "a revolute joint needs <initial_deg>" : "a prismatic joint needs <initial_m>");
+    faults.error(
+        element, name,
+        turns ? "a revolute joint needs <initial_deg>" : "a prismatic joint needs <initial_m>");
   joint.initial = turns ? angle : length;
-  if (joint.has_limits && (joint.initial < joint.lower - 1e-9 || joint.initial > joint.upper + 1e-9))
-    faults.error(element, text_of(*element.FirstChildElement()), "must lie within the limits of the joint");
+  if (joint.has_limits &&
+      (joint.initial < joint.lower - 1e-9 || joint.initial > joint.upper + 1e-9))
+    faults.error(element, text_of(*element.FirstChildElement()),
+                 "must lie within the limits of the joint");
 }
 
 scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
@@ -188,13 +204,15 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
     const std::string value = text_of(*engine);
     kinematic = value == "kinematic";
     if (engine->FirstChildElement() != nullptr)
-      faults.error(*engine, engine->FirstChildElement()->Name(), "says what moves the machine, dynamic or kinematic",
+      faults.error(*engine, engine->FirstChildElement()->Name(),
+                   "says what moves the machine, dynamic or kinematic",
                    "the engine of a drive is <engine> inside <navvy:drive>");
     else if (!kinematic && value != "dynamic")
       faults.error(*engine, value, "must be dynamic or kinematic");
   }
   if (model.Attribute("placement_frame"))
-    faults.error(model, attribute(model, "placement_frame"), "placement_frame is not supported", "remove it");
+    faults.error(model, attribute(model, "placement_frame"), "placement_frame is not supported",
+                 "remove it");
   const std::string is_static = child_text(model, "static");
   const std::size_t before = faults.error_count();
   check_links(model, !kinematic && is_static != "true" && is_static != "1", faults);
@@ -251,23 +269,28 @@ void read_extensions(Element& model, const Names& names, scene::Machine& machine
       machine.has_pump = true;
       read_pump(*e, machine.pump, faults);
       if (!model.FirstChildElement("navvy:cylinder"))
-        faults.error(*e, "", "a pump needs cylinders to feed", "add <navvy:cylinder>, or take the pump out");
+        faults.error(*e, "", "a pump needs cylinders to feed",
+                     "add <navvy:cylinder>, or take the pump out");
       if (machine.kinematic)
-        faults.warning(*e, "", "a kinematic machine moves as told and has no use for a pump", "take it out");
+        faults.warning(*e, "", "a kinematic machine moves as told and has no use for a pump",
+                       "take it out");
     }
     if (kind == "navvy:drive") {
       machine.has_drive = true;
       machine.drive = read_drive(*e, faults);
       drive = e;
       if (!model.FirstChildElement("navvy:wheel") && !model.FirstChildElement("navvy:track"))
-        faults.error(*e, "", "a drive needs wheels", "add <navvy:wheel> with <driven>true</driven>, or <navvy:track>");
+        faults.error(*e, "", "a drive needs wheels",
+                     "add <navvy:wheel> with <driven>true</driven>, or <navvy:track>");
     }
   }
   // After the arm, wherever it stands in the file.
-  if (Element* levers = model.FirstChildElement("navvy:levers")) read_levers(*levers, machine, faults);
+  if (Element* levers = model.FirstChildElement("navvy:levers"))
+    read_levers(*levers, machine, faults);
   if (has_joints) check_tracks(model, machine, faults);
   for (std::size_t i = 0; i < beds.size(); ++i) check_bed(*beds[i], machine, i, faults);
-  if (drive != nullptr && has_joints && !machine.wheels.empty()) check_wheels(*drive, machine, faults);
+  if (drive != nullptr && has_joints && !machine.wheels.empty())
+    check_wheels(*drive, machine, faults);
 }
 
 }  // namespace navvy::scene_io

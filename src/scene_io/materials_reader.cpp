@@ -34,13 +34,15 @@ void read_pair(Element& element, scene::Materials& into, Faults& faults) {
   // One number serves for both.
   if (const Element* kinetic = fields.child("kinetic_friction")) {
     if (pair.kinetic_friction > pair.static_friction)
-      faults.error(*kinetic, text_of(*kinetic), "must not exceed static_friction: what rests holds at least as well",
+      faults.error(*kinetic, text_of(*kinetic),
+                   "must not exceed static_friction: what rests holds at least as well",
                    "exchange the two, or leave kinetic_friction out where both are the same");
   } else {
     pair.kinetic_friction = pair.static_friction;
   }
   if (into.pair(words[0], words[1]) != nullptr) {
-    faults.error(element, names, "this pair is in the table already", "remove one of them; the order of names is free");
+    faults.error(element, names, "this pair is in the table already",
+                 "remove one of them; the order of names is free");
     return;
   }
   into.pairs.push_back(std::move(pair));
@@ -49,7 +51,8 @@ void read_pair(Element& element, scene::Materials& into, Faults& faults) {
 /// Names in the table, each once.
 std::vector<std::string> known_in(const scene::Materials& table) {
   std::set<std::string> names;
-  for (const scene::MaterialPair& pair : table.pairs) names.insert(pair.materials.begin(), pair.materials.end());
+  for (const scene::MaterialPair& pair : table.pairs)
+    names.insert(pair.materials.begin(), pair.materials.end());
   return {names.begin(), names.end()};
 }
 
@@ -60,7 +63,8 @@ struct Use {
   bool stands;  ///< what never moves meets neither the ground nor what stands beside it
 };
 
-Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule, const std::string& remedy) {
+Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
+             const std::string& remedy) {
   const scene::MachineInWorld& placed = world.machines[use.machine];
   return {Fault::Severity::kError,
           placed.machine.file.empty() ? world.file : placed.machine.file,
@@ -75,7 +79,8 @@ Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
 
 std::string materials_file(const Element& file) {
   std::error_code ignored;
-  const std::filesystem::path path = std::filesystem::path(Document::of(file).directory()) / text_of(file);
+  const std::filesystem::path path =
+      std::filesystem::path(Document::of(file).directory()) / text_of(file);
   if (std::filesystem::is_regular_file(path, ignored)) return path.string();
   return text_of(file).find('/') == std::string::npos ? find_data("terrain/" + text_of(file)) : "";
 }
@@ -90,7 +95,9 @@ void read_materials_file(const std::string& file, scene::Materials& into, Faults
     return;
   }
   // Tables must not refer to others: no loops to follow.
-  Fields(*table, faults).each("pair", [&](Element& pair) { read_pair(pair, into, faults); }).finish();
+  Fields(*table, faults)
+      .each("pair", [&](Element& pair) { read_pair(pair, into, faults); })
+      .finish();
 }
 
 scene::Materials read_materials(Element& element, Faults& faults) {
@@ -104,13 +111,16 @@ scene::Materials read_materials(Element& element, Faults& faults) {
       read_materials_file(path, out, faults);
     else
       faults.error(*child, file, why_no_file(file),
-                   "paths count from the scene file; a bare name may be a shipped table, such as materials.sdf");
+                   "paths count from the scene file; a bare name may be a shipped table, such as "
+                   "materials.sdf");
   }
-  for (Element* pair = element.FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
+  for (Element* pair = element.FirstChildElement("pair"); pair;
+       pair = pair->NextSiblingElement("pair"))
     read_pair(*pair, out, faults);
   const std::vector<std::string> known = known_in(out);
   if (!out.ground.empty() && std::find(known.begin(), known.end(), out.ground) == known.end())
-    faults.error(*fields.child("ground"), out.ground, "no pair has this material", faults.nearest(out.ground, known));
+    faults.error(*fields.child("ground"), out.ground, "no pair has this material",
+                 faults.nearest(out.ground, known));
   return out;
 }
 
@@ -124,7 +134,8 @@ void check_materials(const scene::Scene& world, Faults& faults) {
       const scene::LinkMaterial& material = machine.links[l].material;
       // Machines that move as told do not meet the ground, nor each other.
       const bool stands = machine.kinematic || (l == 0 && machine.fixed_base);
-      if (!material.name.empty() && seen.emplace(material.name, stands).second) uses.push_back({m, &material, stands});
+      if (!material.name.empty() && seen.emplace(material.name, stands).second)
+        uses.push_back({m, &material, stands});
     }
   }
   std::set<std::set<std::string>> told;
@@ -138,9 +149,12 @@ void check_materials(const scene::Scene& world, Faults& faults) {
     }
     const auto look = [&](const std::string& other) {
       const bool both_known = std::find(known.begin(), known.end(), other) != known.end();
-      if (!both_known || world.materials.pair(name, other) != nullptr || !told.insert({name, other}).second) return;
-      faults.add(at_use(world, use, "touches '" + other + "', and the scene's <navvy:materials> has no such pair",
-                        "add <pair materials=\"" + name + " " + other + "\">"));
+      if (!both_known || world.materials.pair(name, other) != nullptr ||
+          !told.insert({name, other}).second)
+        return;
+      faults.add(at_use(
+          world, use, "touches '" + other + "', and the scene's <navvy:materials> has no such pair",
+          "add <pair materials=\"" + name + " " + other + "\">"));
     };
     if (!use.stands && !world.materials.ground.empty()) look(world.materials.ground);
     for (const Use& other : uses)

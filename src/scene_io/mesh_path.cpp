@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> data_directories() {
   std::vector<std::string> directories;
-  // A folder of one's own goes first, so that a changed machine can stand before the shipped one; the source tree is
-  // last, for programs that were built and not installed.
+  // A folder of one's own goes first, so that a changed machine can stand before the shipped one;
+  // the source tree is last, for programs that were built and not installed.
   if (const char* own = std::getenv("NAVVY_DATA_DIR"); own && *own) directories.push_back(own);
   directories.push_back(NAVVY_INSTALLED_DATA);
   directories.push_back(NAVVY_SOURCE_DATA);
@@ -41,7 +41,8 @@ namespace {
 // Empty when nothing exists under that name.
 std::string locate(const Element& uri, const std::string& text) {
   std::error_code ignored;
-  // The name after the scheme counts from vehicles/, which is what scenes that are sent to others should use.
+  // The name after the scheme counts from vehicles/, which is what scenes that are sent to others
+  // should use.
   if (text.rfind("model://", 0) == 0) return find_data("vehicles/" + text.substr(8));
   fs::path path = text.rfind("file://", 0) == 0 ? fs::path(text.substr(7)) : fs::path(text);
   if (path.is_relative()) path = fs::path(Document::of(uri).directory()) / path;
@@ -54,7 +55,8 @@ std::vector<std::string> shipped_models() {
   std::error_code ignored;
   for (const std::string& directory : data_directories())
     for (const auto& entry : fs::directory_iterator(directory + "/vehicles", ignored))
-      if (fs::exists(entry.path() / "model.sdf", ignored)) out.push_back("model://" + entry.path().filename().string());
+      if (fs::exists(entry.path() / "model.sdf", ignored))
+        out.push_back("model://" + entry.path().filename().string());
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -103,10 +105,11 @@ bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults&
     const std::uintmax_t bytes = fs::file_size(path, unknown);
     faults.work.mesh_bytes += unknown ? 0 : bytes;
     if (faults.work.mesh_bytes > limits::kSceneMeshBytes) {
-      mesh.fault =
-          "the meshes of a scene may have at most " + std::to_string(limits::kSceneMeshBytes) + " bytes together";
+      mesh.fault = "the meshes of a scene may have at most " +
+                   std::to_string(limits::kSceneMeshBytes) + " bytes together";
     } else if (faults.work.meshes.size() > limits::kSceneMeshes) {
-      mesh.fault = "the shapes of a scene may name at most " + std::to_string(limits::kSceneMeshes) + " mesh files";
+      mesh.fault = "the shapes of a scene may name at most " +
+                   std::to_string(limits::kSceneMeshes) + " mesh files";
     } else {
       try {
         mesh.vertices = geometry::read_obj(path).vertices.size();
@@ -119,12 +122,14 @@ bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults&
   if (!mesh.fault.empty()) {
     faults.error(uri, path, mesh.fault, "mend the mesh or name another");
   } else if (mesh.vertices < least) {
-    faults.error(uri, std::to_string(mesh.vertices) + " vertices", "the mesh needs at least " + std::to_string(least),
+    faults.error(uri, std::to_string(mesh.vertices) + " vertices",
+                 "the mesh needs at least " + std::to_string(least),
                  "mend the mesh or name another");
   } else if (solid && mesh.vertices > limits::kHullVertices) {
-    faults.error(uri, std::to_string(mesh.vertices) + " vertices",
-                 "a mesh that collides may have at most " + std::to_string(limits::kHullVertices),
-                 "its hull is what collides: name a coarser mesh here, or give the model a <collision>");
+    faults.error(
+        uri, std::to_string(mesh.vertices) + " vertices",
+        "a mesh that collides may have at most " + std::to_string(limits::kHullVertices),
+        "its hull is what collides: name a coarser mesh here, or give the model a <collision>");
   } else {
     return true;
   }
@@ -135,11 +140,14 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
   const std::string text = text_of(uri);
   std::error_code ignored;
   std::string found = locate(uri, text);
-  if (!found.empty() && fs::is_directory(found, ignored)) found = (fs::path(found) / "model.sdf").string();
+  if (!found.empty() && fs::is_directory(found, ignored))
+    found = (fs::path(found) / "model.sdf").string();
   if (found.empty() || !fs::is_regular_file(found, ignored)) {
     const std::string way =
-        "give a path from this file to an SDF file or its directory, or model://NAME of a shipped machine";
-    const std::string meant = text.rfind("model://", 0) == 0 ? suggestion(text, shipped_models()) + " " : "";
+        "give a path from this file to an SDF file or its directory, or model://NAME of a shipped "
+        "machine";
+    const std::string meant =
+        text.rfind("model://", 0) == 0 ? suggestion(text, shipped_models()) + " " : "";
     faults.error(uri, text, "no such model", meant + way);
     return false;
   }
@@ -148,14 +156,16 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
   return true;
 }
 
-bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell, Faults& faults) {
+bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell,
+                     Faults& faults) {
   // Read for each shell that names it, so its bytes count each time.
   std::error_code unknown;
   const std::uintmax_t bytes = fs::file_size(path, unknown);
   faults.work.mesh_bytes += unknown ? 0 : bytes;
   if (faults.work.mesh_bytes > limits::kSceneMeshBytes) {
     faults.error(at, path,
-                 "the meshes of a scene may have at most " + std::to_string(limits::kSceneMeshBytes) +
+                 "the meshes of a scene may have at most " +
+                     std::to_string(limits::kSceneMeshBytes) +
                      " bytes together, a shell's counted each time it is named",
                  "name smaller meshes");
     return false;

@@ -13,7 +13,8 @@ namespace navvy::scene_io {
 
 namespace {
 
-// The fewest digits that read back to the same number, so that a value given on the command line arrives unchanged.
+// The fewest digits that read back to the same number, so that a value given on the command line
+// arrives unchanged.
 std::string shortest(double value) {
   char text[40];
   const auto result = std::to_chars(text, text + sizeof text, value);
@@ -27,7 +28,8 @@ struct Part {
 
 bool split_key(const std::string& key, std::vector<Part>& parts) {
   std::size_t at = 0;
-  // Written by hand, as keys hold two kinds of marks only: a dot begins a part, brackets hold which of several.
+  // Written by hand, as keys hold two kinds of marks only: a dot begins a part, brackets hold which
+  // of several.
   while (at <= key.size()) {
     Part part;
     while (at < key.size() && key[at] != '.' && key[at] != '[') part.name += key[at++];
@@ -45,7 +47,8 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
   return parts.size() >= 2;
 }
 
-void key_fault(const std::string& key, const std::string& value, const std::string& rule, const std::string& remedy,
+void key_fault(const std::string& key, const std::string& value, const std::string& rule,
+               const std::string& remedy,
                // There is no file and no line; the key stands for the element.
                Faults& faults) {
   Fault fault;
@@ -64,7 +67,8 @@ std::string model_of(std::string uri) {
     uri.resize(uri.size() - file.size());
   while (!uri.empty() && uri.back() == '/') uri.pop_back();
   uri = uri.substr(uri.rfind('/') == std::string::npos ? 0 : uri.rfind('/') + 1);
-  if (uri.size() > ending.size() && uri.compare(uri.size() - ending.size(), ending.size(), ending) == 0)
+  if (uri.size() > ending.size() &&
+      uri.compare(uri.size() - ending.size(), ending.size(), ending) == 0)
     uri.resize(uri.size() - ending.size());
   return uri;
 }
@@ -106,9 +110,11 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     if (names[i].empty() || names[i] != name) continue;
     Element* pose = machine.FirstChildElement("pose");
     std::vector<std::string> words = pose ? words_of(text_of(*pose)) : std::vector<std::string>{};
-    const bool in_degrees = pose && (attribute(*pose, "degrees") == "true" || attribute(*pose, "degrees") == "1");
+    const bool in_degrees =
+        pose && (attribute(*pose, "degrees") == "true" || attribute(*pose, "degrees") == "1");
     bool quaternion = pose && attribute(*pose, "rotation_format") == "quat_xyzw";
-    // A quaternion stays as it is where only the place is set, and gives way to angles for a new yaw.
+    // A quaternion stays as it is where only the place is set, and gives way to angles for a new
+    // yaw.
     Pose X;
     Faults unread;
     if (quaternion && i == 5 && read_pose(*pose, X, unread)) {
@@ -135,13 +141,16 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
   return false;
 }
 
-void apply_setting(Element& world, const std::string& key, const std::string& value, Faults& faults) {
+void apply_setting(Element& world, const std::string& key, const std::string& value,
+                   Faults& faults) {
   std::vector<Part> parts;
   if (!split_key(key, parts) || !parts.back().which.empty()) {
-    key_fault(key, value, "a setting must look like object.element=value", "e.g. soil.cohesion_pa=8000", faults);
+    key_fault(key, value, "a setting must look like object.element=value",
+              "e.g. soil.cohesion_pa=8000", faults);
     return;
   }
-  const std::vector<std::string> objects = {"soil", "ground", "solver", "recording", "camera", "machine"};
+  const std::vector<std::string> objects = {"soil",      "ground", "solver",
+                                            "recording", "camera", "machine"};
   bool known = false;
   for (const std::string& object : objects) known = known || object == parts[0].name;
   if (first_bad_utf8(key + value) != std::string::npos) {
@@ -149,41 +158,50 @@ void apply_setting(Element& world, const std::string& key, const std::string& va
     return;
   }
   // The scene is written out as it ran, and no XML holds them.
-  const auto is_control = [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; };
-  if (std::any_of(value.begin(), value.end(), is_control) || std::any_of(key.begin(), key.end(), is_control)) {
-    key_fault("", "", "a setting must hold no control characters", "look for what the shell made of its value", faults);
+  const auto is_control = [](char c) {
+    return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;
+  };
+  if (std::any_of(value.begin(), value.end(), is_control) ||
+      std::any_of(key.begin(), key.end(), is_control)) {
+    key_fault("", "", "a setting must hold no control characters",
+              "look for what the shell made of its value", faults);
     return;
   }
   if (!known) {
-    key_fault(key, value, "unknown object '" + parts[0].name + "'", faults.nearest(parts[0].name, objects), faults);
+    key_fault(key, value, "unknown object '" + parts[0].name + "'",
+              faults.nearest(parts[0].name, objects), faults);
     return;
   }
   std::vector<Element*> targets = {&world};
-  // A key goes down from the world, part by part; each part may pick several, and all of them are set.
+  // A key goes down from the world, part by part; each part may pick several, and all of them are
+  // set.
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     std::vector<Element*> next;
     for (Element* target : targets)
       for (Element* child : children_matching(*target, parts[i])) next.push_back(child);
-    // Objects that a scene has once, and may leave out with all values at their defaults, are made when they are
-    // needed; others must be there to be meant.
-    const bool single = parts[i].name == "ground" || parts[i].name == "solver" || parts[i].name == "recording";
+    // Objects that a scene has once, and may leave out with all values at their defaults, are made
+    // when they are needed; others must be there to be meant.
+    const bool single =
+        parts[i].name == "ground" || parts[i].name == "solver" || parts[i].name == "recording";
     if (next.empty() && i == 0 && single)
       next.push_back(world.InsertNewChildElement(("navvy:" + parts[0].name).c_str()));
     if (next.empty()) {
-      const std::string part = parts[i].name + (parts[i].which.empty() ? "" : "[" + parts[i].which + "]");
-      key_fault(key, value, "the scene has no '" + part + "'", "see the names in the scene file", faults);
+      const std::string part =
+          parts[i].name + (parts[i].which.empty() ? "" : "[" + parts[i].which + "]");
+      key_fault(key, value, "the scene has no '" + part + "'", "see the names in the scene file",
+                faults);
       return;
     }
     targets = next;
   }
   const std::string& leaf = parts.back().name;
   for (Element* target : targets) {
-    // One level below a machine only its place can be set; deeper keys reach what the scene says of it, such as its
-    // program.
+    // One level below a machine only its place can be set; deeper keys reach what the scene says of
+    // it, such as its program.
     if (parts[0].name == "machine" && parts.size() == 2) {
       if (!set_place(*target, leaf, value))
-        key_fault(key, value, "unknown element '" + leaf + "'", faults.nearest(leaf, {"x_m", "y_m", "z_m", "yaw_deg"}),
-                  faults);
+        key_fault(key, value, "unknown element '" + leaf + "'",
+                  faults.nearest(leaf, {"x_m", "y_m", "z_m", "yaw_deg"}), faults);
       continue;
     }
     // A soil's strength is given by one of two elements; the new one replaces the other.
@@ -205,7 +223,8 @@ void apply_terrain(Element& world, const Overrides& overrides) {
   Element& ground = section(world, "navvy:ground");
   if (overrides.terrain) {
     // The file replaces the procedural shapes; layers and patches stay.
-    for (const char* shape : {"slope", "hills", "stockpile", "trench", "bank", "block", "at_m", "at_local_m"})
+    for (const char* shape :
+         {"slope", "hills", "stockpile", "trench", "bank", "block", "at_m", "at_local_m"})
       while (Element* old = ground.FirstChildElement(shape)) ground.DeleteChild(old);
     set_value(ground, "file", *overrides.terrain);
   }
@@ -238,8 +257,10 @@ void apply_overrides(Document& document, const Overrides& overrides, Faults& fau
   if (!world) return;  // the reader reports it
   if (overrides.terrain || overrides.at || overrides.size) apply_terrain(*world, overrides);
   if (overrides.seed) set_value(*world, "navvy:seed", std::to_string(*overrides.seed));
-  if (overrides.duration) set_value(section(*world, "navvy:recording"), "duration_s", shortest(*overrides.duration));
-  if (overrides.render) set_value(section(*world, "navvy:recording"), "render", *overrides.render ? "true" : "false");
+  if (overrides.duration)
+    set_value(section(*world, "navvy:recording"), "duration_s", shortest(*overrides.duration));
+  if (overrides.render)
+    set_value(section(*world, "navvy:recording"), "render", *overrides.render ? "true" : "false");
   for (const auto& [key, value] : overrides.set) apply_setting(*world, key, value, faults);
 }
 

@@ -11,32 +11,38 @@ namespace {
 
 using scene::Waiting;
 
-/// The element of every step of a program; children that were no step have been reported and are passed over.
+/// The element of every step of a program; children that were no step have been reported and are
+/// passed over.
 std::vector<Element*> elements_of(Element& machine, const scene::Program& steps) {
   std::vector<Element*> out;
   Element* program = machine.FirstChildElement("navvy:program");
-  for (Element* e = program ? program->FirstChildElement() : nullptr; e; e = e->NextSiblingElement())
-    if (out.size() < steps.steps.size() && steps.steps[out.size()]->element() == std::string(e->Name()))
+  for (Element* e = program ? program->FirstChildElement() : nullptr; e;
+       e = e->NextSiblingElement())
+    if (out.size() < steps.steps.size() &&
+        steps.steps[out.size()]->element() == std::string(e->Name()))
       out.push_back(e);
   return out;
 }
 
-int step_count(const scene::MachineInWorld& machine) { return static_cast<int>(machine.program.steps.size()); }
+int step_count(const scene::MachineInWorld& machine) {
+  return static_cast<int>(machine.program.steps.size());
+}
 
 /// Steps of `wait`'s machine that have to be done before it goes on.
 int needed(const Waiting& wait, const scene::MachineInWorld& other) {
   return wait.steps > 0 ? wait.steps : step_count(other);
 }
 
-bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, const scene::Scene& world,
-                Faults& faults) {
+bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting,
+                const scene::Scene& world, Faults& faults) {
   // The name first, then whether it can be waited for, then how long.
   const int index = world.machine_index(wait.machine);
   if (index < 0) {
     std::vector<std::string> names;
     for (std::size_t m = 0; m < world.machines.size(); ++m)
       if (m != waiting) names.push_back(world.machines[m].name);
-    faults.error(at, wait.machine, "no machine of this name in the world", faults.nearest(wait.machine, names));
+    faults.error(at, wait.machine, "no machine of this name in the world",
+                 faults.nearest(wait.machine, names));
     return false;
   }
   if (index == static_cast<int>(waiting)) {
@@ -52,8 +58,8 @@ bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting, con
 }
 
 /// A program opens hitches of its own machine.
-void check_hitch(const Element& at, const std::string& hitch, std::size_t machine, const scene::Scene& world,
-                 Faults& faults) {
+void check_hitch(const Element& at, const std::string& hitch, std::size_t machine,
+                 const scene::Scene& world, Faults& faults) {
   std::vector<std::string> names;
   for (const scene::Hitch& one : world.hitches) {
     if (one.parent != static_cast<int>(machine) && one.child != static_cast<int>(machine)) continue;
@@ -61,7 +67,8 @@ void check_hitch(const Element& at, const std::string& hitch, std::size_t machin
     names.push_back(one.name);
   }
   faults.error(at, hitch, "this machine has no hitch of this name",
-               names.empty() ? "add <navvy:hitch name=\"" + hitch + "\"> to the world" : faults.nearest(hitch, names));
+               names.empty() ? "add <navvy:hitch name=\"" + hitch + "\"> to the world"
+                             : faults.nearest(hitch, names));
 }
 
 /// Lets every program run as far as waiting allows; where each stands then.
@@ -73,7 +80,8 @@ std::vector<int> run_dry(const scene::Scene& world) {
     for (std::size_t m = 0; m < world.machines.size(); ++m) {
       const auto& steps = world.machines[m].program.steps;
       if (done[m] >= step_count(world.machines[m])) continue;
-      if (const std::optional<Waiting> wait = steps[static_cast<std::size_t>(done[m])]->waits_for()) {
+      if (const std::optional<Waiting> wait =
+              steps[static_cast<std::size_t>(done[m])]->waits_for()) {
         const auto other = static_cast<std::size_t>(world.machine_index(wait->machine));
         if (done[other] < needed(*wait, world.machines[other])) continue;
       }
@@ -91,14 +99,16 @@ void check_program_order(Element& world_element, const scene::Scene& world, Faul
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement())
     if (std::string(e->Name()) == "include" || std::string(e->Name()) == "model") {
       const bool placed = elements.size() < world.machines.size();
-      elements.push_back(elements_of(*e, placed ? world.machines[elements.size()].program : scene::Program{}));
+      elements.push_back(
+          elements_of(*e, placed ? world.machines[elements.size()].program : scene::Program{}));
     }
   bool sound = elements.size() == world.machines.size();
   for (std::size_t m = 0; m < world.machines.size() && sound; ++m) {
     const auto& steps = world.machines[m].program.steps;
     for (std::size_t s = 0; s < steps.size(); ++s) {
       if (const std::optional<Waiting> wait = steps[s]->waits_for())
-        sound = !wait->machine.empty() && check_wait(*elements[m][s], *wait, m, world, faults) && sound;
+        sound =
+            !wait->machine.empty() && check_wait(*elements[m][s], *wait, m, world, faults) && sound;
       if (const std::optional<std::string> hitch = steps[s]->opens(); hitch && !hitch->empty())
         check_hitch(*elements[m][s], *hitch, m, world, faults);
     }

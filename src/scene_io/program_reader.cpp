@@ -7,11 +7,13 @@ namespace navvy::scene_io {
 
 namespace {
 
-// Thin on purpose: ranges, messages and what counts as unknown are those of Fields, as everywhere in a scene file.
+// Thin on purpose: ranges, messages and what counts as unknown are those of Fields, as everywhere
+// in a scene file.
 /// The children of an XML element as a step's reader sees them.
 class XmlSource final : public scene::FieldSource {
  public:
-  XmlSource(Element& element, Faults& faults) : element_(element), faults_(faults), fields_(element, faults) {}
+  XmlSource(Element& element, Faults& faults)
+      : element_(element), faults_(faults), fields_(element, faults) {}
 
   FieldSource& number(const char* name, double& out, Range range, double factor) override {
     fields_.number(name, out, range, factor);
@@ -29,7 +31,8 @@ class XmlSource final : public scene::FieldSource {
     fields_.vec2(name, out, range);
     return *this;
   }
-  FieldSource& list(const char* name, std::vector<double>& out, Range range, double factor) override {
+  FieldSource& list(const char* name, std::vector<double>& out, Range range,
+                    double factor) override {
     fields_.list(name, out, range, factor);
     return *this;
   }
@@ -54,7 +57,8 @@ class XmlSource final : public scene::FieldSource {
 
   bool has(const char* name) const override { return fields_.has(name); }
   std::string written(const char* name) const override { return child_text(element_, name); }
-  void error(const char* name, const std::string& value, const std::string& rule, const std::string& remedy) override {
+  void error(const char* name, const std::string& value, const std::string& rule,
+             const std::string& remedy) override {
     // A fault of a child that is not there is one of the element that lacks it.
     const Element* child = *name != '\0' ? fields_.child(name) : nullptr;
     faults_.error(child ? *child : element_, value, rule, remedy);
@@ -68,11 +72,13 @@ class XmlSource final : public scene::FieldSource {
 
 }  // namespace
 
-scene::Program read_program(Element& element, const scene::StepKinds& kinds, const scene::Machine* machine,
-                            const scene::StartGround* ground, Faults& faults) {
+scene::Program read_program(Element& element, const scene::StepKinds& kinds,
+                            const scene::Machine* machine, const scene::StartGround* ground,
+                            Faults& faults) {
   scene::Program program;
   Fields fields(element, faults);
-  // All names are told to `fields` first: what it does not know by then is reported with the nearest of them.
+  // All names are told to `fields` first: what it does not know by then is reported with the
+  // nearest of them.
   for (const scene::StepKind& kind : kinds) fields.each(kind.element.c_str(), [](Element&) {});
   for (Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
     for (const scene::StepKind& kind : kinds)

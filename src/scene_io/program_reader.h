@@ -9,10 +9,11 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:program>, every child by the kind that bears its name; no kind of step is known here. Kinds check that
-/// the machine can do the step and that targets lie on the site: machine and ground may be null where they could not be
-/// read.
-scene::Program read_program(Element& element, const scene::StepKinds& kinds, const scene::Machine* machine,
-                            const scene::StartGround* ground, Faults& faults);
+/// Reads <navvy:program>, every child by the kind that bears its name; no kind of step is known
+/// here. Kinds check that the machine can do the step and that targets lie on the site: machine and
+/// ground may be null where they could not be read.
+scene::Program read_program(Element& element, const scene::StepKinds& kinds,
+                            const scene::Machine* machine, const scene::StartGround* ground,
+                            Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -24,13 +24,14 @@ void resolve_raster(const Element& element, std::string& path, Faults& faults) {
   if (path.empty()) return;
   const bool from_scene = element.GetLineNum() > 0;
   std::filesystem::path full = path;
-  if (from_scene && full.is_relative()) full = std::filesystem::path(Document::of(element).directory()) / full;
+  if (from_scene && full.is_relative())
+    full = std::filesystem::path(Document::of(element).directory()) / full;
   path = full.string();
   std::error_code failed;
   if (!std::filesystem::is_regular_file(full, failed))
-    faults.error(
-        element, text_of(element), why_no_file(path),
-        from_scene ? "paths count from the scene file" : "on the command line paths count from this directory");
+    faults.error(element, text_of(element), why_no_file(path),
+                 from_scene ? "paths count from the scene file"
+                            : "on the command line paths count from this directory");
 }
 
 }  // namespace navvy::scene_io

@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kScheme = "model://";
-constexpr std::size_t kHashedMost = std::size_t{64}
-                                    << 20;  // [bytes]: maps may hold gigabytes of which a run reads a corner
+constexpr std::size_t kHashedMost = std::size_t{64}  // [bytes]: maps may hold gigabytes of which a
+                                                     // run reads a corner
+                                    << 20;
 
 std::string absolute(const std::string& path) {
   std::error_code failed;
@@ -33,18 +34,21 @@ std::string absolute(const std::string& path) {
   return failed ? path : full.string();
 }
 
-/// model://NAME/... of a file below a vehicles/ directory, so that the text goes to other machines; else `path`.
+/// model://NAME/... of a file below a vehicles/ directory, so that the text goes to other machines;
+/// else `path`.
 std::string portable(const std::string& path) {
   for (const std::string& directory : data_directories()) {
     const std::string vehicles = absolute(directory + "/vehicles") + "/";
-    if (path.compare(0, vehicles.size(), vehicles) == 0) return kScheme + path.substr(vehicles.size());
+    if (path.compare(0, vehicles.size(), vehicles) == 0)
+      return kScheme + path.substr(vehicles.size());
   }
   return path;
 }
 
 /// The file behind a name that `portable` gave; empty when there is none.
 std::string file_behind(const std::string& name) {
-  if (name.rfind(kScheme, 0) == 0) return find_data("vehicles/" + name.substr(std::strlen(kScheme)));
+  if (name.rfind(kScheme, 0) == 0)
+    return find_data("vehicles/" + name.substr(std::strlen(kScheme)));
   std::error_code ignored;
   return fs::exists(name, ignored) ? name : "";
 }
@@ -53,7 +57,8 @@ std::string file_behind(const std::string& name) {
 std::string hash_of(const std::string& path) {
   std::error_code failed;
   StateHash hash;
-  // A list of files is written by hand as easily as by a run: what is no plain file has no end to read to.
+  // A list of files is written by hand as easily as by a run: what is no plain file has no end to
+  // read to.
   if (!fs::is_regular_file(path, failed)) return "";
   hash.value(static_cast<std::uint64_t>(fs::file_size(path, failed)));
   std::ifstream stream(path, std::ios::binary);
@@ -65,7 +70,8 @@ std::string hash_of(const std::string& path) {
   return hash.hex();
 }
 
-// The fewest digits that read back to the same number: the text must give the same world, bit by bit.
+// The fewest digits that read back to the same number: the text must give the same world, bit by
+// bit.
 std::string shortest(double value) {
   char text[40];
   const auto result = std::to_chars(text, text + sizeof text, value);
@@ -75,7 +81,8 @@ std::string shortest(double value) {
 /// Every element of `parent`, however deep, in the order of the file.
 template <class Visit>
 void visit_all(Element& parent, const Visit& visit) {
-  for (Element* child = parent.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (Element* child = parent.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     visit(*child);
     visit_all(*child, visit);
   }
@@ -85,8 +92,8 @@ bool is_called(const tinyxml2::XMLNode* node, const char* name) {
   return node != nullptr && node->ToElement() != nullptr && std::strcmp(node->Value(), name) == 0;
 }
 
-/// Writes one scene out. Keeps the list of files that stay outside. Steps must run while elements still belong to the
-/// documents that their paths count from.
+/// Writes one scene out. Keeps the list of files that stay outside. Steps must run while elements
+/// still belong to the documents that their paths count from.
 class Resolver {
  public:
   explicit Resolver(Element& world) : world_(world) {}
@@ -107,7 +114,8 @@ class Resolver {
   }
 
   Element& world_;
-  Faults none_;                               ///< the readers have reported what there was to report
+  /// The readers have reported what there was to report.
+  Faults none_;
   std::map<std::string, std::string> files_;  ///< hash by name
 };
 
@@ -119,16 +127,20 @@ void Resolver::soil(Element& element, const scene::Soil& read) {
   Element* base = document ? document->root()->FirstChildElement("navvy:soil") : nullptr;
   if (base == nullptr) return;
   // Strength is given by one of two elements, and the scene's own replaces either.
-  const bool own_strength =
-      element.FirstChildElement("friction_angle_deg") || element.FirstChildElement("repose_angle_deg");
-  for (Element* value = base->FirstChildElement(); value != nullptr; value = value->NextSiblingElement()) {
-    const bool strength = is_called(value, "friction_angle_deg") || is_called(value, "repose_angle_deg");
+  const bool own_strength = element.FirstChildElement("friction_angle_deg") ||
+                            element.FirstChildElement("repose_angle_deg");
+  for (Element* value = base->FirstChildElement(); value != nullptr;
+       value = value->NextSiblingElement()) {
+    const bool strength =
+        is_called(value, "friction_angle_deg") || is_called(value, "repose_angle_deg");
     if (element.FirstChildElement(value->Name()) != nullptr || (strength && own_strength)) continue;
     element.InsertEndChild(value->DeepClone(element.GetDocument()));
   }
-  // A residual cohesion that nobody stated was derived from both files: it is written as it came out.
+  // A residual cohesion that nobody stated was derived from both files: it is written as it came
+  // out.
   if (Element* old = element.FirstChildElement("residual_cohesion_pa")) element.DeleteChild(old);
-  element.InsertNewChildElement("residual_cohesion_pa")->SetText(shortest(read.residual_cohesion).c_str());
+  element.InsertNewChildElement("residual_cohesion_pa")
+      ->SetText(shortest(read.residual_cohesion).c_str());
   element.DeleteAttribute("ref");
   element.SetAttribute("name", read.name.c_str());
 }
@@ -136,7 +148,8 @@ void Resolver::soil(Element& element, const scene::Soil& read) {
 void Resolver::ground(const scene::Scene& world) {
   Element* ground = world_.FirstChildElement("navvy:ground");
   Element* file = ground != nullptr ? ground->FirstChildElement("file") : nullptr;
-  // The reader has worked out whether the name counted from the scene or from the working directory.
+  // The reader has worked out whether the name counted from the scene or from the working
+  // directory.
   if (file != nullptr && !world.ground.file.empty()) keep(*file, absolute(world.ground.file));
   Element* design = world_.FirstChildElement("navvy:design");
   file = design != nullptr ? design->FirstChildElement("file") : nullptr;
@@ -148,11 +161,13 @@ void Resolver::materials() {
   Element* file = table != nullptr ? table->FirstChildElement("file") : nullptr;
   if (file == nullptr) return;
   const auto document = Document::open(materials_file(*file), none_);
-  const Element* shared = document ? document->root()->FirstChildElement("navvy:materials") : nullptr;
+  const Element* shared =
+      document ? document->root()->FirstChildElement("navvy:materials") : nullptr;
   if (shared == nullptr) return;
   // In the order in which they were read: before those of the scene.
   tinyxml2::XMLNode* last = file;
-  for (const Element* pair = shared->FirstChildElement("pair"); pair; pair = pair->NextSiblingElement("pair"))
+  for (const Element* pair = shared->FirstChildElement("pair"); pair;
+       pair = pair->NextSiblingElement("pair"))
     last = table->InsertAfterChild(last, pair->DeepClone(table->GetDocument()));
   table->DeleteChild(file);
 }
@@ -176,14 +191,18 @@ void Resolver::include(Element& element) {
   if (model == nullptr || !assemble(*document, none_)) return;
   // SDF of another version cannot stand in this file: such a machine stays outside, with its hash.
   const Element& root = *element.GetDocument()->RootElement();
-  if (attribute(*document->root(), "version") != attribute(root, "version")) return keep(*uri, absolute(path));
+  if (attribute(*document->root(), "version") != attribute(root, "version"))
+    return keep(*uri, absolute(path));
   meshes(*model);
-  // A deep copy belongs to this document, and the machine's own document goes at the end of this function.
+  // A deep copy belongs to this document, and the machine's own document goes at the end of this
+  // function.
   Element& inlined = *model->DeepClone(element.GetDocument())->ToElement();
-  if (element.FirstChildElement("name")) inlined.SetAttribute("name", child_text(element, "name").c_str());
+  if (element.FirstChildElement("name"))
+    inlined.SetAttribute("name", child_text(element, "name").c_str());
   // The place in the world is the including scene's alone.
   while (Element* pose = inlined.FirstChildElement("pose")) inlined.DeleteChild(pose);
-  for (const Element* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+  for (const Element* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
     if (is_called(child, "uri") || is_called(child, "name")) continue;
     if (is_called(child, "static")) {
       // Saying false here does not free a machine that its own file holds.
@@ -219,11 +238,13 @@ std::string resolved_text(Document& document, const scene::Scene& world) {
   while (Element* old = root.FirstChildElement("navvy:resolved")) root.DeleteChild(old);
   Resolver resolver(root);
   std::size_t soil = 0;
-  for (Element* e = root.FirstChildElement("navvy:soil"); e != nullptr; e = e->NextSiblingElement("navvy:soil"))
+  for (Element* e = root.FirstChildElement("navvy:soil"); e != nullptr;
+       e = e->NextSiblingElement("navvy:soil"))
     resolver.soil(*e, world.soils.at(soil++));
   resolver.ground(world);
   resolver.materials();
-  for (Element* e = root.FirstChildElement("model"); e != nullptr; e = e->NextSiblingElement("model"))
+  for (Element* e = root.FirstChildElement("model"); e != nullptr;
+       e = e->NextSiblingElement("model"))
     resolver.meshes(*e);
   for (Element* e = root.FirstChildElement("include"); e != nullptr;) {
     // Asked for before, because the include is replaced by a model.

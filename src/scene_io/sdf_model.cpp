@@ -19,17 +19,20 @@ namespace {
 Pose to_pose(const ignition::math::Pose3d& p) {
   Pose X = Pose::Identity();
   // Normalised again: a file's digits make no exact unit quaternion.
-  X.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z()).normalized().toRotationMatrix();
+  X.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z())
+                   .normalized()
+                   .toRotationMatrix();
   X.translation() = Vec3(p.Pos().X(), p.Pos().Y(), p.Pos().Z());
   return X;
 }
 
-// libsdformat keeps :: for models inside each other, which are one here before it sees them: two letters that nobody
-// writes stand for it there.
+// libsdformat keeps :: for models inside each other, which are one here before it sees them: two
+// letters that nobody writes stand for it there.
 constexpr const char kScope[] = "::", kVeiled[] = "\xEE\x80\x80\xEE\x80\x81";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
 }
@@ -39,12 +42,14 @@ std::string unveiled(const std::string& text) { return replaced(text, kVeiled, k
 
 Vec3 to_vec3(const ignition::math::Vector3d& v) { return Vec3(v.X(), v.Y(), v.Z()); }
 
-// The part that libsdformat shall see: no extension elements, nothing that is ignored (check_sdf has reported it).
+// The part that libsdformat shall see: no extension elements, nothing that is ignored (check_sdf
+// has reported it).
 void copy_used(const Element& from, Element& to) {
   for (const auto* at = from.FirstAttribute(); at; at = at->Next())
     to.SetAttribute(at->Name(), veiled(at->Value()).c_str());
   bool has_elements = false;
-  for (const Element* child = from.FirstChildElement(); child; child = child->NextSiblingElement()) {
+  for (const Element* child = from.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
     has_elements = true;
     // libsdformat 12 knows no cone; a cylinder has the same values and stands in for it.
     const char* name = std::strcmp(child->Name(), "cone") == 0 ? "cylinder" : child->Name();
@@ -68,11 +73,14 @@ std::string as_sdf_text(const Element& model) {
 
 // libsdformat knows no lines; its messages name the link, joint or frame in [brackets] or 'quotes'.
 const Element& blamed(const Element& model, const std::string& message) {
-  for (const Element* child = model.FirstChildElement(); child; child = child->NextSiblingElement()) {
+  for (const Element* child = model.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
     const std::string name = attribute(*child, "name");
     if (name.empty()) continue;
-    // The marks with which libsdformat's messages surround names; a bare name could be a part of another word.
-    for (const std::string& mark : {"[" + name + "]", "'" + name + "'", "\"" + name + "\"", "named " + name + " "})
+    // The marks with which libsdformat's messages surround names; a bare name could be a part of
+    // another word.
+    for (const std::string& mark :
+         {"[" + name + "]", "'" + name + "'", "\"" + name + "\"", "named " + name + " "})
       if (message.find(mark) != std::string::npos) return *child;
   }
   return model;
@@ -85,7 +93,8 @@ void report(const Element& model, const sdf::Errors& errors, Faults& faults) {
   }
 }
 
-bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, scene::Geometry& to, Faults& faults) {
+bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, scene::Geometry& to,
+                   Faults& faults) {
   using Kind = scene::Geometry::Kind;
   if (const auto* box = from.BoxShape()) {
     to.kind = Kind::kBox;
@@ -111,7 +120,8 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
     to.kind = Kind::kMesh;
     to.scale = to_vec3(mesh->Scale());
     const Element* uri = xml.FirstChildElement("mesh")->FirstChildElement("uri");
-    return uri && resolve_mesh(*uri, to.mesh_file, faults) && check_mesh(*uri, to.mesh_file, solid, faults);
+    return uri && resolve_mesh(*uri, to.mesh_file, faults) &&
+           check_mesh(*uri, to.mesh_file, solid, faults);
   } else {
     faults.error(xml, "", "needs one of box, cylinder, cone, capsule, sphere, plane, mesh");
     return false;
@@ -119,7 +129,8 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
   return true;
 }
 
-void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::Link& to, Faults& faults) {
+void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::Link& to,
+                 Faults& faults) {
   for (std::uint64_t i = 0; i < from.VisualCount(); ++i) {
     const sdf::Visual& visual = *from.VisualByIndex(i);
     // The same element in the file: for line numbers, and for what libsdformat does not hand on.
@@ -134,7 +145,8 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
       const auto c = material->Diffuse();
       out.color = {c.R(), c.G(), c.B(), c.A()};
     }
-    if (read_geometry(*visual.Geom(), *element->FirstChildElement("geometry"), false, out.geometry, faults))
+    if (read_geometry(*visual.Geom(), *element->FirstChildElement("geometry"), false, out.geometry,
+                      faults))
       to.visuals.push_back(out);
   }
   for (std::uint64_t i = 0; i < from.CollisionCount(); ++i) {
@@ -148,11 +160,14 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
     out.X_LC = to_pose(pose);
     // sdformat 12 has no accessor for friction.
     const Element* step = element;
-    // The same coefficient as for ODE in Gazebo; check_sdf has read the number before, so a bad one leaves the default.
-    for (const char* name : {"surface", "friction", "ode", "mu"}) step = step ? step->FirstChildElement(name) : nullptr;
+    // The same coefficient as for ODE in Gazebo; check_sdf has read the number before, so a bad one
+    // leaves the default.
+    for (const char* name : {"surface", "friction", "ode", "mu"})
+      step = step ? step->FirstChildElement(name) : nullptr;
     if (step) to_number(text_of(*step), out.friction);
     // What moves collides by the hull of a mesh, what stands by its triangles.
-    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), moves, out.geometry, faults))
+    if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), moves,
+                      out.geometry, faults))
       to.collisions.push_back(out);
   }
 }
@@ -185,7 +200,8 @@ void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, 
   if (!axis) return;
   ignition::math::Vector3d xyz;
   report(xml, axis->ResolveXyz(xyz, from.Name()), faults);
-  // In the joint's frame, whatever frame it was expressed in; SDF asks for a unit vector and takes any length.
+  // In the joint's frame, whatever frame it was expressed in; SDF asks for a unit vector and takes
+  // any length.
   joint.axis = to_vec3(xyz).normalized();
   const double lower = axis->Lower(), upper = axis->Upper();
   // 1e16 is SDF's own word for no limit.
@@ -196,7 +212,8 @@ void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, 
   }
   // A negative or missing limit of SDF means none (libsdformat answers infinity).
   if (std::isfinite(axis->Effort()) && axis->Effort() >= 0) joint.effort = axis->Effort();
-  if (std::isfinite(axis->MaxVelocity()) && axis->MaxVelocity() >= 0) joint.velocity = axis->MaxVelocity();
+  if (std::isfinite(axis->MaxVelocity()) && axis->MaxVelocity() >= 0)
+    joint.velocity = axis->MaxVelocity();
   joint.damping = axis->Damping();
   joint.friction = axis->Friction();
 }
@@ -227,13 +244,14 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
   out.parent = unveiled(out.parent);
   out.child = unveiled(out.child);
   out.joint.X_LcJ = to_pose(pose);
-  if (out.joint.type == Type::kRevolute || out.joint.type == Type::kPrismatic) read_axis(from, xml, out.joint, faults);
+  if (out.joint.type == Type::kRevolute || out.joint.type == Type::kPrismatic)
+    read_axis(from, xml, out.joint, faults);
   return out;
 }
 
 // Orders links from the base outward; every link but the base must hang on exactly one joint.
-void order_tree(const Element& model, std::vector<scene::Link> links, std::vector<NamedJoint> joints,
-                scene::Machine& machine, Faults& faults) {
+void order_tree(const Element& model, std::vector<scene::Link> links,
+                std::vector<NamedJoint> joints, scene::Machine& machine, Faults& faults) {
   auto element_of = [&](const char* kind, const std::string& name) -> const Element& {
     const Element* element = named_child(model, kind, name);
     return element ? *element : model;
@@ -244,7 +262,8 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
   for (const NamedJoint& joint : joints) {
     if (joint.parent == "world") continue;
     if (std::find(moved.begin(), moved.end(), joint.child) != moved.end())
-      faults.error(element_of("joint", joint.joint.name), joint.child, "a link can be the child of one joint only",
+      faults.error(element_of("joint", joint.joint.name), joint.child,
+                   "a link can be the child of one joint only",
                    "closed loops such as cylinders are described by navvy:cylinder");
     moved.push_back(joint.child);
   }
@@ -258,14 +277,16 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
                  "add a joint (type fixed to weld it), or make it a model of its own");
   if (faults.error_count() > before) return;
 
-  // Breadth first from the base. Joints keep the order of the file below one parent, so indices follow the file.
+  // Breadth first from the base. Joints keep the order of the file below one parent, so indices
+  // follow the file.
   machine.links.push_back(links[bases[0]]);
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
     for (NamedJoint& joint : joints) {
       const scene::Link& parent = machine.links[i];
       if (joint.parent != parent.name) continue;
-      const auto child =
-          std::find_if(links.begin(), links.end(), [&](const scene::Link& link) { return link.name == joint.child; });
+      const auto child = std::find_if(links.begin(), links.end(), [&](const scene::Link& link) {
+        return link.name == joint.child;
+      });
       joint.joint.parent = static_cast<int>(i);
       joint.joint.child = static_cast<int>(machine.links.size());
       machine.joints.push_back(joint.joint);
@@ -273,7 +294,8 @@ void order_tree(const Element& model, std::vector<scene::Link> links, std::vecto
     }
   }
   // A loop that hangs on nothing is never reached from the base, so its links are missing.
-  if (machine.links.size() != links.size()) faults.error(model, "", "the joints form a loop beside the base");
+  if (machine.links.size() != links.size())
+    faults.error(model, "", "the joints form a loop beside the base");
 
   for (const NamedJoint& joint : joints) {
     if (joint.parent != "world") continue;
@@ -314,7 +336,8 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
         joints.push_back(read_joint(joint, *xml, faults));
     }
     // A model with faults of its own has no tree to speak of.
-    if (faults.error_count() == before) order_tree(model, std::move(links), std::move(joints), machine, faults);
+    if (faults.error_count() == before)
+      order_tree(model, std::move(links), std::move(joints), machine, faults);
   } catch (const std::exception& failure) {
     faults.error(model, "", std::string("libsdformat failed: ") + failure.what());
   } catch (const sdf::Exception& failure) {

@@ -7,10 +7,11 @@
 
 namespace navvy::scene_io {
 
-/// Reads links, inertias, shapes and joints of a <model> through libsdformat, which resolves frames and relative poses.
-/// The links come out as a tree, base first and every parent before its children; joint i moves link i + 1. A fixed
-/// joint to the world becomes `fixed_base`. Call only when `check_sdf` found no fault. Faults
-/// that only libsdformat finds are reported at the element they name.
+/// Reads links, inertias, shapes and joints of a <model> through libsdformat, which resolves frames
+/// and relative poses. The links come out as a tree, base first and every parent before its
+/// children; joint i moves link i + 1. A fixed joint to the world becomes `fixed_base`. Call only
+/// when `check_sdf` found no fault. Faults that only libsdformat finds are reported at the element
+/// they name.
 bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& faults);
 
 }  // namespace navvy::scene_io

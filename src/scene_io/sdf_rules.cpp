@@ -12,8 +12,8 @@ namespace navvy::scene_io {
 
 namespace {
 
-// kUsed is read; kWarn leaves the simulation as it would be without it; kError would change the physics if it were
-// passed over.
+// kUsed is read; kWarn leaves the simulation as it would be without it; kError would change the
+// physics if it were passed over.
 enum class Support { kUsed, kWarn, kError };
 // What an element's text must be. kElements holds elements and no text, kAny is not looked into.
 enum class Type { kElements, kNumber, kNumbers3, kFlag, kText, kPose, kColor, kAny };
@@ -42,36 +42,42 @@ const Rule kRules[] = {
     {"sdf", "light", kWarn, Type::kAny, kAnyRange, "a light belongs into a world"},
     {"sdf", "actor", kError, Type::kAny, kAnyRange, "actors are not supported"},
 
-    // What surrounds a machine in Gazebo: ignoring it leaves the machine as it is, but for wind and what would add
-    // bodies.
+    // What surrounds a machine in Gazebo: ignoring it leaves the machine as it is, but for wind and
+    // what would add bodies.
     {"world", "include"},
     {"world", "model"},
     {"world", "gravity", kUsed, Type::kNumbers3, {-100, 100}},
     {"world", "light"},
-    {"world", "physics", kWarn, Type::kAny, kAnyRange, "Navvy chooses its own engine; its steps are in navvy:solver"},
+    {"world", "physics", kWarn, Type::kAny, kAnyRange,
+     "Navvy chooses its own engine; its steps are in navvy:solver"},
     {"world", "scene", kWarn, Type::kAny, kAnyRange, kLook},
     {"world", "gui", kWarn, Type::kAny, kAnyRange, "Navvy has no window"},
     {"world", "plugin", kWarn, Type::kAny, kAnyRange, "plugins of Gazebo are not run"},
     {"world", "audio", kWarn, Type::kAny, kAnyRange, "there is no sound"},
     {"world", "magnetic_field", kWarn, Type::kAny, kAnyRange, kSensors},
-    {"world", "spherical_coordinates", kWarn, Type::kAny, kAnyRange, "the heightmap file says where it lies"},
+    {"world", "spherical_coordinates", kWarn, Type::kAny, kAnyRange,
+     "the heightmap file says where it lies"},
     {"world", "atmosphere", kWarn, Type::kAny, kAnyRange, "there is no air drag"},
     {"world", "wind", kError, Type::kAny, kAnyRange, "wind is not supported"},
     {"world", "actor", kWarn, Type::kAny, kAnyRange, "actors are not supported"},
     {"world", "road", kWarn, Type::kAny, kAnyRange, "roads are not supported"},
-    {"world", "population", kError, Type::kAny, kAnyRange, "populations are not supported; list the models"},
+    {"world", "population", kError, Type::kAny, kAnyRange,
+     "populations are not supported; list the models"},
     {"world", "state", kError, Type::kAny, kAnyRange, "saved states of Gazebo cannot be loaded"},
-    {"world", "frame", kError, Type::kAny, kAnyRange, "frames are supported in models only; give poses in the world"},
+    {"world", "frame", kError, Type::kAny, kAnyRange,
+     "frames are supported in models only; give poses in the world"},
 
     // A machine from a file of its own; what is said here holds for this world alone.
     {"include", "uri", kUsed, Type::kText},
     {"include", "name", kUsed, Type::kText},
     {"include", "pose", kUsed, Type::kPose},
     {"include", "static", kUsed, Type::kFlag},
-    {"include", "placement_frame", kError, Type::kText, kAnyRange, "not supported; place the model's origin"},
+    {"include", "placement_frame", kError, Type::kText, kAnyRange,
+     "not supported; place the model's origin"},
     {"include", "plugin", kError, Type::kAny, kAnyRange, "plugins are not run; use navvy:program"},
 
-    // Only directional lights are drawn, and the first as the sun; what refines a light changes no pixel's meaning.
+    // Only directional lights are drawn, and the first as the sun; what refines a light changes no
+    // pixel's meaning.
     {"light", "direction", kUsed, Type::kNumbers3},
     {"light", "diffuse", kUsed, Type::kColor, {0, 1}},
     {"light", "pose", kWarn, Type::kPose, kAnyRange, "a directional light has no place"},
@@ -83,7 +89,8 @@ const Rule kRules[] = {
     {"light", "visualize", kWarn, Type::kAny, kAnyRange, kLook},
     {"light", "light_on", kWarn, Type::kAny, kAnyRange, kLook},
 
-    // A machine. Whatever drives a model in Gazebo is refused, as it would stand still here without a word.
+    // A machine. Whatever drives a model in Gazebo is refused, as it would stand still here without
+    // a word.
     {"model", "static", kUsed, Type::kFlag},
     {"model", "pose", kUsed, Type::kPose},
     {"model", "link"},
@@ -96,18 +103,22 @@ const Rule kRules[] = {
     {"model", "gripper", kError, Type::kAny, kAnyRange, "grippers are not supported"},
     {"frame", "pose", kUsed, Type::kPose},
 
-    // What changes how a single link moves is refused, as it would move otherwise than its author meant.
+    // What changes how a single link moves is refused, as it would move otherwise than its author
+    // meant.
     {"link", "pose", kUsed, Type::kPose},
     {"link", "inertial"},
     {"link", "visual"},
     {"link", "collision"},
     {"link", "gravity", kError, Type::kFlag, kAnyRange, "gravity acts on every link"},
-    {"link", "kinematic", kError, Type::kFlag, kAnyRange, "whole machines only: navvy:engine kinematic"},
+    {"link", "kinematic", kError, Type::kFlag, kAnyRange,
+     "whole machines only: navvy:engine kinematic"},
     {"link", "velocity_decay", kError, Type::kAny, kAnyRange, "use the joints' damping"},
-    {"link", "must_be_base_link", kError, Type::kFlag, kAnyRange, "the link without a parent joint is the base"},
+    {"link", "must_be_base_link", kError, Type::kFlag, kAnyRange,
+     "the link without a parent joint is the base"},
     {"link", "self_collide", kWarn, Type::kFlag, kAnyRange, "links of one machine never collide"},
     {"link", "enable_wind", kWarn, Type::kFlag, kAnyRange, "there is no wind"},
-    {"link", "sensor", kWarn, Type::kAny, kAnyRange, "sensors are not simulated yet; for pictures use navvy:camera"},
+    {"link", "sensor", kWarn, Type::kAny, kAnyRange,
+     "sensors are not simulated yet; for pictures use navvy:camera"},
     {"link", "light", kWarn, Type::kAny, kAnyRange, kLook},
     {"link", "projector", kWarn, Type::kAny, kAnyRange, kLook},
     {"link", "particle_emitter", kWarn, Type::kAny, kAnyRange, kLook},
@@ -115,7 +126,8 @@ const Rule kRules[] = {
     {"link", "audio_sink", kWarn, Type::kAny, kAnyRange, "there is no sound"},
     {"link", "battery", kWarn, Type::kAny, kAnyRange, "batteries are not simulated"},
 
-    // The lower bounds keep the solver's divisions finite; a body of a milligram in a machine is a slip.
+    // The lower bounds keep the solver's divisions finite; a body of a milligram in a machine is a
+    // slip.
     {"inertial", "mass", kUsed, Type::kNumber, {1e-6, 1e8}},
     {"inertial", "pose", kUsed, Type::kPose},
     {"inertial", "inertia"},
@@ -138,10 +150,12 @@ const Rule kRules[] = {
     {"visual", "meta", kWarn, Type::kAny, kAnyRange, kLook},
     {"visual", "plugin", kWarn, Type::kAny, kAnyRange, kLook},
     {"material", "diffuse", kUsed, Type::kColor, {0, 1}},
-    {"material", "ambient", kUsed, Type::kColor, {0, 1}},  // diffuse alone decides; ambient is usually its copy
+    // Diffuse alone decides; ambient is usually its copy
+    {"material", "ambient", kUsed, Type::kColor, {0, 1}},
     {"material", "specular", kUsed, Type::kColor, {0, 1}},
     {"material", "emissive", kWarn, Type::kColor, {0, 1}, kLook},
-    {"material", "script", kWarn, Type::kAny, kAnyRange, "scripts of OGRE are not read; use diffuse"},
+    {"material", "script", kWarn, Type::kAny, kAnyRange,
+     "scripts of OGRE are not read; use diffuse"},
     {"material", "shader", kWarn, Type::kAny, kAnyRange, kLook},
     {"material", "pbr", kWarn, Type::kAny, kAnyRange, kLook},
     {"material", "lighting", kWarn, Type::kAny, kAnyRange, kLook},
@@ -160,13 +174,19 @@ const Rule kRules[] = {
     {"surface", "bounce"},
     {"surface", "soft_contact", kError, Type::kAny, kAnyRange, "soft bodies are not supported"},
     {"friction", "ode"},
-    {"friction", "bullet", kError, Type::kAny, kAnyRange, "give the coefficient as friction/ode/mu"},
+    {"friction", "bullet", kError, Type::kAny, kAnyRange,
+     "give the coefficient as friction/ode/mu"},
     {"friction", "torsional", kError, Type::kAny, kAnyRange, "torsional friction is not supported"},
     {"bounce", "restitution_coefficient", kError, Type::kNumber, kAnyRange,
      "bodies do not rebound by themselves: give it by pairs, in navvy:materials"},
     {"bounce", "threshold", kWarn, Type::kNumber, kAnyRange, "the engine chooses"},
     {"ode", "mu", kUsed, Type::kNumber, {0, 1000}},  // Gazebo's ground_plane has 100
-    {"ode", "mu2", kWarn, Type::kNumber, {0, 1000}, "friction is the same in all directions, that of mu"},
+    {"ode",
+     "mu2",
+     kWarn,
+     Type::kNumber,
+     {0, 1000},
+     "friction is the same in all directions, that of mu"},
     {"ode", "fdir1", kError, Type::kAny, kAnyRange, "friction is the same in all directions"},
     {"ode", "slip1", kError, Type::kAny, kAnyRange, "not supported"},
     {"ode", "slip2", kError, Type::kAny, kAnyRange, "not supported"},
@@ -180,7 +200,8 @@ const Rule kRules[] = {
     {"geometry", "capsule"},
     {"geometry", "cone"},
     {"geometry", "ellipsoid", kError, Type::kAny, kAnyRange, "use another shape, or mesh"},
-    {"geometry", "heightmap", kError, Type::kAny, kAnyRange, "the ground of a world is navvy:ground/file"},
+    {"geometry", "heightmap", kError, Type::kAny, kAnyRange,
+     "the ground of a world is navvy:ground/file"},
     {"geometry", "image", kError, Type::kAny, kAnyRange, "use another shape, or mesh"},
     {"geometry", "polyline", kError, Type::kAny, kAnyRange, "use another shape, or mesh"},
     {"geometry", "empty", kError, Type::kAny, kAnyRange, "remove the visual or collision"},
@@ -203,13 +224,17 @@ const Rule kRules[] = {
     {"joint", "child", kUsed, Type::kText},
     {"joint", "pose", kUsed, Type::kPose},
     {"joint", "axis"},
-    {"joint", "axis2", kError, Type::kAny, kAnyRange, "joints have one axis; use two joints and a small link"},
+    {"joint", "axis2", kError, Type::kAny, kAnyRange,
+     "joints have one axis; use two joints and a small link"},
     {"joint", "physics", kWarn, Type::kAny, kAnyRange, "settings of other engines"},
     {"joint", "sensor", kWarn, Type::kAny, kAnyRange, kSensors},
     {"joint", "thread_pitch", kError, Type::kNumber, kAnyRange, "screw joints are not supported"},
-    {"joint", "screw_thread_pitch", kError, Type::kNumber, kAnyRange, "screw joints are not supported"},
-    {"joint", "gearbox_ratio", kError, Type::kNumber, kAnyRange, "gearbox joints are not supported"},
-    {"joint", "gearbox_reference_body", kError, Type::kText, kAnyRange, "gearbox joints are not supported"},
+    {"joint", "screw_thread_pitch", kError, Type::kNumber, kAnyRange,
+     "screw joints are not supported"},
+    {"joint", "gearbox_ratio", kError, Type::kNumber, kAnyRange,
+     "gearbox joints are not supported"},
+    {"joint", "gearbox_reference_body", kError, Type::kText, kAnyRange,
+     "gearbox joints are not supported"},
     {"axis", "xyz", kUsed, Type::kNumbers3, {-1e3, 1e3}},
     {"axis", "limit"},
     {"axis", "dynamics"},
@@ -221,8 +246,10 @@ const Rule kRules[] = {
     {"limit", "dissipation", kError, Type::kNumber, kAnyRange, "joint stops are firm"},
     {"dynamics", "damping", kUsed, Type::kNumber, {0, 1e12}},
     {"dynamics", "friction", kUsed, Type::kNumber, {0, 1e12}},
-    {"dynamics", "spring_reference", kError, Type::kNumber, kAnyRange, "joint springs are not supported"},
-    {"dynamics", "spring_stiffness", kError, Type::kNumber, kAnyRange, "joint springs are not supported"},
+    {"dynamics", "spring_reference", kError, Type::kNumber, kAnyRange,
+     "joint springs are not supported"},
+    {"dynamics", "spring_stiffness", kError, Type::kNumber, kAnyRange,
+     "joint springs are not supported"},
 };
 
 struct Extension {
@@ -286,13 +313,15 @@ std::vector<std::string> names_in(const char* parent) {
   // For suggestions only, so what is not supported is not offered.
   std::vector<std::string> names;
   for (const Rule& rule : kRules)
-    if (std::strcmp(rule.parent, parent) == 0 && rule.support == Support::kUsed) names.push_back(rule.name);
+    if (std::strcmp(rule.parent, parent) == 0 && rule.support == Support::kUsed)
+      names.push_back(rule.name);
   for (const Extension& extension : kExtensions)
     if (std::strcmp(extension.parent, parent) == 0) names.push_back(extension.name);
   return names;
 }
 
-/// Angles of a pose are radians unless it says otherwise; more than a turn of them is likely meant as degrees.
+/// Angles of a pose are radians unless it says otherwise; more than a turn of them is likely meant
+/// as degrees.
 void ask_about_turns(const Element& element, Faults& faults) {
   constexpr double kTurn = 2 * kPi + 0.01;
   if (attribute(element, "degrees") == "true" || attribute(element, "degrees") == "1") return;
@@ -300,10 +329,10 @@ void ask_about_turns(const Element& element, Faults& faults) {
   const std::vector<std::string> words = words_of(text_of(element));
   for (std::size_t i = 3; i < 6 && i < words.size(); ++i) {
     if (std::abs(std::strtod(words[i].c_str(), nullptr)) <= kTurn) continue;
-    faults.warning(
-        element, text_of(element),
-        "the angles of a pose are in radians: " + words[i] + " is more than a whole turn; were degrees meant?",
-        "write <pose degrees=\"true\">, or give radians");
+    faults.warning(element, text_of(element),
+                   "the angles of a pose are in radians: " + words[i] +
+                       " is more than a whole turn; were degrees meant?",
+                   "write <pose degrees=\"true\">, or give radians");
     return;
   }
 }
@@ -312,8 +341,8 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
   std::vector<double> numbers;
   bool flag = false;
   Pose pose;
-  // Only that the value can be read is asked for here; its reader takes it later, and what has a fault keeps its
-  // default.
+  // Only that the value can be read is asked for here; its reader takes it later, and what has a
+  // fault keeps its default.
   switch (rule.type) {
     case Type::kNumber:
       read_numbers(element, 1, rule.range, numbers, faults);
@@ -342,7 +371,8 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
       break;
     case Type::kElements:
       if (!text_of(element).empty())
-        faults.error(element, text_of(element), "text is not allowed between the elements here", "remove it");
+        faults.error(element, text_of(element), "text is not allowed between the elements here",
+                     "remove it");
       break;
     case Type::kAny:
       break;
@@ -353,20 +383,22 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
 
 // Elements that may occur more than once below one parent.
 bool may_repeat(const char* name) {
-  // Named elements, whose names must differ, and lists of settings. The rest stands once, or the reader would take the
-  // first and drop the others.
+  // Named elements, whose names must differ, and lists of settings. The rest stands once, or the
+  // reader would take the first and drop the others.
   for (const char* repeatable :
-       {"model",        "include",      "light",        "link",         "joint",          "frame",
-        "visual",       "collision",    "plugin",       "sensor",       "physics",        "navvy:soil",
-        "navvy:camera", "navvy:record", "navvy:joint",  "navvy:hitch",  "navvy:cylinder", "navvy:wheel",
-        "navvy:track",  "navvy:shell",  "navvy:bucket", "navvy:encoder"})
+       {"model",        "include",        "light",        "link",         "joint",
+        "frame",        "visual",         "collision",    "plugin",       "sensor",
+        "physics",      "navvy:soil",     "navvy:camera", "navvy:record", "navvy:joint",
+        "navvy:hitch",  "navvy:cylinder", "navvy:wheel",  "navvy:track",  "navvy:shell",
+        "navvy:bucket", "navvy:encoder"})
     if (std::strcmp(name, repeatable) == 0) return true;
   return false;
 }
 
 void check_names(const Element& element, Faults& faults) {
   const std::string kind = element.Name();
-  static const std::set<std::string> named = {"world", "model", "link", "joint", "frame", "visual", "collision"};
+  static const std::set<std::string> named = {"world", "model",  "link",     "joint",
+                                              "frame", "visual", "collision"};
   if (named.count(kind) == 0) return;
   // An element without a name could not be meant by another, nor blamed in a message.
   const std::string name = attribute(element, "name");
@@ -380,19 +412,24 @@ void check_names(const Element& element, Faults& faults) {
 
 void check_children(const Element& element, Faults& faults) {
   std::set<std::string> once, names;
-  for (const Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+  for (const Element* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
     const char* name = child->Name();
     // What is unknown is told as such, and once.
     const bool known = is_extension(*child) || find_rule(element.Name(), name);
     if (known && !may_repeat(name) && !once.insert(name).second)
       faults.error(*child, "", "must occur only once", "remove one of them");
-    // Links, joints, frames and nested models share one space of names in SDF; visuals and collisions have one each.
+    // Links, joints, frames and nested models share one space of names in SDF; visuals and
+    // collisions have one each.
     const bool scoped = std::strcmp(name, "link") == 0 || std::strcmp(name, "joint") == 0 ||
                         std::strcmp(name, "frame") == 0 || std::strcmp(name, "model") == 0;
-    const std::string key = scoped ? attribute(*child, "name") : std::string(name) + "/" + attribute(*child, "name");
-    const bool counted = scoped || std::strcmp(name, "visual") == 0 || std::strcmp(name, "collision") == 0;
+    const std::string key =
+        scoped ? attribute(*child, "name") : std::string(name) + "/" + attribute(*child, "name");
+    const bool counted =
+        scoped || std::strcmp(name, "visual") == 0 || std::strcmp(name, "collision") == 0;
     if (counted && child->Attribute("name") && !names.insert(key).second)
-      faults.error(*child, attribute(*child, "name"), "names must be unique here", "rename one of them");
+      faults.error(*child, attribute(*child, "name"), "names must be unique here",
+                   "rename one of them");
     check_sdf(*child, faults);
   }
 }
@@ -404,9 +441,11 @@ void check_sdf(const Element& element, Faults& faults) {
   const char* parent = parent_node ? parent_node->Name() : "";
   const char* name = element.Name();
   if (parent_node && is_extension(element)) {
-    // What is inside an extension element is the business of its own reader; here only its place is judged.
+    // What is inside an extension element is the business of its own reader; here only its place is
+    // judged.
     for (const Extension& extension : kExtensions)
-      if (std::strcmp(extension.parent, parent) == 0 && std::strcmp(extension.name, name) == 0) return;
+      if (std::strcmp(extension.parent, parent) == 0 && std::strcmp(extension.name, name) == 0)
+        return;
     faults.error(element, "", std::string("unknown extension element in <") + parent + ">",
                  faults.nearest(name, names_in(parent)));
     return;
@@ -418,8 +457,10 @@ void check_sdf(const Element& element, Faults& faults) {
                    faults.nearest(name, names_in(parent)));
       return;
     }
-    if (rule->support == Support::kError) faults.error(element, text_of(element), "is not supported", rule->why);
-    if (rule->support == Support::kWarn) faults.warning(element, text_of(element), "is ignored", rule->why);
+    if (rule->support == Support::kError)
+      faults.error(element, text_of(element), "is not supported", rule->why);
+    if (rule->support == Support::kWarn)
+      faults.warning(element, text_of(element), "is ignored", rule->why);
     // The value is checked also where it is ignored, as a fault there points to a misunderstanding.
     check_value(element, *rule, faults);
     if (rule->support != Support::kUsed) return;
@@ -444,13 +485,14 @@ bool is_used_sdf(const char* parent, const char* name) {
 
 bool check_root(const Element& root, Faults& faults) {
   if (std::strcmp(root.Name(), "sdf") != 0) {
-    faults.error(root, root.Name(), "the outermost element must be <sdf version=\"1.9\">",
-                 std::strcmp(root.Name(), "robot") == 0 ? "convert URDF with `gz sdf -p FILE`" : "");
+    faults.error(
+        root, root.Name(), "the outermost element must be <sdf version=\"1.9\">",
+        std::strcmp(root.Name(), "robot") == 0 ? "convert URDF with `gz sdf -p FILE`" : "");
     return false;
   }
   const std::string version = attribute(root, "version");
-  // libsdformat reads a model by the version that its file names. Before 1.7 joints had their axes in other frames;
-  // what stands still, such as Gazebo's ground plane, reads alike.
+  // libsdformat reads a model by the version that its file names. Before 1.7 joints had their axes
+  // in other frames; what stands still, such as Gazebo's ground plane, reads alike.
   const auto* model = root.FirstChildElement("model");
   const bool old = version == "1.3" || version == "1.4" || version == "1.5" || version == "1.6";
   if (old && model != nullptr && !model->FirstChildElement("joint")) return true;

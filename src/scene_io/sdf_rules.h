@@ -6,12 +6,14 @@
 
 namespace navvy::scene_io {
 
-/// Walks the SDF part of a file (everything outside `navvy:`) below `element` and reports unknown elements, elements
-/// that are not supported (error where ignoring them would change the physics, warning where not), values that are no
-/// numbers or out of range, and missing names. Extension elements are checked for their place only.
+/// Walks the SDF part of a file (everything outside `navvy:`) below `element` and reports unknown
+/// elements, elements that are not supported (error where ignoring them would change the physics,
+/// warning where not), values that are no numbers or out of range, and missing names. Extension
+/// elements are checked for their place only.
 void check_sdf(const Element& element, Faults& faults);
 
-/// True for elements of SDF that Navvy uses; false for extension elements, unknown and ignored ones.
+/// True for elements of SDF that Navvy uses; false for extension elements, unknown and ignored
+/// ones.
 bool is_used_sdf(const Element& element);
 /// The same by names: an element `name` below one called `parent`.
 bool is_used_sdf(const char* parent, const char* name);

@@ -18,12 +18,13 @@ sdf::ElementPtr cut_down(const sdf::ElementPtr& from) {
   }
   if (const sdf::ParamPtr value = from->GetValue()) {
     const auto least = value->GetMinValueAsString(), most = value->GetMaxValueAsString();
-    to->AddValue(value->GetTypeName(), value->GetDefaultAsString(), value->GetRequired(), least.value_or(""),
-                 most.value_or(""));
+    to->AddValue(value->GetTypeName(), value->GetDefaultAsString(), value->GetRequired(),
+                 least.value_or(""), most.value_or(""));
   }
   for (std::size_t i = 0; i < from->GetElementDescriptionCount(); ++i) {
     const sdf::ElementPtr below = from->GetElementDescription(static_cast<unsigned>(i));
-    if (is_used_sdf(from->GetName().c_str(), below->GetName().c_str())) to->AddElementDescription(cut_down(below));
+    if (is_used_sdf(from->GetName().c_str(), below->GetName().c_str()))
+      to->AddElementDescription(cut_down(below));
   }
   return to;
 }
@@ -41,7 +42,8 @@ const sdf::ElementPtr& description() {
 
 sdf::Errors parse_model(const std::string& text, sdf::Root& root) {
   sdf::ParserConfig config;
-  // Its warnings count as errors: check_sdf has let through only what is understood, so one of them means a misreading.
+  // Its warnings count as errors: check_sdf has let through only what is understood, so one of them
+  // means a misreading.
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   const auto document = std::make_shared<sdf::SDF>();
@@ -49,7 +51,8 @@ sdf::Errors parse_model(const std::string& text, sdf::Root& root) {
   document->Root(description()->Clone());
   sdf::Errors errors;
   if (!sdf::readString(text, config, document, errors)) {
-    if (errors.empty()) errors.emplace_back(sdf::ErrorCode::STRING_READ, "the model cannot be read");
+    if (errors.empty())
+      errors.emplace_back(sdf::ErrorCode::STRING_READ, "the model cannot be read");
     return errors;
   }
   const sdf::Errors found = root.Load(document, config);

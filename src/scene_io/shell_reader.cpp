@@ -12,19 +12,21 @@ namespace navvy::scene_io {
 
 namespace {
 
-void read_triangles(Element& element, const std::vector<double>& vertices, const std::vector<double>& corners,
-                    scene::Shell& shell, Faults& faults) {
-  if (vertices.size() % 3 != 0) faults.error(element, "", "vertices_m must hold 3 numbers a vertex");
-  if (corners.size() % 3 != 0) faults.error(element, "", "triangles must hold 3 vertex indices a triangle");
+void read_triangles(Element& element, const std::vector<double>& vertices,
+                    const std::vector<double>& corners, scene::Shell& shell, Faults& faults) {
+  if (vertices.size() % 3 != 0)
+    faults.error(element, "", "vertices_m must hold 3 numbers a vertex");
+  if (corners.size() % 3 != 0)
+    faults.error(element, "", "triangles must hold 3 vertex indices a triangle");
   for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
     shell.vertices.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-    shell.triangles.push_back(
-        {static_cast<int>(corners[i]), static_cast<int>(corners[i + 1]), static_cast<int>(corners[i + 2])});
+    shell.triangles.push_back({static_cast<int>(corners[i]), static_cast<int>(corners[i + 1]),
+                               static_cast<int>(corners[i + 2])});
 }
 
-/// The solver needs areas, and one side that is the inside: two triangles run along a shared edge in opposite
-/// directions.
+/// The solver needs areas, and one side that is the inside: two triangles run along a shared edge
+/// in opposite directions.
 void check_surface(const Element& element, const scene::Shell& shell, Faults& faults) {
   const auto named = [&](std::size_t n) {
     const std::array<int, 3>& t = shell.triangles[n];
@@ -36,7 +38,8 @@ void check_surface(const Element& element, const scene::Shell& shell, Faults& fa
                    "remove it or mend its corners");
   if (const auto clash = geometry::find_winding_clash(shell))
     faults.error(element, named(clash->second),
-                 "triangles " + std::to_string(clash->first) + " and " + std::to_string(clash->second) +
+                 "triangles " + std::to_string(clash->first) + " and " +
+                     std::to_string(clash->second) +
                      " are wound against each other along their edge",
                  "wind the whole shell alike: counter-clockwise as seen from the inside");
 }
@@ -78,16 +81,21 @@ scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
   }
   for (const auto& triangle : shell.triangles) {
     const int count = static_cast<int>(shell.vertices.size());
-    const bool inside = std::all_of(triangle.begin(), triangle.end(), [&](int i) { return i >= 0 && i < count; });
-    if (!inside || triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[0] == triangle[2]) {
-      faults.error(element,
-                   std::to_string(triangle[0]) + " " + std::to_string(triangle[1]) + " " + std::to_string(triangle[2]),
-                   "a triangle must name three different vertices from 0 to " + std::to_string(count - 1));
+    const bool inside =
+        std::all_of(triangle.begin(), triangle.end(), [&](int i) { return i >= 0 && i < count; });
+    if (!inside || triangle[0] == triangle[1] || triangle[1] == triangle[2] ||
+        triangle[0] == triangle[2]) {
+      faults.error(
+          element,
+          std::to_string(triangle[0]) + " " + std::to_string(triangle[1]) + " " +
+              std::to_string(triangle[2]),
+          "a triangle must name three different vertices from 0 to " + std::to_string(count - 1));
       shell.triangles.clear();
       return shell;
     }
   }
-  if (shell.triangles.empty() && (inline_given || !path.empty())) faults.error(element, "", "holds no triangle");
+  if (shell.triangles.empty() && (inline_given || !path.empty()))
+    faults.error(element, "", "holds no triangle");
   check_surface(element, shell, faults);
   return shell;
 }

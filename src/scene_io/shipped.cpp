@@ -27,9 +27,9 @@ std::map<std::string, std::string> shipped_machines() {
 std::vector<scene::Soil> shipped_soils() {
   const std::string directory = find_data("terrain/soils");
   if (directory.empty())
-    throw InputError(Fault{Fault::Severity::kError, "terrain/soils", 0, "", "",
-                           "the shipped soils were not found",
-                           "set NAVVY_DATA_DIR to the directory that holds terrain/ and vehicles/"});
+    throw InputError(Fault{
+        Fault::Severity::kError, "terrain/soils", 0, "", "", "the shipped soils were not found",
+        "set NAVVY_DATA_DIR to the directory that holds terrain/ and vehicles/"});
   return load_soils(directory);
 }
 
@@ -48,7 +48,8 @@ std::string description_of(const std::string& file) {
   std::string text(4096, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at + 4)) {
+  for (std::size_t at = text.find("<!--"); at != std::string::npos;
+       at = text.find("<!--", at + 4)) {
     const std::size_t end = text.find("-->", at);
     if (end == std::string::npos) break;
     const std::string comment = text.substr(at + 4, end - at - 4);

@@ -10,8 +10,8 @@
 
 namespace navvy::scene_io {
 
-/// Returns the files of the shipped machines by name, which scenes use as model://NAME. Searches all
-/// data directories; the first one that has a name wins.
+/// Returns the files of the shipped machines by name, which scenes use as model://NAME. Searches
+/// all data directories; the first one that has a name wins.
 std::map<std::string, std::string> shipped_machines();
 
 /// Returns the shipped soils, sorted by name. @throws InputError when none are found.

@@ -14,38 +14,45 @@ namespace navvy::scene_io {
 
 namespace {
 
-// The names, ranges and units are those of scene/soil_values.h, so that the laboratory's files and the scenes agree.
+// The names, ranges and units are those of scene/soil_values.h, so that the laboratory's files and
+// the scenes agree.
 void read_values(Element& element, scene::Soil& soil, Faults& faults) {
   std::vector<double> color;
   double repose = 0;
   Fields fields(element, faults);
   fields.attribute("name").attribute("ref").text("source", soil.source);
-  // Values that are not given keep what the soil had before: the defaults, or those of the soil it refers to.
+  // Values that are not given keep what the soil had before: the defaults, or those of the soil it
+  // refers to.
   for (const scene::SoilValue& v : scene::soil_values())
     fields.number(v.name, soil.*v.value, {v.low, v.high}, v.factor);
   fields.number("repose_angle_deg", repose, {0, 44}, kDegree).list("color", color, {0, 1}).finish();
   if (Element* child = fields.child("color")) {
     // A fault in the list has been reported, so only a wrong number of numbers is left to tell.
     if (color.size() == 3) {
-      for (int i = 0; i < 3; ++i) soil.color[i] = static_cast<float>(color[static_cast<std::size_t>(i)]);
+      for (int i = 0; i < 3; ++i)
+        soil.color[i] = static_cast<float>(color[static_cast<std::size_t>(i)]);
     } else if (!color.empty() || text_of(*child).empty()) {
       faults.error(*child, text_of(*child), "must be 3 numbers from 0 to 1: red green blue");
     }
   }
-  // Plane strain without dilatancy: loose soil flows above atan(sin phi), so a repose angle t means sin phi = tan t.
+  // Plane strain without dilatancy: loose soil flows above atan(sin phi), so a repose angle t means
+  // sin phi = tan t.
   if (Element* child = fields.child("repose_angle_deg")) {
     if (fields.has("friction_angle_deg")) {
-      faults.error(*child, text_of(*child), "give either repose_angle_deg or friction_angle_deg", "remove one");
+      faults.error(*child, text_of(*child), "give either repose_angle_deg or friction_angle_deg",
+                   "remove one");
     } else {
       soil.friction_angle = std::asin(std::min(1.0, std::tan(repose)));
     }
   }
 }
 
-// Relations are judged once all values are read, and told at the element that the scene wrote, if it did.
+// Relations are judged once all values are read, and told at the element that the scene wrote, if
+// it did.
 void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
   for (const Fault& fault : scene::check_relations(soil)) {
-    const Element* child = element.FirstChildElement(fault.element.substr(fault.element.rfind('/') + 1).c_str());
+    const Element* child =
+        element.FirstChildElement(fault.element.substr(fault.element.rfind('/') + 1).c_str());
     faults.error(child != nullptr ? *child : element, fault.value, fault.rule, fault.remedy);
   }
 }
@@ -57,7 +64,8 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
     // Gathered only for the message; soils that lie in two places are named once.
     std::vector<std::string> known;
     for (const std::string& directory : data_directories())
-      for (const auto& entry : std::filesystem::directory_iterator(directory + "/terrain/soils", ignored))
+      for (const auto& entry :
+           std::filesystem::directory_iterator(directory + "/terrain/soils", ignored))
         if (entry.path().extension() == ".sdf") known.push_back(entry.path().stem().string());
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
@@ -73,8 +81,9 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
 
 }  // namespace
 
-// A name that ends in .sdf is a path from the file that holds it; others are names of shipped soils, which have no
-// folders, so that a path without its ending is not searched for all over the data.
+// A name that ends in .sdf is a path from the file that holds it; others are names of shipped
+// soils, which have no folders, so that a path without its ending is not searched for all over the
+// data.
 std::string soil_file(const Element& element, const std::string& ref) {
   if (ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0)
     return (std::filesystem::path(Document::of(element).directory()) / ref).string();
@@ -88,29 +97,34 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   // What the soil refers to comes first, and what stands in the element replaces it value by value.
   if (!ref.empty()) {
     // Soil files must not refer to others: no loops to follow.
-    if (!element.Parent()->ToElement() || std::string(element.Parent()->ToElement()->Name()) == "sdf")
+    if (!element.Parent()->ToElement() ||
+        std::string(element.Parent()->ToElement()->Name()) == "sdf")
       faults.error(element, ref, "ref is for worlds; a soil file holds values");
     else
       inherit(element, ref, soil, faults);
   }
   if (!name.empty()) soil.name = name;
   if (ref.empty() && name.empty())
-    faults.error(element, "", "needs an attribute name=\"...\" (own values) or ref=\"...\" (a shipped soil)");
+    faults.error(element, "",
+                 "needs an attribute name=\"...\" (own values) or ref=\"...\" (a shipped soil)");
   const double cohesion = soil.cohesion, residual = soil.residual_cohesion;
   read_values(element, soil, faults);
-  // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one line only.
+  // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one
+  // line only.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)
     soil.residual_cohesion = std::min(residual, soil.cohesion);
   const Element* loose = element.FirstChildElement("loose_cohesion_pa");
   if (loose == nullptr)
     scene::follow_residual_cohesion(soil, residual);
   else if (soil.loose_cohesion > soil.residual_cohesion)
-    faults.error(*loose, text_of(*loose), "must not exceed the residual cohesion", "loosening only weakens soil");
+    faults.error(*loose, text_of(*loose), "must not exceed the residual cohesion",
+                 "loosening only weakens soil");
   const Element* stiffness = element.FirstChildElement("young_modulus_pa");
   if (stiffness == nullptr) scene::follow_cohesion(soil, cohesion);
   check_values(element, soil, faults);
   if (const auto soft = scene::too_soft(soil))
-    faults.warning(stiffness != nullptr ? *stiffness : element, soft->value, soft->rule, soft->remedy);
+    faults.warning(stiffness != nullptr ? *stiffness : element, soft->value, soft->rule,
+                   soft->remedy);
   return soil;
 }
 
@@ -120,9 +134,11 @@ std::vector<scene::Soil> read_soil_file(const std::string& file, Faults& faults)
   // Unknown elements are told first, as a misspelt soil would otherwise only be missing.
   if (!document || !check_root(*document->root(), faults)) return soils;
   check_sdf(*document->root(), faults);
-  for (Element* e = document->root()->FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil"))
+  for (Element* e = document->root()->FirstChildElement("navvy:soil"); e;
+       e = e->NextSiblingElement("navvy:soil"))
     soils.push_back(read_soil(*e, faults));
-  if (soils.empty()) faults.error(*document->root(), "", "a soil file needs a <navvy:soil name=\"...\">");
+  if (soils.empty())
+    faults.error(*document->root(), "", "a soil file needs a <navvy:soil name=\"...\">");
   return soils;
 }
 

@@ -42,7 +42,7 @@ void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults
       .number("max_step_s", solver.max_step, {1e-6, 0.02})
       .number("control_rate_hz", solver.control_rate, {0.001, 1e5})
       .whole("max_particles", solver.max_particles, {1000, limits::kParticles})
-      .number("awake_zone", solver.awake_zone, {0.5, 4})
+      .number("awake_zone", solver.active_zone, {0.5, 4})
       .finish();
 }
 
@@ -58,12 +58,15 @@ void read_recording(Element& element, scene::Recording& recording, Faults& fault
 /// Names of scenes, cameras and maps become names of files.
 void require_file_name(const Element& element, const std::string& name, Faults& faults) {
   const bool plain = name != "." && name != ".." && name.find('/') == std::string::npos &&
-                     std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
+                     std::none_of(name.begin(), name.end(),
+                                  [](char c) { return static_cast<unsigned char>(c) < 32; });
   if (!plain)
-    faults.error(element, name, "results are named after it: no '/', no '..'", "use letters, digits, _ and -");
+    faults.error(element, name, "results are named after it: no '/', no '..'",
+                 "use letters, digits, _ and -");
 }
 
-/// Formats and layers are known to whoever writes them: they are checked there, with the line that is kept here.
+/// Formats and layers are known to whoever writes them: they are checked there, with the line that
+/// is kept here.
 scene::MapRecord read_record(Element& element, Faults& faults) {
   scene::MapRecord record;
   record.line = element.GetLineNum();
@@ -78,7 +81,8 @@ scene::MapRecord read_record(Element& element, Faults& faults) {
       .number("machine_rate_hz", record.machine_rate, {0.001, 1000})
       .finish();
   record.layers = words_of(layers);
-  if (record.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the files");
+  if (record.name.empty())
+    faults.error(element, "", "needs an attribute name=\"...\"", "it names the files");
   require_file_name(element, record.name, faults);
   check_name(element, record.name, faults);
   return record;
@@ -99,7 +103,8 @@ scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& f
       .whole("height_px", camera.height, {16, 8192})
       .number("rate_hz", camera.rate, {0.001, 1000})
       .finish();
-  if (camera.name.empty()) faults.error(element, "", "needs an attribute name=\"...\"", "it names the pictures");
+  if (camera.name.empty())
+    faults.error(element, "", "needs an attribute name=\"...\"", "it names the pictures");
   require_file_name(element, camera.name, faults);
   if (!camera.machine.empty())
     // The frame of the two points follows from what is named: nothing, a machine, or a link of it.
@@ -120,7 +125,8 @@ scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& f
   }
   const scene::Machine& machine = world.machines[static_cast<std::size_t>(index)].machine;
   // Without links the machine had faults of its own, which have been reported.
-  if (camera.link.empty() || machine.links.empty() || machine.link_index(camera.link) >= 0) return camera;
+  if (camera.link.empty() || machine.links.empty() || machine.link_index(camera.link) >= 0)
+    return camera;
   for (const scene::Link& link : machine.links) names.push_back(link.name);
   faults.error(*fields.child("link"), camera.link, "no link of this name in the machine",
                faults.nearest(camera.link, names));
@@ -129,8 +135,10 @@ scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& f
 
 void read_light(Element& element, std::vector<scene::Light>& lights, Faults& faults) {
   if (attribute(element, "type") != "directional") {
-    // Point and spot lights would need places and falls of brightness that the pictures do not know.
-    faults.warning(element, attribute(element, "type"), "is ignored", "only directional lights are drawn");
+    // Point and spot lights would need places and falls of brightness that the pictures do not
+    // know.
+    faults.warning(element, attribute(element, "type"), "is ignored",
+                   "only directional lights are drawn");
     return;
   }
   scene::Light light;
@@ -154,11 +162,15 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
   lights.push_back(light);
 }
 
-void read_load(Element& element, scene::MachineInWorld& instance, const scene::Scene& world, Faults& faults) {
+void read_load(Element& element, scene::MachineInWorld& instance, const scene::Scene& world,
+               Faults& faults) {
   // A world of one soil need not name it.
   if (!world.soils.empty()) instance.load.soil = world.soils[0].name;
   Fields fields(element, faults);
-  fields.text("soil", instance.load.soil).number("mass_kg", instance.load.mass, {0, 1e6}).required("mass_kg").finish();
+  fields.text("soil", instance.load.soil)
+      .number("mass_kg", instance.load.mass, {0, 1e6})
+      .required("mass_kg")
+      .finish();
   if (fields.has("soil") && world.soil_index(instance.load.soil) < 0) {
     std::vector<std::string> names;
     for (const scene::Soil& soil : world.soils) names.push_back(soil.name);
@@ -174,10 +186,10 @@ void read_load(Element& element, scene::MachineInWorld& instance, const scene::S
   // Loose soil: the bank density divided by the swell.
   const double struck = instance.machine.beds[0].capacity * kind.bank_density / kind.swell;
   if (instance.load.mass > struck)
-    faults.warning(
-        element, child_text(element, "mass_kg"),
-        "more than the bed holds struck, " + std::to_string(std::lround(struck)) + " kg of loose '" + kind.name + "'",
-        "what is heaped may fall off");
+    faults.warning(element, child_text(element, "mass_kg"),
+                   "more than the bed holds struck, " + std::to_string(std::lround(struck)) +
+                       " kg of loose '" + kind.name + "'",
+                   "what is heaped may fall off");
 }
 
 /// What has been settled before the machines are read.
@@ -185,7 +197,8 @@ struct Known {
   const scene::StepKinds& kinds;
   bool ground = false;     ///< the site was read without errors
   bool sdf_sound = false;  ///< and so was the SDF of the file
-  /// Machines by their files: forty excavators are read once, and a fault in their file is told once.
+  /// Machines by their files: forty excavators are read once, and a fault in their file is told
+  /// once.
   std::map<std::string, MachineFile>& files;
 };
 
@@ -198,15 +211,16 @@ const scene::Machine& machine_of(const std::string& path, const Known& known, Fa
     file.machine = read_machine_file(path, faults);
     file.elements = faults.work.elements - before;
   } else {
-    // A copy is cheaper than reading, but not for nothing: the scene that is written out holds them all.
+    // A copy is cheaper than reading, but not for nothing: the scene that is written out holds them
+    // all.
     faults.work.elements += file.elements;
   }
   return file.machine;
 }
 
 // What <include> and an inline <model> share: place, joints, program.
-void read_instance(Element& element, scene::MachineInWorld& instance, const scene::Scene& world, const Known& known,
-                   Faults& faults) {
+void read_instance(Element& element, scene::MachineInWorld& instance, const scene::Scene& world,
+                   const Known& known, Faults& faults) {
   if (Element* pose = element.FirstChildElement("pose")) {
     // A pose that is too short is reported by check_sdf; it is not read a second time here.
     if (words_of(text_of(*pose)).size() >= 6) read_pose(*pose, instance.X_WM, faults);
@@ -216,22 +230,27 @@ void read_instance(Element& element, scene::MachineInWorld& instance, const scen
     const Vec2 place = instance.X_WM.translation().head<2>();
     const Vec2 low = world.ground.origin, high = low + world.ground.size;
     // The site's edges count as on it. Without a sound ground there is no site to be off.
-    if (known.ground && ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
+    if (known.ground &&
+        ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
       faults.error(*pose, text_of(*pose), "the machine must stand on the site",
                    "move it, or enlarge size_m of the ground");
   }
-  if (Element* e = element.FirstChildElement("navvy:on_ground")) read_flag(*e, instance.on_ground, faults);
+  if (Element* e = element.FirstChildElement("navvy:on_ground"))
+    read_flag(*e, instance.on_ground, faults);
   // A model that stands in the world itself gives its joints among its own elements.
   if (!instance.machine.links.empty() && std::string(element.Name()) == "include")
-    for (Element* e = element.FirstChildElement("navvy:joint"); e; e = e->NextSiblingElement("navvy:joint"))
+    for (Element* e = element.FirstChildElement("navvy:joint"); e;
+         e = e->NextSiblingElement("navvy:joint"))
       read_initial_position(*e, instance.machine, faults);
   if (Element* e = element.FirstChildElement("navvy:load")) read_load(*e, instance, world, faults);
   if (Element* e = element.FirstChildElement("navvy:program"))
     // Read against machine and ground, so that what neither allows is found before the run.
-    instance.program = read_program(*e, known.kinds, &instance.machine, known.ground ? &world.ground : nullptr, faults);
+    instance.program = read_program(*e, known.kinds, &instance.machine,
+                                    known.ground ? &world.ground : nullptr, faults);
 }
 
-/// A scene may move a machine by its commands alone that its file gives masses; it cannot give masses to one without.
+/// A scene may move a machine by its commands alone that its file gives masses; it cannot give
+/// masses to one without.
 void choose_engine(const Element& engine, scene::Machine& machine, Faults& faults) {
   const std::string value = text_of(engine);
   if (value != "kinematic" && value != "dynamic")
@@ -243,7 +262,8 @@ void choose_engine(const Element& engine, scene::Machine& machine, Faults& fault
     machine.kinematic = true;
 }
 
-scene::MachineInWorld read_include(Element& element, const scene::Scene& world, const Known& known, Faults& faults) {
+scene::MachineInWorld read_include(Element& element, const scene::Scene& world, const Known& known,
+                                   Faults& faults) {
   scene::MachineInWorld instance;
   Element* uri = element.FirstChildElement("uri");
   std::string path;
@@ -251,17 +271,19 @@ scene::MachineInWorld read_include(Element& element, const scene::Scene& world, 
     faults.error(element, "", "needs an element <uri>", "e.g. <uri>model://ew180</uri>");
   } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults)) {
     if (faults.work.elements > limits::kSceneElements) {
-      faults.error(
-          element, text_of(*uri),
-          "a scene and its machines may have at most " + std::to_string(limits::kSceneElements) + " elements together",
-          "use fewer or simpler machines");
+      faults.error(element, text_of(*uri),
+                   "a scene and its machines may have at most " +
+                       std::to_string(limits::kSceneElements) + " elements together",
+                   "use fewer or simpler machines");
       return instance;
     }
     instance.machine = machine_of(path, known, faults);
   }
   // Unnamed, it goes by its model's name; two of one kind must be told apart by <name>.
-  instance.name = element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
-  if (const Element* name = element.FirstChildElement("name")) check_name(*name, instance.name, faults);
+  instance.name =
+      element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
+  if (const Element* name = element.FirstChildElement("name"))
+    check_name(*name, instance.name, faults);
   const std::string is_static = child_text(element, "static");
   if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
   if (const Element* engine = element.FirstChildElement("navvy:engine"))
@@ -271,11 +293,13 @@ scene::MachineInWorld read_include(Element& element, const scene::Scene& world, 
 }
 
 void read_soils(Element& world_element, scene::Scene& world, Faults& faults) {
-  for (Element* e = world_element.FirstChildElement("navvy:soil"); e; e = e->NextSiblingElement("navvy:soil")) {
+  for (Element* e = world_element.FirstChildElement("navvy:soil"); e;
+       e = e->NextSiblingElement("navvy:soil")) {
     scene::Soil soil = read_soil(*e, faults);
     if (!soil.name.empty() && world.soil_index(soil.name) >= 0)
       // Found in the order of the file, so the second one is blamed.
-      faults.error(*e, soil.name, "there is already a soil of this name", "give this one another name=\"...\"");
+      faults.error(*e, soil.name, "there is already a soil of this name",
+                   "give this one another name=\"...\"");
     world.soils.push_back(std::move(soil));
   }
   if (!world_element.FirstChildElement("navvy:soil"))
@@ -287,10 +311,12 @@ void check_grid(const Element& world_element, const scene::Scene& world, Faults&
   const Element* ground = world_element.FirstChildElement("navvy:ground");
   const Element& at = ground ? *ground : world_element;
   if (cells.minCoeff() < 4)
-    faults.error(at, "", "the site must be at least 4 cells wide", "smaller cell_m or larger size_m");
+    faults.error(at, "", "the site must be at least 4 cells wide",
+                 "smaller cell_m or larger size_m");
   // 2^16 columns an edge: the sparse tables index columns with 16 bits and more is never meant.
   if (cells.maxCoeff() > 65536)
-    faults.error(at, "", "the site must be at most 65536 cells wide", "larger cell_m or smaller size_m");
+    faults.error(at, "", "the site must be at most 65536 cells wide",
+                 "larger cell_m or smaller size_m");
 }
 
 /// What only the cell tells: how heavy particles and how many pieces of shells become.
@@ -299,17 +325,20 @@ void check_cell(const Element& world_element, const scene::Scene& world, Faults&
   const Element& at = solver ? *solver : world_element;
   const double cell = world.solver.cell;
   for (const scene::Soil& soil : world.soils)
-    if (scene::heaviest_particle(soil, cell) / kMassQuantum > std::numeric_limits<std::int32_t>::max())
-      faults.error(at, std::to_string(cell), "a particle of soil '" + soil.name + "' would weigh more than 128 kg",
+    if (scene::heaviest_particle(soil, cell) / kMassQuantum >
+        std::numeric_limits<std::int32_t>::max())
+      faults.error(at, std::to_string(cell),
+                   "a particle of soil '" + soil.name + "' would weigh more than 128 kg",
                    "use a smaller cell_m");
   std::size_t left = limits::kShellPieces;
   for (const scene::MachineInWorld& placed : world.machines)
     for (const scene::Shell& shell : placed.machine.shells) {
-      const std::size_t pieces = geometry::count_pieces(shell, geometry::kShellPieceCells * cell, left);
+      const std::size_t pieces =
+          geometry::count_pieces(shell, geometry::kShellPieceCells * cell, left);
       if (pieces > left) {
         faults.error(at, "shell '" + shell.name + "' of '" + placed.name + "'",
-                     "the shells of a scene may be cut to at most " + std::to_string(limits::kShellPieces) +
-                         " pieces of three cells",
+                     "the shells of a scene may be cut to at most " +
+                         std::to_string(limits::kShellPieces) + " pieces of three cells",
                      "use a larger cell_m or smaller shells");
         return;
       }
@@ -324,12 +353,15 @@ void read_seed(const Element& element, std::uint64_t& seed, Faults& faults) {
     faults.error(element, text, "must be a whole number from 0 to 18446744073709551615");
 }
 
-/// Takes the planes of what stands still out of its shapes: a level one is the rock under the ground.
-void take_planes(const Element& world_element, const Element& at, scene::MachineInWorld& instance, scene::Scene& world,
-                 Faults& faults) {
+/// Takes the planes of what stands still out of its shapes: a level one is the rock under the
+/// ground.
+void take_planes(const Element& world_element, const Element& at, scene::MachineInWorld& instance,
+                 scene::Scene& world, Faults& faults) {
   if (instance.machine.links.empty()) return;
   scene::Link& link = instance.machine.links[0];
-  const auto is_plane = [](const scene::Collision& c) { return c.geometry.kind == scene::Geometry::Kind::kPlane; };
+  const auto is_plane = [](const scene::Collision& c) {
+    return c.geometry.kind == scene::Geometry::Kind::kPlane;
+  };
   const auto plane = std::find_if(link.collisions.begin(), link.collisions.end(), is_plane);
   if (plane == link.collisions.end()) return;
   // It lies where its file says: on the ground it would be the ground.
@@ -338,20 +370,25 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
   const double height = X.translation().z();
   const Element* ground = world_element.FirstChildElement("navvy:ground");
   if (X.linear().col(2).z() < 1 - 1e-12) {
-    faults.error(at, plane->name, "a plane is the rock under the ground, and that is level",
-                 "for sloping ground write <navvy:ground> with <slope>, for a ramp a <box> with a <pose>");
+    faults.error(
+        at, plane->name, "a plane is the rock under the ground, and that is level",
+        "for sloping ground write <navvy:ground> with <slope>, for a ramp a <box> with a <pose>");
   } else if (instance.on_ground) {
     faults.error(at, plane->name, "a plane is the rock under the ground and cannot stand on it",
                  "set <navvy:on_ground>false</navvy:on_ground>");
   } else if (ground != nullptr && ground->FirstChildElement("depth_m")) {
-    faults.error(at, plane->name, "the rock's height is given twice: by this plane and by depth_m of the ground",
+    faults.error(at, plane->name,
+                 "the rock's height is given twice: by this plane and by depth_m of the ground",
                  "remove depth_m from <navvy:ground>, or the plane");
   } else if (world.ground.has_rock && world.ground.rock != height) {
     faults.error(at, plane->name, "another plane is the rock already", "remove one of them");
-  } else if (ground != nullptr && world.ground.file.empty() && height > world.ground.surface - 0.01) {
+  } else if (ground != nullptr && world.ground.file.empty() &&
+             height > world.ground.surface - 0.01) {
     // Of a file or of shapes the ground itself tells when it is laid.
-    faults.error(at, plane->name, "the plane would be the ground's rock, and there is no soil above it",
-                 "set surface_m of <navvy:ground> above it, or remove the plane: the ground carries by itself");
+    faults.error(at, plane->name,
+                 "the plane would be the ground's rock, and there is no soil above it",
+                 "set surface_m of <navvy:ground> above it, or remove the plane: the ground "
+                 "carries by itself");
   }
   world.ground.has_rock = true;
   world.ground.rock = height;
@@ -359,8 +396,10 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
   std::erase_if(link.collisions, is_plane);
 }
 
-void read_machines(Element& world_element, scene::Scene& world, const Known& known, Faults& faults) {
-  // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for each other by name.
+void read_machines(Element& world_element, scene::Scene& world, const Known& known,
+                   Faults& faults) {
+  // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for
+  // each other by name.
   for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
     const std::string kind = e->Name();
     if (kind != "include" && kind != "model") continue;
@@ -375,7 +414,8 @@ void read_machines(Element& world_element, scene::Scene& world, const Known& kno
     instance.line = e->GetLineNum();
     take_planes(world_element, *e, instance, world, faults);
     if (!instance.name.empty() && world.machine_index(instance.name) >= 0)
-      faults.error(*e, instance.name, "there is already a machine of this name", "give this one a <name>");
+      faults.error(*e, instance.name, "there is already a machine of this name",
+                   "give this one a <name>");
     world.machines.push_back(std::move(instance));
   }
 }
@@ -386,7 +426,8 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   const auto document = Document::open(file, faults);
   if (!document || !check_root(*document->root(), faults)) return {};
   Element& root = *document->root();
-  // Faults of the file itself; those of other files that were read before do not keep this one from being read.
+  // Faults of the file itself; those of other files that were read before do not keep this one from
+  // being read.
   const std::size_t before = faults.error_count();
   // What a part lacks would be told once more of the whole.
   if (!assemble(*document, faults)) return {};
@@ -398,7 +439,8 @@ scene::Machine read_machine_file(const std::string& file, Faults& faults) {
   }
   // A machine file is used in many worlds, so what belongs to one of them is refused here.
   if (Element* program = model->FirstChildElement("navvy:program"))
-    faults.error(*program, "", "a program belongs to the world that uses the machine", "move it into <include>");
+    faults.error(*program, "", "a program belongs to the world that uses the machine",
+                 "move it into <include>");
   for (const char* name : {"navvy:on_ground", "navvy:load"})
     if (Element* e = model->FirstChildElement(name))
       faults.error(*e, "", "belongs to the world that uses the machine", "move it into <include>");
@@ -419,16 +461,19 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
     faults.error(root, "", "a scene needs a <world name=\"...\">", "");
     return world;
   }
-  // Reading goes in the order in which things refer to each other: soils, ground, machines, programs, cameras.
+  // Reading goes in the order in which things refer to each other: soils, ground, machines,
+  // programs, cameras.
   world.name = attribute(*element, "name");
   require_file_name(*element, world.name, faults);
   std::vector<double> v;
   Faults seen;  // check_sdf has reported these
-  if (Element* e = element->FirstChildElement("gravity"); e && read_numbers(*e, 3, {-100, 100}, v, seen))
+  if (Element* e = element->FirstChildElement("gravity");
+      e && read_numbers(*e, 3, {-100, 100}, v, seen))
     world.gravity = Vec3(v[0], v[1], v[2]);
   if (Element* e = element->FirstChildElement("navvy:seed")) read_seed(*e, world.seed, faults);
   read_soils(*element, world, faults);
-  if (Element* e = element->FirstChildElement("navvy:solver")) read_solver(*e, world.solver, faults);
+  if (Element* e = element->FirstChildElement("navvy:solver"))
+    read_solver(*e, world.solver, faults);
   // Faults in the ground make every place on it doubtful, so machines are then read without it.
   const std::size_t before_ground = faults.error_count();
   Element* ground = element->FirstChildElement("navvy:ground");
@@ -439,29 +484,36 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
     faults.error(*element, "", "a world needs <navvy:ground>",
                  "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
   }
-  if (Element* e = element->FirstChildElement("navvy:design")) world.design = read_design(*e, faults);
+  if (Element* e = element->FirstChildElement("navvy:design"))
+    world.design = read_design(*e, faults);
   const bool ground_known = ground && faults.error_count() == before_ground;
   std::map<std::string, MachineFile> files;
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
   read_hitches(*element, world, faults);
   check_cell(*element, world, faults);
-  if (Element* e = element->FirstChildElement("navvy:materials")) world.materials = read_materials(*e, faults);
+  if (Element* e = element->FirstChildElement("navvy:materials"))
+    world.materials = read_materials(*e, faults);
   check_materials(world, faults);
   // After all machines, as steps name machines that stand further down in the file.
   check_program_order(*element, world, faults);
-  if (Element* e = element->FirstChildElement("navvy:recording")) read_recording(*e, world.recording, faults);
-  for (Element* e = element->FirstChildElement("navvy:record"); e; e = e->NextSiblingElement("navvy:record")) {
+  if (Element* e = element->FirstChildElement("navvy:recording"))
+    read_recording(*e, world.recording, faults);
+  for (Element* e = element->FirstChildElement("navvy:record"); e;
+       e = e->NextSiblingElement("navvy:record")) {
     scene::MapRecord record = read_record(*e, faults);
     for (const scene::MapRecord& other : world.records)
       if (!record.name.empty() && other.name == record.name)
-        faults.error(*e, record.name, "there is already a record of this name", "rename one of them");
+        faults.error(*e, record.name, "there is already a record of this name",
+                     "rename one of them");
     world.records.push_back(std::move(record));
   }
-  for (Element* e = element->FirstChildElement("navvy:camera"); e; e = e->NextSiblingElement("navvy:camera")) {
+  for (Element* e = element->FirstChildElement("navvy:camera"); e;
+       e = e->NextSiblingElement("navvy:camera")) {
     scene::Camera camera = read_camera(*e, world, faults);
     for (const scene::Camera& other : world.cameras)
       if (!camera.name.empty() && other.name == camera.name)
-        faults.error(*e, camera.name, "there is already a camera of this name", "rename one of them");
+        faults.error(*e, camera.name, "there is already a camera of this name",
+                     "rename one of them");
     world.cameras.push_back(std::move(camera));
   }
   for (Element* e = element->FirstChildElement("light"); e; e = e->NextSiblingElement("light"))

@@ -23,13 +23,14 @@ std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
   // The cut of a long value may have gone through a letter.
-  for (std::size_t bad = first_bad_utf8(text); bad != std::string::npos; bad = first_bad_utf8(text)) text[bad] = '?';
+  for (std::size_t bad = first_bad_utf8(text); bad != std::string::npos; bad = first_bad_utf8(text))
+    text[bad] = '?';
   return text;
 }
 }  // namespace
 
-void Faults::add_at(Fault::Severity severity, const Element& at, const std::string& value, const std::string& rule,
-                    const std::string& remedy) {
+void Faults::add_at(Fault::Severity severity, const Element& at, const std::string& value,
+                    const std::string& rule, const std::string& remedy) {
   if (!count(severity)) return;
   Fault fault;
   fault.severity = severity;
@@ -44,19 +45,23 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
   list_.push_back(std::move(fault));
 }
 
-void Faults::error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy) {
+void Faults::error(const Element& at, const std::string& value, const std::string& rule,
+                   const std::string& remedy) {
   add_at(Fault::Severity::kError, at, value, rule, remedy);
 }
 
-void Faults::warning(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy) {
+void Faults::warning(const Element& at, const std::string& value, const std::string& rule,
+                     const std::string& remedy) {
   add_at(Fault::Severity::kWarning, at, value, rule, remedy);
 }
 
-std::string Faults::nearest(const std::string& word, const std::vector<std::string>& candidates) const {
+std::string Faults::nearest(const std::string& word,
+                            const std::vector<std::string>& candidates) const {
   if (errors_.all >= limits::kFaultsShown) return "";
   std::string out = suggestion(word, candidates);
   // A list of all that is known is read once.
-  if (out.rfind("known here", 0) == 0 && !listed_.insert(out).second) return "not one of those listed above";
+  if (out.rfind("known here", 0) == 0 && !listed_.insert(out).second)
+    return "not one of those listed above";
   return out;
 }
 
@@ -65,18 +70,19 @@ void Faults::add(Fault fault) {
 }
 
 bool Faults::count(Fault::Severity severity) {
-  Told& told_of = told(severity);
-  if (++told_of.all <= limits::kFaultsShown) return true;
-  if (told_of.all == limits::kFaultsShown + 1) {
-    told_of.rest_at = list_.size();
+  Told& reported_ = told(severity);
+  if (++reported_.all <= limits::kFaultsShown) return true;
+  if (reported_.all == limits::kFaultsShown + 1) {
+    reported_.rest_at = list_.size();
     list_.push_back({severity, "", 0, "", "", "", "mend those above first"});
   }
-  list_[told_of.rest_at].rule =
-      "and " + std::to_string(told_of.all - limits::kFaultsShown) + " more that are not shown";
+  list_[reported_.rest_at].rule =
+      "and " + std::to_string(reported_.all - limits::kFaultsShown) + " more that are not shown";
   return false;
 }
 
-// Warnings alone do not stop anybody; with an error among them they are told together, so that a file is mended once.
+// Warnings alone do not stop anybody; with an error among them they are told together, so that a
+// file is mended once.
 void Faults::finish() const {
   if (has_errors()) throw InputError(list_);
   for (const Fault& fault : list_) log_warning(fault.text());
@@ -90,7 +96,8 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
     const std::vector<char> bytes = read_file(file, limits::kXmlBytes);
     faults.work.bytes += bytes.size();
     if (faults.work.bytes > limits::kSceneBytes) {
-      fault.rule = "the files of a scene may have at most " + std::to_string(limits::kSceneBytes) + " bytes together";
+      fault.rule = "the files of a scene may have at most " + std::to_string(limits::kSceneBytes) +
+                   " bytes together";
       fault.remedy = "split the scene, or name fewer soils and machines";
       faults.add(fault);
       return nullptr;
@@ -111,19 +118,21 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
   }
 }
 
-std::unique_ptr<Document> Document::parse(const std::string& text, const std::string& name, Faults& faults) {
+std::unique_ptr<Document> Document::parse(const std::string& text, const std::string& name,
+                                          Faults& faults) {
   if (!check_text(text, name, faults)) return nullptr;
   std::unique_ptr<Document> document(new Document);
   document->file_ = name;
-  // Elements know their tinyxml2 document only; this leads from there to the file's name. The Document is on the heap
-  // and never moves, so the pointer holds.
+  // Elements know their tinyxml2 document only; this leads from there to the file's name. The
+  // Document is on the heap and never moves, so the pointer holds.
   document->xml_.SetUserData(document.get());
   document->xml_.Parse(text.data(), text.size());
   Fault fault;
   fault.file = name;
   if (document->xml_.Error()) {
     fault.line = document->xml_.ErrorLineNum();
-    fault.rule = std::string("the file must be well-formed XML, but: ") + document->xml_.ErrorName();
+    fault.rule =
+        std::string("the file must be well-formed XML, but: ") + document->xml_.ErrorName();
     fault.remedy = "look for an unclosed or misspelt tag at or before this line";
     faults.add(fault);
     return nullptr;
@@ -200,13 +209,15 @@ std::string element_path(const Element& element) {
   for (const auto* up = element.Parent(); up && up->ToElement(); up = up->Parent()) {
     const Element& parent = *up->ToElement();
     if (std::strcmp(parent.Name(), "sdf") == 0) break;
-    path = (std::strcmp(parent.Name(), "world") == 0 ? std::string("world") : label(parent)) + "/" + path;
+    path = (std::strcmp(parent.Name(), "world") == 0 ? std::string("world") : label(parent)) + "/" +
+           path;
   }
   return path;
 }
 
 const Element* named_child(const Element& parent, const char* kind, const std::string& name) {
-  for (const Element* child = parent.FirstChildElement(kind); child; child = child->NextSiblingElement(kind))
+  for (const Element* child = parent.FirstChildElement(kind); child;
+       child = child->NextSiblingElement(kind))
     if (attribute(*child, "name") == name) return child;
   return nullptr;
 }

@@ -19,7 +19,8 @@ namespace navvy::scene_io {
 
 using Element = tinyxml2::XMLElement;
 
-/// What reading has taken so far. Counted, because the limits of core/limits.h hold for a scene as a whole.
+/// What reading has taken so far. Counted, because the limits of core/limits.h hold for a scene as
+/// a whole.
 struct Work {
   std::size_t files = 0;     ///< XML files opened
   std::size_t bytes = 0;     ///< of them
@@ -34,16 +35,19 @@ struct Work {
   std::uintmax_t mesh_bytes = 0;       ///< of them
 };
 
-/// Collects faults; an element added by an override (line 0) is reported as coming from the command line. Readers go on
-/// after a fault, so one list holds all of a scene and of the files it names; of very many the first are told, and how
-/// many more there are.
+/// Collects faults; an element added by an override (line 0) is reported as coming from the command
+/// line. Readers go on after a fault, so one list holds all of a scene and of the files it names;
+/// of very many the first are told, and how many more there are.
 class Faults {
  public:
-  /// `at` gives file, line and path; `value` is what was found, `rule` what is allowed, `remedy` what to do.
-  void error(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
-  void warning(const Element& at, const std::string& value, const std::string& rule, const std::string& remedy = "");
-  /// `suggestion` of core/edit_distance.h, a list of all that is known only the first time; or nothing when the fault
-  /// would not be told: it is dear.
+  /// `at` gives file, line and path; `value` is what was found, `rule` what is allowed, `remedy`
+  /// what to do.
+  void error(const Element& at, const std::string& value, const std::string& rule,
+             const std::string& remedy = "");
+  void warning(const Element& at, const std::string& value, const std::string& rule,
+               const std::string& remedy = "");
+  /// `suggestion` of core/edit_distance.h, a list of all that is known only the first time; or
+  /// nothing when the fault would not be told: it is dear.
   std::string nearest(const std::string& word, const std::vector<std::string>& candidates) const;
   void add(Fault fault);
   bool has_errors() const { return error_count() > 0; }
@@ -61,11 +65,13 @@ class Faults {
   struct Told {
     std::size_t all = 0, rest_at = 0;
   };
-  Told& told(Fault::Severity severity) { return severity == Fault::Severity::kError ? errors_ : warnings_; }
+  Told& told(Fault::Severity severity) {
+    return severity == Fault::Severity::kError ? errors_ : warnings_;
+  }
   /// Counts one more fault; false when it is not to be told.
   bool count(Fault::Severity severity);
-  void add_at(Fault::Severity severity, const Element& at, const std::string& value, const std::string& rule,
-              const std::string& remedy);
+  void add_at(Fault::Severity severity, const Element& at, const std::string& value,
+              const std::string& rule, const std::string& remedy);
   std::vector<Fault> list_;
   Told errors_, warnings_;
   mutable std::set<std::string> listed_;
@@ -78,13 +84,14 @@ struct Place {
 };
 Place place_of(const Element& element);
 
-/// One XML file. Its elements live as long as it does. It is made on the heap and stays where it is, as its elements
-/// lead back to it.
+/// One XML file. Its elements live as long as it does. It is made on the heap and stays where it
+/// is, as its elements lead back to it.
 class Document {
  public:
   /// Null after a fault (missing, unreadable, not XML).
   static std::unique_ptr<Document> open(const std::string& file, Faults& faults);
-  static std::unique_ptr<Document> parse(const std::string& text, const std::string& name, Faults& faults);
+  static std::unique_ptr<Document> parse(const std::string& text, const std::string& name,
+                                         Faults& faults);
   /// The document an element belongs to.
   static const Document& of(const Element& element);
 
@@ -106,7 +113,8 @@ class Document {
   std::size_t elements_ = 0;
 };
 
-/// "world/navvy:soil[loam]/cohesion_pa": names in brackets, or the 1-based place among equal siblings.
+/// "world/navvy:soil[loam]/cohesion_pa": names in brackets, or the 1-based place among equal
+/// siblings.
 std::string element_path(const Element& element);
 /// The first child <kind> whose attribute `name` is this; null when there is none.
 const Element* named_child(const Element& parent, const char* kind, const std::string& name);
@@ -121,7 +129,8 @@ bool is_extension(const Element& element);
 
 /// Whitespace-separated words.
 std::vector<std::string> words_of(const std::string& text);
-/// The whole of `text` as a number, whatever the locale. False: not a number (nan and inf are numbers here).
+/// The whole of `text` as a number, whatever the locale. False: not a number (nan and inf are
+/// numbers here).
 bool to_number(const std::string& text, double& value);
 
 }  // namespace navvy::scene_io

@@ -13,7 +13,8 @@ namespace {
 
 bool starts_name(char c) {
   const auto byte = static_cast<unsigned char>(c);
-  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' || byte == ':' || byte >= 0x80;
+  return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' ||
+         byte == ':' || byte >= 0x80;
 }
 
 /// Control characters that XML allows are blanks of a text.
@@ -25,7 +26,9 @@ bool is_control(char c) {
 /// Character references can spell what the file's bytes may not: "&#0;", "&#xD800;".
 void check_value(const Element& at, const char* value, Faults& faults) {
   const std::string_view text = value;
-  if (first_bad_utf8(text) == std::string_view::npos && std::none_of(text.begin(), text.end(), is_control)) return;
+  if (first_bad_utf8(text) == std::string_view::npos &&
+      std::none_of(text.begin(), text.end(), is_control))
+    return;
   faults.error(at, "", "holds a character that is none of Unicode's, or a control character",
                "take character references such as &#xD800; out");
 }
@@ -79,12 +82,14 @@ bool check_counts(const Element& element, Faults& faults) {
   for (const Count& count : kCounts) {
     if (std::strcmp(count.parent, element.Name()) != 0) continue;
     std::size_t found = 0;
-    for (const Element* e = element.FirstChildElement(count.child); e; e = e->NextSiblingElement(count.child)) ++found;
+    for (const Element* e = element.FirstChildElement(count.child); e;
+         e = e->NextSiblingElement(count.child))
+      ++found;
     if (found <= count.most) continue;
-    faults.error(
-        element, std::to_string(found),
-        std::string("at most ") + std::to_string(count.most) + " <" + count.child + "> in one <" + count.parent + ">",
-        "scenarios/README.md lists the limits of files");
+    faults.error(element, std::to_string(found),
+                 std::string("at most ") + std::to_string(count.most) + " <" + count.child +
+                     "> in one <" + count.parent + ">",
+                 "scenarios/README.md lists the limits of files");
     good = false;
   }
   std::size_t steps = 0;
@@ -99,8 +104,8 @@ bool check_counts(const Element& element, Faults& faults) {
   return good;
 }
 
-/// False where the rest is not to be read: the readers' work is not bounded then. Faults of single values are told and
-/// reading goes on.
+/// False where the rest is not to be read: the readers' work is not bounded then. Faults of single
+/// values are told and reading goes on.
 bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   const auto most = [&](const char* what, std::size_t number) {
     faults.error(element, "", std::string("at most ") + std::to_string(number) + " " + what,
@@ -120,7 +125,8 @@ bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   }
   for (const auto* node = element.FirstChild(); node; node = node->NextSibling()) {
     if (node->ToText()) check_value(element, node->Value(), faults);
-    if (const Element* child = node->ToElement()) good = check_element(*child, depth + 1, faults) && good;
+    if (const Element* child = node->ToElement())
+      good = check_element(*child, depth + 1, faults) && good;
   }
   return good;
 }
@@ -161,7 +167,8 @@ Fault too_large(const std::string& file, std::size_t bytes) {
   Fault fault;
   fault.file = file;
   fault.value = std::to_string(bytes) + " bytes";
-  fault.rule = "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
+  fault.rule =
+      "a scene, machine or soil file may have at most " + std::to_string(limits::kXmlBytes);
   fault.remedy = "put meshes into OBJ files and machines into files of their own";
   return fault;
 }
@@ -172,15 +179,18 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
   if (text.size() > limits::kXmlBytes) {
     fault = too_large(file, text.size());
   } else if (const std::size_t bad = first_bad_utf8(text); bad != std::string_view::npos) {
-    fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'));
+    fault.line = 1 + static_cast<int>(std::count(
+                         text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'));
     fault.rule = "the file must be text in UTF-8";
     fault.remedy = "save it as UTF-8: iconv -f latin1 -t utf-8 OLD > NEW";
   } else if (const std::size_t elements = count_elements(text); elements > limits::kXmlElements) {
     fault.value = std::to_string(elements) + " elements";
-    fault.rule = "a file may have at most " + std::to_string(limits::kXmlElements) + ", those in comments too";
+    fault.rule = "a file may have at most " + std::to_string(limits::kXmlElements) +
+                 ", those in comments too";
     fault.remedy = "split it, or put meshes into OBJ files";
   } else if (const std::size_t tag = overloaded_tag(text); tag != std::string_view::npos) {
-    fault.line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
+    fault.line = 1 + static_cast<int>(std::count(
+                         text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
     fault.rule = "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element";
     fault.remedy = "scenarios/README.md lists the limits of files";
   } else {
@@ -197,10 +207,12 @@ bool check_name(const Element& at, const std::string& name, Faults& faults) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == ',' || c == '"';
   });
   if (plain && name.size() <= limits::kNameBytes) return true;
-  faults.error(at, name,
-               plain ? "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes"
-                     : "a name must hold no comma, no quote and no line break: it heads columns of CSV files",
-               "use letters, digits, blanks, _ and -");
+  faults.error(
+      at, name,
+      plain
+          ? "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes"
+          : "a name must hold no comma, no quote and no line break: it heads columns of CSV files",
+      "use letters, digits, blanks, _ and -");
   return false;
 }
 

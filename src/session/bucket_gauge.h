@@ -9,9 +9,11 @@ namespace navvy::session {
 
 /// The low-passed soil force on a bucket [N].
 struct BucketLoad {
-  double whole = 0;   ///< its magnitude
-  double draft = 0;   ///< its part against the lip's motion: what digging takes; 0 while the lip rests
-  double uplift = 0;  ///< its part upward: what the bucket bears on the ground, less the weight of its load; or 0
+  double whole = 0;  ///< its magnitude
+  /// Its part against the lip's motion: what digging takes; 0 while the lip rests.
+  double draft = 0;
+  /// Its part upward: what the bucket bears on the ground, less the weight of its load; or 0.
+  double uplift = 0;
 };
 
 /// `force` on a link whose lip is at `p_tip` in its frame [N], [m].

@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "core/log.h"
-#include "session/bystander.h"
-#include "sim/terrain_view.h"
+#include "session/uncontrolled_machine.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::session {
 namespace {
 
-/// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the particles.
+/// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the
+/// particles.
 constexpr std::uint64_t kPayloadInterval = 12;
 
 const scene::MachineInWorld& placed(const sim::World& world, int machine) {
@@ -32,17 +33,20 @@ heightfield::TerrainView SeenSurface::mapped() const {
   return sim::terrain_view(world_, heightfield::SurfaceKind::kMapped);
 }
 
-OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs,
-                                 const control::MakePathPlanner& planners)
+OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
+                                 const Programs& programs, const control::MakePathPlanner& planners)
     : world_(world),
       machine_(world.machine(machine)),
-      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(), planners) {
+      op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(),
+          planners) {
   const scene::Machine& description = machine_.description();
   // A machine digs with its first bucket and tips its first bed; the others are passive.
   if (!description.buckets.empty()) bucket_.emplace(machine_, description.buckets[0]);
   if (!description.beds.empty()) bed_ = machine_.tool(description.beds[0].shell);
-  for (std::size_t j = 0; j < description.joints.size(); ++j) joints_.push_back(machine_.joint(static_cast<int>(j)));
-  for (std::size_t w = 0; w < description.wheels.size(); ++w) wheels_.push_back(machine_.wheel(static_cast<int>(w)));
+  for (std::size_t j = 0; j < description.joints.size(); ++j)
+    joints_.push_back(machine_.joint(static_cast<int>(j)));
+  for (std::size_t w = 0; w < description.wheels.size(); ++w)
+    wheels_.push_back(machine_.wheel(static_cast<int>(w)));
   // Sized once: observing takes no memory.
   seen_.joints.resize(joints_.size());
   seen_.ground = &world.ground();
@@ -62,7 +66,8 @@ void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips
   if (well && op_.ended() && !op_.done()) log_warning(told(report(), name()));
 }
 
-/// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how full it is.
+/// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how
+/// full it is.
 void OperatedMachine::observe(control::Observation& seen) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) seen.joints[j] = joints_[j].state();
   see_standing(world_, machine_, wheels_, seen);
@@ -89,7 +94,8 @@ void OperatedMachine::note_tip(std::vector<BedTip>& tips) {
   if (!bed_) return;
   // Events are told once, in the step in which they happen.
   const control::CycleEvent event = op_.event();
-  if (event == control::CycleEvent::kTipStart) open_tip_ = BedTip{index(), world_.time(), 0, bed_->payload(), 0};
+  if (event == control::CycleEvent::kTipStart)
+    open_tip_ = BedTip{index(), world_.time(), 0, bed_->payload(), 0};
   if (event != control::CycleEvent::kTipEnd || !open_tip_) return;
   open_tip_->end = world_.time();
   open_tip_->payload_end = bed_->payload();

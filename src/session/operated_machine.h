@@ -16,8 +16,9 @@
 
 namespace navvy::session {
 
-/// What an operator sees from its cab: columns and the loose soil on them. Takes one view in every step in which it is
-/// asked, so it has no memory that a snapshot would need; one look costs a pass over the particles.
+/// What an operator sees from its cab: columns and the loose soil on them. Takes one view in every
+/// step in which it is asked, so it has no memory that a snapshot would need; one look costs a pass
+/// over the particles.
 class SeenSurface final : public control::SurfaceView {
  public:
   /// `world` must outlive it.
@@ -34,14 +35,15 @@ class SeenSurface final : public control::SurfaceView {
   mutable std::uint64_t seen_step_ = 0;
 };
 
-/// One machine's operator with the handles to look through, and the cycle and tip that are not over yet.
+/// One machine's operator with the handles to look through, and the cycle and tip that are not over
+/// yet.
 class OperatedMachine {
  public:
   using Programs = std::map<std::string, control::ProgramProgress>;
 
   /// What operators see beside their own machine is shared; all references must outlive it.
-  OperatedMachine(sim::World& world, int machine, const SeenSurface& surface, const Programs& programs,
-                  const control::MakePathPlanner& planners);
+  OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
+                  const Programs& programs, const control::MakePathPlanner& planners);
 
   int index() const { return machine_.index(); }
   const std::string& name() const { return machine_.name(); }
@@ -51,7 +53,8 @@ class OperatedMachine {
   /// The program goes on.
   bool busy() const { return !taken_ && !op_.ended(); }
 
-  /// The operator looks and commands. Cycles and tips that end go into the lists. Nothing once the machine is taken.
+  /// The operator looks and commands. Cycles and tips that end go into the lists. Nothing once the
+  /// machine is taken.
   void step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips);
   /// Inputs drive it from now on: what its program had set in motion stops. True the first time.
   bool take();

@@ -40,11 +40,15 @@ void ForceStatistics::visit(Archive& a) {
 std::string told(const ProgramReport& report, const std::string& name, const std::string& cut) {
   const control::StepReport& last = report.last();
   std::array<char, 96> where{};
-  std::snprintf(where.data(), where.size(), " (%.2f s, at %.2f, %.2f m)", last.end, last.place.x(), last.place.y());
+  std::snprintf(where.data(), where.size(), " (%.2f s, at %.2f, %.2f m)", last.end, last.place.x(),
+                last.place.y());
   const bool is_cut = !cut.empty() && last.state == control::StepState::kRunning;
-  const std::string state = report.by_inputs() ? "inputs" : is_cut ? "interrupted" : control::name_of(last.state);
+  const std::string state = report.by_inputs() ? "inputs"
+                            : is_cut           ? "interrupted"
+                                               : control::name_of(last.state);
   const std::string& reason = is_cut ? cut : last.reason;
-  const std::string step = ", step " + std::to_string(last.step) + " of " + std::to_string(report.steps);
+  const std::string step =
+      ", step " + std::to_string(last.step) + " of " + std::to_string(report.steps);
   return "'" + name + "'" + (report.fell() ? "" : step) + " (" + last.element + "): " + state +
          (reason.empty() ? "" : ": " + reason) + where.data();
 }

@@ -12,15 +12,17 @@
 
 namespace navvy::session {
 
-/// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket.
-/// Opened by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those moments.
+/// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket. Opened
+/// by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those
+/// moments.
 struct Cycle {
   int machine = 0;  ///< as in scene::Scene::machines
   double start = 0, curl = 0, lift_out = 0, dump_start = 0, end = 0;
   double payload_lift_out = 0, payload_dump = 0;
-  double force_peak = 0;   ///< largest low-passed soil force on the bucket [N]
-  double draft_peak = 0;   ///< largest of it against the lip's motion: what digging takes [N]
-  double uplift_peak = 0;  ///< largest of it upward since the curl began: the heel or back bears on the ground [N]
+  double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
+  double draft_peak = 0;  ///< largest of it against the lip's motion: what digging takes [N]
+  /// Largest of it upward since the curl began: the heel or back bears on the ground [N].
+  double uplift_peak = 0;
 
   void visit(Archive& a);
 };
@@ -66,8 +68,9 @@ struct ProgramReport {
   bool by_inputs() const { return taken && !fell(); }
 };
 
-/// "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s, at 3.20, 4.50)": one line for people. `name` is the
-/// machine's in the scene. `cut`: why a step that still ran has ended, where the run is over.
+/// "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s, at 3.20, 4.50)": one line for people.
+/// `name` is the machine's in the scene. `cut`: why a step that still ran has ended, where the run
+/// is over.
 std::string told(const ProgramReport& report, const std::string& name, const std::string& cut = "");
 
 }  // namespace navvy::session

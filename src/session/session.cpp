@@ -15,11 +15,11 @@
 #include "core/sealed.h"
 #include "core/stopwatch.h"
 #include "device/device.h"
-#include "heightfield/design.h"
+#include "heightfield/design_surface.h"
 #include "session/bucket_gauge.h"
-#include "session/bystander.h"
 #include "session/operated_machine.h"
 #include "session/program_check.h"
+#include "session/uncontrolled_machine.h"
 #include "sim/snapshot.h"
 #include "sim/start_check.h"
 
@@ -54,20 +54,23 @@ struct Session::State {
   std::optional<heightfield::DesignSurface> design;
   // In the order of the scene; machines without a program are not in it.
   std::vector<OperatedMachine> operated;
-  std::vector<Bystander> bystanders;  ///< every machine that can tip, watched while no program drives it
-  std::vector<bool> off_site;         ///< by machine: that it was beyond the site's border has been told
+  /// Every machine that can tip, watched while no program drives it.
+  std::vector<UncontrolledMachine> uncontrolled_machines;
+  /// By machine: that it was beyond the site's border has been told.
+  std::vector<bool> off_site;
   // What programs came to.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
   std::vector<std::optional<sim::SoilEnergy>> energy_at_ends;  ///< of cycles, for people only
-  OperatedMachine::Programs programs;                          ///< as the operators see them: at the start of the step
+  /// As the operators see them: at the start of the step.
+  OperatedMachine::Programs programs;
   ForceStatistics force;
   double idle = 0;  ///< [s] since every program has ended
   double control_time = 0;
 
   /// Of the machine's program; null without one.
   const OperatedMachine* operated_by_program(int machine) const;
-  void watch_bystanders();
+  void watch_uncontrolled_machines();
   void watch_border();
   void take_over(int machine);
   void note_forces();
@@ -90,12 +93,14 @@ void Session::State::note_forces() {
       ++force.steps;
     }
     // Relative to the magnitudes that cancel in it: that is what rounding scales with.
-    force.residual_max = std::max(force.residual_max, balance.residual.cwiseAbs().maxCoeff() / balance.scale);
+    force.residual_max =
+        std::max(force.residual_max, balance.residual.cwiseAbs().maxCoeff() / balance.scale);
     if (balance.scale_moment > 0)
-      force.residual_max =
-          std::max(force.residual_max, balance.residual_moment.cwiseAbs().maxCoeff() / balance.scale_moment);
+      force.residual_max = std::max(
+          force.residual_max, balance.residual_moment.cwiseAbs().maxCoeff() / balance.scale_moment);
   }
-  for (const BucketGauge& bucket : buckets) force.draft_peak = std::max(force.draft_peak, bucket.load().draft);
+  for (const BucketGauge& bucket : buckets)
+    force.draft_peak = std::max(force.draft_peak, bucket.load().draft);
 }
 
 const OperatedMachine* Session::State::operated_by_program(int machine) const {
@@ -105,15 +110,16 @@ const OperatedMachine* Session::State::operated_by_program(int machine) const {
 }
 
 /// Operators watch over their own machines, also when their programs are done.
-void Session::State::watch_bystanders() {
-  for (Bystander& one : bystanders) {
+void Session::State::watch_uncontrolled_machines() {
+  for (UncontrolledMachine& one : uncontrolled_machines) {
     const OperatedMachine* program = operated_by_program(one.index());
     if (program == nullptr || program->taken()) one.look(program != nullptr);
   }
 }
 
-/// Beyond the border the nearest column's height goes on and bears, but is no soil: what a machine does there must not
-/// be taken for a result. Told once a machine, of whichever link gets there first. Not saved: it drives nothing.
+/// Beyond the border the nearest column's height goes on and bears, but is no soil: what a machine
+/// does there must not be taken for a result. Told once a machine, of whichever link gets there
+/// first. Not saved: it drives nothing.
 void Session::State::watch_border() {
   const heightfield::Terrain& ground = world.ground();
   for (int m = 0; m < world.machine_count(); ++m) {
@@ -126,10 +132,12 @@ void Session::State::watch_border() {
       if (ground.contains(at.x(), at.y())) continue;
       off_site[static_cast<std::size_t>(m)] = true;
       std::array<char, 96> place{};
-      std::snprintf(place.data(), place.size(), "at (%.2f, %.2f) m, %.2f s", p.x(), p.y(), world.time());
+      std::snprintf(place.data(), place.size(), "at (%.2f, %.2f) m, %.2f s", p.x(), p.y(),
+                    world.time());
       log_warning("'" + machine.name() + "' is beyond the site's border with its link '" +
                   machine.description().links[l].name + "', " + place.data() +
-                  ": the ground goes on there at the border's height, but nothing digs into it; give the site a larger "
+                  ": the ground goes on there at the border's height, but nothing digs into it; "
+                  "give the site a larger "
                   "<size_m> or --size (said once a machine)");
       break;
     }
@@ -139,13 +147,14 @@ void Session::State::watch_border() {
 void Session::State::take_over(int machine) {
   for (OperatedMachine& one : operated)
     if (one.index() == machine && one.take())
-      log_info("'" + one.name() + "' leaves its program at " + std::to_string(world.time()) + " s: inputs drive it");
+      log_info("'" + one.name() + "' leaves its program at " + std::to_string(world.time()) +
+               " s: inputs drive it");
 }
 
 /// What is not the world's: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
-  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load; 5: their reports;
-  // 6: peaks of draft and back; 7: machines that no program drives are watched.
+  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load;
+  // 5: their reports; 6: peaks of draft and back; 7: machines that no program drives are watched.
   a.section("session", 7, [&] {
     a("cycles", cycles);
     a("tips", tips);
@@ -153,39 +162,49 @@ void Session::State::visit(Archive& a) {
     const auto known = [&](const auto& report) {
       return report.machine >= 0 && report.machine < world.machine_count();
     };
-    a.require(std::all_of(cycles.begin(), cycles.end(), known), "cycles", "names a machine that the scene has not");
-    a.require(std::all_of(tips.begin(), tips.end(), known), "tips", "names a machine that the scene has not");
+    a.require(std::all_of(cycles.begin(), cycles.end(), known), "cycles",
+              "names a machine that the scene has not");
+    a.require(std::all_of(tips.begin(), tips.end(), known), "tips",
+              "names a machine that the scene has not");
     a("force", force);
     a("idle", idle);
     // Programs may have been added to the scene since.
     a.constant("programs", operated.size(),
-               "the snapshot has another number of programs than the scene; use the scene it was made with");
+               "the snapshot has another number of programs than the scene; use the scene it was "
+               "made with");
     for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
-    for (std::size_t i = 0; i < bystanders.size(); ++i) a.item(i, [&] { bystanders[i].visit(a); });
+    for (std::size_t i = 0; i < uncontrolled_machines.size(); ++i)
+      a.item(i, [&] { uncontrolled_machines[i].visit(a); });
   });
 }
 
-Session::Session(scene::Scene description, device::Device& device, const control::MakePathPlanner& planners)
+Session::Session(scene::Scene description, device::Device& device,
+                 const control::MakePathPlanner& planners)
     : state_(std::make_unique<State>(std::move(description), device)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
   // Reach depends on where the machines stand on this very ground.
   X_WB.reserve(s.world.description().machines.size());
-  for (int m = 0; m < s.world.machine_count(); ++m) X_WB.push_back(s.world.machine(m).link(0).pose());
+  for (int m = 0; m < s.world.machine_count(); ++m)
+    X_WB.push_back(s.world.machine(m).link(0).pose());
   // A design that cannot be laid on this site is told now and not by the first who looks at it.
   s.design = heightfield::make_design(s.world.description(), s.world.ground());
   // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
   std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB, planners);
   // Bodies within each other would be thrown apart in the first step.
-  for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB)) faults.push_back(std::move(fault));
+  for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB))
+    faults.push_back(std::move(fault));
   for (Fault& fault : sim::check_buried(s.world.description(), X_WB, s.surface.terrain()))
     faults.push_back(std::move(fault));
-  const auto is_error = [](const Fault& fault) { return fault.severity == Fault::Severity::kError; };
+  const auto is_error = [](const Fault& fault) {
+    return fault.severity == Fault::Severity::kError;
+  };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
-  // Only sound programs get their operators. Machines without a program have none; inputs drive them, or nobody.
+  // Only sound programs get their operators. Machines without a program have none; inputs drive
+  // them, or nobody.
   for (int m = 0; m < s.world.machine_count(); ++m)
-    if (s.world.machine(m).stability().free) s.bystanders.emplace_back(s.world, m);
+    if (s.world.machine(m).stability().free) s.uncontrolled_machines.emplace_back(s.world, m);
   for (int m = 0; m < s.world.machine_count(); ++m)
     if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
       s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
@@ -198,7 +217,8 @@ void Session::step() {
   {
     // Deciding is timed apart from simulating.
     const Lap lap(s.control_time);
-    // Before any operator moves on: what they wait for is as it stood when the step began, whatever their order.
+    // Before any operator moves on: what they wait for is as it stood when the step began, whatever
+    // their order.
     for (const OperatedMachine& one : s.operated) s.programs[one.name()] = one.op().progress();
     // A taken machine never ends by itself: whoever drives it ends the run.
     bool busy = false;
@@ -206,10 +226,11 @@ void Session::step() {
       busy = busy || one.taken() || one.busy();
       one.step(s.cycles, s.tips);
     }
-    s.watch_bystanders();
+    s.watch_uncontrolled_machines();
     s.watch_border();
     // Only an unbroken idle time counts; without programs the duration alone ends the run.
-    if (s.energy_at_ends.size() < s.cycles.size()) s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
+    if (s.energy_at_ends.size() < s.cycles.size())
+      s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();
   }
   // The world steps with all commands of this instant; forces are of the step just taken.
@@ -232,7 +253,9 @@ void Session::set(int input, double value) {
     state_->take_over(inputs[static_cast<std::size_t>(input)].machine);
   state_->world.set(input, value);
 }
-void Session::set(const std::string& input, double value) { set(state_->world.input(input), value); }
+void Session::set(const std::string& input, double value) {
+  set(state_->world.input(input), value);
+}
 
 // Handles say which machine they are of.
 void Session::command(const sim::JointHandle& joint, const vehicle::JointInput& input) {
@@ -261,38 +284,46 @@ void Session::add(std::unique_ptr<sim::Sampler> sampler) { state_->world.add(std
 
 bool Session::done() const {
   const scene::Recording& recording = state_->world.description().recording;
-  // The ground left behind should be the whole of it: soil that still moves is given time to come to rest.
-  const bool at_rest = state_->world.soil_counts().particles == 0 || state_->idle >= kLongestRest * recording.settle;
+  // The ground left behind should be the whole of it: soil that still moves is given time to come
+  // to rest.
+  const bool at_rest =
+      state_->world.soil_counts().particles == 0 || state_->idle >= kLongestRest * recording.settle;
   const bool programs_over = state_->idle > 0 && state_->idle >= recording.settle && at_rest;
   return programs_over || time_is_over();
 }
 
 /// Half a step of slack: time is a product and may fall a hair short of the duration.
 bool Session::time_is_over() const {
-  return state_->world.time() >= state_->world.description().recording.duration - 0.5 * state_->world.dt();
+  return state_->world.time() >=
+         state_->world.description().recording.duration - 0.5 * state_->world.dt();
 }
 
 bool Session::complete() const {
-  const auto stands = [](const Bystander& one) { return !one.fall(); };
-  return std::all_of(state_->bystanders.begin(), state_->bystanders.end(), stands) &&
+  const auto stands = [](const UncontrolledMachine& one) { return !one.fall(); };
+  return std::all_of(state_->uncontrolled_machines.begin(), state_->uncontrolled_machines.end(),
+                     stands) &&
          std::all_of(state_->operated.begin(), state_->operated.end(),
                      [](const OperatedMachine& one) { return one.taken() || one.op().done(); });
 }
 
 bool Session::fell_short() const {
-  const auto fell = [](const Bystander& one) { return one.fall().has_value(); };
-  return std::any_of(state_->bystanders.begin(), state_->bystanders.end(), fell) ||
-         std::any_of(state_->operated.begin(), state_->operated.end(),
-                     [](const OperatedMachine& one) { return one.op().ended() && !one.op().done(); });
+  const auto fell = [](const UncontrolledMachine& one) { return one.fall().has_value(); };
+  return std::any_of(state_->uncontrolled_machines.begin(), state_->uncontrolled_machines.end(),
+                     fell) ||
+         std::any_of(
+             state_->operated.begin(), state_->operated.end(),
+             [](const OperatedMachine& one) { return one.op().ended() && !one.op().done(); });
 }
 
 const sim::World& Session::world() const { return state_->world; }
 const std::string& Session::device_name() const { return state_->device_name; }
-const heightfield::DesignSurface* Session::design() const { return state_->design ? &*state_->design : nullptr; }
+const heightfield::DesignSurface* Session::design() const {
+  return state_->design ? &*state_->design : nullptr;
+}
 
 /// In words, for progress lines and telemetry.
 std::string Session::phase(int machine) const {
-  for (const Bystander& one : state_->bystanders)
+  for (const UncontrolledMachine& one : state_->uncontrolled_machines)
     if (one.index() == machine && one.fall()) return control::name_of(one.fall()->state);
   const OperatedMachine* program = state_->operated_by_program(machine);
   if (program == nullptr) return "idle";
@@ -312,22 +343,25 @@ std::vector<ProgramReport> Session::programs() const {
     std::snprintf(text.data(), text.size(), "the run's duration of %g s was over first", duration);
     last.reason = text.data() + (last.reason.empty() ? "" : "; " + last.reason);
   }
-  for (const Bystander& one : state_->bystanders) {
+  for (const UncontrolledMachine& one : state_->uncontrolled_machines) {
     if (!one.fall()) continue;
-    const auto own =
-        std::find_if(out.begin(), out.end(), [&](const ProgramReport& r) { return r.machine == one.index(); });
+    const auto own = std::find_if(out.begin(), out.end(),
+                                  [&](const ProgramReport& r) { return r.machine == one.index(); });
     if (own != out.end())
       own->list.push_back(*one.fall());
     else
       out.push_back({one.index(), 0, false, {*one.fall()}, {}});
   }
-  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.machine < b.machine; });
+  std::sort(out.begin(), out.end(),
+            [](const auto& a, const auto& b) { return a.machine < b.machine; });
   return out;
 }
 
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
 const std::vector<BedTip>& Session::tips() const { return state_->tips; }
-const std::vector<std::optional<sim::SoilEnergy>>& Session::energy_at_ends() const { return state_->energy_at_ends; }
+const std::vector<std::optional<sim::SoilEnergy>>& Session::energy_at_ends() const {
+  return state_->energy_at_ends;
+}
 const ForceStatistics& Session::force() const { return state_->force; }
 double Session::control_time() const { return state_->control_time; }
 
@@ -338,8 +372,8 @@ double Session::energy() const {
   return sum;
 }
 
-/// Operators belong to the state: two runs in equal worlds part where their programs stand differently. The world comes
-/// first, whose head tells the scene.
+/// Operators belong to the state: two runs in equal worlds part where their programs stand
+/// differently. The world comes first, whose head tells the scene.
 void Session::visit(Archive& a) {
   a("world", state_->world);
   state_->visit(a);
@@ -378,7 +412,8 @@ struct SnapshotContent {
 
 void Session::save(const std::string& path) const {
   // In memory first: a disk that fills up leaves the old file. Saving only reads.
-  const SnapshotContent content{{world().start(), world().description().name}, const_cast<Session&>(*this)};
+  const SnapshotContent content{{world().start(), world().description().name},
+                                const_cast<Session&>(*this)};
   write_file_atomically(path, seal(saved(content)));
 }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr struct {
   const char* name;
   std::size_t size;
-} kTypes[] = {{"uint8", 1}, {"uint16", 2}, {"int32", 4}, {"float32", 4}, {"float64", 8}};  // as ElementType counts
+  // As ElementType counts
+} kTypes[] = {{"uint8", 1}, {"uint16", 2}, {"int32", 4}, {"float32", 4}, {"float64", 8}};
 
 const auto kName = [](const ArrayChannel& channel) -> const std::string& { return channel.name; };
 
@@ -35,11 +36,13 @@ std::string ArrayChannel::type_text() const {
   return std::string(name_of(type)) + "[" + out + "]";
 }
 
-/// Elements are never converted behind a reader's back: a float scan read as double would be another scan.
+/// Elements are never converted behind a reader's back: a float scan read as double would be
+/// another scan.
 void ArrayView::require(ElementType type) const {
   if (type == channel_->type) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, channel_->name, name_of(type),
-                         std::string("its elements are ") + name_of(channel_->type), "read it as that type"});
+                         std::string("its elements are ") + name_of(channel_->type),
+                         "read it as that type"});
 }
 
 /// A handful of arrays: a list in order is enough, and its order is that of the snapshot.
@@ -49,7 +52,9 @@ int ArrayOutputs::find(const std::string& name) const {
   return -1;
 }
 
-int ArrayOutputs::index(const std::string& name) const { return index_of("array", channels_, name, kName); }
+int ArrayOutputs::index(const std::string& name) const {
+  return index_of("array", channels_, name, kName);
+}
 
 /// Pointers into the lists: valid until an array is added or the next value published.
 ArrayView ArrayOutputs::view(int array) const {
@@ -96,9 +101,11 @@ std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X
   return value.bytes;
 }
 
-// What a reader can see is state: an operator may act on the scan that lay there when the snapshot was taken.
+// What a reader can see is state: an operator may act on the scan that lay there when the snapshot
+// was taken.
 void ArrayOutputs::visit(Archive& a) {
-  const std::string rule = "the snapshot has other arrays than the world; add the same samplers, then load";
+  const std::string rule =
+      "the snapshot has other arrays than the world; add the same samplers, then load";
   // As many arrays, under the same names, in the same order.
   a.constant("count", channels_.size(), rule);
   for (std::size_t i = 0; i < channels_.size(); ++i)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stamped arrays by name: scans, images, grids. The same names and look-ups as scalar channels (sim/channels.h).
+// Stamped arrays by name: scans, images, grids. The same names and look-ups as scalar channels
+// (sim/channels.h).
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@
 
 namespace navvy::sim {
 
-/// What one element is. Five types cover scans, images, grids and labels; others would need a reader everywhere.
+/// What one element is. Five types cover scans, images, grids and labels; others would need a
+/// reader everywhere.
 enum class ElementType { kUint8, kUint16, kInt32, kFloat32, kFloat64 };
 
 /// Type of one element as C++ has it; other types do not compile.
@@ -29,7 +31,8 @@ constexpr ElementType element_type() {
   else if constexpr (std::is_same_v<T, float>)
     return ElementType::kFloat32;
   else {
-    static_assert(std::is_same_v<T, double>, "an array holds uint8, uint16, int32, float or double");
+    static_assert(std::is_same_v<T, double>,
+                  "an array holds uint8, uint16, int32, float or double");
     return ElementType::kFloat64;
   }
 }
@@ -38,16 +41,18 @@ constexpr ElementType element_type() {
 std::size_t size_of(ElementType type);
 const char* name_of(ElementType type);
 
-/// Names, units and frames are texts for people and for other languages; nothing here interprets them.
-/// What an array is; fixed from its declaration on.
+/// Names, units and frames are texts for people and for other languages; nothing here interprets
+/// them. What an array is; fixed from its declaration on.
 struct ArrayChannel {
   std::string name;     ///< e.g. "excavator/height_grid"
   std::string unit;     ///< of every element: "m", "1"
   std::string meaning;  ///< one line for people
-  std::string frame;    ///< frame F that its numbers or its nodes count in: "world", "excavator/boom", one of its own
+  /// Frame F that its numbers or its nodes count in: "world", "excavator/boom", one of its own.
+  std::string frame;
   ElementType type = ElementType::kFloat32;
-  std::vector<int> shape;  ///< row major, slowest first: {rows, columns} of a grid, {height, width, 3} of an image
-  double rate = 0;         ///< [1/s] in simulated time; 0: every step
+  /// Row major, slowest first: {rows, columns} of a grid, {height, width, 3} of an image.
+  std::vector<int> shape;
+  double rate = 0;  ///< [1/s] in simulated time; 0: every step
 
   /// Elements in all.
   std::size_t count() const;
@@ -86,8 +91,8 @@ class ArrayView {
   double time_ = 0;
 };
 
-/// Not thread-safe; costs nothing while nobody publishes. The storage of an array keeps its address for life.
-/// The arrays of a world. Clients read them; samplers fill them through their Publisher.
+/// Not thread-safe; costs nothing while nobody publishes. The storage of an array keeps its address
+/// for life. The arrays of a world. Clients read them; samplers fill them through their Publisher.
 class ArrayOutputs {
  public:
   /// In the order in which they were declared.
@@ -102,13 +107,15 @@ class ArrayOutputs {
 
   /// @throws InputError for a shape without elements.
   static void require_elements(const ArrayChannel& channel);
-  /// A new array of zeros; returns its index. @throws InputError for a shape without elements or a name in use.
+  /// A new array of zeros; returns its index. @throws InputError for a shape without elements or a
+  /// name in use.
   int add(ArrayChannel channel);
-  /// Storage of the next value, stamped `time` [s], of the frame at `X_WF`: the caller fills all of it now.
+  /// Storage of the next value, stamped `time` [s], of the frame at `X_WF`: the caller fills all of
+  /// it now.
   std::span<std::byte> publish(int array, double time, const Pose& X_WF);
 
-  /// Sequence, stamp, frame and bytes of every array: what a reader can see is state. Loads into the same list of
-  /// arrays only.
+  /// Sequence, stamp, frame and bytes of every array: what a reader can see is state. Loads into
+  /// the same list of arrays only.
   void visit(Archive& a);
 
  private:

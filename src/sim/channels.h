@@ -9,8 +9,9 @@
 
 namespace navvy::sim {
 
-/// One named number, e.g. "ew180/boom_joint/position" in rad.
-/// Its name is "<machine>/<part>/<quantity>", or "<sampler>/<quantity>"; it never changes while the world lives.
+/// One named number, e.g. "ew180/boom_joint/position" in rad. Its name is
+/// "<machine>/<part>/<quantity>", or "<sampler>/<quantity>"; it never changes while the world
+/// lives.
 struct Channel {
   std::string name;
   std::string unit;
@@ -44,7 +45,8 @@ class ChannelList {
   std::map<std::string, int> index_;
 };
 
-// What a world has of them. A function reads or drives through handles and takes no time to find its part.
+// What a world has of them. A function reads or drives through handles and takes no time to find
+// its part.
 using Inputs = ChannelList<std::function<void(double)>>;
 using Outputs = ChannelList<std::function<double()>>;
 

@@ -31,7 +31,8 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
   }
   try {
     const geometry::Box round = geometry::bounds(geometry::read_obj(g.mesh_file));
-    box.X_WO = collision.X_LC * Eigen::Translation3d(0.5 * (round.low + round.high).cwiseProduct(g.scale));
+    box.X_WO =
+        collision.X_LC * Eigen::Translation3d(0.5 * (round.low + round.high).cwiseProduct(g.scale));
     box.half = 0.5 * (round.high - round.low).cwiseProduct(g.scale.cwiseAbs());
     return box;
   } catch (const Error&) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame is what a renderer needs and nothing more: poses of visuals, cylinders between their pins, a dense window of
-// the ground and the particles, all in W.
+// A frame is what a renderer needs and nothing more: poses of visuals, cylinders between their
+// pins, a dense window of the ground and the particles, all in W.
 #include "sim/frame_builder.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
-#include "sim/plate_room.h"
-#include "sim/terrain_view.h"
+#include "sim/particle_clipper.h"
 #include "sim/world_parts.h"
+#include "sim/world_terrain.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
@@ -20,7 +20,8 @@ constexpr heightfield::SurfaceKind kDrawn = heightfield::SurfaceKind::kColumns;
 constexpr int kWindow = 1024;           // columns along one side of the drawn ground
 constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
 constexpr double kBarRadius = 0.05;     // [m]
-constexpr double kOffPlates = 1.1;      // least way from a drawn lump's middle to steel, in its radius
+// Least way from a drawn lump's middle to steel, in its radius
+constexpr double kOffPlates = 1.1;
 
 /// OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
@@ -41,7 +42,8 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const World& world) : world_(world), plates_(std::make_unique<PlateRoom>(world)) {
+FrameBuilder::FrameBuilder(const World& world)
+    : world_(world), plates_(std::make_unique<ParticleClipper>(world)) {
   // What does not change with time is filled in once.
   for (const scene::Soil& soil : world.description().soils)
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
@@ -74,7 +76,8 @@ void FrameBuilder::place_window() {
     high = m == 0 ? p : Vec2(high.cwiseMax(p));
   }
   const Vec2i center = ground.column_at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()));
-  // A window follows the middle of the machines, but jumps only when they near its edge: a jump costs a whole copy.
+  // A window follows the middle of the machines, but jumps only when they near its edge: a jump
+  // costs a whole copy.
   const bool placed = !window_.empty();
   const bool near_edge = std::abs(center.x() - (window_.x0 + window_.x1) / 2) > nx / 4 ||
                          std::abs(center.y() - (window_.y0 + window_.y1) / 2) > ny / 4;
@@ -100,23 +103,27 @@ void FrameBuilder::place_window() {
 void FrameBuilder::update_ground() {
   const heightfield::TerrainView terrain = terrain_view(world_, kDrawn);
   scene::FrameGround& out = frame_.ground;
-  // A frame that nobody draws loses nothing: the follower sees the next one against the last one built.
+  // A frame that nobody draws loses nothing: the follower sees the next one against the last one
+  // built.
   out.changed.clear();
   for (const heightfield::CellRect& changed : changes_.take(terrain)) {
     const heightfield::CellRect rect = changed.cut(window_);
     if (rect.empty()) continue;
     copy_ground(terrain, rect);
-    out.changed.push_back({rect.x0 - window_.x0, rect.y0 - window_.y0, rect.x1 - window_.x0, rect.y1 - window_.y0});
+    out.changed.push_back(
+        {rect.x0 - window_.x0, rect.y0 - window_.y0, rect.x1 - window_.x0, rect.y1 - window_.y0});
   }
   if (!out.changed.empty()) ++out.revision;
 }
 
-void FrameBuilder::copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect) {
+void FrameBuilder::copy_ground(const heightfield::Terrain& terrain,
+                               const heightfield::CellRect& rect) {
   scene::FrameGround& out = frame_.ground;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
-      const std::size_t i = static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
-                            static_cast<std::size_t>(ix - window_.x0);
+      const std::size_t i =
+          static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
+          static_cast<std::size_t>(ix - window_.x0);
       // The difference in double: both heights may be hundreds of metres.
       const double height = terrain.height(ix, iy);
       out.height[i] = static_cast<float>(height);
@@ -139,14 +146,18 @@ void FrameBuilder::add_machines() {
 }
 
 void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
-  const scene::Machine& machine = world_.description().machines[static_cast<std::size_t>(m)].machine;
-  const int joint = machine.joint_index(cylinder.joint), base = machine.link_index(cylinder.base_link),
+  const scene::Machine& machine =
+      world_.description().machines[static_cast<std::size_t>(m)].machine;
+  const int joint = machine.joint_index(cylinder.joint),
+            base = machine.link_index(cylinder.base_link),
             rod = machine.link_index(cylinder.rod_link);
   if (joint < 0 || base < 0 || rod < 0) return;
   // The pins follow from the joint's angle; a cylinder has no state of its own.
-  const auto geometry = vehicle::cylinder_geometry(machine, cylinder, world_.machine(m).joint(joint).position());
+  const auto geometry =
+      vehicle::cylinder_geometry(machine, cylinder, world_.machine(m).joint(joint).position());
   const Pose X_WL = world_.machine(m).link(base).pose();
-  const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel, double aside) {
+  const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel,
+                       double aside) {
     const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
     frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
   };
@@ -155,9 +166,10 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
     add(X_WL * geometry.p_base, X_WL * geometry.p_rod, 0.6 * cylinder.bore, 0.55 * geometry.length,
         cylinder.spacing * (i - 0.5 * (cylinder.count - 1)));
   if (!cylinder.has_linkage) return;
-  // Rocker and coupler on both sides; rod pin and coupler pin lie on one ray from the rocker's pivot.
-  const Vec3 pin =
-      cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod * (geometry.p_rod - cylinder.p_rocker);
+  // Rocker and coupler on both sides; rod pin and coupler pin lie on one ray from the rocker's
+  // pivot.
+  const Vec3 pin = cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod *
+                                           (geometry.p_rod - cylinder.p_rocker);
   const Vec3 on_bucket = world_.machine(m).link(rod).pose() * cylinder.p_coupler;
   for (const double aside : {-kLinkageAside, kLinkageAside}) {
     add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
@@ -183,12 +195,14 @@ void FrameBuilder::add_particles() {
   out.soil.reserve(particles.size());
   for (const soil::Particle& p : particles) {
     for (int i = 0; i < 3; ++i)
-      out.position.push_back(static_cast<float>(block * (p.block[i] - first[i]) + ground.cell() * p.x[i]));
+      out.position.push_back(
+          static_cast<float>(block * (p.block[i] - first[i]) + ground.cell() * p.x[i]));
     out.soil.push_back(static_cast<std::uint8_t>(p.soil));
     out.id.push_back(p.id);
   }
-  // Lumps differ in size by chance: twice the radius holds the largest. What lies on steel is drawn beside it and not
-  // shrunk to the dust that would fit: a load's outermost layer would show as a lattice of crumbs.
+  // Lumps differ in size by chance: twice the radius holds the largest. What lies on steel is drawn
+  // beside it and not shrunk to the dust that would fit: a load's outermost layer would show as a
+  // lattice of crumbs.
   plates_->keep_off(out, kOffPlates * out.radius, 2 * out.radius);
 }
 
@@ -202,10 +216,14 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   if (camera.kind != scene::Camera::Kind::kFixed) {
     const int m = world_.description().machine_index(camera.machine);
     if (m < 0)
-      throw InputError(Fault{Fault::Severity::kError, world_.description().file, 0, "camera[" + camera.name + "]",
-                             camera.machine, "there is no machine of this name", "name a machine of the scene"});
-    const scene::Machine& machine = world_.description().machines[static_cast<std::size_t>(m)].machine;
-    const int link = camera.kind == scene::Camera::Kind::kOnLink ? std::max(0, machine.link_index(camera.link)) : 0;
+      throw InputError(Fault{Fault::Severity::kError, world_.description().file, 0,
+                             "camera[" + camera.name + "]", camera.machine,
+                             "there is no machine of this name", "name a machine of the scene"});
+    const scene::Machine& machine =
+        world_.description().machines[static_cast<std::size_t>(m)].machine;
+    const int link = camera.kind == scene::Camera::Kind::kOnLink
+                         ? std::max(0, machine.link_index(camera.link))
+                         : 0;
     X = world_.machine(m).link(link).pose();
     if (camera.kind == scene::Camera::Kind::kChase) {
       const double yaw = std::atan2(X.linear()(1, 0), X.linear()(0, 0));
@@ -216,7 +234,8 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   // Never below the ground it looks over.
   const Vec3 eye = out.X_WC.translation();
   const double floor = terrain_view(world_, kDrawn).sample(eye.x(), eye.y()) + 0.3;
-  if (eye.z() < floor && camera.kind != scene::Camera::Kind::kOnLink) out.X_WC.translation().z() = floor;
+  if (eye.z() < floor && camera.kind != scene::Camera::Kind::kOnLink)
+    out.X_WC.translation().z() = floor;
   return out;
 }
 

@@ -10,12 +10,12 @@
 
 namespace navvy::sim {
 
-class PlateRoom;
+class ParticleClipper;
 
 /// Fills frames of one world; keeps the dense ground between calls and rewrites only what changed.
 ///
-/// The ground window holds at most 1024 x 1024 columns: the whole of a small site, else the part around the machines,
-/// moved when one comes within a quarter of its edge.
+/// The ground window holds at most 1024 x 1024 columns: the whole of a small site, else the part
+/// around the machines, moved when one comes within a quarter of its edge.
 class FrameBuilder {
  public:
   explicit FrameBuilder(const World& world);
@@ -41,7 +41,7 @@ class FrameBuilder {
   // Columns of the site that are drawn, and what changed among them.
   heightfield::CellRect window_;
   heightfield::ChangeFollower changes_;
-  std::unique_ptr<PlateRoom> plates_;
+  std::unique_ptr<ParticleClipper> plates_;
 };
 
 }  // namespace navvy::sim

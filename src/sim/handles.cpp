@@ -11,7 +11,8 @@
 namespace navvy::sim {
 namespace {
 
-/// Entry `index` of what a machine's file lists; every handle looks through here, so no index is ever unchecked.
+/// Entry `index` of what a machine's file lists; every handle looks through here, so no index is
+/// ever unchecked.
 template <class Entry>
 const Entry* entry(const std::string& kind, const std::vector<Entry>& list, int index) {
   require_index(kind, index, list.size());
@@ -23,7 +24,8 @@ const auto kName = [](const auto& part) -> const std::string& { return part.name
 
 }  // namespace
 
-// Each reading asks the engine anew: nothing is kept that a step or a loaded snapshot could make stale.
+// Each reading asks the engine anew: nothing is kept that a step or a loaded snapshot could make
+// stale.
 const std::string& LinkHandle::name() const { return link_->name; }
 Pose LinkHandle::pose() const { return state().X_WL; }
 // Of the link's origin; a point elsewhere moves with w x r on top.
@@ -32,7 +34,8 @@ Vec3 LinkHandle::angular_velocity() const { return state().w_WL; }
 // Engines answer by value from what they hold; no memory is taken.
 vehicle::LinkState LinkHandle::state() const { return engine_->link(body_, index_); }
 
-// A joint's state is worked out by the engine on each call; who needs several of its values asks for state() once.
+// A joint's state is worked out by the engine on each call; who needs several of its values asks
+// for state() once.
 const std::string& JointHandle::name() const { return joint_->name; }
 // One number each; they cost what state() costs.
 double JointHandle::position() const { return state().position; }
@@ -51,7 +54,8 @@ vehicle::WheelState WheelHandle::state() const { return engine_->wheel(body_, in
 
 namespace {
 
-// The list of tools is made with the world and never changes its order, so an index into it is for life.
+// The list of tools is made with the world and never changes its order, so an index into it is for
+// life.
 const coupling::ToolLoad& load(const WorldParts& parts, int tool) {
   return parts.coupling.tools()[static_cast<std::size_t>(tool)];
 }
@@ -95,14 +99,16 @@ const scene::Machine& MachineHandle::description() const {
   return parts_->description.machines[static_cast<std::size_t>(machine_)].machine;
 }
 
-// Names become indices, indices are checked, then the handle keeps all it needs to read without a look-up.
+// Names become indices, indices are checked, then the handle keeps all it needs to read without a
+// look-up.
 LinkHandle MachineHandle::link(const std::string& name) const {
   return link(index_of("link", description().links, name, kName));
 }
 LinkHandle MachineHandle::link(int index) const {
   LinkHandle out;
   out.link_ = entry("link", description().links, index);
-  // The engine that has this machine, and the machine's index there: it may differ from the world's.
+  // The engine that has this machine, and the machine's index there: it may differ from the
+  // world's.
   out.engine_ = &parts_->coupling.engine(machine_);
   out.body_ = parts_->coupling.index(machine_);
   out.index_ = index;
@@ -126,8 +132,9 @@ JointHandle MachineHandle::joint(int index) const {
 
 // Wheels by the name of their spin joint.
 WheelHandle MachineHandle::wheel(const std::string& name) const {
-  return wheel(index_of("wheel", description().wheels, name,
-                        [](const scene::Wheel& wheel) -> const std::string& { return wheel.joint; }));
+  return wheel(
+      index_of("wheel", description().wheels, name,
+               [](const scene::Wheel& wheel) -> const std::string& { return wheel.joint; }));
 }
 WheelHandle MachineHandle::wheel(int index) const {
   WheelHandle out;
@@ -159,7 +166,7 @@ ToolHandle MachineHandle::tool(int index) const {
 vehicle::PumpState MachineHandle::pump() const {
   return parts_->coupling.engine(machine_).pump(parts_->coupling.index(machine_));
 }
-vehicle::EngineState MachineHandle::engine() const {
+vehicle::CombustionEngineState MachineHandle::engine() const {
   return parts_->coupling.engine(machine_).drive_engine(parts_->coupling.index(machine_));
 }
 vehicle::DriveInput MachineHandle::drive() const {
@@ -169,8 +176,11 @@ vehicle::BaseInput MachineHandle::base() const {
   return parts_->coupling.engine(machine_).base(parts_->coupling.index(machine_));
 }
 vehicle::Stability MachineHandle::stability() const {
-  return vehicle::stability(description(), parts_->coupling.engine(machine_), parts_->coupling.index(machine_));
+  return vehicle::stability(description(), parts_->coupling.engine(machine_),
+                            parts_->coupling.index(machine_));
 }
-double MachineHandle::work() const { return parts_->coupling.engine(machine_).work(parts_->coupling.index(machine_)); }
+double MachineHandle::work() const {
+  return parts_->coupling.engine(machine_).work(parts_->coupling.index(machine_));
+}
 
 }  // namespace navvy::sim

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles to the parts of a running world: a name or an index is resolved once, then reading takes neither a look-up
-// nor memory. `world.machine("excavator").link("boom").pose()`, `.joint("arm_joint").position()`,
-// `.tool("bucket").force()`, `.wheel(0).state().slip`.
+// Handles to the parts of a running world: a name or an index is resolved once, then reading takes
+// neither a look-up nor memory. `world.machine("excavator").link("boom").pose()`,
+// `.joint("arm_joint").position()`, `.tool("bucket").force()`, `.wheel(0).state().slip`.
 //
-// A handle is a few words, copied freely; it stays valid as long as its world lives and tells the state of the moment
-// in which it is read, also after a snapshot was loaded. Handles only read: World::command and World::set drive, and
-// Session's functions of the same names where a program may be running. Every look-up throws InputError for a name or
-// index that does not exist; for a name the message holds the nearest one.
+// A handle is a few words, copied freely; it stays valid as long as its world lives and tells the
+// state of the moment in which it is read, also after a snapshot was loaded. Handles only read:
+// World::command and World::set drive, and Session's functions of the same names where a program
+// may be running. Every look-up throws InputError for a name or index that does not exist; for a
+// name the message holds the nearest one.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +15,12 @@
 
 #include "core/math.h"
 #include "scene/machine.h"
-#include "sim/world_figures.h"
+#include "sim/world_measurements.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::vehicle {
 // Named only: a client reads through handles and sees no engine.
-class Engine;
+class PhysicsEngine;
 class JointEncoder;
 }  // namespace navvy::vehicle
 
@@ -43,11 +44,12 @@ class LinkHandle {
  private:
   friend class MachineHandle;
   const scene::Link* link_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   int body_ = -1, index_ = -1;
 };
 
-/// A joint; units follow its type: [rad], [rad/s], [N m] of a revolute one, [m], [m/s], [N] of a prismatic one.
+/// A joint; units follow its type: [rad], [rad/s], [N m] of a revolute one, [m], [m/s], [N] of a
+/// prismatic one.
 class JointHandle {
  public:
   const std::string& name() const;
@@ -68,7 +70,7 @@ class JointHandle {
  private:
   friend class MachineHandle;
   const scene::Joint* joint_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   const vehicle::JointEncoder* encoder_ = nullptr;
   int machine_ = -1, body_ = -1, index_ = -1;
 };
@@ -78,17 +80,19 @@ class WheelHandle {
  public:
   /// Name of its spin joint.
   const std::string& name() const;
-  /// Pose (y = spin axis), velocity [m/s], spin [rad/s], steer [rad], tyre force [N], slip [-], sinkage [m].
+  /// Pose (y = spin axis), velocity [m/s], spin [rad/s], steer [rad], tyre force [N], slip [-],
+  /// sinkage [m].
   vehicle::WheelState state() const;
 
  private:
   friend class MachineHandle;
   const scene::Wheel* wheel_ = nullptr;
-  const vehicle::Engine* engine_ = nullptr;
+  const vehicle::PhysicsEngine* engine_ = nullptr;
   int body_ = -1, index_ = -1;
 };
 
-/// A shell that touches soil: a bucket, a bed, a blade. Forces are what the ground does to it, axes of W.
+/// A shell that touches soil: a bucket, a bed, a blade. Forces are what the ground does to it, axes
+/// of W.
 class ToolHandle {
  public:
   /// Name of its shell, unique in its machine.
@@ -108,7 +112,7 @@ class ToolHandle {
   Vec3 rock_force() const;
   /// Soil inside [kg]; of a bed without what a bucket holds in it. Costs a pass over the particles.
   double payload() const;
-  /// Of the last step, see world_figures.h; scale 0 without contact.
+  /// Of the last step, see world_measurements.h; scale 0 without contact.
   MomentumBalance momentum_balance() const;
 
  private:
@@ -128,8 +132,8 @@ class MachineHandle {
   /// The data it was built from: names, counts, limits.
   const scene::Machine& description() const;
 
-  /// By name, or by index as in scene::Machine::links, joints, wheels (by the name of their spin joint), shells.
-  /// Link 0 is the base.
+  /// By name, or by index as in scene::Machine::links, joints, wheels (by the name of their spin
+  /// joint), shells. Link 0 is the base.
   LinkHandle link(const std::string& name) const;
   LinkHandle link(int index) const;
   JointHandle joint(const std::string& name) const;
@@ -141,8 +145,9 @@ class MachineHandle {
 
   /// Oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
   vehicle::PumpState pump() const;
-  /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a drive without one.
-  vehicle::EngineState engine() const;
+  /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a
+  /// drive without one.
+  vehicle::CombustionEngineState engine() const;
   /// The command that the drive follows now: speed [m/s], steer [rad], brake, gear.
   vehicle::DriveInput drive() const;
   /// Where a kinematic machine's base is on its way to; of others where it is.

@@ -6,11 +6,13 @@
 
 namespace navvy::sim {
 
-void throw_unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
+void throw_unknown(const std::string& kind, const std::string& name,
+                   const std::vector<std::string>& known) {
   // Without a candidate the remedy says so instead of asking about nothing.
   const std::string remedy =
       known.empty() ? "there is none at all" : "did you mean '" + nearest_name(known, name) + "'?";
-  throw InputError(Fault{Fault::Severity::kError, "", 0, kind, name, "there is no " + kind + " of this name", remedy});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, kind, name,
+                         "there is no " + kind + " of this name", remedy});
 }
 
 void require_index(const std::string& kind, int index, std::size_t count) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What looks at a world after a step and publishes what it saw: sensors, maps. The world knows them by this interface
-// only; a new one is a class of its own and `world.add(...)`, and nothing else changes.
+// What looks at a world after a step and publishes what it saw: sensors, maps. The world knows them
+// by this interface only; a new one is a class of its own and `world.add(...)`, and nothing else
+// changes.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +19,30 @@ namespace navvy::sim {
 
 class World;
 
-/// One sampler's way to the outputs of its world. Channels are declared once; each sample then sets them.
+/// One sampler's way to the outputs of its world. Channels are declared once; each sample then sets
+/// them.
 class Publisher {
  public:
   /// Both lists must outlive it. `rate` [1/s] is written into every array's channel.
-  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate) : outputs_(outputs), arrays_(arrays), rate_(rate) {}
+  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate)
+      : outputs_(outputs), arrays_(arrays), rate_(rate) {}
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
-  /// A new scalar output of the world, 0 until set; telemetry records it as any other. Returns the number to set it by.
+  /// A new scalar output of the world, 0 until set; telemetry records it as any other. Returns the
+  /// number to set it by.
   /// @throws InputError when the name is in use.
   int declare(Channel channel);
-  /// A new array. Returns the number to fill it by. @throws InputError when the name is in use or the shape is empty.
+  /// A new array. Returns the number to fill it by. @throws InputError when the name is in use or
+  /// the shape is empty.
   int declare(ArrayChannel channel);
 
-  /// The value that the output shows from now on. `number` from declare; std::out_of_range for another.
+  /// The value that the output shows from now on. `number` from declare; std::out_of_range for
+  /// another.
   void set(int number, double value) { *numbers_.at(static_cast<std::size_t>(number)) = value; }
-  /// Storage of the array's next value, stamped with the time of this sample: fill all of it before `sample` returns.
-  /// `X_WF` is where its frame is now. @throws InputError when T is not the array's type.
+  /// Storage of the array's next value, stamped with the time of this sample: fill all of it before
+  /// `sample` returns. `X_WF` is where its frame is now. @throws InputError when T is not the
+  /// array's type.
   template <class T>
   std::span<T> fill(int array, const Pose& X_WF = Pose::Identity()) {
     require(array, element_type<T>());
@@ -43,11 +50,13 @@ class Publisher {
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
-  /// Makes what was declared known to the world, all of it or nothing: a declaration that throws leaves no trace.
+  /// Makes what was declared known to the world, all of it or nothing: a declaration that throws
+  /// leaves no trace.
   void commit();
   /// Time of the sample that is being taken [s]; set by the world.
   void stamp(double time) { time_ = time; }
-  /// All numbers in the order of their declaration; arrays are visited with all others. Loads as many only.
+  /// All numbers in the order of their declaration; arrays are visited with all others. Loads as
+  /// many only.
   void visit(Archive& a);
 
  private:
@@ -60,15 +69,15 @@ class Publisher {
   double time_ = 0;
   std::vector<Channel> new_numbers_;  ///< declared, not yet known to the world
   std::vector<ArrayChannel> new_arrays_;
-  std::vector<std::unique_ptr<double>> numbers_;  ///< each at an address of its own that the output reads
+  /// Each at an address of its own that the output reads.
+  std::vector<std::unique_ptr<double>> numbers_;
 };
 
-/// A sensor, a map, a measuring instrument. Its handles and channel indices are looked up once, in its constructor or
-/// in declare, and read in sample.
-/// Reads the world, changes nothing of it.
+/// A sensor, a map, a measuring instrument. Its handles and channel indices are looked up once, in
+/// its constructor or in declare, and read in sample. Reads the world, changes nothing of it.
 ///
-/// Deterministic: what it publishes is a function of the world and of its own state, which it visits (a random
-/// generator, a delay line); a resumed run then goes on to the same bits.
+/// Deterministic: what it publishes is a function of the world and of its own state, which it
+/// visits (a random generator, a delay line); a resumed run then goes on to the same bits.
 class Sampler {
  public:
   virtual ~Sampler() = default;
@@ -88,7 +97,8 @@ class Sampler {
 /// A sampler in its world.
 class SamplerSlot {
  public:
-  /// Declares the sampler's channels. @throws InputError for a rate that is not finite or below 0, or a name in use.
+  /// Declares the sampler's channels. @throws InputError for a rate that is not finite or below 0,
+  /// or a name in use.
   SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays);
 
   const std::string& name() const { return name_; }

@@ -9,7 +9,7 @@
 #include "core/log.h"
 #include "core/saved_state.h"
 #include "core/sealed.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 
 namespace navvy::sim {
 namespace {
@@ -20,10 +20,11 @@ void require_scene(Archive& a, const std::string& scene) {
   // Runs of one scene cannot differ in it, so it would tell a hash nothing.
   a.unhashed("", [&] { a("scene", found); });
   if (a.loading() && found != scene)
-    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "scene", found,
-                           "it was taken of this scene, and the one to go on in is '" + scene + "'",
-                           "go on in the scene it was taken of; --resume-anyway lets parameters of one scene differ, "
-                           "and no more"});
+    throw InputError(Fault{
+        Fault::Severity::kError, "snapshot", 0, "scene", found,
+        "it was taken of this scene, and the one to go on in is '" + scene + "'",
+        "go on in the scene it was taken of; --resume-anyway lets parameters of one scene differ, "
+        "and no more"});
 }
 
 }  // namespace
@@ -34,7 +35,8 @@ void SnapshotHead::visit(Archive& a) {
     // The ground's own section checks its size.
     require_scene(a, scene);
     a("dt", dt);
-    // Thirty years of steps: counts of periods, which are as many or a million times more, are still whole numbers.
+    // Thirty years of steps: counts of periods, which are as many or a million times more, are
+    // still whole numbers.
     a.ranged("steps", steps, 0, 1'000'000'000'000);
   });
 }
@@ -67,16 +69,18 @@ void SnapshotStart::visit(Archive& a) {
     if (!a.loading() || found == here) return;
     const std::string differences = scene::differences(found, here);
     if (!anyway)
-      throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "start", "",
-                             "it was taken of a scene that differs: " + differences,
-                             "name the scene it was taken of; `navvy run` goes on in this one with --resume-anyway"});
+      throw InputError(Fault{
+          Fault::Severity::kError, "snapshot", 0, "start", "",
+          "it was taken of a scene that differs: " + differences,
+          "name the scene it was taken of; `navvy run` goes on in this one with --resume-anyway"});
     log_warning("going on from a snapshot of another scene: " + differences);
   });
 }
 
 namespace {
 
-/// The ground's section comes first of all parts; what follows it needs a device and is left unread.
+/// The ground's section comes first of all parts; what follows it needs a device and is left
+/// unread.
 struct Front {
   SnapshotStart start;
   SnapshotHead head;
@@ -91,7 +95,8 @@ struct Front {
 
 }  // namespace
 
-heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file, SnapshotHead* head) {
+heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
+                                SnapshotHead* head) {
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
     Front front{{start_of(scene, ground), scene.name}, {scene.name}, std::move(ground)};

@@ -10,35 +10,37 @@
 
 #include "coupling/settling.h"
 #include "geometry/oriented_box.h"
-#include "heightfield/design.h"
-#include "heightfield/site.h"
+#include "heightfield/design_surface.h"
+#include "heightfield/make_ground.h"
 #include "sim/collision_box.h"
-#include "sim/placing.h"
+#include "sim/start_placing.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
 namespace {
 
-constexpr double kTouching = 0.02;  // [m] shapes are boxes here, and machines may stand side by side
-constexpr double kSettling = 1;     // [s]
-constexpr double kFalling = 1;      // [m/s] downwards: it has not landed
+// [m] shapes are boxes here, and machines may stand side by side
+constexpr double kTouching = 0.02;
+constexpr double kSettling = 1;  // [s]
+constexpr double kFalling = 1;   // [m/s] downwards: it has not landed
 constexpr double kTipped = radians(45);
 
 struct LinkBox {
   geometry::OrientedBox box;
   const scene::Link* link = nullptr;
-  bool as_told = false, stands = false;  // of a kinematic machine; a base that is held
+  bool as_commanded = false, stands = false;  // of a kinematic machine; a base that is held
 };
 
 /// What moves as told goes through its like and through what stands.
 bool may_meet(const LinkBox& a, const LinkBox& b) {
-  return !(a.as_told && (b.as_told || b.stands)) && !(b.as_told && a.stands);
+  return !(a.as_commanded && (b.as_commanded || b.stands)) && !(b.as_commanded && a.stands);
 }
 
 /// Hook and eye reach into each other, and so do the bodies around them.
 bool are_hitched(const scene::Scene& scene, int a, int b) {
   return std::any_of(scene.hitches.begin(), scene.hitches.end(), [&](const scene::Hitch& hitch) {
-    return hitch.closed && ((hitch.parent == a && hitch.child == b) || (hitch.parent == b && hitch.child == a));
+    return hitch.closed &&
+           ((hitch.parent == a && hitch.child == b) || (hitch.parent == b && hitch.child == a));
   });
 }
 
@@ -63,16 +65,23 @@ std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X
   return out;
 }
 
-Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine, const std::string& value,
-            const std::string& rule, const std::string& remedy) {
-  return {Fault::Severity::kError, scene.file, machine.line, "include[" + machine.name + "]", value, rule, remedy};
+Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine,
+            const std::string& value, const std::string& rule, const std::string& remedy) {
+  return {Fault::Severity::kError,
+          scene.file,
+          machine.line,
+          "include[" + machine.name + "]",
+          value,
+          rule,
+          remedy};
 }
 
 }  // namespace
 
 std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB) {
   std::vector<std::vector<LinkBox>> boxes;
-  for (std::size_t m = 0; m < scene.machines.size(); ++m) boxes.push_back(boxes_of(scene.machines[m], X_WB.at(m)));
+  for (std::size_t m = 0; m < scene.machines.size(); ++m)
+    boxes.push_back(boxes_of(scene.machines[m], X_WB.at(m)));
   std::vector<Fault> faults;
   for (std::size_t a = 0; a < boxes.size(); ++a)
     for (std::size_t b = a + 1; b < boxes.size(); ++b) {
@@ -88,8 +97,8 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
       if (!of_a) continue;
       const std::string& first = scene.machines[a].name;
       faults.push_back(error(scene, scene.machines[b], text("%.2f m", deepest),
-                             "it overlaps '" + first + "' at the start: its link '" + of_b->name + "' reaches into '" +
-                                 of_a->name + "' of '" + first + "'",
+                             "it overlaps '" + first + "' at the start: its link '" + of_b->name +
+                                 "' reaches into '" + of_a->name + "' of '" + first + "'",
                              "move one of them by its <pose>"));
     }
   return faults;
@@ -119,36 +128,41 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
       const int joint = placed.machine.joint_index(wheel.joint);
       if (joint < 0) continue;
       const scene::Joint& spin = placed.machine.joints[static_cast<std::size_t>(joint)];
-      look(X_WL[static_cast<std::size_t>(spin.child)] * Vec3(spin.X_LcJ.translation()), "wheel '" + wheel.joint + "'");
+      look(X_WL[static_cast<std::size_t>(spin.child)] * Vec3(spin.X_LcJ.translation()),
+           "wheel '" + wheel.joint + "'");
     }
     if (what.empty()) continue;
-    faults.push_back(error(scene, placed, text("%.2f m", deepest),
-                           "its " + what + " starts with its middle that far below the ground",
-                           "raise it by its <pose>, or let it stand by <navvy:on_ground>true</navvy:on_ground>"));
+    faults.push_back(error(
+        scene, placed, text("%.2f m", deepest),
+        "its " + what + " starts with its middle that far below the ground",
+        "raise it by its <pose>, or let it stand by <navvy:on_ground>true</navvy:on_ground>"));
   }
   return faults;
 }
 
 namespace {
 
-/// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is an error elsewhere.
-std::string told_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
+/// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is
+/// an error elsewhere.
+std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
-  const heightfield::DesignFigures figures = heightfield::against_design(ground, *design);
+  const heightfield::DesignComparison figures = heightfield::against_design(ground, *design);
   double least = INFINITY, most = -INFINITY;
   for (const float z : design->z) {
     least = std::fmin(least, static_cast<double>(z));
     most = std::fmax(most, static_cast<double>(z));
   }
   const std::size_t areas = scene.design.areas.size();
-  const std::string what = scene.design.file.empty() ? std::to_string(areas) + (areas == 1 ? " area" : " areas")
-                           : scene.design.tin        ? scene.design.file + ", surface '" + scene.design.tin->name + "'"
-                                                     : scene.design.file;
+  const std::string what =
+      scene.design.file.empty() ? std::to_string(areas) + (areas == 1 ? " area" : " areas")
+      : scene.design.tin        ? scene.design.file + ", surface '" + scene.design.tin->name + "'"
+                                : scene.design.file;
   std::array<char, 160> out{};
-  std::snprintf(out.data(), out.size(),
-                ": %.4g m2 of the site, heights %.3f .. %.3f m in W, %.4g m3 to cut, %.4g m3 to fill\n", figures.area,
-                least, most, figures.design_cut, figures.design_fill);
+  std::snprintf(
+      out.data(), out.size(),
+      ": %.4g m2 of the site, heights %.3f .. %.3f m in W, %.4g m3 to cut, %.4g m3 to fill\n",
+      figures.area, least, most, figures.design_cut, figures.design_fill);
   return "design " + what + out.data();
 } catch (const InputError&) {
   return "";
@@ -160,13 +174,14 @@ StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, &out.terrain);
-    out.design = told_design(scene, ground);
+    out.design = reported_design(scene, ground);
     const std::vector<Pose> X_WB = starting_poses(scene, ground);
     out.faults = check_overlaps(scene, X_WB);
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);
     const bool falls = !buried.empty();
     for (Fault& fault : buried) out.faults.push_back(std::move(fault));
-    // What falls is named, and need not fall through the ground to be told of again: nothing stands then.
+    // What falls is named, and need not fall through the ground to be told of again: nothing stands
+    // then.
     if (falls) return out;
     for (const coupling::Settled& one : coupling::settle(scene, ground, kSettling)) {
       out.standing.push_back(one.stability);
@@ -177,12 +192,13 @@ StartCheck check_start(const scene::Scene& scene) {
       // What is in the air has no ground to tip on yet.
       if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
-      out.faults.push_back(error(
-          scene, scene.machines[m], tilt,
-          std::string("the machine tips over within its first second") +
-              (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) + " outside its feet"
-                                 : ""),
-          "put it on flatter ground, or turn it along the slope"));
+      out.faults.push_back(
+          error(scene, scene.machines[m], tilt,
+                std::string("the machine tips over within its first second") +
+                    (stands.margin < 0 ? ": its centre of mass is " +
+                                             text("%.2f m", -stands.margin) + " outside its feet"
+                                       : ""),
+                "put it on flatter ground, or turn it along the slope"));
     }
   } catch (const InputError& fault) {
     for (const Fault& one : fault.faults()) out.faults.push_back(one);

@@ -7,7 +7,8 @@
 namespace navvy::sim {
 namespace {
 
-constexpr double kHair = 1e-9;  // quotients of times are rounded: a whole number counts as one from this close
+// Quotients of times are rounded: a whole number counts as one from this close
+constexpr double kHair = 1e-9;
 
 }  // namespace
 
@@ -17,8 +18,10 @@ double base_step(double longest, double period) {
 }
 
 std::uint64_t samples_through(std::uint64_t step, double dt, double rate) {
-  // Half a step further on is where the next step becomes the nearer one. Products, as a sum of periods would drift.
-  return static_cast<std::uint64_t>(std::ceil((static_cast<double>(step) + 0.5) * (dt * rate) - kHair));
+  // Half a step further on is where the next step becomes the nearer one. Products, as a sum of
+  // periods would drift.
+  return static_cast<std::uint64_t>(
+      std::ceil((static_cast<double>(step) + 0.5) * (dt * rate) - kHair));
 }
 
 std::uint64_t sample_number(std::uint64_t step, double dt, double rate) {

@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "heightfield/site.h"
-#include "sim/placing.h"
+#include "heightfield/make_ground.h"
 #include "sim/snapshot.h"
+#include "sim/start_placing.h"
 #include "sim/timing.h"
 
 namespace navvy::sim {
@@ -29,7 +29,8 @@ heightfield::Ground make_site(const scene::Scene& world) {
 
 }  // namespace
 
-/// In the order of the members: ground under machines, engines and soil under the exchange that binds them.
+/// In the order of the members: ground under machines, engines and soil under the exchange that
+/// binds them.
 WorldParts::WorldParts(scene::Scene world, device::Device& device)
     : description(std::move(world)),
       ground(make_site(description)),
@@ -44,17 +45,17 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
   const double rate = description.solver.control_rate;
   dt = base_step(longest_step, rate > 0 ? 1 / rate : 0);
   if (!(dt > 0) || !std::isfinite(dt))
-    throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver", std::to_string(dt),
-                           "the base step must be positive and finite",
+    throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver",
+                           std::to_string(dt), "the base step must be positive and finite",
                            "check cell, courant and the soils' stiffness"});
   // Chance is by machine, so that one more encoder leaves those of other machines as they were.
   Random seeds(description.seed);
   for (int m = 0; m < static_cast<int>(description.machines.size()); ++m)
-    encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine, coupling.engine(m),
-                          coupling.index(m), seeds.next());
+    encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine,
+                          coupling.engine(m), coupling.index(m), seeds.next());
   // Soil that starts awake before loads are filled in: beds stand where machines stand now.
-  check_awake(description, ground);
-  for (const scene::AwakeSoil& awake : description.ground.awake) wake(awake);
+  check_active(description, ground);
+  for (const scene::ActiveSoil& active : description.ground.active) wake(active);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
 }
 
@@ -64,17 +65,21 @@ void WorldParts::advance_encoders() {
 }
 
 bool WorldParts::has_encoders() const {
-  return std::any_of(encoders.begin(), encoders.end(), [](const vehicle::Encoders& e) { return e.size() > 0; });
+  return std::any_of(encoders.begin(), encoders.end(),
+                     [](const vehicle::Encoders& e) { return e.size() > 0; });
 }
 
 void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
-  const scene::MachineInWorld& placed = description.machines[static_cast<std::size_t>(tool.machine)];
+  const scene::MachineInWorld& placed =
+      description.machines[static_cast<std::size_t>(tool.machine)];
   // Only the first bed is loaded; buckets start empty.
   if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
   // Filled where the bed is: a dumper on a slope starts with its load against the low side.
-  const Pose X_WL = coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
+  const Pose X_WL =
+      coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
   try {
-    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)), placed.load.mass);
+    soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)),
+              placed.load.mass);
   } catch (const InputError& error) {
     // The solver knows no file: the message gets the place in the scene that asked for the load.
     Fault fault = error.faults().front();
@@ -85,6 +90,8 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   }
 }
 
-void WorldParts::wake(const scene::AwakeSoil& awake) { soil.wake(awake_columns(awake, ground), awake.bottom); }
+void WorldParts::wake(const scene::ActiveSoil& active) {
+  soil.wake(active_columns(active, ground), active.bottom);
+}
 
 }  // namespace navvy::sim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world is made of: solver, engines and the exchange between them. For sim's own sources and for tests that
-// measure inside; a style test keeps this header out of the clients in src/.
+// What a world is made of: solver, engines and the exchange between them. For sim's own sources and
+// for tests that measure inside; a style test keeps this header out of the clients in src/.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coupling/coupling.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/parameters.h"
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
@@ -16,7 +16,7 @@
 #include "sim/sampler.h"
 #include "soil/solver.h"
 #include "vehicle/encoder.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::device {
 class Device;
@@ -27,7 +27,8 @@ namespace navvy::sim {
 // The façade that owns the parts.
 class World;
 
-/// The parts in the order in which they are built: each refers to those above it, so it is neither copied nor moved.
+/// The parts in the order in which they are built: each refers to those above it, so it is neither
+/// copied nor moved.
 struct WorldParts {
   /// Lays the ground, places the machines on it, wakes and loads the soil that the scene says.
   /// @throws InputError for what cannot be built, device::DeviceError for the device.
@@ -45,7 +46,7 @@ struct WorldParts {
   scene::Scene description;
   heightfield::Ground ground;
   /// Machines with masses, and machines that move as told.
-  std::unique_ptr<vehicle::Engine> dynamic, kinematic;
+  std::unique_ptr<vehicle::PhysicsEngine> dynamic, kinematic;
   /// The particles, which change `ground` as they wake and rest.
   soil::Solver soil;
   /// Steps the four above; knows which engine has which machine.
@@ -69,7 +70,7 @@ struct WorldParts {
   /// Puts the load that the scene gives this machine into its bed.
   void fill_bed(const coupling::ToolLoad& tool);
   /// Turns a rectangle of the ground into particles.
-  void wake(const scene::AwakeSoil& awake);
+  void wake(const scene::ActiveSoil& active);
 };
 
 /// The parts of a world: `parts(world).soil.particles()`.

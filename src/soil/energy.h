@@ -4,13 +4,15 @@
 
 namespace navvy::soil {
 
-/// Sums since the account was opened [J], but `kinetic` and `elastic`, which are what there is now. All of them are of
-/// particles: ground at rest has no account. How each is taken: [docs/soil.md, energy].
+/// Sums since the account was opened [J], but `kinetic` and `elastic`, which are what there is now.
+/// All of them are of particles: ground at rest has no account. How each is taken:
+/// [docs/soil.md, energy].
 struct EnergyAccount {
   // Supplied.
-  double tools = 0;      ///< work of tools on soil
-  double gravity = 0;    ///< work of gravity
-  double exchanged = 0;  ///< kinetic and elastic energy of soil that woke or was put in, less that of what left
+  double tools = 0;    ///< work of tools on soil
+  double gravity = 0;  ///< work of gravity
+  /// Kinetic and elastic energy of soil that woke or was put in, less that of what left.
+  double exchanged = 0;
   // Kept.
   double kinetic = 0;  ///< of the nodes
   double elastic = 0;  ///< of shear and volume
@@ -21,7 +23,8 @@ struct EnergyAccount {
   double transfer = 0;  ///< velocities that particles and nodes do not hand on
   double mixing = 0;    ///< volume that is evened out in cells with open particles
   // Beside the balance.
-  double apart = 0;  ///< potential energy that moving crowded particles apart made; no force did that work
+  /// Potential energy that moving crowded particles apart made; no force did that work.
+  double apart = 0;
 
   double supplied() const { return tools + gravity + exchanged; }
   double dissipated() const { return plastic + viscous + contact + transfer + mixing; }
@@ -50,8 +53,9 @@ void each_energy(const Visit& visit) {
 
 /// The account as people and files get it: tell(name, [J]) for every member, then for the residual.
 template <class Tell>
-void tell_energy(const EnergyAccount& account, const Tell& tell) {
-  each_energy([&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
+void report_energy(const EnergyAccount& account, const Tell& tell) {
+  each_energy(
+      [&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
   tell("residual", account.residual());
 }
 

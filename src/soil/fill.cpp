@@ -15,8 +15,8 @@ constexpr double kFromPlate = 0.5;
 constexpr double kSpacing = 0.5;  // [cells]
 
 /// Points of the grid frame inside the shell, level by level from below [cells].
-std::vector<std::vector<Vec3>> levels_inside(const ShellGeometry& geometry, const Pose& X_WT, const Vec3& origin,
-                                             double cell) {
+std::vector<std::vector<Vec3>> levels_inside(const ShellGeometry& geometry, const Pose& X_WT,
+                                             const Vec3& origin, double cell) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
   for (const Vec3& v : geometry.shell().vertices) {
     const Vec3 grid = (X_WT * v - origin) / cell;
@@ -32,7 +32,8 @@ std::vector<std::vector<Vec3>> levels_inside(const ShellGeometry& geometry, cons
       for (int i = 0; i < count.x(); ++i) {
         const Vec3 grid = low + kSpacing * Vec3(i + 0.5, j + 0.5, k + 0.5);
         const Vec3 p_T = X_TW * (origin + cell * grid);
-        if (geometry.holds(p_T) && geometry.distance(p_T) > kFromPlate * cell) level.push_back(grid);
+        if (geometry.holds(p_T) && geometry.distance(p_T) > kFromPlate * cell)
+          level.push_back(grid);
       }
     levels.push_back(std::move(level));
   }
@@ -59,19 +60,23 @@ void Solver::fill(int tool, const Pose& X_WT, int soil, double mass) {
   const double each = kind.bank_density / kind.swell * std::pow(kSpacing * s.cell, 3);
   auto wanted = static_cast<std::size_t>(std::max(1.0, std::round(mass / each)));
   std::vector<Particle> load;
-  for (const std::vector<Vec3>& level : levels_inside(s.contact.geometry(tool), X_WT, s.origin, s.cell)) {
+  for (const std::vector<Vec3>& level :
+       levels_inside(s.contact.geometry(tool), X_WT, s.origin, s.cell)) {
     // The last level is spread evenly.
     const std::size_t n = std::min(level.size(), wanted - load.size());
-    for (std::size_t i = 0; i < n; ++i) load.push_back(at_rest(level[i * level.size() / n], soil, kind.swell));
+    for (std::size_t i = 0; i < n; ++i)
+      load.push_back(at_rest(level[i * level.size() / n], soil, kind.swell));
   }
   if (load.size() < wanted)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "load/mass_kg", std::to_string(mass),
-                           "the bed holds at most " + std::to_string(each * static_cast<double>(load.size())) +
+                           "the bed holds at most " +
+                               std::to_string(each * static_cast<double>(load.size())) +
                                " kg of loose '" + kind.name + "'",
                            "load less"});
   const std::int64_t units = mass_units(mass), count = static_cast<std::int64_t>(load.size());
   for (std::int64_t i = 0; i < count; ++i)
-    load[static_cast<std::size_t>(i)].mass = static_cast<std::int32_t>(units / count + (i < units % count ? 1 : 0));
+    load[static_cast<std::size_t>(i)].mass =
+        static_cast<std::int32_t>(units / count + (i < units % count ? 1 : 0));
   insert(load);
 }
 

@@ -6,22 +6,23 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
 namespace {
 
-/// Drift that calls for a re-bin before the next transfer [cells]: one cell is the tile's margin, less one push.
+/// Drift that calls for a re-bin before the next transfer [cells]: one cell is the tile's margin,
+/// less one push.
 constexpr double kMostDrift = 0.75;
-/// Tool travel between exchange checks [cells], and steps between them when no tool moves. Checks wait for the end of
-/// a transfer.
+/// Tool travel between exchange checks [cells], and steps between them when no tool moves. Checks
+/// wait for the end of a transfer.
 constexpr double kCheckTravel = 0.3;
 constexpr std::uint32_t kCheckSteps = 25;
 
-/// A step this much over the limit is still taken in one: the limit has a Courant number of 0.5, and contact and law
-/// hold to 0.8 [docs/soil.md, time step]; a caller with a base step made for a slower tool is not punished by half
-/// steps.
+/// A step this much over the limit is still taken in one: the limit has a Courant number of 0.5,
+/// and contact and law hold to 0.8 [docs/soil.md, time step]; a caller with a base step made for a
+/// slower tool is not punished by half steps.
 constexpr double kMostStep = 1.3;
 
 double fastest_sound_of(const std::vector<scene::Soil>& soils) {
@@ -35,7 +36,8 @@ ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
   out.w_WT = twist.head<3>();
   out.v_WT = twist.tail<3>();
   const double angle = motion.w_WT.norm() * t;
-  if (angle > 0) out.X_WT.linear() = Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
+  if (angle > 0)
+    out.X_WT.linear() = Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
   out.X_WT.translation() += motion.v_WT * t;
   return out;
 }
@@ -66,13 +68,15 @@ Particle in_cell_block(Particle p) {
   return p;
 }
 
-Solver::State::State(device::Device& device_in, const scene::Scene& world_in, heightfield::Ground& ground_in)
+Solver::State::State(device::Device& device_in, const scene::Scene& world_in,
+                     heightfield::Ground& ground_in)
     : device(device_in),
       world(world_in),
       ground(ground_in),
       cell(ground_in.cell()),
       grid(plan_grid(world_in, ground_in)),
-      origin(ground_in.origin().x() + grid.x * cell, ground_in.origin().y() + grid.y * cell, ground_in.datum()),
+      origin(ground_in.origin().x() + grid.x * cell, ground_in.origin().y() + grid.y * cell,
+             ground_in.datum()),
       fastest_sound(fastest_sound_of(world_in.soils)),
       transfer_length(kTransferLength * cell / fastest_sound),
       store(device_in, {-grid.x, -grid.y, ground_in.nx() - grid.x, ground_in.ny() - grid.y},
@@ -91,24 +95,27 @@ Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::G
 Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) {
-  state_->seats.emplace_back();
+  state_->resting_contacts.emplace_back();
   return state_->contact.add_tool(shell);
 }
 
 void Solver::set_crowding(bool on) { state_->crowding = on; }
 
-void Solver::keep_energy(bool on) {
+void Solver::record_energy(bool on) {
   state_->energy.reset();
   if (on) state_->open_energy();
 }
 
 void Solver::State::open_energy() { energy.emplace(world.soils, cell, world.gravity); }
 
-const EnergyAccount* Solver::energy() const { return state_->energy ? &state_->energy->account() : nullptr; }
+const EnergyAccount* Solver::energy() const {
+  return state_->energy ? &state_->energy->account() : nullptr;
+}
 
 double Solver::step_limit(double tool_speed) const {
   const scene::SolverSettings& settings = state_->world.solver;
-  return std::min(settings.max_step, settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
+  return std::min(settings.max_step,
+                  settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
 }
 
 double Solver::State::tool_speed(const ToolMotion& motion) const {
@@ -119,15 +126,16 @@ double Solver::State::tool_speed(const ToolMotion& motion) const {
 }
 
 void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses,
-                  std::span<const Footing> footings) {
-  state_->footings = footings;
+                  std::span<const SupportArea> support_areas) {
+  state_->support_areas = support_areas;
   double fastest = 0;
   for (const ToolMotion& motion : motions) {
     state_->check_motion(motion);
     fastest = std::max(fastest, state_->tool_speed(motion));
   }
   // A step well beyond the limit is split; the tools move and yield in between.
-  const int parts = std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
+  const int parts =
+      std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
   for (std::size_t m = 0; m < motions.size(); ++m) {
     impulses[m] = ToolImpulse{};
     impulses[m].p_W = motions[m].X_WT.translation();
@@ -157,7 +165,8 @@ void Solver::State::advance_in_parts(double dt, int parts, std::span<const ToolM
   }
 }
 
-void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses) {
+void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
+                            std::span<ToolImpulse> impulses) {
   double tools = 0;
   for (const ToolMotion& motion : motions) tools = std::max(tools, tool_speed(motion));
   const bool hold = holds(dt, tools, motions);
@@ -185,7 +194,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     Transfer::Largest report;
     {
       StageClock clock(times, "particles");
-      report = transfer.read_report(store.homes().size());
+      report = transfer.read_report(store.particle_blocks().size());
     }
     if (!(report.speed * dt / cell < 1 - kMostDrift / 4)) fail(report.speed);
     interval.book(dt, cell, report.speed, tools);
@@ -196,12 +205,12 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
     }
     StageClock clock(times, "books");
     contact.book(impulses);
-    hold_tools(dt, motions, impulses);
+    apply_resting_contacts(dt, motions, impulses);
     contact.feel(dt, impulses);
     if (!hold) check_masses();
     if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
   } else {
-    hold_tools(dt, motions, impulses);
+    apply_resting_contacts(dt, motions, impulses);
     for (ToolImpulse& impulse : impulses) {
       impulse.force_W = impulse.J_W / dt;
       impulse.moment_W = impulse.L_W / dt;
@@ -212,7 +221,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions, std:
   stats.particle_steps += static_cast<std::uint64_t>(store.count());
   stats.particles = store.count();
   stats.particles_peak = std::max(stats.particles_peak, stats.particles);
-  stats.blocks = static_cast<int>(store.homes().size());
+  stats.blocks = static_cast<int>(store.particle_blocks().size());
 }
 
 bool Solver::State::holds(double dt, double tool_speed, std::span<const ToolMotion> motions) const {
@@ -238,11 +247,13 @@ void Solver::State::end_transfer() {
   interval = {};
 }
 
-void Solver::State::exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions) {
+void Solver::State::exchange_if_due(double dt, double tool_speed,
+                                    std::span<const ToolMotion> motions) {
   if (!world.solver.exchange) return;
   // The next chance comes after the transfer that begins now.
   const double ahead = std::min(tool_speed * std::max(dt, transfer_length), kMostHeld * cell);
-  if (!first_check && steps_since_check < kCheckSteps && travel + ahead <= kCheckTravel * cell) return;
+  if (!first_check && steps_since_check < kCheckSteps && travel + ahead <= kCheckTravel * cell)
+    return;
   check_exchange(since_check, dt, motions);
   first_check = false;
   since_check = travel = 0;
@@ -269,14 +280,17 @@ void Solver::State::check_exchange(double elapsed, double dt, std::span<const To
   std::vector<Particle> all = store.records();
   for (Particle& p : all) p = in_cell_block(p);
   settle_tools(elapsed, motions, regions, all);
-  for (ToolRegion& region : regions) region.seated = seats[static_cast<std::size_t>(region.tool)].taken;
+  for (ToolRegion& region : regions)
+    region.supported = resting_contacts[static_cast<std::size_t>(region.tool)].taken;
   // The next check waits for the end of a transfer.
   const double until_next = (kCheckSteps + 1) * dt + transfer_length;
-  Exchange::Result result = exchange.check(all, regions, time, elapsed, {footings, until_next});
-  stats.wakes += static_cast<std::uint64_t>(result.woken_columns);
+  Exchange::Result result =
+      exchange.check(all, regions, time, elapsed, {support_areas, until_next});
+  stats.wakes += static_cast<std::uint64_t>(result.activated_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
-  unseat(regions, result.born);
-  const bool removed = std::any_of(result.removed.begin(), result.removed.end(), [](std::uint8_t r) { return r != 0; });
+  release_contacts(regions, result.born);
+  const bool removed = std::any_of(result.removed.begin(), result.removed.end(),
+                                   [](std::uint8_t r) { return r != 0; });
   if (removed || !result.born.empty()) {
     std::vector<Particle> stay;
     stay.reserve(all.size() + result.born.size());
@@ -288,17 +302,20 @@ void Solver::State::check_exchange(double elapsed, double dt, std::span<const To
     }
     assign(stay);
   }
-  // Columns counted anew; that the particles weigh what is booked the device counts in every step (check_masses).
+  // Columns counted anew; that the particles weigh what is booked the device counts in every step
+  // (check_masses).
   const std::int64_t error = ledger_with(in_particles).error();
   if (error != 0) {
-    throw SimulationError(here() + "the mass ledger is open by " + std::to_string(error) + " units of 2^-24 kg");
+    throw SimulationError(here() + "the mass ledger is open by " + std::to_string(error) +
+                          " units of 2^-24 kg");
   }
 }
 
 void Solver::State::assign(const std::vector<Particle>& particles) {
   const bool over = static_cast<int>(particles.size()) > world.solver.max_particles;
   if (over && !over_budget)
-    log_warning("soil: " + std::to_string(particles.size()) + " particles are awake, more than the budget of " +
+    log_warning("soil: " + std::to_string(particles.size()) +
+                " particles are awake, more than the budget of " +
                 std::to_string(world.solver.max_particles));
   over_budget = over;
   try {
@@ -325,7 +342,7 @@ void Solver::State::add(std::vector<Particle> particles) {
   assign(all);
 }
 
-void Solver::State::book_left(const std::vector<Particle>& left) {
+void Solver::State::record_left_site(const std::vector<Particle>& left) {
   for (const Particle& p : left) {
     left_site[p.soil] += p.mass;
     in_particles[p.soil] -= p.mass;
@@ -335,7 +352,7 @@ void Solver::State::book_left(const std::vector<Particle>& left) {
 void Solver::State::rebin_if_due() {
   if (drift <= kMostDrift) return;
   StageClock clock(times, "rebin");
-  book_left(store.rebin());
+  record_left_site(store.rebin());
   ++stats.rebins;
   drift = 0;
   blocks_changed = true;
@@ -345,9 +362,9 @@ void Solver::State::lay_out(std::span<const ToolMotion> motions) {
   StageClock clock(times, "lists");
   const bool lists = contact.set_motions(motions, store.table(), blocks_changed);
   if (lists || blocks_changed) {
-    const int tiles = store.set_near(contact.near_homes());
+    const int tiles = store.set_near(contact.near_particle_blocks());
     transfer.set_blocks(store, contact.near_slot(), tiles);
-    mass_count.make_room(store.homes().size());
+    mass_count.reserve(store.particle_blocks().size());
   }
   update_floor();
   blocks_changed = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stops a run: motions that no soil step can carry, values that are not finite, a device that gives out.
+// What stops a run: motions that no soil step can carry, values that are not finite, a device that
+// gives out.
 #include <algorithm>
 #include <cmath>
 
@@ -9,16 +10,18 @@
 namespace navvy::soil {
 namespace {
 
-/// Tools faster than waves in the soil drive a shock that the law knows nothing of; machines stay far below. In very
-/// soft soil waves are slower than machines, which then still may move in the air [m/s].
+/// Tools faster than waves in the soil drive a shock that the law knows nothing of; machines stay
+/// far below. In very soft soil waves are slower than machines, which then still may move in the
+/// air [m/s].
 constexpr double kLeastTopSpeed = 10;
-/// How deep a moving tool may be in the rock [cells]: contact begins a reach of one cell above it, and there is no soil
-/// in the rock to push back.
+/// How deep a moving tool may be in the rock [cells]: contact begins a reach of one cell above it,
+/// and there is no soil in the rock to push back.
 constexpr double kDeepestInRock = 1;
 constexpr double kMoving = 1e-3;  ///< slower tools stand [m/s]
 
 std::string text_of(const Vec3& p) {
-  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
+  return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
+         ")";
 }
 
 }  // namespace
@@ -30,8 +33,10 @@ std::string Solver::State::here() const {
 void Solver::State::check_motion(const ToolMotion& motion) const {
   const scene::Shell& shell = contact.geometry(motion.tool).shell();
   const std::string name = "tool '" + shell.name + "' ";
-  const double sum = motion.X_WT.matrix().sum() + motion.v_WT.sum() + motion.w_WT.sum() + motion.inverse_mass.sum();
-  if (!std::isfinite(sum)) throw SimulationError(here() + name + "has a pose, velocity or mass that is not finite");
+  const double sum = motion.X_WT.matrix().sum() + motion.v_WT.sum() + motion.w_WT.sum() +
+                     motion.inverse_mass.sum();
+  if (!std::isfinite(sum))
+    throw SimulationError(here() + name + "has a pose, velocity or mass that is not finite");
   const double speed = tool_speed(motion), most = std::max(fastest_sound, kLeastTopSpeed);
   if (speed > most)
     throw SimulationError(here() + name + "moves at " + std::to_string(speed) +
@@ -44,7 +49,8 @@ void Solver::State::check_motion(const ToolMotion& motion) const {
     const Vec2i column = ground.column_at(p.x(), p.y());
     if (!ground.contains(column.x(), column.y())) continue;
     if ((motion.v_WT + motion.w_WT.cross(motion.X_WT.linear() * v)).norm() < kMoving) continue;
-    throw SimulationError(here() + name + "is pressed " + std::to_string(depth) + " m into the rock at " + text_of(p) +
+    throw SimulationError(here() + name + "is pressed " + std::to_string(depth) +
+                          " m into the rock at " + text_of(p) +
                           " m, where nothing pushes back; make <depth_m> larger or dig less deep");
   }
 }
@@ -62,9 +68,10 @@ void Solver::State::fail(double speed) const {
     sum += static_cast<double>(p.j) + p.j0 + p.shear;
     if (std::isfinite(sum) && (!std::isfinite(speed) || fastest < 0.999 * speed)) continue;
     cause += std::string("; particle ") + std::to_string(p.id) +
-             (std::isfinite(sum) ? " is the fastest" : " has a value that is not finite") + ", block (" +
-             std::to_string(p.block[0]) + ", " + std::to_string(p.block[1]) + ", " + std::to_string(p.block[2]) +
-             "), offset " + text_of(Vec3(p.x[0], p.x[1], p.x[2])) + " cells, volume ratio " + std::to_string(p.j);
+             (std::isfinite(sum) ? " is the fastest" : " has a value that is not finite") +
+             ", block (" + std::to_string(p.block[0]) + ", " + std::to_string(p.block[1]) + ", " +
+             std::to_string(p.block[2]) + "), offset " + text_of(Vec3(p.x[0], p.x[1], p.x[2])) +
+             " cells, volume ratio " + std::to_string(p.j);
     break;
   }
   throw SimulationError(here() + cause);

@@ -12,14 +12,17 @@ namespace {
 
 constexpr double kLocal = 2.0 / 3;  // of c and tan phi in local shear [Terzaghi 1943]
 constexpr int kSlices =
-    8;  // of the arc before a rim, an even number: within 0.5 % of the integral, 2 % near the slip that ends it
+    // Of the arc before a rim, an even number: within 0.5 % of the integral, 2 % near the slip that
+    // ends it
+    8;
 constexpr double kNoFriction = 1e-6;
 
 }  // namespace
 
 BearingFactors BearingFactors::of(double tan_phi) {
   const double phi = std::atan(std::max(tan_phi, 0.0));
-  const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi), lean = std::cos(0.25 * kPi + 0.5 * phi);
+  const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi),
+               lean = std::cos(0.25 * kPi + 0.5 * phi);
   BearingFactors out;
   out.q = a * a / (2 * lean * lean);
   out.c = tan_phi > kNoFriction ? (out.q - 1) / tan_phi : 1.5 * kPi + 1;
@@ -30,18 +33,21 @@ BearingFactors BearingFactors::of(double tan_phi) {
 double bearing_capacity(const SoilState& ground, double width, double depth) {
   if (ground.soil == nullptr) return 0;
   const double swell = ground.soil->swell;
-  const double loose = swell > 1 ? std::clamp((ground.volume_ratio - 1) / (swell - 1), 0.0, 1.0) : 0.0;
+  const double loose =
+      swell > 1 ? std::clamp((ground.volume_ratio - 1) / (swell - 1), 0.0, 1.0) : 0.0;
   const double share = 1 - loose * (1 - kLocal);
   const ShearStrength strength = surface_strength(ground);
   const BearingFactors n = BearingFactors::of(share * strength.slope);
   const double weight = ground.density() * kGravity;
-  return share * strength.cohesion * n.c + weight * std::max(depth, 0.0) * n.q + 0.5 * weight * width * n.gamma;
+  return share * strength.cohesion * n.c + weight * std::max(depth, 0.0) * n.q +
+         0.5 * weight * width * n.gamma;
 }
 
 double pushed_depth(const SoilState& ground, double width, double from, double to) {
   if (ground.soil == nullptr || !(to > from)) return 0;
   const auto flown = [&](double z) {
-    return std::max(0.0, z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
+    return std::max(0.0,
+                    z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
   };
   // Where n < 1 the ground may bear the plate again farther down: what has flown stays there.
   return std::clamp(flown(to) - flown(from), 0.0, to - from);
@@ -60,7 +66,8 @@ PassivePressure passive_pressure(const SoilState& ground) {
   const BearingFactors n = BearingFactors::of(tan_phi);
   const double k_c = (n.c - tan_phi) * cos2;
   // Without friction 2 N / tan phi -> 4 (Nq + 1).
-  const double k_gamma = ((tan_phi > kNoFriction ? 2 * n.gamma / tan_phi : 4 * (n.q + 1)) + 1) * cos2;
+  const double k_gamma =
+      ((tan_phi > kNoFriction ? 2 * n.gamma / tan_phi : 4 * (n.q + 1)) + 1) * cos2;
   return {kLocal * strength.cohesion * k_c, ground.density() * kGravity * k_gamma};
 }
 
@@ -72,14 +79,16 @@ double passive_resistance(const SoilState& ground, double width, double depth) {
   return width * depth * (p.cohesive + 0.5 * depth * p.by_depth);
 }
 
-double bulldozing(const SoilState& ground, double width, double radius, double depth, double advance) {
+double bulldozing(const SoilState& ground, double width, double radius, double depth,
+                  double advance) {
   if (ground.soil == nullptr || !(depth > 0)) return 0;
   if (!(advance >= 0 && std::isfinite(advance))) return passive_resistance(ground, width, depth);
   // Soil at the surface is pushed farthest: a rim that slips away under it pushes none.
   const double first = std::acos(std::clamp(1 - depth / radius, 0.0, 1.0));
   if (!(advance * first > std::sin(first))) return 0;
   const PassivePressure p = passive_pressure(ground);
-  // Simpson's rule over the arc; sine and cosine turn on from one place to the next. Below the axle nothing is pushed.
+  // Simpson's rule over the arc; sine and cosine turn on from one place to the next. Below the axle
+  // nothing is pushed.
   const double slice = first / kSlices, turn_cos = std::cos(slice), turn_sin = std::sin(slice);
   double at_cos = 1, at_sin = 0, sum = 0;
   for (int i = 1; i <= kSlices; ++i) {

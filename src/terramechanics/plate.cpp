@@ -7,11 +7,14 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr double kMostSlip = 1.6;  // times the coefficient: 13 times as deep, where no wheel is any more
+// Times the coefficient: 13 times as deep, where no wheel is any more
+constexpr double kMostSlip = 1.6;
 
 }  // namespace
 
-double plate_modulus(const scene::Soil& soil, double width) { return soil.bekker_kc / width + soil.bekker_kphi; }
+double plate_modulus(const scene::Soil& soil, double width) {
+  return soil.bekker_kc / width + soil.bekker_kphi;
+}
 
 double plate_pressure(const scene::Soil& soil, double sinkage, double width) {
   return sinkage > 0 ? plate_modulus(soil, width) * std::pow(sinkage, soil.bekker_n) : 0;
@@ -23,7 +26,8 @@ double plate_work(const scene::Soil& soil, double sinkage, double width) {
 
 double plate_sinkage(const scene::Soil& soil, double pressure, double width) {
   const double k = plate_modulus(soil, width);
-  // A negative k_c may make a narrow plate's modulus negative: no number then, rather than a NaN in the ground.
+  // A negative k_c may make a narrow plate's modulus negative: no number then, rather than a NaN in
+  // the ground.
   if (!(pressure > 0) || !(k > 0)) return 0;
   return std::pow(pressure / k, 1 / soil.bekker_n);
 }

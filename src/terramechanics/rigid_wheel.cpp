@@ -20,28 +20,32 @@ struct Arc {
 };
 
 /// Way of the rim against the soil since it entered, ahead and to the side [m].
-Vec2 rim_way(const WheelCase& wheel, const scene::Soil& soil, double entry, double at) {
+Vec2 rim_displacement(const WheelCase& wheel, const scene::Soil& soil, double entry, double at) {
   // Ways against the soil depend on the ratio of speeds alone.
   const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that goes at 1 m/s
   const double aside = std::tan(wheel.slip_angle);
   // A locked rim is dragged on and on.
   if (rim <= 1e-6) return 1e3 * soil.janosi_k * Vec2(-1, aside);
   const double r = wheel.radius, turned = entry - at;
-  return {(r + wheel.grouser) * turned - r * (std::sin(entry) - std::sin(at)) / rim, r * turned * aside / rim};
+  return {(r + wheel.grouser) * turned - r * (std::sin(entry) - std::sin(at)) / rim,
+          r * turned * aside / rim};
 }
 
 Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
   const double r = wheel.radius, shear_radius = r + wheel.grouser;
   const double modulus =
-      plate_modulus(soil, wheel.width) / std::pow(slip_sinkage(wheel.slip, wheel.slip_sinkage), soil.bekker_n + 0.5);
-  const ShearStrength strength = wheel.grouser > 0 ? surface_strength({&soil, 1}) : rim_strength(soil);
+      plate_modulus(soil, wheel.width) /
+      std::pow(slip_sinkage(wheel.slip, wheel.slip_sinkage), soil.bekker_n + 0.5);
+  const ShearStrength strength =
+      wheel.grouser > 0 ? surface_strength({&soil, 1}) : rim_strength(soil);
   Arc out;
   const double slice = entry / kSlices;
   for (int i = 0; i < kSlices; ++i) {
-    // Middle of the slice; no slice ends on the axle's plumb line or the entry, where pressure has its corner.
+    // Middle of the slice; no slice ends on the axle's plumb line or the entry, where pressure has
+    // its corner.
     const double at = (i + 0.5) * slice;
     const double pressure = modulus * std::pow(r * (std::cos(at) - std::cos(entry)), soil.bekker_n);
-    const Vec2 way = rim_way(wheel, soil, entry, at);
+    const Vec2 way = rim_displacement(wheel, soil, entry, at);
     const double moved = way.norm();
     const double stress = shear_stress(strength, pressure, moved, soil.janosi_k);
     const double shear = moved > 0 ? stress * way.x() / moved : 0;
@@ -57,7 +61,9 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
 
 }  // namespace
 
-double rim_speed(double speed, double slip) { return slip >= 0 ? speed / (1 - slip) : speed * (1 + slip); }
+double rim_speed(double speed, double slip) {
+  return slip >= 0 ? speed / (1 - slip) : speed * (1 + slip);
+}
 
 WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
   // The load grows with the entry angle: bisect between nothing and the axle at the surface.
@@ -70,7 +76,8 @@ WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
   }
   const Arc arc = sum_arc(wheel, soil, high);
   out.sinkage = wheel.radius * (1 - std::cos(high));
-  out.bulldozing = bulldozing({&soil, 1}, wheel.width, wheel.radius, out.sinkage, 1 / rim_speed(1.0, wheel.slip));
+  out.bulldozing = bulldozing({&soil, 1}, wheel.width, wheel.radius, out.sinkage,
+                              1 / rim_speed(1.0, wheel.slip));
   out.drawbar = arc.drawbar - out.bulldozing;
   out.torque = arc.torque;
   out.side = arc.side;

@@ -16,9 +16,10 @@ ShearStrength rim_strength(const scene::Soil& soil) {
 ShearStrength surface_strength(const SoilState& ground) {
   if (ground.soil == nullptr) return {};
   const scene::Soil& soil = *ground.soil;
-  // A soil that does not swell is as strong loose as in bank state; one that does loses what the law takes
-  // [docs/soil.md, cohesion].
-  const double swollen = soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0.0;
+  // A soil that does not swell is as strong loose as in bank state; one that does loses what the
+  // law takes [docs/soil.md, cohesion].
+  const double swollen =
+      soil.swell > 1 ? std::clamp((ground.volume_ratio - 1) / (soil.swell - 1), 0.0, 1.0) : 0.0;
   const double loose = std::min(soil.loose_cohesion, soil.residual_cohesion);
   return {soil.cohesion + swollen * (loose - soil.cohesion), std::tan(soil.friction_angle)};
 }
@@ -27,8 +28,10 @@ double mobilised_share(double displacement, double janosi_k) {
   return 1 - std::exp(-std::abs(displacement) / janosi_k);
 }
 
-double shear_stress(const ShearStrength& strength, double pressure, double displacement, double janosi_k) {
-  // The sign of zero goes with the displacement: a rim that has not moved shears nothing either way.
+double shear_stress(const ShearStrength& strength, double pressure, double displacement,
+                    double janosi_k) {
+  // The sign of zero goes with the displacement: a rim that has not moved shears nothing either
+  // way.
   return std::copysign(strength.cohesion + pressure * strength.slope, displacement) *
          mobilised_share(displacement, janosi_k);
 }

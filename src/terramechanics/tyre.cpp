@@ -7,14 +7,17 @@
 #include "terramechanics/bearing.h"
 #include "terramechanics/shear.h"
 #include "terramechanics/tyre_patch.h"
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::terramechanics {
 namespace {
 
-constexpr int kArcSamples = 9;            // every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
-constexpr double kPressedAhead = 0.1;     // of the radius; at 5 m/s a tyre of 0.5 m comes so far between two presses
-constexpr double kArcStep = radians(15);  // so that 0.1 m cells are not stepped over near the ground
+// Every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
+constexpr int kArcSamples = 9;
+// Of the radius; at 5 m/s a tyre of 0.5 m comes so far between two presses
+constexpr double kPressedAhead = 0.1;
+// So that 0.1 m cells are not stepped over near the ground
+constexpr double kArcStep = radians(15);
 
 struct Track {
   Vec3 normal = Vec3::UnitZ();
@@ -27,9 +30,10 @@ struct Dip {
   double depth = 0;
 };
 
-/// The plane of the ground at p if the wheel's deepest point agrees with it, else a corner on the ray itself.
-Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3& ray, const Vec3& ground_point,
-           const Vec3& normal, const GroundQuery& ground) {
+/// The plane of the ground at p if the wheel's deepest point agrees with it, else a corner on the
+/// ray itself.
+Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3& ray,
+           const Vec3& ground_point, const Vec3& normal, const GroundQuery& ground) {
   const Vec3 in_plane = normal - normal.dot(spin_axis) * spin_axis;
   const double tilt = in_plane.norm();
   const double away = normal.dot(center - ground_point);
@@ -39,16 +43,19 @@ Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3&
     const double plane = ground_point.z() - (normal.x() * (deepest.x() - ground_point.x()) +
                                              normal.y() * (deepest.y() - ground_point.y())) /
                                                 std::max(normal.z(), 0.02);
-    if (std::abs(ground.height(deepest.x(), deepest.y()) - plane) < 0.03) return {normal, radius * tilt - away};
+    if (std::abs(ground.height(deepest.x(), deepest.y()) - plane) < 0.03)
+      return {normal, radius * tilt - away};
   }
   const double facing = normal.dot(ray);
   const double reach = facing < -0.05 ? -away / facing : radius;
   return {-ray, std::clamp(radius - reach, 0.0, radius)};
 }
 
-/// Deflection and mean normal of one track: rays from the centre that meet ground are weighed by their dip squared, so
-/// that the deepest one leads and the normal turns without jumps as the wheel rolls over an edge.
-Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, const GroundQuery& ground) {
+/// Deflection and mean normal of one track: rays from the centre that meet ground are weighed by
+/// their dip squared, so that the deepest one leads and the normal turns without jumps as the wheel
+/// rolls over an edge.
+Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius,
+                   const GroundQuery& ground) {
   Track track;
   const Vec3 forward = spin_axis.cross(Vec3::UnitZ());
   if (forward.norm() < 0.1) return track;  // lying on its side: the body's contacts hold it
@@ -61,8 +68,8 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, con
     const Vec3 p = center + radius * ray;
     const double height = ground.height(p.x(), p.y());
     if (height <= p.z()) continue;
-    const Dip dip =
-        dip_at(center, spin_axis, radius, ray, Vec3(p.x(), p.y(), height), ground.normal(p.x(), p.y()), ground);
+    const Dip dip = dip_at(center, spin_axis, radius, ray, Vec3(p.x(), p.y(), height),
+                           ground.normal(p.x(), p.y()), ground);
     if (dip.depth <= 0) continue;
     normal += dip.depth * dip.depth * dip.normal;
     track.deflection = std::max(track.deflection, dip.depth);
@@ -72,12 +79,14 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius, con
   return track;
 }
 
-/// Of one track (forward, left) [N], which presses with `normal_force` [N] on firm ground or on soil.
-Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double normal_force, const Vec2& slip,
-                      double rolling, double rim_mass, double dt, Vec2& bristle, double& sheared) {
+/// Of one track (forward, left) [N], which presses with `normal_force` [N] on firm ground or on
+/// soil.
+Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double normal_force,
+                      const Vec2& slip, double rolling, double rim_mass, double dt, Vec2& bristle,
+                      double& sheared) {
   if (ground.soil == nullptr)
-    return bristle_force(tyre, 0.5, slip, rolling, tyre_friction(tyre, ground, 0) * normal_force, rim_mass, dt,
-                         bristle);
+    return bristle_force(tyre, 0.5, slip, rolling, tyre_friction(tyre, ground, 0) * normal_force,
+                         rim_mass, dt, bristle);
   // The patch of a wheel of which both tracks bear as much.
   const TyrePatch patch = tyre_patch(tyre, *ground.soil, 2 * normal_force);
   if (!(patch.pressure > 0)) {
@@ -85,8 +94,8 @@ Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double 
     sheared = 0;
     return Vec2::Zero();
   }
-  const TrackShear soil{tyre_friction(tyre, ground, patch.pressure) * normal_force, ground.soil->janosi_k,
-                        patch.half_length};
+  const TrackShear soil{tyre_friction(tyre, ground, patch.pressure) * normal_force,
+                        ground.soil->janosi_k, patch.half_length};
   return shear_force(tyre, 0.5, slip, rolling, soil, rim_mass, dt, bristle, sheared);
 }
 
@@ -98,24 +107,26 @@ struct Roll {
   double deflection = 0;          // [m]
 };
 
-/// Depth [m] of ground that the tread meets where it rolls to: what the tyre has sunk since it came, unless the ground
-/// before it, seen along the wheel, lies as low: back into its own rut it meets none. As wheels do not stand quite
-/// along the ground, half of the depth is enough.
-double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const GroundQuery& ground, SoilState& met) {
-  // Beyond the columns that are pressed for the tread where it is and where it will be soon, seen between their
-  // middles.
-  const double beyond = 0.5 * chord_length(tyre.radius, roll.deflection + sunk) + kPressedAhead * tyre.radius +
-                        1.5 * ground.lattice().spacing;
+/// Depth [m] of ground that the tread meets where it rolls to: what the tyre has sunk since it
+/// came, unless the ground before it, seen along the wheel, lies as low: back into its own rut it
+/// meets none. As wheels do not stand quite along the ground, half of the depth is enough.
+double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const GroundQuery& ground,
+                 SoilState& met) {
+  // Beyond the columns that are pressed for the tread where it is and where it will be soon, seen
+  // between their middles.
+  const double beyond = 0.5 * chord_length(tyre.radius, roll.deflection + sunk) +
+                        kPressedAhead * tyre.radius + 1.5 * ground.lattice().spacing;
   const Vec3 p = roll.p_W + (roll.speed > 0 ? beyond : -beyond) * roll.forward;
   met = ground.soil(p.x(), p.y());
   return std::clamp(2 * (ground.height(p.x(), p.y()) - p.z()), 0.0, sunk);
 }
 
-/// What soil ahead takes of one track's push [N]: compaction, R = b int p dz [Bekker 1969], the work of sinking a way
-/// further, and what the rim pushes ahead of it (bulldozing). Smooth through zero, within what the step can bear.
-double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQuery& ground, double normal_force,
-                       double rim_mass, double dt) {
-  const Sinking sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
+/// What soil ahead takes of one track's push [N]: compaction, R = b int p dz [Bekker 1969], the
+/// work of sinking a way further, and what the rim pushes ahead of it (bulldozing). Smooth through
+/// zero, within what the step can bear.
+double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQuery& ground,
+                       double normal_force, double rim_mass, double dt) {
+  const Sinkage sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
   if (!(sunk.work > 0)) return 0;
   const double width = tyre.twin_spacing > 0 ? tyre.width : 0.5 * tyre.width;
   SoilState met;
@@ -146,8 +157,8 @@ double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double p
   return std::min(tyre.friction, strength.slope + strength.cohesion / pressure);
 }
 
-TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground, double dt,
-                     TyreState& state) {
+TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground,
+                     double dt, TyreState& state) {
   TyreForce out;
   const Vec3 center = motion.X_WWheel.translation(), axis = motion.X_WWheel.linear().col(1);
   const double offset = track_offset(tyre);
@@ -168,7 +179,8 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec3 p = arm - loaded * in_plane.normalized();  // contact from the centre
     const Vec3 v_carrier = motion.v_W + motion.w_W.cross(p);
     const Vec3 v_rim = motion.spin * axis.cross(p);
-    const double normal_force = radial_force(tyre, 0.5, track.deflection, -track.normal.dot(v_carrier));
+    const double normal_force =
+        radial_force(tyre, 0.5, track.deflection, -track.normal.dot(v_carrier));
 
     // Tangential forces act in the plane of the ground, forward and left.
     const Vec3 ahead = axis.cross(track.normal).normalized(), left = track.normal.cross(ahead);
@@ -179,15 +191,19 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec2 f = tangential_force(tyre, soil, normal_force, slip, rolling, rim_mass, dt, bristle,
                                     state.sheared[static_cast<std::size_t>(t)]);
     const Vec3 force = normal_force * track.normal + f.x() * ahead + f.y() * left;
-    const Roll roll{center + p, motion.X_WWheel.linear().col(0), v_carrier.dot(ahead), rolling, track.deflection};
+    const Roll roll{center + p, motion.X_WWheel.linear().col(0), v_carrier.dot(ahead), rolling,
+                    track.deflection};
     // Soil's pressure points to the axle and turns nothing.
     out.force_W += force - soil_resistance(tyre, roll, ground, normal_force, rim_mass, dt) * ahead;
     out.moment_W += p.cross(force);
     out.deflection = std::max(out.deflection, track.deflection);
 
-    // Rolling resistance turns against the spin; smooth through zero, within what the step can bear.
-    const double band = std::max(0.05, tyre.rolling_resistance * normal_force * dt / (0.15 * rim_mass));
-    out.moment_W -= axis * (tyre.rolling_resistance * normal_force * loaded * std::tanh(rolling / band));
+    // Rolling resistance turns against the spin; smooth through zero, within what the step can
+    // bear.
+    const double band =
+        std::max(0.05, tyre.rolling_resistance * normal_force * dt / (0.15 * rim_mass));
+    out.moment_W -=
+        axis * (tyre.rolling_resistance * normal_force * loaded * std::tanh(rolling / band));
     rim_speed += normal_force * rolling;
     ground_speed += normal_force * v_carrier.dot(ahead);
     load += normal_force;
@@ -196,7 +212,8 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
   if (load > 0) {
     rim_speed /= load;
     ground_speed /= load;
-    out.slip = (rim_speed - ground_speed) / std::max({std::abs(rim_speed), std::abs(ground_speed), 0.1});
+    out.slip =
+        (rim_speed - ground_speed) / std::max({std::abs(rim_speed), std::abs(ground_speed), 0.1});
     out.sinkage = sinkage(tyre, motion.X_WWheel, ground);
   }
   return out;
@@ -205,7 +222,8 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
 void TyreState::visit(Archive& a) {
   a("bristle", bristle);
   a("sheared", sheared);
-  for (const double one : sheared) a.require(one >= 0 && one < 1e6, "sheared", "a tyre has sheared its soil by no way");
+  for (const double one : sheared)
+    a.require(one >= 0 && one < 1e6, "sheared", "a tyre has sheared its soil by no way");
 }
 
 void TyreForce::visit(Archive& a) {

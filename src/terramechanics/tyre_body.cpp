@@ -3,17 +3,18 @@
 
 #include <algorithm>
 
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::terramechanics {
 
-Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const BodyTouch& touch, double dt,
-                     Vec2* bristle) {
+Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const BodyTouch& touch,
+                     double dt, Vec2* bristle) {
   const Vec3 axis = motion.X_WWheel.linear().col(1);
   const Vec3 p = touch.p_W - motion.X_WWheel.translation();
   const Vec3 v_carrier = motion.v_W + motion.w_W.cross(p) - touch.v_W;
   const Vec3 v_rim = motion.spin * axis.cross(p);
-  // The body in series with the wheel: an explicit step is stable while k dt^2 and c dt stay below what they move.
+  // The body in series with the wheel: an explicit step is stable while k dt^2 and c dt stay below
+  // what they move.
   scene::Wheel soft = tyre;
   if (touch.inverse_mass > 0) {
     soft.stiffness = std::min(tyre.stiffness, 0.4 / (touch.inverse_mass * dt * dt));
@@ -30,9 +31,11 @@ Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const B
   const Vec3 left = touch.normal.cross(ahead);
   const Vec3 v_slip = v_carrier + v_rim;
   const double rim_mass = motion.spin_inertia / (tyre.radius * tyre.radius);
-  const double mass = touch.inverse_mass > 0 ? std::min(rim_mass, 1 / touch.inverse_mass) : rim_mass;
-  const Vec2 f = bristle_force(soft, 0.5, Vec2(v_slip.dot(ahead), v_slip.dot(left)), -v_rim.dot(ahead),
-                               touch.friction * normal_force, mass, dt, *bristle);
+  const double mass =
+      touch.inverse_mass > 0 ? std::min(rim_mass, 1 / touch.inverse_mass) : rim_mass;
+  const Vec2 f =
+      bristle_force(soft, 0.5, Vec2(v_slip.dot(ahead), v_slip.dot(left)), -v_rim.dot(ahead),
+                    touch.friction * normal_force, mass, dt, *bristle);
   return normal_force * touch.normal + f.x() * ahead + f.y() * left;
 }
 

@@ -7,8 +7,8 @@
 namespace navvy::vehicle {
 namespace {
 
-// Beyond 2^53 a double no longer tells one count from the next; a wheel of 10^7 counts a turn comes there in 28 years
-// at a turn a second.
+// Beyond 2^53 a double no longer tells one count from the next; a wheel of 10^7 counts a turn comes
+// there in 28 years at a turn a second.
 constexpr double kMostCounts = 0x1.0p53;
 // In one step. A real wheel makes some hundred; who jumps farther loses his share without dice.
 constexpr std::int64_t kMostDice = 100000;
@@ -62,17 +62,19 @@ void JointEncoder::visit(Archive& a) {
   a("dice", dice_);
 }
 
-Encoders::Encoders(const scene::Machine& machine, const Engine& engine, int index, std::uint64_t seed) {
+Encoders::Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+                   std::uint64_t seed) {
   Random seeds(seed);
   for (const scene::Encoder& about : machine.encoders) {
     const int joint = machine.joint_index(about.joint);
     // The loader refuses such an encoder; a scene made by hand has one that stands still.
     joints_.push_back(joint);
-    encoders_.emplace_back(about, joint < 0 ? 0.0 : engine.joint(index, joint).position, seeds.next());
+    encoders_.emplace_back(about, joint < 0 ? 0.0 : engine.joint(index, joint).position,
+                           seeds.next());
   }
 }
 
-void Encoders::advance(const Engine& engine, int index) {
+void Encoders::advance(const PhysicsEngine& engine, int index) {
   for (std::size_t e = 0; e < encoders_.size(); ++e)
     if (joints_[e] >= 0) encoders_[e].advance(engine.joint(index, joints_[e]).position);
 }

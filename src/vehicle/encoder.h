@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders of a machine's joints: counters of a few bits, as a real robot hands them to its controller. Know no kind of
-// engine, so that a controller cannot tell by them which one moves the machine.
+// Encoders of a machine's joints: counters of a few bits, as a real robot hands them to its
+// controller. Know no kind of engine, so that a controller cannot tell by them which one moves the
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,12 @@
 #include "core/archive.h"
 #include "core/random.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
-/// One incremental encoder [docs/machines.md, encoders]. It starts at 0 where its joint stands, counts up as the joint
-/// turns positively, down as it turns back, and wraps at 2^bits.
+/// One incremental encoder [docs/machines.md, encoders]. It starts at 0 where its joint stands,
+/// counts up as the joint turns positively, down as it turns back, and wraps at 2^bits.
 class JointEncoder {
  public:
   /// Injected faults keep within these bounds.
@@ -23,7 +24,8 @@ class JointEncoder {
   /// `seed` decides which counts are missed.
   JointEncoder(const scene::Encoder& about, double position, std::uint64_t seed);
 
-  /// The joint has turned to `position` [rad]; how it got there since the last call does not matter.
+  /// The joint has turned to `position` [rad]; how it got there since the last call does not
+  /// matter.
   void advance(double position);
   /// As its register holds it, 0 to 2^bits - 1.
   std::uint64_t counts() const;
@@ -44,10 +46,11 @@ class JointEncoder {
   std::int64_t lost_of(std::int64_t edges);
 
   scene::Encoder about_;
-  double position_ = 0;        // [rad] at the last call
-  double turned_ = 0;          // [counts] since the start, fractions included
-  std::int64_t edges_ = 0;     // whole ones of them
-  std::uint64_t counter_ = 0;  // of those the encoder noticed, modulo 2^64; its low bits are the register
+  double position_ = 0;     // [rad] at the last call
+  double turned_ = 0;       // [counts] since the start, fractions included
+  std::int64_t edges_ = 0;  // whole ones of them
+  // Of those the encoder noticed, modulo 2^64; its low bits are the register
+  std::uint64_t counter_ = 0;
   double slip_ = 0, missed_ = 0;
   Random dice_;
 };
@@ -56,10 +59,11 @@ class JointEncoder {
 class Encoders {
  public:
   /// The machine is number `index` of the engine; `seed` is this machine's alone.
-  Encoders(const scene::Machine& machine, const Engine& engine, int index, std::uint64_t seed);
+  Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+           std::uint64_t seed);
 
   /// After every step of the engine.
-  void advance(const Engine& engine, int index);
+  void advance(const PhysicsEngine& engine, int index);
   std::size_t size() const { return encoders_.size(); }
   /// Stays at its address as long as this lives.
   JointEncoder& operator[](std::size_t i) { return encoders_[i]; }

@@ -7,8 +7,10 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kGain = 20;         // [1/s] position error to speed; 50 ms is a proportional valve's bandwidth (U)
-constexpr double kValveTime = 0.15;  // [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools)
+// [1/s] position error to speed; 50 ms is a proportional valve's bandwidth (U)
+constexpr double kGain = 20;
+// [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools)
+constexpr double kValveTime = 0.15;
 // Of a bound: the solver stops within its residual, not at the last bit.
 constexpr double kSaturated = 0.999;
 constexpr double kHolds = 0.02;       // of full flow: less only keeps a joint in its place
@@ -16,32 +18,43 @@ constexpr double kLeastShare = 0.01;  // of the oil asked for
 
 }  // namespace
 
-double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q, double dt) const {
+double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q,
+                                double dt) const {
   double wanted = input_.target;
   // All of it is what the actuator can do here and now, another speed up than down.
-  if (input_.mode == JointMode::kOpening) wanted *= wanted > 0 ? limits.speed_positive : limits.speed_negative;
+  if (input_.mode == JointMode::kOpening)
+    wanted *= wanted > 0 ? limits.speed_positive : limits.speed_negative;
   if (input_.mode == JointMode::kPosition) {
     // A target beyond a stop is the stop: the servo brakes for it as for any other place.
-    const double target = joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
-    const double error = target - q, speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
-    // Deceleration it may count on: what the closing valve gives, and half of what its effort does to the load.
+    const double target =
+        joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
+    const double error = target - q,
+                 speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
+    // Deceleration it may count on: what the closing valve gives, and half of what its effort does
+    // to the load.
     double brake = 0.4 * speed_limit / kValveTime;
     const double effort = std::min(limits.effort_positive, limits.effort_negative);
     if (limits.inertia > 0) brake = std::min(brake, 0.5 * effort / limits.inertia);
-    // Far away the speed from which it still stops, near by proportional to the error, and stable in a long step.
-    const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error), std::sqrt(2 * brake * std::abs(error)));
+    // Far away the speed from which it still stops, near by proportional to the error, and stable
+    // in a long step.
+    const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error),
+                                  std::sqrt(2 * brake * std::abs(error)));
     wanted = std::copysign(speed, error);
   }
   return std::clamp(wanted, -limits.speed_negative, limits.speed_positive);
 }
 
-double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt) {
+double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
+                        double dt) {
   flows_ = false;
   if (!has_valve()) return 0;
   wanted_ = wanted_speed(joint, limits, q, dt);
   // Against a load it cannot move, the valve opens from what really flows; of that it got a share.
-  const double from = saturated_ ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive) : velocity_;
-  const double fastest = std::max(limits.speed_positive, limits.speed_negative), slew = dt / kValveTime * fastest;
+  const double from = saturated_
+                          ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive)
+                          : velocity_;
+  const double fastest = std::max(limits.speed_positive, limits.speed_negative),
+               slew = dt / kValveTime * fastest;
   // The spool moves by its own time, whatever is asked.
   velocity_ = std::clamp(wanted_, from - slew, from + slew);
   // Less is holding: no oil to speak of, no load for the pump to see.
@@ -49,8 +62,8 @@ double JointServo::open(const scene::Joint& joint, const JointLimits& limits, do
   return velocity_;
 }
 
-JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
-                                      double share, double dt) {
+JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits,
+                                      double q, double qd, double share, double dt) {
   Demand out;
   if (!has_valve()) {
     // Only the bearing's friction holds it.
@@ -81,16 +94,18 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
   return out;
 }
 
-void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q, double qd,
-                        double dt) {
+void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q,
+                        double qd, double dt) {
   (void)q;
   // At a bound the load has its way: the valve then follows what really flows.
-  saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high || effort <= kSaturated * demand.effort_low);
-  // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed reached that it got oil
-  // for.
+  saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high ||
+                               effort <= kSaturated * demand.effort_low);
+  // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed
+  // reached that it got oil for.
   const double speed_limit = wanted_ > 0 ? limits.speed_positive : limits.speed_negative;
   const bool asked = std::abs(wanted_) > 0.02 * std::min(speed_limit, 1.0);
-  const bool stuck = saturated_ && asked && effort * wanted_ > 0 && qd * wanted_ < 0.1 * share_ * wanted_ * wanted_;
+  const bool stuck = saturated_ && asked && effort * wanted_ > 0 &&
+                     qd * wanted_ < 0.1 * share_ * wanted_ * wanted_;
   stall_time_ = stuck ? std::min(stall_time_ + dt, 10.0) : 0.0;
 }
 

@@ -22,7 +22,8 @@ LeverFunction turns(const scene::Machine& machine, const std::string& name, cons
 }  // namespace
 
 LeverFunctions lever_functions(const scene::Machine& machine) {
-  // What a lever to the right or away does: an arm that points ahead (+x) is lowered about +y and lifted about -y.
+  // What a lever to the right or away does: an arm that points ahead (+x) is lowered about +y and
+  // lifted about -y.
   const LeverFunction swing = turns(machine, machine.arm.swing, -Vec3::UnitZ());
   const LeverFunction boom = turns(machine, machine.arm.boom, Vec3::UnitY());
   const LeverFunction stick = turns(machine, machine.arm.stick, -Vec3::UnitY());

@@ -15,7 +15,7 @@ void BaseInput::visit(Archive& a) {
   a("duration", duration);
 }
 
-void EngineState::visit(Archive& a) {
+void CombustionEngineState::visit(Archive& a) {
   a("speed", speed);
   a("torque", torque);
   a("power", power);

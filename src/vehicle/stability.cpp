@@ -13,14 +13,16 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 
 /// Corners of the hull, counter-clockwise, by the monotone chain.
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
   std::vector<Vec2> hull;
   // Once along the lower side, once back along the upper one; what turns to the right is no corner.
   for (int side = 0; side < 2; ++side) {
     const std::size_t from = hull.size();
     for (const Vec2& p : points) {
-      while (hull.size() >= from + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+      while (hull.size() >= from + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
         hull.pop_back();
       hull.push_back(p);
     }
@@ -35,7 +37,8 @@ struct Bearing {
   Vec3 p_W = Vec3::Zero(), f_W = Vec3::Zero();
 };
 
-/// Straight down from the centre of a wheel, in its plane: an axle that is tilted has its foot aside.
+/// Straight down from the centre of a wheel, in its plane: an axle that is tilted has its foot
+/// aside.
 Vec3 foot_of(const scene::Wheel& wheel, const Pose& X_WWheel) {
   const Vec3 axis = X_WWheel.linear().col(1);
   const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
@@ -43,7 +46,8 @@ Vec3 foot_of(const scene::Wheel& wheel, const Pose& X_WWheel) {
 }
 
 /// The feet of wheel `w`: one, or the ends of its belt's lower run.
-std::vector<Vec3> feet_of(const scene::Machine& machine, const Engine& engine, int index, std::size_t w) {
+std::vector<Vec3> feet_of(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+                          std::size_t w) {
   const scene::Wheel& wheel = machine.wheels[w];
   if (!wheel.track) return {foot_of(wheel, engine.wheel(index, static_cast<int>(w)).X_WWheel)};
   const int joint = machine.joint_index(wheel.joint);
@@ -53,7 +57,8 @@ std::vector<Vec3> feet_of(const scene::Machine& machine, const Engine& engine, i
 }
 
 /// A belt's force is shared out as its rollers press.
-std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engine, int index) {
+std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine& engine,
+                              int index) {
   std::vector<Bearing> out;
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
     const WheelState wheel = engine.wheel(index, static_cast<int>(w));
@@ -61,18 +66,19 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const Engine& engin
       out.push_back({foot_of(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
       continue;
     }
-    const std::vector<terramechanics::BeltPatch> patches = engine.belt_patches(index, static_cast<int>(w));
+    const std::vector<terramechanics::TrackPatch> patches =
+        engine.track_patches(index, static_cast<int>(w));
     double load = 0;
-    for (const terramechanics::BeltPatch& patch : patches) load += patch.load;
-    for (const terramechanics::BeltPatch& patch : patches)
+    for (const terramechanics::TrackPatch& patch : patches) load += patch.load;
+    for (const terramechanics::TrackPatch& patch : patches)
       out.push_back({patch.p_W, patch.load / load * (wheel.force_W - wheel.body_W)});
     if (!wheel.body_W.isZero(0)) out.push_back({wheel.body_p_W, wheel.body_W});
   }
   return out;
 }
 
-/// Where the ground bears the machine: the place below which all its forces turn about nothing, at the height of the
-/// feet.
+/// Where the ground bears the machine: the place below which all its forces turn about nothing, at
+/// the height of the feet.
 bool centre_of_pressure(const std::vector<Bearing>& bearings, Vec2& out) {
   double load = 0, height = 0;
   for (const Bearing& one : bearings) {
@@ -98,7 +104,8 @@ Vec3 lowest(const scene::Collision& collision, const Vec3& up) {
   if (shape.kind == Kind::kSphere) down = -shape.radius * local;
   if (shape.kind == Kind::kBox)
     for (int i = 0; i < 3; ++i) down[i] = (local[i] > 0 ? -0.5 : 0.5) * shape.size[i];
-  if (shape.kind == Kind::kCapsule) down = Vec3(0, 0, local.z() > 0 ? -0.5 : 0.5) * shape.length - shape.radius * local;
+  if (shape.kind == Kind::kCapsule)
+    down = Vec3(0, 0, local.z() > 0 ? -0.5 : 0.5) * shape.length - shape.radius * local;
   if (shape.kind == Kind::kCylinder) {
     const Vec2 side = local.head<2>();
     down.z() = (local.z() > 0 ? -0.5 : 0.5) * shape.length;
@@ -107,22 +114,29 @@ Vec3 lowest(const scene::Collision& collision, const Vec3& up) {
   return collision.X_LC * down;
 }
 
-/// It keeps its height over the base: the base itself, and what is fixed to it or turns about a ball at it.
+/// It keeps its height over the base: the base itself, and what is fixed to it or turns about a
+/// ball at it.
 bool goes_with_base(const scene::Machine& machine, int link) {
   using Type = scene::Joint::Type;
-  return link == 0 || std::any_of(machine.joints.begin(), machine.joints.end(), [&](const scene::Joint& joint) {
-           return joint.child == link && joint.parent == 0 && (joint.type == Type::kFixed || joint.type == Type::kBall);
+  return link == 0 ||
+         std::any_of(machine.joints.begin(), machine.joints.end(), [&](const scene::Joint& joint) {
+           return joint.child == link && joint.parent == 0 &&
+                  (joint.type == Type::kFixed || joint.type == Type::kBall);
          });
 }
 
-/// Points of such links' collision shapes that are as low as the wheels' feet, in W: what rolls or slides along.
-/// @param feet mean height of the wheels' feet along the base's z axis; `radius` of the smallest wheel [m]
-std::vector<Vec3> skids(const scene::Machine& machine, const Engine& engine, int index, double feet, double radius) {
+/// Points of such links' collision shapes that are as low as the wheels' feet, in W: what rolls or
+/// slides along.
+/// @param feet mean height of the wheels' feet along the base's z axis; `radius` of the smallest
+/// wheel [m]
+std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engine, int index,
+                        double feet, double radius) {
   using Kind = scene::Geometry::Kind;
   const Vec3 up = engine.link(index, 0).X_WL.linear().col(2);
   std::vector<Vec3> out;
   for (int l = 0; l < static_cast<int>(machine.links.size()); ++l) {
-    const std::vector<scene::Collision>& shapes = machine.links[static_cast<std::size_t>(l)].collisions;
+    const std::vector<scene::Collision>& shapes =
+        machine.links[static_cast<std::size_t>(l)].collisions;
     if (shapes.empty() || !goes_with_base(machine, l)) continue;
     const Pose X_WL = engine.link(index, l).X_WL;
     for (const scene::Collision& collision : shapes) {
@@ -153,7 +167,8 @@ double support_margin(std::vector<Vec2> feet, const Vec2& p) {
   return inside ? least : -least;
 }
 
-TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass, const Vec2& load_point) {
+TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
+                         const Vec2& load_point) {
   TippingLoad out;
   const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
   if (hull.size() < 3) return {0, Vec2::Zero()};
@@ -168,7 +183,7 @@ TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass
   return out;
 }
 
-Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int index) {
+Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
@@ -179,14 +194,15 @@ Vec3 centre_of_mass(const scene::Machine& machine, const Engine& engine, int ind
   return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
 }
 
-Stability stability(const scene::Machine& machine, const Engine& engine, int index) {
+Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Stability out;
   out.free = !machine.kinematic && !machine.fixed_base && !machine.wheels.empty();
   if (!out.free) return out;
   const LinkState base = engine.link(index, 0);
   const Vec3 up = base.X_WL.linear().col(2);
   out.tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
-  // d/dt of up = w x up, and of its height cos(tilt); an upright axis has no direction to tilt to yet.
+  // d/dt of up = w x up, and of its height cos(tilt); an upright axis has no direction to tilt to
+  // yet.
   const double sine = std::sin(out.tilt);
   if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
   std::vector<Vec2> feet;
@@ -212,7 +228,8 @@ Stability stability(const scene::Machine& machine, const Engine& engine, int ind
   out.tipping_load = weakest.load;
   const Vec2 ahead = base.X_WL.linear().col(0).head<2>(), left(-ahead.y(), ahead.x());
   out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
-  // What the ground does not bear, or what nothing moves, is as near to tipping as its centre of mass.
+  // What the ground does not bear, or what nothing moves, is as near to tipping as its centre of
+  // mass.
   Vec2 borne = centre;
   centre_of_pressure(bearings(machine, engine, index), borne);
   out.loaded_margin = support_margin(std::move(feet), borne);

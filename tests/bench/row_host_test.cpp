@@ -32,7 +32,8 @@ Row example() {
 
 std::string cell(const Row& row, const std::string& column) {
   const auto at = std::find(columns().begin(), columns().end(), column);
-  return at == columns().end() ? "no such column" : cells(row)[static_cast<std::size_t>(at - columns().begin())];
+  return at == columns().end() ? "no such column"
+                               : cells(row)[static_cast<std::size_t>(at - columns().begin())];
 }
 
 TEST(BenchRow, RatesAndSharesFollowFromTheFastestRun) {
@@ -52,8 +53,8 @@ TEST(BenchRow, WhatWasNotMeasuredIsEmpty) {
   row.peak = {};
   row.simulated = 0;
   row.kernels = 0;
-  for (const char* column : {"share_of_copy_bandwidth", "share_of_fma_peak", "real_time_factor", "site_m", "kernel_ms",
-                             "kernel_particle_steps_per_s"})
+  for (const char* column : {"share_of_copy_bandwidth", "share_of_fma_peak", "real_time_factor",
+                             "site_m", "kernel_ms", "kernel_particle_steps_per_s"})
     EXPECT_EQ(cell(row, column), "") << column;
 }
 
@@ -90,7 +91,8 @@ TEST(BenchCompare, PrintsTheRatioAndMarksAnotherHash) {
   std::ofstream(a) << csv_header() << "\n" << csv_line(example()) << "\n";
   std::ofstream(b) << csv_header() << "\n" << csv_line(other) << "\n";
   const std::string out = folder / "compare.txt";
-  const std::string command = "python3 " + navvy::source_dir() + "/bench/compare.py " + a + " " + b + " >" + out;
+  const std::string command =
+      "python3 " + navvy::source_dir() + "/bench/compare.py " + a + " " + b + " >" + out;
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::string text, line;
   for (std::ifstream file(out); std::getline(file, line);) text += line + "\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The native loop of bench/native against the double-precision twin: a bench cannot measure what a test does not check.
+// The native loop of bench/native against the double-precision twin: a bench cannot measure what a
+// test does not check.
 #include "native/native_soil.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,8 @@ std::vector<soil::Particle> lump(int nx, int ny, int nz) {
 }
 
 soil::reference::ReferenceSolver twin_of(const std::vector<soil::Particle>& start) {
-  soil::reference::ReferenceSolver twin({loam()}, kCell, Vec3(0, 0, -kGravity), [](int, int) { return kGround; });
+  soil::reference::ReferenceSolver twin({loam()}, kCell, Vec3(0, 0, -kGravity),
+                                        [](int, int) { return kGround; });
   for (const soil::Particle& p : start) twin.points.push_back(soil::reference::from_particle(p));
   return twin;
 }
@@ -94,7 +96,8 @@ TEST(NativeLoop, AgreesWithTheDoubleTwinOnTheGround) {
 }
 
 TEST(NativeLoop, SortingChangesNothingButTheOrderOfSums) {
-  // Long enough for several sorts. The twin keeps the homes of the start, so only the mean fall is compared.
+  // Long enough for several sorts. The twin keeps the homes of the start, so only the mean fall is
+  // compared.
   const auto start = lump(10, 10, 10);
   NativeSoil native(loam(), kCell, kGround);
   native.insert(start);
@@ -105,10 +108,12 @@ TEST(NativeLoop, SortingChangesNothingButTheOrderOfSums) {
   }
   EXPECT_GT(native.sorts(), 2);
   Vec3 mean = Vec3::Zero(), expected = Vec3::Zero();
-  for (const soil::Particle& p : native.particles()) mean += soil::reference::from_particle(p).x / 1000;
+  for (const soil::Particle& p : native.particles())
+    mean += soil::reference::from_particle(p).x / 1000;
   for (const auto& p : twin.points) expected += p.x / 1000;
-  std::printf("[ VALUE    ] native loop against double twin after 60 steps, mean position: %.2g cells\n",
-              (mean - expected).norm());
+  std::printf(
+      "[ VALUE    ] native loop against double twin after 60 steps, mean position: %.2g cells\n",
+      (mean - expected).norm());
   // Homes decide which neighbours a particle's opening is mixed with, and they differ after a sort.
   EXPECT_LT((mean - expected).norm(), 2e-4);
 }

@@ -14,7 +14,8 @@
 namespace navvy::bench {
 namespace {
 
-// Between runs ground and soil are restored together: otherwise the ledger of mass opens, and the solver stops.
+// Between runs ground and soil are restored together: otherwise the ledger of mass opens, and the
+// solver stops.
 TEST(SoilRows, TheSameCaseTwiceDoesTheSameWork) {
   device::Device device;
   for (const SoilCase& c : soil_cases()) {
@@ -50,7 +51,8 @@ TEST(SoilRows, RowsHoldWhatTheirColumnsNeed) {
     // A size in the name is the number of particles: 8k is 7500 to 8500.
     const std::size_t colon = row.bench.find(':'), k = row.bench.find('k', colon);
     if (colon != std::string::npos && k == row.bench.size() - 1)
-      EXPECT_NEAR(static_cast<double>(row.particles), 1000 * std::stod(row.bench.substr(colon + 1)), 500);
+      EXPECT_NEAR(static_cast<double>(row.particles), 1000 * std::stod(row.bench.substr(colon + 1)),
+                  500);
     EXPECT_GT(row.particles, 1000u);
     EXPECT_EQ(row.hash.size(), 16u);
     EXPECT_TRUE(hashes.insert(row.hash).second) << "two cases end in one state";
@@ -77,7 +79,8 @@ TEST(SoilRows, AnUnknownNameIsRefusedWithTheKnownOnes) {
     run_soil_cases(device, "no such case", false, [](const Row&) {});
     FAIL() << "nothing was thrown";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("soil_held_bucket"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("soil_held_bucket"), std::string::npos)
+        << error.what();
   }
 }
 

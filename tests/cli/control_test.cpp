@@ -34,16 +34,24 @@ class Control : public testing::Test {
             "stdio",        "--out",
             folder_ / "out"};
   }
-  /// Exit status of a run that is handed `input` at once; what it said, line by line, goes to `lines`.
-  int drive(const std::string& input, std::vector<json>& lines, const std::string& scene = "bucket_path") {
+  /// Exit status of a run that is handed `input` at once; what it said, line by line, goes to
+  /// `lines`.
+  int drive(const std::string& input, std::vector<json>& lines,
+            const std::string& scene = "bucket_path") {
     std::ofstream(folder_ / "in") << input;
-    const int status = test::wait_for(
-        test::start({NAVVY_PROGRAM, arguments(scene), {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
+    const int status = test::wait_for(test::start({NAVVY_PROGRAM,
+                                                   arguments(scene),
+                                                   {},
+                                                   folder_ / "in",
+                                                   folder_ / "stdout",
+                                                   folder_ / "stderr"}));
     std::istringstream said(text_of(folder_ / "stdout"));
     for (std::string line; std::getline(said, line);) lines.push_back(json::parse(line));
     return status;
   }
-  json summary() const { return json::parse(text_of(folder_ / "out/summary.json"), nullptr, false); }
+  json summary() const {
+    return json::parse(text_of(folder_ / "out/summary.json"), nullptr, false);
+  }
   std::string complained() const { return text_of(folder_ / "stderr"); }
 
   const test::Folder folder_;
@@ -52,7 +60,8 @@ class Control : public testing::Test {
 TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
   const std::vector<std::pair<std::string, std::string>> bad = {
       {R"({"inputs": {"bucket/slyde_x/velocity": 1}})", "bucket/slide_x/velocity"},
-      {R"({"inputs": {"bucket/slide_x/velocity": 1, "bucket/slyde_x/velocity": 1}})", "bucket/slide_x/velocity"},
+      {R"({"inputs": {"bucket/slide_x/velocity": 1, "bucket/slyde_x/velocity": 1}})",
+       "bucket/slide_x/velocity"},
       {R"({"inputs": {"bucket/slide_x/velocity": "fast"}})", "must be a number"},
       {R"({"inputs": {"bucket/slide_x/velocity": 1e999}})", "one JSON object"},
       {R"({"inputs": [1, 2]})", "object of names"},
@@ -73,7 +82,8 @@ TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
   EXPECT_EQ(lines[0].at("time"), 0);
   for (std::size_t i = 0; i < bad.size(); ++i) {
     EXPECT_EQ(lines[i + 1].at("line"), i + 1);
-    EXPECT_NE(lines[i + 1].at("error").get<std::string>().rfind("error", 0), 0u) << "the key says so";
+    EXPECT_NE(lines[i + 1].at("error").get<std::string>().rfind("error", 0), 0u)
+        << "the key says so";
     EXPECT_NE(lines[i + 1].at("error").get<std::string>().find(bad[i].second), std::string::npos)
         << bad[i].first << ": " << lines[i + 1];
   }
@@ -127,8 +137,9 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
   EXPECT_EQ(lines[14], lines[0]);
 }
 
-TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
-  // The bucket goes down at 1 m/s from 0.2 m above the ground and asks before it is there, and in the ground.
+TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
+  // The bucket goes down at 1 m/s from 0.2 m above the ground and asks before it is there, and in
+  // the ground.
   std::string down = "{\"inputs\": {\"bucket/slide_z/velocity\": -1}}\n",
               input = "{\"heights\": {\"cell_m\": 1}}\n" + down;
   for (int i = 0; i < 25; ++i) input += "{}\n";
@@ -157,7 +168,8 @@ TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
   }
   ASSERT_EQ(heights.size(), 5u);
   ASSERT_EQ(changed.size(), 6u);
-  // One map a change, whoever asks: the start, what the bucket has done, two steps more, the start again.
+  // One map a change, whoever asks: the start, what the bucket has done, two steps more, the start
+  // again.
   EXPECT_EQ(heights[0].at("sequence"), 1);
   EXPECT_EQ(heights[1].at("sequence"), 2);
   EXPECT_EQ(heights[3].at("sequence"), 2);
@@ -174,14 +186,17 @@ TEST_F(Control, ChangesAreToldFromTheNumberThatHeightsGave) {
   EXPECT_EQ(changed[2].at("columns"), 0);
   EXPECT_EQ(changed[2].at("time"), changed[1].at("time"));
   EXPECT_EQ(changed[3].at("since"), 0);
-  // Known from the first question on: where the soil has changed, and not where a slope has, beside it.
+  // Known from the first question on: where the soil has changed, and not where a slope has, beside
+  // it.
   const auto known = [](const json& answer) {
     const json& values = answer.at("values");
-    return std::count_if(values.begin(), values.end(), [](const json& value) { return !value.is_null(); });
+    return std::count_if(values.begin(), values.end(),
+                         [](const json& value) { return !value.is_null(); });
   };
   EXPECT_GT(known(heights[2]), 0);
   EXPECT_LE(known(heights[2]), changed[0].at("columns"));
-  // The start again: its time is earlier, nothing is known of what was, and no number of before leads to it.
+  // The start again: its time is earlier, nothing is known of what was, and no number of before
+  // leads to it.
   EXPECT_EQ(heights[4].at("sequence"), 4);
   EXPECT_EQ(heights[4].at("map_time"), 0);
   EXPECT_EQ(known(heights[4]), 0);
@@ -229,7 +244,8 @@ TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
 
 TEST_F(Control, WatchesALinkFromTheNextOutputsOn) {
   std::vector<json> lines;
-  ASSERT_EQ(drive("{\"watch\": \"bucket/carriage\"}\n{}\n{\"end\": true}\n", lines), 0) << complained();
+  ASSERT_EQ(drive("{\"watch\": \"bucket/carriage\"}\n{}\n{\"end\": true}\n", lines), 0)
+      << complained();
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[1].at("watch").size(), 12u);
   EXPECT_EQ(lines[1].at("watch").at("bucket/carriage/angular_velocity/z"), "rad/s");
@@ -249,45 +265,64 @@ TEST_F(Control, SendsThePictureOfACamera) {
 }
 
 TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
-  const std::string deep(100000, '['), wide = "{\"inputs\": {\"" + std::string(900000, 'x') + "\": 1}}";
+  const std::string deep(100000, '['),
+      wide = "{\"inputs\": {\"" + std::string(900000, 'x') + "\": 1}}";
   std::string hidden = R"({"inputs": {"a)" + std::string(1000, '[') + R"(": 1}})", endless;
   endless.assign(100'000'000, 'y');
   const auto begun = std::chrono::steady_clock::now();
   std::vector<json> lines;
-  ASSERT_EQ(drive(deep + "\n" + wide + "\n" + endless + "\n" + hidden + "\n{}\n{\"end\": true}", lines), 0)
+  ASSERT_EQ(
+      drive(deep + "\n" + wide + "\n" + endless + "\n" + hidden + "\n{}\n{\"end\": true}", lines),
+      0)
       << complained();
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   ASSERT_EQ(lines.size(), 6u);
-  const char* const said[] = {"nest at most", "is no input", "at most 1048576 bytes", "no input 'a[[["};
+  const char* const said[] = {"nest at most", "is no input", "at most 1048576 bytes",
+                              "no input 'a[[["};
   for (int i = 0; i < 3; ++i)
-    EXPECT_NE(lines[static_cast<std::size_t>(i) + 1].at("error").get<std::string>().find(said[i]), std::string::npos)
+    EXPECT_NE(lines[static_cast<std::size_t>(i) + 1].at("error").get<std::string>().find(said[i]),
+              std::string::npos)
         << lines[static_cast<std::size_t>(i) + 1].dump().substr(0, 300);
-  EXPECT_TRUE(lines[4].contains("error")) << "brackets within a text are no nesting, the name is unknown";
-  std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n", spent.count());
+  EXPECT_TRUE(lines[4].contains("error"))
+      << "brackets within a text are no nesting, the name is unknown";
+  std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n",
+              spent.count());
 }
 
-TEST_F(Control, TellsATargetBeyondAJointsLimitsOnceAnInput) {
-  const std::string beyond = R"({"inputs": {"excavator/boom_joint/position": 90}})",
-                    other = R"({"inputs": {"excavator/arm_joint/position": -4, "excavator/bucket_joint/position": 0}})",
-                    fast =
-                        R"({"inputs": {"excavator/boom_joint/velocity": 1e300, "excavator/arm_joint/effort": -1e300}})";
+TEST_F(Control, ReportsATargetBeyondAJointsLimitsOnceAnInput) {
+  const std::string
+      beyond = R"({"inputs": {"excavator/boom_joint/position": 90}})",
+      other =
+          R"({"inputs": {"excavator/arm_joint/position": -4, "excavator/bucket_joint/position": 0}})",
+      fast =
+          R"({"inputs": {"excavator/boom_joint/velocity": 1e300, "excavator/arm_joint/effort": -1e300}})";
   std::vector<json> lines;
-  ASSERT_EQ(drive(beyond + "\n" + beyond + "\n" + other + "\n" + fast + "\n{}\n{\"end\": true}\n", lines, "trench"), 0)
+  ASSERT_EQ(drive(beyond + "\n" + beyond + "\n" + other + "\n" + fast + "\n{}\n{\"end\": true}\n",
+                  lines, "trench"),
+            0)
       << complained();
   EXPECT_EQ(lines.size(), 6u) << "the run goes on";
   const std::string said = complained();
   const auto count = [&](const std::string& part) {
     int found = 0;
-    for (std::size_t at = said.find(part); at != std::string::npos; at = said.find(part, at + 1)) ++found;
+    for (std::size_t at = said.find(part); at != std::string::npos; at = said.find(part, at + 1))
+      ++found;
     return found;
   };
   // Degrees instead of radians, as a rule.
-  EXPECT_EQ(count("input excavator/boom_joint/position: 90 rad is beyond the joint's limits, -0.85 to 1.05 rad"), 1)
+  EXPECT_EQ(count("input excavator/boom_joint/position: 90 rad is beyond the joint's limits, -0.85 "
+                  "to 1.05 rad"),
+            1)
       << said;
-  EXPECT_EQ(count("input excavator/arm_joint/position: -4 rad is beyond the joint's limits, -2.75 to -0.6 rad"), 1)
+  EXPECT_EQ(count("input excavator/arm_joint/position: -4 rad is beyond the joint's limits, -2.75 "
+                  "to -0.6 rad"),
+            1)
       << said;
-  EXPECT_EQ(count("input excavator/boom_joint/velocity: 1e+300 rad/s is beyond the joint's limits"), 1) << said;
-  EXPECT_EQ(count("input excavator/arm_joint/effort: -1e+300 N m is beyond the joint's limits"), 1) << said;
+  EXPECT_EQ(count("input excavator/boom_joint/velocity: 1e+300 rad/s is beyond the joint's limits"),
+            1)
+      << said;
+  EXPECT_EQ(count("input excavator/arm_joint/effort: -1e+300 N m is beyond the joint's limits"), 1)
+      << said;
   EXPECT_EQ(count("beyond the joint's limits"), 4) << said;
 }
 
@@ -296,7 +331,8 @@ TEST_F(Control, TheEndOfTheStreamWithoutAWordIsInterrupted) {
   EXPECT_EQ(drive("{}\n{}\n", lines), 130) << complained();
   EXPECT_EQ(lines.size(), 3u);
   EXPECT_EQ(summary().at("status"), "interrupted");
-  EXPECT_NE(summary().at("message").get<std::string>().find("closed standard input"), std::string::npos);
+  EXPECT_NE(summary().at("message").get<std::string>().find("closed standard input"),
+            std::string::npos);
 }
 
 TEST_F(Control, AClosedStandardOutputEndsTheRun) {
@@ -305,8 +341,8 @@ TEST_F(Control, AClosedStandardOutputEndsTheRun) {
   ASSERT_EQ(pipe2(in, O_CLOEXEC), 0);
   ASSERT_EQ(pipe2(out, O_CLOEXEC), 0);
   const auto by_number = [](int file) { return "/dev/fd/" + std::to_string(file); };
-  const pid_t child =
-      test::start({NAVVY_PROGRAM, arguments(), {}, by_number(in[0]), by_number(out[1]), folder_ / "stderr"});
+  const pid_t child = test::start(
+      {NAVVY_PROGRAM, arguments(), {}, by_number(in[0]), by_number(out[1]), folder_ / "stderr"});
   close(in[0]);
   close(out[1]);
   char first[4096];
@@ -319,7 +355,8 @@ TEST_F(Control, AClosedStandardOutputEndsTheRun) {
   EXPECT_EQ(test::wait_for(child), 130) << complained();
   close(in[1]);
   EXPECT_EQ(summary().at("status"), "interrupted");
-  EXPECT_NE(summary().at("message").get<std::string>().find("closed standard output"), std::string::npos);
+  EXPECT_NE(summary().at("message").get<std::string>().find("closed standard output"),
+            std::string::npos);
   EXPECT_LT(summary().at("simulated_time_s").get<double>(), 0.1);
 }
 

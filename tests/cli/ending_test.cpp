@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the program says that a run ended and a program of its scene did not: status, exit status, last lines.
+// How the program says that a run ended and a program of its scene did not: status, exit status,
+// last lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,17 +21,23 @@ namespace {
 
 class Ending : public test::ProgramRun {
  protected:
-  /// Two buckets on posts, each with a program, on a site of 4 m; the whole scene ends after `duration` [s].
-  std::string two_buckets(const std::string& first, const std::string& second, const std::string& duration) {
-    const auto bucket = [](const std::string& name, const std::string& x, const std::string& program) {
-      return "<include><uri>model://test_bucket</uri><name>" + name + "</name><pose>" + x + " 0 3 0 0 0</pose>" +
-             "<navvy:on_ground>false</navvy:on_ground><navvy:program>" + program + "</navvy:program></include>\n";
+  /// Two buckets on posts, each with a program, on a site of 4 m; the whole scene ends after
+  /// `duration` [s].
+  std::string two_buckets(const std::string& first, const std::string& second,
+                          const std::string& duration) {
+    const auto bucket = [](const std::string& name, const std::string& x,
+                           const std::string& program) {
+      return "<include><uri>model://test_bucket</uri><name>" + name + "</name><pose>" + x +
+             " 0 3 0 0 0</pose>" + "<navvy:on_ground>false</navvy:on_ground><navvy:program>" +
+             program + "</navvy:program></include>\n";
     };
     const std::string path = (directory_ / "scene.sdf").string();
     std::ofstream(path)
         << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"two\">\n"
-        << "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>8 4</size_m><depth_m>1</depth_m></navvy:ground>\n"
-        << bucket("early", "-2", first) << bucket("late", "2", second) << "<navvy:recording><duration_s>" << duration
+        << "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>8 "
+           "4</size_m><depth_m>1</depth_m></navvy:ground>\n"
+        << bucket("early", "-2", first) << bucket("late", "2", second)
+        << "<navvy:recording><duration_s>" << duration
         << "</duration_s><settle_s>0.05</settle_s></navvy:recording></world></sdf>\n";
     return path;
   }
@@ -47,23 +54,28 @@ const char* const kWait = "<wait><duration_s>0.2</duration_s></wait>";
 TEST_F(Ending, OfProgramsThatAreAllDoneIsFinished) {
   ASSERT_EQ(run({two_buckets(kWait, kWait, "5")}), 0) << complained();
   EXPECT_EQ(summary().at("status"), "finished");
-  for (const nlohmann::json& program : summary().at("programs")) EXPECT_EQ(program.at("state"), "done") << program;
+  for (const nlohmann::json& program : summary().at("programs"))
+    EXPECT_EQ(program.at("state"), "done") << program;
   EXPECT_EQ(said().find("incomplete"), std::string::npos) << said();
 }
 
 TEST_F(Ending, OfAProgramThatFellShortHasAStatusOfItsOwnWhileTheOtherGoesOn) {
   const std::string impatient =
-      "<wait_for><machine>late</machine><longest_s>0.05</longest_s></wait_for>" + std::string(kWait);
+      "<wait_for><machine>late</machine><longest_s>0.05</longest_s></wait_for>" +
+      std::string(kWait);
   EXPECT_EQ(run({two_buckets(impatient, kWait, "5")}), 6) << complained();
   const nlohmann::json written = summary();
   EXPECT_EQ(written.at("status"), "incomplete");
-  EXPECT_LT(written.at("simulated_time_s").get<double>(), 1) << "the run ends when all programs have ended";
+  EXPECT_LT(written.at("simulated_time_s").get<double>(), 1)
+      << "the run ends when all programs have ended";
   const nlohmann::json first = written.at("programs").at(0), second = written.at("programs").at(1);
   EXPECT_EQ(first.at("machine"), "early");
   EXPECT_EQ(first.at("state"), "out_of_time");
   EXPECT_EQ(first.at("step"), 1);
   EXPECT_EQ(first.at("steps"), 2);
-  EXPECT_NE(first.at("reason").get<std::string>().find("'late' has done 0 of the 1 steps"), std::string::npos) << first;
+  EXPECT_NE(first.at("reason").get<std::string>().find("'late' has done 0 of the 1 steps"),
+            std::string::npos)
+      << first;
   EXPECT_NEAR(first.at("time_s").get<double>(), 0.05, 0.01);
   EXPECT_NEAR(first.at("place_m").at(0).get<double>(), -2, 1e-6);
   EXPECT_EQ(first.at("step_list").size(), 1u);
@@ -85,18 +97,21 @@ TEST_F(Ending, OfAProgramThatTheDurationCutsOffIsIncompleteAndAFailureOnlyUnaske
   // Whoever asks for so much time gets it, with the same words and no failure.
   EXPECT_EQ(run({scene, "--duration", "0.25"}), 0) << complained();
   EXPECT_EQ(summary().at("status"), "incomplete");
-  EXPECT_NE(said().find("the run's duration of 0.25 s was over first"), std::string::npos) << said();
+  EXPECT_NE(said().find("the run's duration of 0.25 s was over first"), std::string::npos)
+      << said();
 }
 
 TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
-  const std::string scene = two_buckets(kWait, "<wait><duration_s>100000</duration_s></wait>", "100000");
+  const std::string scene =
+      two_buckets(kWait, "<wait><duration_s>100000</duration_s></wait>", "100000");
   const pid_t child = begin({scene});
   // Until the first program is done and a checkpoint tells so.
   const auto first_done = [&] {
     const nlohmann::json now = summary();
     return now.is_object() && now.at("programs").at(0).at("state") == "done";
   };
-  for (int i = 0; i < 1200 && !first_done(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  for (int i = 0; i < 1200 && !first_done(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_EQ(summary().at("programs").at(1).at("state"), "running");
   kill(child, SIGINT);
   EXPECT_EQ(test::wait_for(child), 130) << complained();
@@ -109,10 +124,12 @@ TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
 
 TEST_F(Ending, OfARunThatItsControllerEndsCallsNoProgramRunning) {
   const std::string scene = two_buckets(kWait, kWait, "100");
-  EXPECT_EQ(
-      ProgramRun::run({"run", scene, "--no-render", "--out", out(), "--control", "stdio"}, "{}\n{\"end\": true}\n"), 0)
+  EXPECT_EQ(ProgramRun::run({"run", scene, "--no-render", "--out", out(), "--control", "stdio"},
+                            "{}\n{\"end\": true}\n"),
+            0)
       << complained();
-  EXPECT_NE(complained().find("interrupted: the controller ended the run"), std::string::npos) << complained();
+  EXPECT_NE(complained().find("interrupted: the controller ended the run"), std::string::npos)
+      << complained();
   EXPECT_EQ(complained().find("running"), std::string::npos) << complained();
 }
 

@@ -29,8 +29,8 @@ TEST_F(Energy, OfADigStandsInItsSummaryAndChangesNoBit) {
   double spent = 0;
   for (const char* term : {"plastic", "viscous", "contact", "transfer", "mixing"})
     spent += energy.at(term).get<double>();
-  const double supplied =
-      energy.at("tools").get<double>() + energy.at("gravity").get<double>() + energy.at("exchanged").get<double>();
+  const double supplied = energy.at("tools").get<double>() + energy.at("gravity").get<double>() +
+                          energy.at("exchanged").get<double>();
   const double kept = energy.at("kinetic").get<double>() + energy.at("elastic").get<double>();
   EXPECT_GT(energy.at("tools").get<double>(), 0);
   EXPECT_LE(spent, supplied);

@@ -24,14 +24,16 @@ class Map : public test::ProgramRun {
     ProgramRun::SetUp();
     // A block of sand that slumps at once, on 48 x 32 columns.
     scene_ = (directory_ / "scene.sdf").string();
-    std::ofstream(scene_) << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="slump"><navvy:soil ref="sand_dry"/>
+    std::ofstream(scene_)
+        << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="slump"><navvy:soil ref="sand_dry"/>
 <navvy:ground><size_m>4.8 3.2</size_m>
 <block><center_m>1 0.5</center_m><length_m>0.8</length_m><width_m>0.8</width_m><height_m>0.6</height_m></block>
 <awake><min_m>0.6 0.1</min_m><max_m>1.4 0.9</max_m><bottom_m>0</bottom_m></awake></navvy:ground></world></sdf>
 )";
   }
   void expect_complained(const std::string& part) const {
-    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n" << complained();
+    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n"
+                                                          << complained();
   }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
 
@@ -54,7 +56,8 @@ class Map : public test::ProgramRun {
 
 TEST_F(Map, OfASceneIsItsUntouchedSite) {
   ASSERT_EQ(run({"map", scene_, "--format", "npz", "--out", path("a.npz")}), 0) << complained();
-  const std::vector<float> z = layer(path("a.npz"), "elevation"), slope = layer(path("a.npz"), "slope");
+  const std::vector<float> z = layer(path("a.npz"), "elevation"),
+                           slope = layer(path("a.npz"), "slope");
   ASSERT_EQ(z.size(), 48u * 32u);
   EXPECT_NEAR(z[20 * 48 + 34], 0.6, 1e-6);  // the block: x = 1.05, y = 0.45
   EXPECT_NEAR(z[10 * 48 + 34], 0, 1e-6);
@@ -62,29 +65,39 @@ TEST_F(Map, OfASceneIsItsUntouchedSite) {
   EXPECT_NE(said().find("48 x 32 columns of 0.1 m"), std::string::npos) << said();
 }
 
-TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsAwakeSoilToo) {
-  ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot", path("half.snapshot"),
-                 "--snapshot-at", "0.1", "--out", out()}),
+TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
+  ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot",
+                 path("half.snapshot"), "--snapshot-at", "0.1", "--out", out()}),
             0)
       << complained();
   ASSERT_EQ(run({"map", out(), "--format", "npz", "--out", path("end.npz")}), 0) << complained();
-  ASSERT_EQ(run({"map", out(), "--start", "--format", "npz", "--out", path("start.npz")}), 0) << complained();
-  ASSERT_EQ(run({"map", path("half.snapshot"), "--scene", scene_, "--format", "npz", "--out", path("half.npz")}), 0)
+  ASSERT_EQ(run({"map", out(), "--start", "--format", "npz", "--out", path("start.npz")}), 0)
       << complained();
-  const std::vector<float> start = layer(path("start.npz"), "elevation"), end = layer(path("end.npz"), "elevation"),
+  ASSERT_EQ(run({"map", path("half.snapshot"), "--scene", scene_, "--format", "npz", "--out",
+                 path("half.npz")}),
+            0)
+      << complained();
+  const std::vector<float> start = layer(path("start.npz"), "elevation"),
+                           end = layer(path("end.npz"), "elevation"),
                            before = layer(path("end.npz"), "elevation_start"),
-                           half = layer(path("half.npz"), "elevation"), loose = layer(path("half.npz"), "loose_depth"),
+                           half = layer(path("half.npz"), "elevation"),
+                           loose = layer(path("half.npz"), "loose_depth"),
                            density = layer(path("half.npz"), "density");
   ASSERT_EQ(half.size(), start.size());
-  // Every column as the run's own file has it, which a test of GDAL's reads elsewhere: row 0 is the north.
-  ASSERT_EQ(run({"map", out(), "--format", "geotiff", "--layers", "elevation", "--out", path("end.tif")}), 0);
+  // Every column as the run's own file has it, which a test of GDAL's reads elsewhere: row 0 is the
+  // north.
+  ASSERT_EQ(
+      run({"map", out(), "--format", "geotiff", "--layers", "elevation", "--out", path("end.tif")}),
+      0);
   for (const char* tool : {"gdal_translate"})
     if (std::system((std::string("command -v ") + tool + " >/dev/null 2>&1").c_str()) == 0) {
       const auto raw = [&](const std::string& from, const std::string& to) {
-        const std::string command = std::string(tool) + " -q -b 1 -of ENVI '" + from + "' '" + path(to) + "'";
+        const std::string command =
+            std::string(tool) + " -q -b 1 -of ENVI '" + from + "' '" + path(to) + "'";
         return std::system(command.c_str()) == 0 ? test_text(path(to)) : std::string();
       };
-      const std::string theirs = raw(out() + "/terrain_end.tif", "theirs"), ours = raw(path("end.tif"), "ours");
+      const std::string theirs = raw(out() + "/terrain_end.tif", "theirs"),
+                        ours = raw(path("end.tif"), "ours");
       ASSERT_EQ(theirs.size(), 48u * 32u * sizeof(float));
       EXPECT_EQ(ours, theirs) << "to the bit: files of a run count in W here";
     }
@@ -97,8 +110,9 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsAwakeSoilToo) {
     ASSERT_GT(density[i], 0);
   }
   EXPECT_GT(changed, 0.1) << "the block has not moved";
-  // 0.8 x 0.8 x 0.6 m of sand are 38.4 columns' worth of a metre, above ground at 0. They lie there still, on ground
-  // that woke with them; a tenth for what is in the air and what has loosened. Columns alone would show a pit.
+  // 0.8 x 0.8 x 0.6 m of sand are 38.4 columns' worth of a metre, above ground at 0. They lie there
+  // still, on ground that woke with them; a tenth for what is in the air and what has loosened.
+  // Columns alone would show a pit.
   EXPECT_NEAR(volume, 38.4, 3.84);
   EXPECT_GT(lying, 0.9 * 38.4);
   EXPECT_LT(volume - lying, 0);
@@ -106,28 +120,34 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsAwakeSoilToo) {
   for (const char* name : {"density", "soil", "disturbed_at"})
     EXPECT_TRUE(std::isnan(layer(path("end.npz"), name).at(7))) << name;
   EXPECT_EQ(run({"map", out(), "--format", "npz", "--out", path("end.npz")}), 0) << complained();
-  EXPECT_NE(said().find("unknown everywhere: target,cut_fill,density,soil,disturbed_at\n"), std::string::npos)
+  EXPECT_NE(said().find("unknown everywhere: target,cut_fill,density,soil,disturbed_at\n"),
+            std::string::npos)
       << said();
   EXPECT_EQ(complained(), "");
   // What lies loose at the end is what a snapshot of the same moment says, rounded once.
-  ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot", path("end.snapshot"), "--snapshot-at",
-                 "0.2", "--out", path("again")}),
+  ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot",
+                 path("end.snapshot"), "--snapshot-at", "0.2", "--out", path("again")}),
             0)
       << complained();
-  ASSERT_EQ(run({"map", path("end.snapshot"), "--scene", scene_, "--format", "npz", "--out", path("state.npz")}), 0);
+  ASSERT_EQ(run({"map", path("end.snapshot"), "--scene", scene_, "--format", "npz", "--out",
+                 path("state.npz")}),
+            0);
   EXPECT_EQ(layer(path("end.npz"), "loose_depth"), layer(path("state.npz"), "loose_depth"));
   EXPECT_EQ(layer(path("end.npz"), "awake"), layer(path("state.npz"), "awake"));
   const std::vector<float> last = layer(path("end.npz"), "loose_depth");
   EXPECT_GT(std::count_if(last.begin(), last.end(), [](float depth) { return depth > 0; }), 60);
   // Beside the run's scene a snapshot needs no --scene.
   std::filesystem::copy_file(path("half.snapshot"), out() + "/half.snapshot");
-  EXPECT_EQ(run({"map", out() + "/half.snapshot", "--format", "npz", "--out", path("again.npz")}), 0) << complained();
+  EXPECT_EQ(run({"map", out() + "/half.snapshot", "--format", "npz", "--out", path("again.npz")}),
+            0)
+      << complained();
   EXPECT_EQ(test_text(path("again.npz")), test_text(path("half.npz")));
 }
 
 TEST_F(Map, AsksWhatWasMeantAndWritesNothingThen) {
   const std::string to = path("none.tif");
-  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,slop", "--format", "geotiff", "--out", to}), 2);
+  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,slop", "--format", "geotiff", "--out", to}),
+            2);
   expect_complained("did you mean 'slope'?");
   EXPECT_EQ(run({"map", scene_, "--format", "geotif", "--out", to}), 2);
   expect_complained("did you mean 'geotiff'?");
@@ -153,11 +173,14 @@ TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
     return test_text(path(name));
   };
   const std::string own = path("own.sdf");
-  std::ofstream(own) << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="own"><navvy:soil ref="sand_dry"/>
+  std::ofstream(own)
+      << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="own"><navvy:soil ref="sand_dry"/>
 <navvy:ground><file>ground.asc</file><size_m>4 4</size_m></navvy:ground>
 <navvy:design><file>wanted.asc</file></navvy:design></world></sdf>)";
-  const std::string ground = grid("ground.asc", 10), wanted = grid("wanted.asc", 9), scene = test_text(own);
-  if (run({"map", own, "--format", "npz", "--out", path("a.npz")}) != 0) GTEST_SKIP() << complained();
+  const std::string ground = grid("ground.asc", 10), wanted = grid("wanted.asc", 9),
+                    scene = test_text(own);
+  if (run({"map", own, "--format", "npz", "--out", path("a.npz")}) != 0)
+    GTEST_SKIP() << complained();
   std::filesystem::create_hard_link(path("ground.asc"), path("same"));
   std::filesystem::create_symlink("own.sdf", path("link"));
   for (const char* to : {"own.sdf", "link", "ground.asc", "same", "wanted.asc", "./own.sdf"}) {
@@ -175,7 +198,8 @@ TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
   EXPECT_EQ(run({"map", own, "--format", "npz", "--out", path("away.npz")}), 0) << complained();
   EXPECT_EQ(test_text(path("there.npz")), test_text(path("a.npz")));
   EXPECT_TRUE(std::filesystem::is_symlink(path("away.npz")));
-  // And the check of such a scene tells what its design is: 16 m2, from 9.x to 10.x, a metre below the ground.
+  // And the check of such a scene tells what its design is: 16 m2, from 9.x to 10.x, a metre below
+  // the ground.
   EXPECT_EQ(run({"check", own}), 0) << said();
   EXPECT_NE(said().find("wanted.asc: 16 m2 of the site"), std::string::npos) << said();
   EXPECT_NE(said().find("16 m3 to cut, 0 m3 to fill"), std::string::npos) << said();
@@ -183,14 +207,17 @@ TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
 
 TEST_F(Map, WarnsOfLayersOfWhichNothingIsKnown) {
   const std::string to = path("a.npz");
-  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,target,cut_fill,disturbed_at", "--format", "npz", "--out", to}),
+  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,target,cut_fill,disturbed_at", "--format",
+                 "npz", "--out", to}),
             0);
   expect_complained("warning: --layers: 'target': is unknown in every column");
   expect_complained("'cut_fill'");
   expect_complained("the scene has no design (add a <navvy:design> to the scene)");
   expect_complained("nothing has changed on an untouched site");
   EXPECT_EQ(complained().find("'elevation'"), std::string::npos) << complained();
-  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,loose_depth,soil", "--format", "npz", "--out", to}), 0);
+  EXPECT_EQ(run({"map", scene_, "--layers", "elevation,loose_depth,soil", "--format", "npz",
+                 "--out", to}),
+            0);
   EXPECT_EQ(complained(), "");
   EXPECT_EQ(run({"map", scene_, "--format", "terra", "--out", path("t")}), 2);
   expect_complained("add a <navvy:design> to the scene");
@@ -215,9 +242,10 @@ TEST_F(Map, ReplacesItsOwnFoldersAndNoOthers) {
   }
 }
 
-TEST_F(Map, TellsLayersAndFormatsInItsHelp) {
+TEST_F(Map, ReportsLayersAndFormatsInItsHelp) {
   EXPECT_EQ(run({"map", "--help"}), 0);
-  for (const char* part : {"traversability", "nav2-scale", "--slope-limit-deg", "Examples: navvy map"})
+  for (const char* part :
+       {"traversability", "nav2-scale", "--slope-limit-deg", "Examples: navvy map"})
     EXPECT_NE(said().find(part), std::string::npos) << part << "\n" << said();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says to slips on its command line and in scenes, and what it tells of what is shipped.
+// What the program says to slips on its command line and in scenes, and what it tells of what is
+// shipped.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,19 +20,23 @@ class Messages : public test::ProgramRun {
   /// A scene of flat loam with `machines` in it.
   std::string scene(const std::string& ground, const std::string& machines) {
     const std::string path = (directory_ / "scene.sdf").string();
-    std::ofstream(path) << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>\n"
+    std::ofstream(path) << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world "
+                           "name=\"w\"><navvy:soil ref=\"loam\"/>\n"
                         << "<navvy:ground><size_m>40 20</size_m>" << ground << "</navvy:ground>\n"
                         << machines << "</world></sdf>\n";
     return path;
   }
   static std::string machine(const std::string& name, const std::string& pose) {
-    return "<include><uri>model://ew180</uri><name>" + name + "</name><pose>" + pose + "</pose></include>\n";
+    return "<include><uri>model://ew180</uri><name>" + name + "</name><pose>" + pose +
+           "</pose></include>\n";
   }
   void expect_said(const std::string& part) const {
-    EXPECT_NE(said().find(part), std::string::npos) << "'" << part << "' is not in:\n" << said() << complained();
+    EXPECT_NE(said().find(part), std::string::npos) << "'" << part << "' is not in:\n"
+                                                    << said() << complained();
   }
   void expect_complained(const std::string& part) const {
-    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n" << complained();
+    EXPECT_NE(complained().find(part), std::string::npos) << "'" << part << "' is not in:\n"
+                                                          << complained();
   }
 };
 
@@ -46,7 +51,7 @@ TEST_F(Messages, ListWhatIsShippedOneLineEach) {
   expect_said("loam");
 }
 
-TEST_F(Messages, TellEveryValueOfASoilWithItsUnit) {
+TEST_F(Messages, ReportEveryValueOfASoilWithItsUnit) {
   EXPECT_EQ(run({"soils", "loam"}), 0);
   expect_said("bank_density_kg_per_m3");
   expect_said("friction_angle_deg");
@@ -57,7 +62,7 @@ TEST_F(Messages, TellEveryValueOfASoilWithItsUnit) {
   expect_complained("did you mean 'sand_dry'?");
 }
 
-TEST_F(Messages, TellWhatAMachineIsMadeOf) {
+TEST_F(Messages, ReportWhatAMachineIsMadeOf) {
   EXPECT_EQ(run({"machines", "ew180"}), 0) << complained();
   expect_said("Wheeled excavator of the 18 t class.");
   expect_said("vehicles/ew180/model.sdf\n");
@@ -77,14 +82,16 @@ TEST_F(Messages, TellWhatAMachineIsMadeOf) {
 
 TEST_F(Messages, SayWhatACommandNeeds) {
   EXPECT_EQ(run({"check"}), 2);
-  expect_complained("`navvy check` needs files: SDF files, or names of shipped scenes (navvy check --help)");
+  expect_complained(
+      "`navvy check` needs files: SDF files, or names of shipped scenes (navvy check --help)");
   EXPECT_EQ(run({"run"}), 2);
   expect_complained("`navvy run` needs ");
 }
 
 TEST_F(Messages, NameTheSeverityOfAWarningOnce) {
   const std::string file = scene("<slope><angle_deg>0.2618</angle_deg></slope>", "");
-  EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.01", "--out", out()}), 0) << complained();
+  EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.01", "--out", out()}), 0)
+      << complained();
   // As editors read it: file and line come first.
   expect_complained(file + ":2: warning: ");
   EXPECT_EQ(complained().find("warning: " + file), std::string::npos) << complained();
@@ -136,23 +143,30 @@ TEST_F(Messages, CheckFindsShippedScenesByName) {
 }
 
 TEST_F(Messages, CheckDoesNotSayThatWhatFallsStands) {
-  EXPECT_EQ(run({"check", scene("",
-                                "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 8 0 0 0</pose>"
-                                "<navvy:on_ground>false</navvy:on_ground></include>")}),
-            0)
+  EXPECT_EQ(
+      run({"check",
+           scene("",
+                 "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 8 0 0 0</pose>"
+                 "<navvy:on_ground>false</navvy:on_ground></include>")}),
+      0)
       << said();
   expect_said("'digger' does not stand after a second: it is still falling");
 }
 
 TEST_F(Messages, CheckRefusesMachinesThatOverlap) {
-  EXPECT_EQ(run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"))}), 2);
+  EXPECT_EQ(
+      run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"))}),
+      2);
   expect_said("include[other]");
   expect_said("it overlaps 'one' at the start");
-  EXPECT_EQ(run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "0 6 0 0 0 0"))}), 0) << said();
+  EXPECT_EQ(
+      run({"check", scene("", machine("one", "0 0 0 0 0 0") + machine("other", "0 6 0 0 0 0"))}), 0)
+      << said();
 }
 
 TEST_F(Messages, RunRefusesMachinesThatOverlapAsCheckDoes) {
-  const std::string file = scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"));
+  const std::string file =
+      scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"));
   EXPECT_EQ(run({"check", file}), 2);
   // Word for word.
   const std::size_t begin = said().find(file), end = said().find('\n', begin);
@@ -172,9 +186,10 @@ TEST_F(Messages, ARunWithoutADeviceLeavesNoFolderBehind) {
 }
 
 TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
-  const std::string file = scene("",
-                                 "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 -0.8 0 0 0</pose>"
-                                 "<navvy:on_ground>false</navvy:on_ground></include>");
+  const std::string file =
+      scene("",
+            "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 -0.8 0 0 0</pose>"
+            "<navvy:on_ground>false</navvy:on_ground></include>");
   EXPECT_EQ(run({"check", file}), 2);
   expect_said("include[digger]");
   expect_said("starts with its middle that far below the ground");
@@ -183,10 +198,11 @@ TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
 }
 
-TEST_F(Messages, CheckTellsWhatFollowsFromAMachinesFile) {
+TEST_F(Messages, CheckReportsWhatFollowsFromAMachinesFile) {
   const std::string crate =
       "<model name=\"crate\"><pose>3 0 0.5 0 0 0</pose><link name=\"a\">"
-      "<navvy:density_kg_per_m3>500</navvy:density_kg_per_m3><visual name=\"body\"><geometry><box><size>0.5 0.4 0.2"
+      "<navvy:density_kg_per_m3>500</navvy:density_kg_per_m3><visual "
+      "name=\"body\"><geometry><box><size>0.5 0.4 0.2"
       "</size></box></geometry></visual></link></model>\n";
   EXPECT_EQ(run({"check", scene("", crate)}), 0) << said();
   expect_said("'crate': link 'a' collides as its visuals: box 'body'\n");
@@ -208,12 +224,14 @@ TEST_F(Messages, AskAboutAnglesThatLookLikeTheOtherUnit) {
   EXPECT_EQ(run({"check", scene("", machine("digger", "0 0 0 0 0 90"))}), 0) << said();
   expect_said("warning");
   expect_said(
-      "the angles of a pose are in radians: 90 is more than a whole turn; were degrees meant? (write <pose "
+      "the angles of a pose are in radians: 90 is more than a whole turn; were degrees meant? "
+      "(write <pose "
       "degrees=\"true\">");
   EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.2618</angle_deg></slope>", "")}), 0);
   expect_said("is 15 deg in radians; were radians meant? (this element counts in degrees");
   // No false alarm: a turn and a half in radians, small angles in degrees.
-  EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.25</angle_deg></slope>", machine("digger", "0 0 0 0 0 -4.7124"))}),
+  EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.25</angle_deg></slope>",
+                                machine("digger", "0 0 0 0 0 -4.7124"))}),
             0);
   expect_said("0 warnings");
 }

@@ -22,7 +22,8 @@ class ProgramRun : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = std::filesystem::path(build_dir()) / "test-cli" / info->test_suite_name() / info->name();
+    directory_ =
+        std::filesystem::path(build_dir()) / "test-cli" / info->test_suite_name() / info->name();
     std::filesystem::remove_all(directory_);
     std::filesystem::create_directories(directory_);
   }
@@ -31,8 +32,8 @@ class ProgramRun : public testing::Test {
   pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
     const std::string in = (directory_ / "stdin").string();
     std::ofstream(in) << input;
-    return test::start({NAVVY_PROGRAM, arguments, environment_, in, (directory_ / "stdout").string(),
-                        (directory_ / "stderr").string()});
+    return test::start({NAVVY_PROGRAM, arguments, environment_, in,
+                        (directory_ / "stdout").string(), (directory_ / "stderr").string()});
   }
   /// Exit status, or minus the signal that ended it.
   int run(const std::vector<std::string>& arguments, const std::string& input = "") {
@@ -41,10 +42,13 @@ class ProgramRun : public testing::Test {
   std::string out() const { return (directory_ / "out").string(); }
   std::string said() const { return text_of(directory_ / "stdout"); }
   std::string complained() const { return text_of(directory_ / "stderr"); }
-  nlohmann::json summary() const { return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false); }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false);
+  }
 
   std::filesystem::path directory_;
-  std::vector<std::pair<std::string, std::string>> environment_;  ///< of the program, on top of the test's own
+  /// Of the program, on top of the test's own.
+  std::vector<std::pair<std::string, std::string>> environment_;
 };
 
 }  // namespace navvy::test

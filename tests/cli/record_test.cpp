@@ -29,10 +29,10 @@ using nlohmann::json;
 using test::text_of;
 
 /// A machine that waits for 0.3 s beside a pit that nobody digs: 2 m x 2 m x 0.5 m.
-std::string scene(const std::string& records, const std::string& awake = "") {
+std::string scene(const std::string& records, const std::string& active = "") {
   return R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="sand_dry"/>
 <navvy:ground><size_m>6 4</size_m><depth_m>1</depth_m>)" +
-         awake + R"(</navvy:ground>
+         active + R"(</navvy:ground>
 <navvy:solver><cell_m>0.2</cell_m><max_particles>20000</max_particles></navvy:solver>
 <navvy:design><area><polygon_m>-1 -1 1 -1 1 1 -1 1</polygon_m><depth_m>0.5</depth_m></area></navvy:design>
 <navvy:recording><duration_s>0.4</duration_s><render>false</render></navvy:recording>
@@ -43,7 +43,8 @@ std::string scene(const std::string& records, const std::string& awake = "") {
 <navvy:program><wait><duration_s>0.3</duration_s></wait></navvy:program></model></world></sdf>)";
 }
 
-/// z of the vertices of a binary PLY, row by row from the least y: x y z as doubles first, then what its head tells.
+/// z of the vertices of a binary PLY, row by row from the least y: x y z as doubles first, then
+/// what its head tells.
 std::vector<float> heights_of_ply(const std::string& bytes) {
   const std::size_t begin = bytes.find("end_header\n") + 11;
   std::istringstream head(bytes.substr(0, begin));
@@ -73,15 +74,17 @@ const char* const kHeap =
 
 class Record : public testing::Test {
  protected:
-  int navvy(std::vector<std::string> arguments, const std::string& records, const std::string& awake = "",
-            const std::string& input = "") {
-    std::ofstream(folder_ / "s.sdf") << scene(records, awake);
+  int navvy(std::vector<std::string> arguments, const std::string& records,
+            const std::string& active = "", const std::string& input = "") {
+    std::ofstream(folder_ / "s.sdf") << scene(records, active);
     std::ofstream(folder_ / "in") << input;
     arguments.insert(arguments.begin() + 1, folder_ / "s.sdf");
-    return test::wait_for(
-        test::start({NAVVY_PROGRAM, arguments, {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
+    return test::wait_for(test::start(
+        {NAVVY_PROGRAM, arguments, {}, folder_ / "in", folder_ / "stdout", folder_ / "stderr"}));
   }
-  std::string metadata(const std::string& bag) const { return text_of(folder_ / "out/" + bag + "/metadata.yaml"); }
+  std::string metadata(const std::string& bag) const {
+    return text_of(folder_ / "out/" + bag + "/metadata.yaml");
+  }
   /// Of a topic of a bag.
   int messages(const std::string& bag, const std::string& topic) const {
     const std::string text = metadata(bag), key = "message_count: ";
@@ -105,20 +108,21 @@ class Record : public testing::Test {
       for (const json& rect : head.at("rects"))
         for (std::size_t iy = rect[1]; iy < rect[3]; ++iy)
           for (std::size_t ix = rect[0]; ix < rect[2]; ++ix, at += 4)
-            std::memcpy(&elevation[iy * head.at("nx").get<std::size_t>() + ix], bytes.data() + at, 4);
+            std::memcpy(&elevation[iy * head.at("nx").get<std::size_t>() + ix], bytes.data() + at,
+                        4);
       EXPECT_EQ(at, bytes.size()) << name;
     }
   }
   /// Elevation of the run's end from its own map, by `navvy map`.
   std::vector<float> elevation_at_the_end() const {
     const std::string points = folder_ / "end.ply";
-    EXPECT_EQ(test::wait_for(
-                  test::start({NAVVY_PROGRAM,
-                               {"map", folder_ / "out", "--layers", "elevation", "--format", "ply", "--out", points},
-                               {},
-                               "/dev/null",
-                               folder_ / "map.out",
-                               folder_ / "map.err"})),
+    EXPECT_EQ(test::wait_for(test::start({NAVVY_PROGRAM,
+                                          {"map", folder_ / "out", "--layers", "elevation",
+                                           "--format", "ply", "--out", points},
+                                          {},
+                                          "/dev/null",
+                                          folder_ / "map.out",
+                                          folder_ / "map.err"})),
               0)
         << text_of(folder_ / "map.err");
     return heights_of_ply(text_of(points));
@@ -128,8 +132,9 @@ class Record : public testing::Test {
 };
 
 TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
-  const int status = navvy({"run", "--out", folder_ / "out", "--publish", folder_ / "patches", "--publish-rate", "10"},
-                           R"(<navvy:record name="run"><format>bag</format><rate_hz>10</rate_hz></navvy:record>
+  const int status = navvy(
+      {"run", "--out", folder_ / "out", "--publish", folder_ / "patches", "--publish-rate", "10"},
+      R"(<navvy:record name="run"><format>bag</format><rate_hz>10</rate_hz></navvy:record>
 <navvy:record name="all"><format>mcap</format><layers>elevation cut_fill slope</layers><rate_hz>5</rate_hz></navvy:record>
 <navvy:record name="grid"><format>nav2</format><rate_hz>5</rate_hz></navvy:record>
 <navvy:record name="set"><format>npz</format><layers>target cut_fill</layers><rate_hz>5</rate_hz></navvy:record>
@@ -137,18 +142,21 @@ TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
 )");
   ASSERT_EQ(status, 0) << text_of(folder_ / "stderr");
   const std::string list = text_of(folder_ / "out/navvy.run");
-  for (const std::string file : {"run/run_0.db3", "run/metadata.yaml", "all.mcap", "maps/grid_00000.yaml",
-                                 "maps/grid_00000.pgm", "maps/grid_00001.yaml", "maps/set_00001.npz",
-                                 "maps/dig_00001/images/img_1.npy", "maps/dig_00001/distance/img_1.npy"}) {
+  for (const std::string file :
+       {"run/run_0.db3", "run/metadata.yaml", "all.mcap", "maps/grid_00000.yaml",
+        "maps/grid_00000.pgm", "maps/grid_00001.yaml", "maps/set_00001.npz",
+        "maps/dig_00001/images/img_1.npy", "maps/dig_00001/distance/img_1.npy"}) {
     EXPECT_TRUE(has("out/" + file)) << file;
     EXPECT_NE(list.find(file), std::string::npos) << file << " in: " << list;
   }
-  // Both ends of an MCAP file are its magic; a bag counts what it holds: clock, tf, odometry, joints, three maps.
+  // Both ends of an MCAP file are its magic; a bag counts what it holds: clock, tf, odometry,
+  // joints, three maps.
   const std::string mcap = text_of(folder_ / "out/all.mcap");
   ASSERT_GT(mcap.size(), 16u);
   EXPECT_EQ(mcap.substr(0, 8), mcap.substr(mcap.size() - 8));
   const std::string metadata = text_of(folder_ / "out/run/metadata.yaml");
-  for (const char* topic : {"/clock", "/tf", "/m/odom", "/m/joint_states", "/terrain/grid_map", "/terrain/occupancy"})
+  for (const char* topic :
+       {"/clock", "/tf", "/m/odom", "/m/joint_states", "/terrain/grid_map", "/terrain/occupancy"})
     EXPECT_NE(metadata.find(topic), std::string::npos) << topic;
   EXPECT_EQ(text_of(folder_ / "patches/patch_000000001.navvymap").substr(0, 8), "NAVVYMAP");
   // The pit's 2 m x 2 m x 0.5 m are all still there, in columns of 0.2 m: 10 x 10 of them.
@@ -163,8 +171,8 @@ TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
 
 TEST_F(Record, TheLastPublishedMapIsTheSimulatorsEnd) {
   // Once a second, a run of 0.4 s in which soil falls.
-  ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--publish", folder_ / "patches", "--publish-rate", "1",
-                   "--publish-layers", "elevation"},
+  ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--publish", folder_ / "patches",
+                   "--publish-rate", "1", "--publish-layers", "elevation"},
                   "", kHeap),
             0)
       << text_of(folder_ / "stderr");
@@ -178,12 +186,14 @@ TEST_F(Record, TheLastPublishedMapIsTheSimulatorsEnd) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "patches/end"));
   const std::vector<float> end = elevation_at_the_end();
   ASSERT_EQ(end.size(), last.size());
-  // Both are float32 of one surface, of which the run's went through columns once more: 1 m has a last digit of 1e-7.
+  // Both are float32 of one surface, of which the run's went through columns once more: 1 m has a
+  // last digit of 1e-7.
   for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(end[i], last[i], 1e-6) << "column " << i;
 }
 
-TEST_F(Record, AResetBeginsNewFilesAndTellsReadersThatTimeWentBack) {
-  const std::string records = R"(<navvy:record name="run"><format>bag</format><rate_hz>10</rate_hz></navvy:record>
+TEST_F(Record, AResetBeginsNewFilesAndReportsReadersThatTimeWentBack) {
+  const std::string records =
+      R"(<navvy:record name="run"><format>bag</format><rate_hz>10</rate_hz></navvy:record>
 <navvy:record name="all"><format>mcap</format><layers>elevation</layers></navvy:record>
 <navvy:record name="all_2"><format>npz</format><layers>elevation</layers><rate_hz>10</rate_hz></navvy:record>
 )";
@@ -192,16 +202,17 @@ TEST_F(Record, AResetBeginsNewFilesAndTellsReadersThatTimeWentBack) {
   input += "{\"reset\": true}\n";
   for (int i = 0; i < 6; ++i) input += "{}\n";
   input += "{\"reset\": true}\n{\"end\": true}\n";
-  ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--control", "stdio", "--publish", folder_ / "patches",
-                   "--publish-rate", "10", "--publish-layers", "elevation"},
+  ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--control", "stdio", "--publish",
+                   folder_ / "patches", "--publish-rate", "10", "--publish-layers", "elevation"},
                   records, kHeap, input),
             0)
       << text_of(folder_ / "stderr");
   const std::string list = text_of(folder_ / "out/navvy.run");
   for (const std::string file :
-       {"run/run_0.db3", "run/metadata.yaml", "run_2/run_2_0.db3", "run_2/metadata.yaml", "run_3/metadata.yaml",
-        "all.mcap", "all_3.mcap", "all_4.mcap", "maps/all_2_00000.npz", "maps/all_2_00003.npz",
-        "maps/all_2_2_00000.npz", "maps/all_2_2_00001.npz", "maps/all_2_3_00000.npz"}) {
+       {"run/run_0.db3", "run/metadata.yaml", "run_2/run_2_0.db3", "run_2/metadata.yaml",
+        "run_3/metadata.yaml", "all.mcap", "all_3.mcap", "all_4.mcap", "maps/all_2_00000.npz",
+        "maps/all_2_00003.npz", "maps/all_2_2_00000.npz", "maps/all_2_2_00001.npz",
+        "maps/all_2_3_00000.npz"}) {
     EXPECT_TRUE(has("out/" + file)) << file;
     EXPECT_NE(list.find(file + "\n"), std::string::npos) << file << " in: " << list;
   }
@@ -215,7 +226,8 @@ TEST_F(Record, AResetBeginsNewFilesAndTellsReadersThatTimeWentBack) {
   EXPECT_EQ(messages("run_2", "/tf"), 7);
   EXPECT_EQ(messages("run_2", "/terrain/grid_map"), 2);
   EXPECT_NE(metadata("run").find("nanoseconds: 300000000\n"), std::string::npos) << metadata("run");
-  EXPECT_NE(metadata("run_2").find("nanoseconds: 120000000\n"), std::string::npos) << metadata("run_2");
+  EXPECT_NE(metadata("run_2").find("nanoseconds: 120000000\n"), std::string::npos)
+      << metadata("run_2");
   for (const char* bag : {"run", "run_2", "run_3"})
     EXPECT_NE(metadata(bag).find("nanoseconds_since_epoch: 0\n"), std::string::npos) << bag;
   // Readers of patches: whole maps where time goes back, and the end is the start again.
@@ -247,18 +259,21 @@ TEST_F(Record, OfABagHasItsMachinesAtTheirOwnRate) {
   EXPECT_EQ(messages("a", "/terrain/grid_map"), 1);
   EXPECT_EQ(messages("b", "/terrain/grid_map"), 3);
   // The scene that lies among the results asks for the same.
-  EXPECT_NE(text_of(folder_ / "out/scene.sdf").find("<machine_rate_hz>20</machine_rate_hz>"), std::string::npos);
+  EXPECT_NE(text_of(folder_ / "out/scene.sdf").find("<machine_rate_hz>20</machine_rate_hz>"),
+            std::string::npos);
   // Where it does nothing it is a slip.
-  EXPECT_EQ(navvy({"check"},
-                  R"(<navvy:record name="a"><format>npz</format><machine_rate_hz>20</machine_rate_hz></navvy:record>
+  EXPECT_EQ(
+      navvy(
+          {"check"},
+          R"(<navvy:record name="a"><format>npz</format><machine_rate_hz>20</machine_rate_hz></navvy:record>
 )"),
-            2);
+      2);
   const std::string said = text_of(folder_ / "stdout");
   for (const char* part : {"s.sdf:6", "navvy:record[a]/machine_rate_hz", "only mcap and bag"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
-TEST_F(Record, OfAnUnknownFormatOrLayerIsToldWithItsLineBeforeTheRun) {
+TEST_F(Record, OfAnUnknownFormatOrLayerIsReportedWithItsLineBeforeTheRun) {
   const std::string records = R"(<navvy:record name="a"><format>npzz</format></navvy:record>
 <navvy:record name="b"><format>npz</format><layers>slop</layers></navvy:record>
 )";
@@ -275,11 +290,16 @@ TEST_F(Record, OfADigSetWithoutADesignIsRefused) {
   const std::size_t from = bare.find("<navvy:design>"), end = bare.find("</navvy:design>") + 15;
   bare.erase(from, end - from);
   std::ofstream(folder_ / "bare.sdf") << bare;
-  const int status = test::wait_for(test::start(
-      {NAVVY_PROGRAM, {"check", folder_ / "bare.sdf"}, {}, "/dev/null", folder_ / "stdout", folder_ / "stderr"}));
+  const int status = test::wait_for(test::start({NAVVY_PROGRAM,
+                                                 {"check", folder_ / "bare.sdf"},
+                                                 {},
+                                                 "/dev/null",
+                                                 folder_ / "stdout",
+                                                 folder_ / "stderr"}));
   EXPECT_EQ(status, 2);
   const std::string said = text_of(folder_ / "stdout");
-  for (const char* part : {"navvy:record[dig]/format", "'terra'", "needs a design", "<navvy:design>"})
+  for (const char* part :
+       {"navvy:record[dig]/format", "'terra'", "needs a design", "<navvy:design>"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
@@ -307,7 +327,8 @@ TEST_F(Record, ABadPlaceOrLayerToPublishCostsNoEarlierResult) {
     std::vector<std::string> words = {"run", "--out", folder_ / "out"};
     words.insert(words.end(), options.begin(), options.end());
     EXPECT_EQ(navvy(words, ""), 2);
-    EXPECT_NE(text_of(folder_ / "stderr").find(part), std::string::npos) << text_of(folder_ / "stderr");
+    EXPECT_NE(text_of(folder_ / "stderr").find(part), std::string::npos)
+        << text_of(folder_ / "stderr");
     EXPECT_EQ(text_of(folder_ / "out/summary.json"), before);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.previous"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "maps"));

@@ -18,11 +18,12 @@ class RunOptions : public test::ProgramRun {
  protected:
   /// A run of some steps, with more words.
   int short_run(const std::vector<std::string>& more, const std::string& input = "") {
-    std::vector<std::string> words = {"run", kScene, "--no-render", "--duration", "0.05", "--out", out()};
+    std::vector<std::string> words = {"run",  kScene,  "--no-render", "--duration",
+                                      "0.05", "--out", out()};
     words.insert(words.end(), more.begin(), more.end());
     return run(words, input);
   }
-  void expect_told(const std::string& part) const {
+  void expect_reported(const std::string& part) const {
     const std::string all = said() + complained();
     EXPECT_NE(all.find(part), std::string::npos) << all;
   }
@@ -32,7 +33,7 @@ class RunOptions : public test::ProgramRun {
 
 TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "5"}), 2);
-  expect_told("the run lasts at most 0.05 s");
+  expect_reported("the run lasts at most 0.05 s");
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "-3"}), 2);
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "nan"}), 2);
   EXPECT_FALSE(std::filesystem::exists(snapshot()));
@@ -40,17 +41,17 @@ TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
   EXPECT_TRUE(std::filesystem::exists(snapshot()));
   // There is nothing behind it.
   EXPECT_EQ(short_run({"--resume", snapshot()}), 2);
-  expect_told("nothing is left to run");
+  expect_reported("nothing is left to run");
 }
 
 TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
   const std::string notes = (directory_ / "notes.txt").string();
   std::ofstream(notes) << "mine";
   EXPECT_EQ(short_run({"--snapshot", notes, "--snapshot-at", "0"}), 2);
-  expect_told("exists and is no snapshot, so it is not replaced");
+  expect_reported("exists and is no snapshot, so it is not replaced");
   EXPECT_EQ(test::text_of(notes), "mine");
   EXPECT_EQ(short_run({"--snapshot", out() + "/telemetry.csv", "--snapshot-at", "0"}), 2);
-  expect_told("is the name of a file that the run itself writes");
+  expect_reported("is the name of a file that the run itself writes");
   EXPECT_FALSE(std::filesystem::exists(out()));
   // A snapshot takes the place of an older one, also beside the results.
   for (int i = 0; i < 2; ++i) {
@@ -59,26 +60,27 @@ TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
 }
 
 TEST_F(RunOptions, ARunThatEndsBeforeTheSnapshotAskedForHasAStatusOfItsOwn) {
-  EXPECT_EQ(short_run({"--control", "stdio", "--snapshot", snapshot(), "--snapshot-at", "0.04"}, "{\"end\": true}\n"),
+  EXPECT_EQ(short_run({"--control", "stdio", "--snapshot", snapshot(), "--snapshot-at", "0.04"},
+                      "{\"end\": true}\n"),
             4);
-  expect_told("before --snapshot-at 0.04");
+  expect_reported("before --snapshot-at 0.04");
 }
 
 TEST_F(RunOptions, AnEmptyFolderNameIsRefused) {
   EXPECT_EQ(run({"run", kScene, "--out", ""}), 2);
-  expect_told("the folder's name is empty");
+  expect_reported("the folder's name is empty");
 }
 
-TEST_F(RunOptions, PipesAndFoldersAreToldAsWhatTheyAre) {
+TEST_F(RunOptions, PipesAndFoldersAreReportedAsWhatTheyAre) {
   const std::string pipe = (directory_ / "pipe").string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(short_run({"--resume", pipe}), 2);
-  expect_told("it is a pipe");
+  expect_reported("it is a pipe");
   EXPECT_EQ(run({"check", kScene, "--terrain", directory_.string()}), 2);
-  expect_told("it is a directory");
+  expect_reported("it is a directory");
 }
 
-TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreToldBeforeTheyAreMadeUp) {
+TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   // A column that no ground is as high as, and no word on what that means.
   const std::string map = (directory_ / "map.asc").string();
   std::string text = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
@@ -89,30 +91,31 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreToldBeforeTheyAreMadeUp) {
   std::ofstream(map) << text;
   const std::string scene = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
-  expect_told("10 of 100 map cells on the site (10 %, 10 m2) have no height");
-  expect_told("1e+38 is no ground's height, and the file does not declare it as nodata");
-  expect_told("0 errors, 1 warning");
+  expect_reported("10 of 100 map cells on the site (10 %, 10 m2) have no height");
+  expect_reported("1e+38 is no ground's height, and the file does not declare it as nodata");
+  expect_reported("0 errors, 1 warning");
   // And what else was found in the map.
-  expect_told("source   Arc/Info ASCII Grid, 20 x 20 cells of 1 x 1 m");
-  expect_told("none declared: 10 of 100 cells on the site (10 %), filled from up to 1 m away");
+  expect_reported("source   Arc/Info ASCII Grid, 20 x 20 cells of 1 x 1 m");
+  expect_reported("none declared: 10 of 100 cells on the site (10 %), filled from up to 1 m away");
   // Declared it is a gap like others.
   text.insert(text.find("1.5"), "NODATA_value 1e38\n");
   std::ofstream(map) << text;
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
   EXPECT_EQ(said().find("is no ground's height"), std::string::npos) << said();
-  expect_told("declared as 1e+38: 10 of 100 cells on the site");
+  expect_reported("declared as 1e+38: 10 of 100 cells on the site");
 }
 
-TEST_F(RunOptions, ASnapshotOfAnotherSceneIsToldByBothNames) {
+TEST_F(RunOptions, ASnapshotOfAnotherSceneIsReportedByBothNames) {
   ASSERT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.02"}), 0) << complained();
   const std::string other = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   for (const bool anyway : {false, true}) {
-    std::vector<std::string> words = {"run", other, "--no-render", "--out", out() + "2", "--resume", snapshot()};
+    std::vector<std::string> words = {"run",       other,      "--no-render", "--out",
+                                      out() + "2", "--resume", snapshot()};
     if (anyway) words.push_back("--resume-anyway");
     EXPECT_EQ(run(words), 2);
-    expect_told("'block_collapse'");
-    expect_told("bucket_path");
-    expect_told("--resume-anyway lets parameters of one scene differ");
+    expect_reported("'block_collapse'");
+    expect_reported("bucket_path");
+    expect_reported("--resume-anyway lets parameters of one scene differ");
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Activities one at a time, each on a machine whose joints go where they are told; and the parts that they share.
+// Activities one at a time, each on a machine whose joints go where they are told; and the parts
+// that they share.
 #include "control/activity.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +25,8 @@
 #include "control/arm_move.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
+#include "control/program_step.h"
 #include "control/stance.h"
-#include "control/step.h"
 #include "control/step_kinds.h"
 #include "control/tip_path.h"
 #include "core/error.h"
@@ -37,7 +38,8 @@ namespace {
 
 constexpr double kStep = 0.01;  // [s]
 
-/// The excavator of the other tests with a bed on its bucket joint, so that one machine can do every step.
+/// The excavator of the other tests with a bed on its bucket joint, so that one machine can do
+/// every step.
 scene::Machine able_machine() {
   scene::Machine machine = ew180_like();
   machine.beds.push_back({"bucket", "bucket", "bucket_joint", 1});
@@ -67,7 +69,8 @@ class Alone {
     seen.programs = &programs;
     if (step_of(step).needs_arm()) place.arm.emplace(place.machine);
     if (step_of(step).needs_planner()) place.planner = std::make_unique<StraightPlanner>();
-    for (std::size_t i = 0; place.arm && i < 4; ++i) place.handover.q[i] = seen.joints[place.joint(i)].position;
+    for (std::size_t i = 0; place.arm && i < 4; ++i)
+      place.handover.q[i] = seen.joints[place.joint(i)].position;
     activity = step_of(step).activity(place);
     activity->begin(seen);
   }
@@ -84,7 +87,8 @@ class Alone {
         slot = vehicle::JointInput{vehicle::JointMode::kPosition, place.handover.q[i]};
     for (std::size_t j = 0; j < command.joints.size(); ++j)
       if (command.joints[j]) follow(j, command.joints[j]->target);
-    if (command.drive) seen.X_WB.translation().x() += command.drive->brake ? 0 : command.drive->speed * kStep;
+    if (command.drive)
+      seen.X_WB.translation().x() += command.drive->brake ? 0 : command.drive->speed * kStep;
     return over;
   }
   /// Until it is over; how long that took, or `limit` [s].
@@ -96,7 +100,8 @@ class Alone {
   void follow(std::size_t j, double target) {
     vehicle::JointState& joint = seen.joints[j];
     const double rest = target - joint.position;
-    const double way = place.machine.joints[j].name == slow ? std::clamp(rest, -pace * kStep, pace * kStep) : rest;
+    const double way =
+        place.machine.joints[j].name == slow ? std::clamp(rest, -pace * kStep, pace * kStep) : rest;
     joint.position += way;
     joint.velocity = place.machine.joints[j].name == slow ? way / kStep : 0;
   }
@@ -108,7 +113,7 @@ class Alone {
   }
 
   const scene::ProgramStep step;
-  Workplace place;
+  OperatorContext place;
   Observation seen;
   std::map<std::string, ProgramProgress> programs;
   std::unique_ptr<Activity> activity;
@@ -153,13 +158,14 @@ TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
 }
 
 TEST(Activity, OfEveryStepEndsAloneAndGivesItsPhaseTheStepsName) {
-  const std::map<std::string, std::set<std::string>> names = {{"drive_to", {"drive"}},
-                                                              {"go_to", {"plan", "turn", "drive", "stop"}}};
+  const std::map<std::string, std::set<std::string>> names = {
+      {"drive_to", {"drive"}}, {"go_to", {"plan", "turn", "drive", "stop"}}};
   for (const scene::ProgramStep& step : one_of_each()) {
     Alone alone(step);
     EXPECT_LT(alone.run(60), 20) << step->element();
     const auto name = names.find(step->element());
-    EXPECT_EQ(alone.phases, name == names.end() ? std::set<std::string>{step->element()} : name->second);
+    EXPECT_EQ(alone.phases,
+              name == names.end() ? std::set<std::string>{step->element()} : name->second);
   }
 }
 
@@ -216,7 +222,8 @@ TEST(Activity, DumpOpensTheBucketHoldsAndCurlsBack) {
 }
 
 TEST(Activity, TrajectoryHandsTheArmOnWhereItEnds) {
-  // Without an arm in the workplace it commands joints only; with one the next move begins where it ended.
+  // Without an arm in the workplace it commands joints only; with one the next move begins where it
+  // ended.
   Alone alone(path());
   alone.run(10);
   EXPECT_EQ(alone.place.handover.q[1], 0);
@@ -235,14 +242,16 @@ TEST(Activity, TrajectoryNamesTheJointThatIsHeld) {
   EXPECT_EQ(alone.activity->state(), StepState::kBlocked);
   // From 43 deg, where it began, to 0.9 rad.
   EXPECT_EQ(alone.activity->reason(),
-            "joint 'boom_joint' stopped 8.57 deg short of its last position, at its effort limit: something holds it");
+            "joint 'boom_joint' stopped 8.57 deg short of its last position, at its effort limit: "
+            "something holds it");
 }
 
-TEST(Activity, TrajectoryWaitsForAJointThatIsOnItsWayButNotForEver) {
+TEST(Activity, TrajectoryWaitsForAMovingJointButNotForEver) {
   Alone late(path());
   late.slow = "boom_joint";
   late.pace = 0.1;
-  // 0.6 to 0.9 rad at 0.1 rad/s, where a second was given: about two seconds late, within 3 deg of the place.
+  // 0.6 to 0.9 rad at 0.1 rad/s, where a second was given: about two seconds late, within 3 deg of
+  // the place.
   const double end = late.run(20);
   EXPECT_EQ(late.activity->state(), StepState::kDone) << late.activity->reason();
   EXPECT_GT(end, 2.5);
@@ -262,18 +271,20 @@ TEST(Activity, DumpNamesTheBucketWhenItIsHeld) {
     for (bool over = false; !over && alone.time < 20;) {
       opened = std::max(opened, alone.seen.joints[3].position);
       // Held from the start, or as soon as it has begun to close.
-      if (target == "open" || alone.seen.joints[3].position < opened - 0.1) alone.slow = "bucket_joint";
+      if (target == "open" || alone.seen.joints[3].position < opened - 0.1)
+        alone.slow = "bucket_joint";
       over = alone.advance();
     }
     EXPECT_EQ(alone.activity->state(), StepState::kBlocked) << target;
     EXPECT_NE(alone.activity->reason().find("joint 'bucket_joint' stopped "), std::string::npos)
         << alone.activity->reason();
-    EXPECT_NE(alone.activity->reason().find(" short of " + target + ": something holds it"), std::string::npos)
+    EXPECT_NE(alone.activity->reason().find(" short of " + target + ": something holds it"),
+              std::string::npos)
         << alone.activity->reason();
   }
 }
 
-TEST(Activity, TellsItsEventsOnceEach) {
+TEST(Activity, ReportsItsEventsOnceEach) {
   Alone alone(Tip(-1, 0.5));
   EXPECT_EQ(alone.activity->take_event(), CycleEvent::kTipStart);
   EXPECT_EQ(alone.activity->take_event(), CycleEvent::kNone);
@@ -303,8 +314,8 @@ TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {
   to[0] += 0.8;
   ArmMove move;
   move.start(alone.place, to, alone.seen, {});
-  // 0.80 rad/s at the fastest moment, 1.5 times the mean; the joint's own limit of 0.85 x 0.9425 rad/s is slower than
-  // that by a hair.
+  // 0.80 rad/s at the fastest moment, 1.5 times the mean; the joint's own limit of 0.85 x 0.9425
+  // rad/s is slower than that by a hair.
   EXPECT_NEAR(move.duration(), 1.5 * 0.8 / std::min(0.80, 0.85 * 0.9425), 1e-12);
   double fastest = 0, before = alone.place.handover.q[0];
   for (int i = 1; i * kStep < move.duration(); ++i) {
@@ -312,13 +323,14 @@ TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {
     fastest = std::max(fastest, (alone.place.handover.q[0] - before) / kStep);
     before = alone.place.handover.q[0];
   }
-  EXPECT_NEAR(fastest, 0.80, 0.002);  // a control step off the fastest moment, in which the parabola has lost 1e-3
+  // A control step off the fastest moment, in which the parabola has lost 1e-3
+  EXPECT_NEAR(fastest, 0.80, 0.002);
 }
 
 TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
   Stance stance;
   stance.begin(make_pose(1, 2, 0, 0, 0, 0.3));
-  const Arm arm(able_machine());
+  const ArmKinematics arm(able_machine());
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
   // One and a half degrees are the tyres', at three the bucket tips it.
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
@@ -326,12 +338,15 @@ TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
   const Vec3 still = stance.swing_frame(arm).translation();
   stance.follow(make_pose(1, 2, 0.1, 0, 0, 0.3), 0.25);
   // After one time constant 1 - 1/e of a jump has come through.
-  EXPECT_NEAR(stance.swing_frame(arm).translation().z() - still.z(), 0.1 * (1 - std::exp(-1)), 1e-12);
+  EXPECT_NEAR(stance.swing_frame(arm).translation().z() - still.z(), 0.1 * (1 - std::exp(-1)),
+              1e-12);
 }
 
-TEST(Stance, SettlesWithItsGroundAndTellsWhichWayItTips) {
-  const Arm arm(able_machine());
-  const auto pitched = [](double nose_up_deg) { return make_pose(1, 2, 0, 0, -radians(nose_up_deg), 0.3); };
+TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
+  const ArmKinematics arm(able_machine());
+  const auto pitched = [](double nose_up_deg) {
+    return make_pose(1, 2, 0, 0, -radians(nose_up_deg), 0.3);
+  };
   Stance stance;
   stance.begin(pitched(0));
   EXPECT_NEAR(stance.rise(pitched(2), arm, 0), radians(2), 1e-12);
@@ -344,7 +359,8 @@ TEST(Stance, SettlesWithItsGroundAndTellsWhichWayItTips) {
   EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
   stance.settle();
   EXPECT_EQ(stance.footing(pitched(-4.7)), 1);
-  EXPECT_NEAR(stance.rise(pitched(-2.7), arm, 0), radians(2), 1e-6);  // 20 time constants of the smoothing
+  // 20 time constants of the smoothing
+  EXPECT_NEAR(stance.rise(pitched(-2.7), arm, 0), radians(2), 1e-6);
   EXPECT_EQ(stance.footing(pitched(-1.6)), 0);
 }
 
@@ -359,7 +375,8 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheNoseAndNotWhenItPullsItDown) {
     alone.seen.X_WB = make_pose(0, 0, 0, 0, -radians(nose_up_deg), 0);
     for (int i = 0; i * kStep < seconds; ++i) {
       // The arm follows at once: nothing is held, it is the machine that gives way.
-      for (std::size_t k = 0; k < 4; ++k) alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
+      for (std::size_t k = 0; k < 4; ++k)
+        alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
       tip.follow(alone.place, stance, p, alone.seen, kStep, true);
     }
   };
@@ -382,16 +399,19 @@ TEST(TipPath, RisesWhileTheTipIsHeldAndSinksBackWhenFree) {
   TipPath tip;
   const Vec2 p(6.5, 0);
   alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
-  for (std::size_t i = 0; i < 4; ++i) alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
+  for (std::size_t i = 0; i < 4; ++i)
+    alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
   // The path goes down half a metre, the joints stay: held by soil.
   tip.z = -0.3;
   for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false);
   EXPECT_LT(tip.slow, 0.35);  // below this a tip that stands still counts as held
-  EXPECT_GT(tip.lift, 0.2);   // 0.3 m/s for what is left of 2 s after the lag has grown and been felt
+  // 0.3 m/s for what is left of 2 s after the lag has grown and been felt
+  EXPECT_GT(tip.lift, 0.2);
   const double raised = tip.lift;
   // Free again: the joints follow at once.
   for (int i = 0; i < 50; ++i) {
-    for (std::size_t k = 0; k < 4; ++k) alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
+    for (std::size_t k = 0; k < 4; ++k)
+      alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
     tip.follow(alone.place, stance, p, alone.seen, kStep, false);
   }
   EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; a step or two of being held before

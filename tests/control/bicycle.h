@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bicycle that rolls without slip, its steering rate limited, its speed following with a lag: the drive of an ew180
-// as far as operators' laws see it.
+// A bicycle that rolls without slip, its steering rate limited, its speed following with a lag: the
+// drive of an ew180 as far as operators' laws see it.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,8 @@ struct Bicycle {
     constexpr double kLag = 0.2;  // of the drive [s]
     const double before = speed;
     speed += ((input.brake ? 0 : input.speed) - speed) * kStep / (input.brake ? 0.05 : kLag);
-    most_acceleration = std::max(most_acceleration, input.brake ? 0.0 : std::abs(speed - before) / kStep);
+    most_acceleration =
+        std::max(most_acceleration, input.brake ? 0.0 : std::abs(speed - before) / kStep);
     steer += std::clamp(input.steer - steer, -radians(30) * kStep, radians(30) * kStep);
     at.p += speed * kStep * Vec2(std::cos(at.yaw), std::sin(at.yaw));
     at.yaw += speed * kStep * std::tan(steer) / 2.8;

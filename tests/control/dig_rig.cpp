@@ -90,9 +90,10 @@ bool DigRig::against_rock(const Command& command) const {
   const bool strong = ground.sample(tip.x() - 0.2, tip.y()) - tip.z() > thickest_slice;
   if (!rock && !strong) return false;
   // Up is free, anything else is held.
-  const Arm arm(machine_);
+  const ArmKinematics arm(machine_);
   ArmAngles q;
-  for (std::size_t i = 0; i < 3; ++i) q[i] = command.joints[static_cast<std::size_t>(arm.joints()[i])]->target;
+  for (std::size_t i = 0; i < 3; ++i)
+    q[i] = command.joints[static_cast<std::size_t>(arm.joints()[i])]->target;
   const Pose X_WS = engine->link(0, 0).X_WL * arm.X_BS();
   return X_WS.translation().z() + arm.forward(q).height < tip.z() + 0.02;
 }
@@ -104,7 +105,8 @@ void DigRig::step() {
   hit_rock = hit_rock || stalled_;
   for (std::size_t j = 0; j < command.joints.size(); ++j) {
     if (!command.joints[j]) continue;
-    const double jump = std::abs(command.joints[j]->target - target_[j]) / (machine_.joints[j].velocity * kStep);
+    const double jump =
+        std::abs(command.joints[j]->target - target_[j]) / (machine_.joints[j].velocity * kStep);
     fastest_jump = std::max(fastest_jump, jump);
     target_[j] = command.joints[j]->target;
     vehicle::JointInput input = *command.joints[j];
@@ -155,7 +157,7 @@ void DigRig::note(CycleEvent event, const Observation& seen) {
 void DigRig::sweep(const Pose& X_WB) {
   const Pose X_BW = X_WB.inverse();
   const auto& v = machine_.shells[0].vertices;
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   double surplus = 0;
   for (std::size_t k = 0; k + 1 < 9; ++k) {
     const int n = static_cast<int>(std::ceil((v[k + 1] - v[k]).norm() / kAlong));
@@ -165,13 +167,14 @@ void DigRig::sweep(const Pose& X_WB) {
         p.y() = t * kHalfCut / 10;
         const Vec3 p_W = X_WB * p;
         const Vec2i c = ground.column_at(p_W.x(), p_W.y());
-        if (!ground.contains(c.x(), c.y()) || ground.height(c.x(), c.y()) <= p_W.z() + 1e-4) continue;
+        if (!ground.contains(c.x(), c.y()) || ground.height(c.x(), c.y()) <= p_W.z() + 1e-4)
+          continue;
         // A column belongs to the cut when its centre does.
         const Vec2 center = ground.origin() + ground.cell() * Vec2(c.x() + 0.5, c.y() + 0.5);
         if (std::abs((X_BW * Vec3(center.x(), center.y(), p_W.z())).y()) > kHalfCut) continue;
         taken.clear();
         ground.take_above(c.x(), c.y(), p_W.z(), taken);
-        for (const heightfield::Layer& layer : taken) payload_ += kilograms(layer.mass);
+        for (const heightfield::SoilLayer& layer : taken) payload_ += kilograms(layer.mass);
       }
   }
   surplus = payload_ - capacity_;
@@ -209,7 +212,7 @@ void DigRig::drop(const Vec2& around, double radius, double mass) {
     for (int x = -reach; x <= reach; ++x)
       if (x * x + y * y <= reach * reach && ground.contains(c.x() + x, c.y() + y))
         columns.push_back({c.x() + x, c.y() + y});
-  heightfield::Layer layer;
+  heightfield::SoilLayer layer;
   layer.specific_volume = static_cast<float>(ground.setup().soils[0].swell);
   layer.mass = mass_units(mass / static_cast<double>(columns.size()));
   for (const Vec2i& p : columns) ground.put(p.x(), p.y(), layer);
@@ -242,7 +245,8 @@ TrenchMeasure measure(const heightfield::Ground& ground, const Dig& dig) {
       if (inside) over += area * std::max(0.0, fall - dig.depth);
       if (!inside && s > -1.5 && s < length + 1.5 && std::abs(t) < 0.5 * dig.width + 1.5)
         over += area * std::max(0.0, fall);
-      const auto k = static_cast<std::size_t>(std::clamp(s / cell, 0.0, static_cast<double>(slices) - 1));
+      const auto k =
+          static_cast<std::size_t>(std::clamp(s / cell, 0.0, static_cast<double>(slices) - 1));
       if (s < 0 || s > length || std::abs(t) > dig.width) continue;
       moment[k] += std::max(0.0, fall) * t;
       removed[k] += std::max(0.0, fall);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operator in a closed loop with the kinematic engine and a soil that is geometry only: what the bucket's shell
-// sweeps leaves the ground and fills the bucket, what the opened bucket holds falls below it.
+// An operator in a closed loop with the kinematic engine and a soil that is geometry only: what the
+// bucket's shell sweeps leaves the ground and fills the bucket, what the opened bucket holds falls
+// below it.
 #pragma once
 
 #include <memory>
@@ -10,11 +11,12 @@
 #include "control/activities/dig/dig.h"
 #include "control/operator.h"
 #include "core/saved_state.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::control::testing {
 
-/// The trench of scenarios/trench.sdf: 7.6 m to 4.4 m ahead of the swing axis of a machine at (-4, 0).
+/// The trench of scenarios/trench.sdf: 7.6 m to 4.4 m ahead of the swing axis of a machine at (-4,
+/// 0).
 Dig trench();
 
 /// Flat ground of loam, 24 x 20 m about the origin, 4 m deep.
@@ -36,12 +38,15 @@ class DigRig {
   };
   std::vector<Cycle> cycles;
   double time = 0;
-  double fastest_jump = 0;  ///< largest change of a joint's target in a step / its speed limit x step
-  double worst_tilt = 0;    ///< of the bucket from its carrying angle between lift-out and dump [rad]
+  /// Largest change of a joint's target in a step / its speed limit x step.
+  double fastest_jump = 0;
+  /// Of the bucket from its carrying angle between lift-out and dump [rad].
+  double worst_tilt = 0;
   heightfield::Ground ground;
-  std::unique_ptr<vehicle::Engine> engine;
+  std::unique_ptr<vehicle::PhysicsEngine> engine;
   Operator op;
-  /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and bucket are held.
+  /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and
+  /// bucket are held.
   double rock_from = 0, rock_to = 0, rock_top = -100;
   bool hit_rock = false;
   /// Soil so strong that a thicker slice holds the bucket as rock does [m].
@@ -52,7 +57,8 @@ class DigRig {
   double steepest_curl = -kPi;
   /// How far the bucket's pin sank in a curl, at most [m].
   double deepest_curl = 0;
-  /// Until then [s] the operator sees the machine stand level, and as it stands from then on: ground that gave way.
+  /// Until then [s] the operator sees the machine stand level, and as it stands from then on:
+  /// ground that gave way.
   double settled_at = 0;
   /// What the bucket loses while it is lifted, and how long after the start of the lift.
   double leak_rate = 0, leak_time = 0;    // [kg/s], [s]

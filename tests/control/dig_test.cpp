@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole dig in a closed loop, judged as whole digs are [docs/validation.md, whole digs]; geometry only.
+// A whole dig in a closed loop, judged as whole digs are [docs/validation.md, whole digs]; geometry
+// only.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,19 +27,22 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
 
 /// A figure of a step's account by name.
 double figure(const StepReport& step, const std::string& name) {
-  for (const Figure& one : step.figures)
+  for (const Measurement& one : step.figures)
     if (one.name == name) return one.value;
   ADD_FAILURE() << "no figure " << name;
   return std::nan("");
 }
 
 void report(const DigRig& rig, const TrenchMeasure& trench_measure) {
-  std::printf("removed %.3f (%.2f m3), over-dug %.3f, floor %.3f, centre %.3f m, cycles %zu, %.1f s, tilt %.3f rad\n",
-              trench_measure.removed_share, trench_measure.removed, trench_measure.overdug_share,
-              trench_measure.floor_share, trench_measure.center_offset, rig.cycles.size(), rig.time, rig.worst_tilt);
+  std::printf(
+      "removed %.3f (%.2f m3), over-dug %.3f, floor %.3f, centre %.3f m, cycles %zu, %.1f s, tilt "
+      "%.3f rad\n",
+      trench_measure.removed_share, trench_measure.removed, trench_measure.overdug_share,
+      trench_measure.floor_share, trench_measure.center_offset, rig.cycles.size(), rig.time,
+      rig.worst_tilt);
   for (const DigRig::Cycle& c : rig.cycles)
-    std::printf("  start %.1f, out %.1f, dump %.1f, end %.1f, payload %.0f kg, spilt %.1f kg\n", c.start, c.lift_out,
-                c.dump, c.end, c.payload, c.spilt);
+    std::printf("  start %.1f, out %.1f, dump %.1f, end %.1f, payload %.0f kg, spilt %.1f kg\n",
+                c.start, c.lift_out, c.dump, c.end, c.payload, c.spilt);
 }
 
 void expect_good(const TrenchMeasure& measured) {
@@ -58,15 +62,19 @@ TEST(Dig, MakesTheTrenchOfTheShippedScene) {
   expect_good(measured);
   EXPECT_EQ(log.text(), "");
   ASSERT_GE(rig.cycles.size(), 3u);
-  EXPECT_LE(rig.cycles.size(), 9u);  // 2.7 m3 bank at 0.6 m3 a bucket are 4.4 buckets, and some for the rests
+  // 2.7 m3 bank at 0.6 m3 a bucket are 4.4 buckets, and some for the rests
+  EXPECT_LE(rig.cycles.size(), 9u);
   EXPECT_EQ(rig.op.cycles(), static_cast<int>(rig.cycles.size()));
   double mean = 0;
   for (std::size_t i = 1; i < rig.cycles.size(); ++i)
-    mean += (rig.cycles[i].start - rig.cycles[i - 1].start) / static_cast<double>(rig.cycles.size() - 1);
-  // A cycle of this class in loam takes 13-18 s at 60-90 deg; the operator is allowed to be careful.
+    mean += (rig.cycles[i].start - rig.cycles[i - 1].start) /
+            static_cast<double>(rig.cycles.size() - 1);
+  // A cycle of this class in loam takes 13-18 s at 60-90 deg; the operator is allowed to be
+  // careful.
   EXPECT_GT(mean, 11);
   EXPECT_LT(mean, 19);
-  EXPECT_LT(rig.worst_tilt, radians(3));  // a level bucket loses nothing; FK of three moving joints, exact to rounding
+  // A level bucket loses nothing; FK of three moving joints, exact to rounding
+  EXPECT_LT(rig.worst_tilt, radians(3));
   for (const DigRig::Cycle& cycle : rig.cycles) EXPECT_EQ(cycle.spilt, 0);
   EXPECT_LE(rig.fastest_jump, 2);  // the servo follows a jump of two steps' travel without notice
 }
@@ -88,15 +96,15 @@ TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
 }
 
 TEST(Dig, CurlsOnlyABucketThatHasTurnedIn) {
-  // What stands in the mouth of a bucket that goes down along the far end looks like a load. A curl from there presses
-  // the heel into the wall.
+  // What stands in the mouth of a bucket that goes down along the far end looks like a load. A curl
+  // from there presses the heel into the wall.
   Dig dig = trench();
   dig.max_cycles = 1;
   DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
   rig.in_mouth = 1000;
   ASSERT_TRUE(rig.run(60)) << rig.op.phase();
   // Within 5 deg of its digging angle, and a control step.
-  EXPECT_LT(rig.steepest_curl, with_cut(Arm(ew180_like()), -kPi + kAttack) + radians(6));
+  EXPECT_LT(rig.steepest_curl, with_cut(ArmKinematics(ew180_like()), -kPi + kAttack) + radians(6));
 }
 
 TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
@@ -110,8 +118,9 @@ TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
   EXPECT_LE(rig.cycles.size(), 9u);  // as many as a level machine may take
 }
 
-TEST(Dig, GivesWayToRockAndFinishesTheRest) {
-  // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the path rises over it.
+TEST(Dig, YieldsToRockAndFinishesTheRest) {
+  // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the
+  // path rises over it.
   LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.rock_from = 2.6;
@@ -143,12 +152,14 @@ TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
   ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
   const TrenchMeasure measured = measure(rig.ground, trench());
   report(rig, measured);
-  EXPECT_NE(log.text().find("the soil holds the bucket: slices of"), std::string::npos) << log.text();
+  EXPECT_NE(log.text().find("the soil holds the bucket: slices of"), std::string::npos)
+      << log.text();
   expect_good(measured);
 }
 
 TEST(Dig, EndsWhenScoopsBringNothing) {
-  // The whole line is rock at the surface: nothing can be dug, and the operator does not try for ever.
+  // The whole line is rock at the surface: nothing can be dug, and the operator does not try for
+  // ever.
   LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.rock_from = 1;
@@ -157,7 +168,8 @@ TEST(Dig, EndsWhenScoopsBringNothing) {
   EXPECT_FALSE(rig.run(400));
   ASSERT_TRUE(rig.op.ended()) << rig.op.phase();
   report(rig, measure(rig.ground, trench()));
-  EXPECT_LE(rig.cycles.size(), 8u);  // 8: the kinematic rock gives way by some steps' travel, three empty ones end it
+  // 8: the kinematic rock gives way by some steps' travel, three empty ones end it
+  EXPECT_LE(rig.cycles.size(), 8u);
   const StepReport end = rig.op.reports().back();
   EXPECT_EQ(end.state, StepState::kStalled) << end.reason;
   EXPECT_NE(end.reason.find("empty scoops"), std::string::npos) << end.reason;
@@ -177,7 +189,8 @@ TEST(Dig, EndsOutOfReachWhenTheMachineHasMovedAway) {
   ASSERT_TRUE(rig.op.ended()) << rig.op.phase();
   const StepReport end = rig.op.reports().back();
   EXPECT_EQ(end.state, StepState::kOutOfReach) << end.reason;
-  EXPECT_NE(end.reason.find("m from the swing axis, out of the bucket's reach"), std::string::npos) << end.reason;
+  EXPECT_NE(end.reason.find("m from the swing axis, out of the bucket's reach"), std::string::npos)
+      << end.reason;
   EXPECT_NE(end.reason.find("are left"), std::string::npos) << end.reason;
   // Soon, and not after cycles that cannot bring anything.
   EXPECT_LE(rig.cycles.size(), 2u);
@@ -206,9 +219,11 @@ TEST(Dig, AccountsForWhatItDug) {
   EXPECT_EQ(end.reason, "");
   EXPECT_EQ(figure(end, "cycles"), static_cast<double>(rig.cycles.size()));
   EXPECT_DOUBLE_EQ(figure(end, "design_volume_m3"), 3.2 * 1.05 * 0.8);
-  // Ten rows of 32 columns have their centres inside the outline, 1.05 m wide: all that the measure can find removed.
-  // Its columns against the operator's 33 places along the line: a piece of 0.1 m at an end.
-  EXPECT_NEAR(figure(end, "volume_left_m3"), 10 * 32 * 0.1 * 0.1 * 0.8 - measured.removed, 0.1 * 1.05 * 0.8);
+  // Ten rows of 32 columns have their centres inside the outline, 1.05 m wide: all that the measure
+  // can find removed. Its columns against the operator's 33 places along the line: a piece of 0.1 m
+  // at an end.
+  EXPECT_NEAR(figure(end, "volume_left_m3"), 10 * 32 * 0.1 * 0.1 * 0.8 - measured.removed,
+              0.1 * 1.05 * 0.8);
   EXPECT_NEAR(figure(end, "depth_reached_m"), 0.8, 0.05);
 }
 
@@ -237,7 +252,8 @@ TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
 
 TEST(Dig, HashesEveryByteTheOperatorSavesInMidScoop) {
   const scene::Program steps = program({trench()});
-  DigRig half(ew180_like(), steps, make_pose(-4, 0, 0)), target(ew180_like(), steps, make_pose(-4, 0, 0));
+  DigRig half(ew180_like(), steps, make_pose(-4, 0, 0)),
+      target(ew180_like(), steps, make_pose(-4, 0, 0));
   for (int i = 0; i < 4000 && half.op.phase() != "drag"; ++i) half.step();
   ASSERT_EQ(half.op.phase(), "drag");
   EXPECT_EQ(test::flip_every_byte(half.op, target.op), "");
@@ -248,7 +264,8 @@ TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
   path.joints = {"boom_joint", "bucket_joint"};
   path.times = {0, 1, 3};
   path.positions = {{0.7, -1.3}, {0.6, -1.0}, {0.9, -1.6}};
-  DigRig rig(ew180_like(), program({Swing{radians(50)}, Dump{0.5}, Wait{1.5}, path}), make_pose(0, 0, 0));
+  DigRig rig(ew180_like(), program({Swing{radians(50)}, Dump{0.5}, Wait{1.5}, path}),
+             make_pose(0, 0, 0));
   const auto joint = [&](int j) { return rig.engine->joint(0, j).position; };
   const double bucket = joint(3);
   while (rig.op.phase() != "dump") rig.step();
@@ -266,7 +283,8 @@ TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
   EXPECT_NEAR(rig.time - waiting, 1.5, 0.02);  // two control steps and a half
   const double start = rig.time;
   while (rig.time < start + 2) rig.step();
-  EXPECT_NEAR(joint(1), 0.75, 0.01);  // linear between the knots at 1 s and 3 s, one control step of 0.15 rad/s late
+  // Linear between the knots at 1 s and 3 s, one control step of 0.15 rad/s late
+  EXPECT_NEAR(joint(1), 0.75, 0.01);
   EXPECT_NEAR(joint(3), -1.3, 0.01);
   ASSERT_TRUE(rig.run(60));
   EXPECT_NEAR(joint(1), 0.9, 0.01);

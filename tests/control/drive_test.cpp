@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// drive_to on a bicycle that rolls without slip, its steering rate limited, its speed following with a lag.
+// drive_to on a bicycle that rolls without slip, its steering rate limited, its speed following
+// with a lag.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +56,8 @@ DriveTo to(double x, double y, double heading, double speed = 1.2) {
 TEST(Drive, StopsAtTheTargetFiveMetresAheadWithTheBrakeOn) {
   const Arrival a = drive(to(-4, 0, 0), {Vec2(-9, 0), 0});
   EXPECT_TRUE(a.done);
-  EXPECT_LT(a.miss, 0.05);  // the drive's lag of 0.2 s at creeping speed, and braking short by 0.02 m
+  // The drive's lag of 0.2 s at creeping speed, and braking short by 0.02 m
+  EXPECT_LT(a.miss, 0.05);
   EXPECT_LT(std::abs(a.turned), 1e-6);
   EXPECT_TRUE(a.bicycle.braked);
   EXPECT_LT(a.bicycle.fastest, 1.2 + 1e-9);
@@ -95,7 +97,8 @@ TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
   EXPECT_LT(a.miss, goal.tolerance);
 }
 
-/// A machine that stands whatever it is told: the wheels' spin [rad/s] and the tyres' push [N] are given.
+/// A machine that stands whatever it is told: the wheels' spin [rad/s] and the tyres' push [N] are
+/// given.
 StepReport stuck(double spin, const Vec3& push, double speed = 1) {
   scene::Machine machine = ew180_like();
   scene::Wheel wheel;
@@ -104,7 +107,8 @@ StepReport stuck(double spin, const Vec3& push, double speed = 1) {
   wheel.radius = 0.5;
   machine.wheels.push_back(wheel);
   // 18 t in all, whatever the links of the test machine weigh.
-  for (scene::Link& link : machine.links) link.mass = 18000.0 / static_cast<double>(machine.links.size());
+  for (scene::Link& link : machine.links)
+    link.mass = 18000.0 / static_cast<double>(machine.links.size());
   Operator op(machine, {{to(-4, 0, 0, speed)}, {}}, "digger");
   Observation seen;
   seen.joints.resize(machine.joints.size());
@@ -123,14 +127,16 @@ TEST(Drive, AgainstAnObstacleIsBlocked) {
     EXPECT_EQ(report.state, StepState::kBlocked);
     EXPECT_NEAR(report.end, 5, 0.05);
     EXPECT_EQ(report.reason,
-              "it has stood for 5.00 s, 5.00 m from the target: something holds it while its tyres push with 25.00 kN");
+              "it has stood for 5.00 s, 5.00 m from the target: something holds it while its tyres "
+              "push with 25.00 kN");
   }
 }
 
 TEST(Drive, WithWheelsThatSpinIsStalled) {
   const StepReport report = stuck(2, Vec3::Zero());
   EXPECT_EQ(report.state, StepState::kStalled);
-  EXPECT_NE(report.reason.find("its wheels have spun for 5.00 m"), std::string::npos) << report.reason;
+  EXPECT_NE(report.reason.find("its wheels have spun for 5.00 m"), std::string::npos)
+      << report.reason;
 }
 
 TEST(Drive, ThatDoesNotTurnItsWheelsIsStalled) {
@@ -139,7 +145,7 @@ TEST(Drive, ThatDoesNotTurnItsWheelsIsStalled) {
   EXPECT_NE(report.reason.find("does not turn its wheels"), std::string::npos) << report.reason;
 }
 
-TEST(Drive, ThatIsToldToCreepIsGivenTimeForIt) {
+TEST(Drive, ThatIsCommandedToCreepGetsEnoughTime) {
   // At 5 mm/s the 5 cm that count as motion take 10 s.
   EXPECT_NEAR(stuck(0, Vec3::Zero(), 0.005).end, 40, 0.1);
 }
@@ -152,7 +158,8 @@ TEST(Pursuit, ForetellsWhereTheMachineEnds) {
     const DriveTo goal = to(x, 2, 0);
     const PlanePose end = Pursuit::of(goal, about, start).end_from(start, about.steer_rate);
     EXPECT_EQ((end.p - goal.target).norm() < goal.tolerance, reachable) << x;
-    EXPECT_NEAR((end.p - drive(goal, start).bicycle.at.p).norm(), 0, 0.08);  // the bicycle of this test has a lag
+    // The bicycle of this test has a lag
+    EXPECT_NEAR((end.p - drive(goal, start).bicycle.at.p).norm(), 0, 0.08);
   }
 }
 

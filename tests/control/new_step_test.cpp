@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A new program step needs its class and a row of the table, nothing else: this file adds one and never leaves it.
+// A new program step needs its class and a row of the table, nothing else: this file adds one and
+// never leaves it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 #include "control/arm_move.h"
 #include "control/dig_rig.h"
 #include "control/operator.h"
+#include "control/program_step.h"
 #include "control/reach.h"
-#include "control/step.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
 #include "core/saved_state.h"
@@ -25,15 +26,19 @@ namespace {
 constexpr double kStep = 0.01;  // [s]
 
 /// Nod with the boom a number of times, after another machine has done its program if one is named.
-struct Nod final : Step {
+struct Nod final : ProgramStep {
   static constexpr const char* kElement = "nod";
   int times = 1;
   std::string after;
 
   static Nod read(const scene::StepSource& source) {
     Nod step;
-    source.fields.whole("times", step.times, {1, 10}).required("times").text("after", step.after).finish();
-    source.require(source.machine && !source.machine->arm.boom.empty(), "nod needs a machine with a boom");
+    source.fields.whole("times", step.times, {1, 10})
+        .required("times")
+        .text("after", step.after)
+        .finish();
+    source.require(source.machine && !source.machine->arm.boom.empty(),
+                   "nod needs a machine with a boom");
     return step;
   }
   const char* element() const override { return kElement; }
@@ -41,9 +46,11 @@ struct Nod final : Step {
   std::optional<scene::Waiting> waits_for() const override {
     return after.empty() ? std::nullopt : std::optional<scene::Waiting>({after, 0});
   }
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override {
-    if (times > 5) check.fault("nod/times", std::to_string(times), "a machine nods at most five times", "nod less");
+    if (times > 5)
+      check.fault("nod/times", std::to_string(times), "a machine nods at most five times",
+                  "nod less");
   }
 };
 
@@ -61,7 +68,7 @@ struct NodMemory {
 
 class Nodding final : public ActivityWith<NodMemory> {
  public:
-  Nodding(Workplace& place, const Nod& step) : ActivityWith(place), step_(step) {}
+  Nodding(OperatorContext& place, const Nod& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return m.left % 2 == 0 ? "down" : "up"; }
   void begin(const Observation& seen) override {
     m.left = 2 * step_.times;
@@ -85,7 +92,9 @@ class Nodding final : public ActivityWith<NodMemory> {
   const Nod& step_;
 };
 
-std::unique_ptr<Activity> Nod::activity(Workplace& place) const { return std::make_unique<Nodding>(place, *this); }
+std::unique_ptr<Activity> Nod::activity(OperatorContext& place) const {
+  return std::make_unique<Nodding>(place, *this);
+}
 
 scene::StepKinds kinds_with_nod() {
   scene::StepKinds kinds = step_kinds();
@@ -94,18 +103,21 @@ scene::StepKinds kinds_with_nod() {
 }
 
 /// A scene with two excavators that run these programs.
-scene::Scene load(const std::string& first, const std::string& second, const scene::StepKinds& kinds) {
+scene::Scene load(const std::string& first, const std::string& second,
+                  const scene::StepKinds& kinds) {
   const auto machine = [](const char* name, const char* x, const std::string& program) {
-    return "<include><uri>model://ew180</uri><name>" + std::string(name) + "</name><pose>" + x + " 0 0 0 0 0</pose>" +
-           "<navvy:program>\n" + program + "\n</navvy:program></include>\n";
+    return "<include><uri>model://ew180</uri><name>" + std::string(name) + "</name><pose>" + x +
+           " 0 0 0 0 0</pose>" + "<navvy:program>\n" + program + "\n</navvy:program></include>\n";
   };
-  const std::string text = "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>" +
-                           std::string("<navvy:ground><size_m>60 20</size_m></navvy:ground>\n") +
-                           machine("first", "-15", first) + machine("second", "15", second) + "</world></sdf>";
+  const std::string text =
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>" +
+      std::string("<navvy:ground><size_m>60 20</size_m></navvy:ground>\n") +
+      machine("first", "-15", first) + machine("second", "15", second) + "</world></sdf>";
   return scene_io::load_scene_from_string(text, navvy::source_dir() + "/scenarios/mine.sdf", kinds);
 }
 
-std::string failure(const std::string& first, const std::string& second, const scene::StepKinds& kinds) {
+std::string failure(const std::string& first, const std::string& second,
+                    const scene::StepKinds& kinds) {
   try {
     load(first, second, kinds);
   } catch (const InputError& error) {
@@ -142,7 +154,8 @@ struct Trial {
 };
 
 TEST(NewStep, IsReadAndRunsAfterOthersAndBeforeOthers) {
-  const scene::Scene world = load(std::string(kWait) + "<nod><times>2</times></nod>" + kWait, kWait, kinds_with_nod());
+  const scene::Scene world =
+      load(std::string(kWait) + "<nod><times>2</times></nod>" + kWait, kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
   ASSERT_EQ(placed.program.steps.size(), 3u);
   ASSERT_NE(placed.program.steps[1].as<Nod>(), nullptr);
@@ -180,8 +193,9 @@ TEST(NewStep, ResumesFromASnapshotBitForBit) {
   EXPECT_TRUE(resumed.op.done());
 }
 
-TEST(NewStep, TellsItsFaultsWithLineAndElement) {
-  const std::string text = failure(std::string(kWait) + "\n<nod><times>20</times></nod>", kWait, kinds_with_nod());
+TEST(NewStep, ReportsItsFaultsWithLineAndElement) {
+  const std::string text =
+      failure(std::string(kWait) + "\n<nod><times>20</times></nod>", kWait, kinds_with_nod());
   expect_in("mine.sdf:4", text);
   expect_in("navvy:program/nod/times", text);
   expect_in("must be a number from 1 to 10", text);
@@ -189,11 +203,12 @@ TEST(NewStep, TellsItsFaultsWithLineAndElement) {
 }
 
 TEST(NewStep, IsAskedWhatItCanReach) {
-  const scene::Scene world = load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
+  const scene::Scene world =
+      load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
   const heightfield::Ground ground = flat_ground();
-  const std::vector<Fault> faults =
-      check_reach(placed.machine, placed.program, Pose::Identity(), GroundSurface(ground), "mine.sdf");
+  const std::vector<Fault> faults = check_reach(placed.machine, placed.program, Pose::Identity(),
+                                                GroundSurfaceView(ground), "mine.sdf");
   ASSERT_EQ(faults.size(), 1u);
   expect_in("step 2/nod/times", faults[0].text());
 }
@@ -209,7 +224,8 @@ TEST(NewStep, CanWaitForOthersAndCirclesAreFound) {
 TEST(NewStep, IsUnknownWithoutItsRow) {
   expect_in("known here: drive_to, dig, swing, dump, wait, tip, wait_for, trajectory, go_to",
             failure("<nod><times>2</times></nod>", kWait, step_kinds()));
-  expect_in("did you mean 'nod'?", failure("<nodd><times>2</times></nodd>", kWait, kinds_with_nod()));
+  expect_in("did you mean 'nod'?",
+            failure("<nodd><times>2</times></nodd>", kWait, kinds_with_nod()));
 }
 
 TEST(NewStep, MustBeAStepOfTheOperator) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dead reckoning against a plain reference, and one controller that drives the same robot through both engines.
+// Dead reckoning against a plain reference, and one controller that drives the same robot through
+// both engines.
 #include "control/odometry.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 #include "terramechanics/grounds.h"
 #include "values.h"
 #include "vehicle/encoder.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::control {
 namespace {
@@ -24,7 +25,7 @@ scene::Machine shipped_robot() {
   return scene_io::load_machine(std::string(navvy::source_dir()) + "/vehicles/robot/model.sdf");
 }
 
-TEST(CountsBetween, GoTheShortWayRound) {
+TEST(CountsBetween, TakeTheShorterArc) {
   EXPECT_EQ(counts_between(10, 15, 16), 5);
   EXPECT_EQ(counts_between(15, 10, 16), -5);
   EXPECT_EQ(counts_between(65530, 4, 16), 10);
@@ -49,13 +50,14 @@ TEST(DifferentialOdometry, RollsTheArcOfBothSides) {
   EXPECT_NEAR(yaw_rate, -0.606, 5e-4);
   EXPECT_NEAR(odometry.distance(), 2.0, 1e-4);
   EXPECT_NEAR(odometry.pose().yaw, 0.3 + 5 * yaw_rate, 1e-4);
-  // The closed form of the arc, which many short arcs must give as well as one long one: half a count a look.
+  // The closed form of the arc, which many short arcs must give as well as one long one: half a
+  // count a look.
   const double end = 0.3 + 5 * yaw_rate;
   EXPECT_NEAR(odometry.pose().p.x(), 1 + radius * (std::sin(end) - std::sin(0.3)), 1e-4);
   EXPECT_NEAR(odometry.pose().p.y(), 2 - radius * (std::cos(end) - std::cos(0.3)), 1e-4);
 }
 
-TEST(DifferentialOdometry, EqualsAPlainSumOfSmallStepsOnAPathThatTurnsBothWays) {
+TEST(DifferentialOdometry, EqualsAPlainSumOfSmallStepsOnAPathThatTurnsLeftAndRight) {
   const double track = 0.4, per_metre = 1e6;
   DifferentialOdometry odometry(track, {per_metre, 32}, {per_metre, 32});
   odometry.reset({}, 0, 0);
@@ -93,8 +95,8 @@ TEST(DifferentialOdometry, OfAMachineNeedsEncodersOnBothSides) {
   EXPECT_THROW(DifferentialOdometry::of(robot), InputError);
 }
 
-/// Drives a square of 1 m edges, its corners on the spot, as a robot's own computer does: it sees two registers and
-/// sets two wheel speeds.
+/// Drives a square of 1 m edges, its corners on the spot, as a robot's own computer does: it sees
+/// two registers and sets two wheel speeds.
 class SquareDriver {
  public:
   static constexpr double kPeriod = 0.02;
@@ -111,13 +113,15 @@ class SquareDriver {
     odometry_.update(left, right);
     trace_.push_back(odometry_.pose());
     if (edge_ == 4) return Vec2::Zero();
-    // Ramps that the motors follow: what tells the engines apart is then the ground and nothing of the motor.
+    // Ramps that the motors follow: what tells the engines apart is then the ground and nothing of
+    // the motor.
     const double heading = kPi / 2 * edge_;
     double speed = 0, turn = 0;
     if (turning_) {
       const double left_to_turn = heading - odometry_.pose().yaw;
       turn = ramped(left_to_turn, 1.0, 1.5);
-      if (std::abs(left_to_turn) < 1e-3) turning_ = false, start_ = odometry_.distance(), before_ = 0;
+      if (std::abs(left_to_turn) < 1e-3)
+        turning_ = false, start_ = odometry_.distance(), before_ = 0;
     } else {
       const double left_to_go = start_ + 1 - odometry_.distance();
       speed = ramped(left_to_go, 0.4, 0.5);
@@ -152,12 +156,14 @@ struct Drive {
 };
 
 /// The whole square in an engine; the kinematic one may have its encoders falsified by `slip`.
-Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::Engine> engine, double slip = 0) {
+Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::PhysicsEngine> engine,
+                   double slip = 0) {
   constexpr double kStep = SquareDriver::kPeriod / 16;
   engine->add_machine(robot, Pose::Identity());
   vehicle::Encoders encoders(robot, *engine, 0, 1);
   for (std::size_t e = 0; e < 2; ++e) encoders[e].set_slip(slip);
-  const int left = robot.joint_index(robot.encoders[0].joint), right = robot.joint_index(robot.encoders[1].joint);
+  const int left = robot.joint_index(robot.encoders[0].joint),
+            right = robot.joint_index(robot.encoders[1].joint);
   Drive out;
   SquareDriver driver(robot);
   for (int i = 0; i < 3000 && !driver.done(); ++i) {
@@ -169,7 +175,8 @@ Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::Engine>
       encoders.advance(*engine, 0);
       const vehicle::LinkState base = engine->link(0, 0);
       out.rolled += kStep * base.v_WL.dot(base.X_WL.linear().col(0));
-      out.turned += kStep * 0.5 * robot.wheels[0].radius * (engine->wheel(0, 0).spin + engine->wheel(0, 1).spin);
+      out.turned += kStep * 0.5 * robot.wheels[0].radius *
+                    (engine->wheel(0, 0).spin + engine->wheel(0, 1).spin);
     }
   }
   EXPECT_TRUE(driver.done());
@@ -186,23 +193,26 @@ double largest_difference(const std::vector<PlanePose>& a, const std::vector<Pla
   return most;
 }
 
-TEST(OneController, DrivesBothEnginesAndTellsThemApartBySlipOnly) {
+TEST(OneController, DrivesBothPhysicsEnginesAndOnlySlipDiffers) {
   const scene::Machine robot = shipped_robot();
   const Drive exact = drive_square(robot, vehicle::make_kinematic_engine());
   const Drive rolling = drive_square(robot, vehicle::make_bullet_engine(Vec3(0, 0, -kGravity)));
-  // What the controller sees and sets is the same: the ramps are the motors', so its beliefs in both are equal at any
-  // moment but for the solver's residual. 1 mm is an eighth of what it drives between two looks.
+  // What the controller sees and sets is the same: the ramps are the motors', so its beliefs in
+  // both are equal at any moment but for the solver's residual. 1 mm is an eighth of what it drives
+  // between two looks.
   const double apart = largest_difference(exact.trace, rolling.trace);
   print_value("beliefs of both controllers apart [m]", apart, "0", "");
   EXPECT_LT(apart, 1e-3);
   // Both believe to be home.
   for (const Drive& each : {exact, rolling}) EXPECT_LT(each.trace.back().p.norm(), 0.02);
   // In the kinematic engine it is true: half a count a look, and a step's chord.
-  print_value("odometry off, kinematic [m]", (exact.truth.p - exact.trace.back().p).norm(), "0", "");
+  print_value("odometry off, kinematic [m]", (exact.truth.p - exact.trace.back().p).norm(), "0",
+              "");
   EXPECT_LT((exact.truth.p - exact.trace.back().p).norm(), 1e-3);
   EXPECT_NEAR(exact.truth.yaw, std::remainder(exact.trace.back().yaw, 2 * kPi), 1e-3);
   // In the other one the wheels turn by more than they roll: smaller under load, and slipping.
-  const double slip = 1 - rolling.rolled / rolling.turned, off = (rolling.truth.p - rolling.trace.back().p).norm();
+  const double slip = 1 - rolling.rolled / rolling.turned,
+               off = (rolling.truth.p - rolling.trace.back().p).norm();
   print_value("slip with tyres [1]", slip, "0.03 to 0.06", "4 mm of 100 under load, and the tread");
   print_value("odometry off, with tyres [m]", off, "", "");
   EXPECT_GT(slip, 0.02);

@@ -13,7 +13,7 @@
 #include "control/activity.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
-#include "control/step.h"
+#include "control/program_step.h"
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "flip_bytes.h"
@@ -24,18 +24,18 @@ namespace {
 constexpr double kStep = 0.01;  // [s]
 
 /// Turns the boom and drives, gives an account, and falls short after a while if it is told to.
-struct Trying final : Step {
+struct Trying final : ProgramStep {
   StepState end = StepState::kDone;
   const char* element() const override { return "trying"; }
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 
 class TryingHard final : public Activity {
  public:
-  TryingHard(Workplace& place, const Trying& step) : Activity(place), step_(step) {}
+  TryingHard(OperatorContext& place, const Trying& step) : Activity(place), step_(step) {}
   const char* phase() const override { return "try"; }
   void begin(const Observation&) override {}
-  std::vector<Figure> account(const Observation& seen) const override {
+  std::vector<Measurement> account(const Observation& seen) const override {
     return {{"way_m", seen.X_WB.translation().x()}, {"tried_s", phase_time()}};
   }
 
@@ -50,7 +50,7 @@ class TryingHard final : public Activity {
   const Trying& step_;
 };
 
-std::unique_ptr<Activity> Trying::activity(Workplace& place) const {
+std::unique_ptr<Activity> Trying::activity(OperatorContext& place) const {
   return std::make_unique<TryingHard>(place, *this);
 }
 
@@ -62,7 +62,9 @@ scene::Program program(StepState end) {
 
 /// An operator on a machine that stands at x = time.
 struct Trial {
-  explicit Trial(StepState end) : op(ew180_like(), program(end), "digger") { seen.joints.resize(4); }
+  explicit Trial(StepState end) : op(ew180_like(), program(end), "digger") {
+    seen.joints.resize(4);
+  }
   Command step() {
     seen.X_WB.translation().x() = time;
     const Command out = op.update(seen, time, kStep);
@@ -80,7 +82,8 @@ struct Trial {
 
 TEST(StepState, HasANameOfItsOwnEach) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i) names.insert(name_of(static_cast<StepState>(i)));
+  for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i)
+    names.insert(name_of(static_cast<StepState>(i)));
   EXPECT_EQ(names.size(), 9u);
   EXPECT_FALSE(fell_short(StepState::kRunning));
   EXPECT_FALSE(fell_short(StepState::kDone));
@@ -112,8 +115,8 @@ TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
   EXPECT_EQ(trial.op.phase(), "blocked");
   EXPECT_TRUE(trial.op.progress().failed);
   EXPECT_EQ(trial.op.progress().done, 1);
-  // The joint that the program moved stands still, the others keep what they had; the drive brakes, its wheels as
-  // they are.
+  // The joint that the program moved stands still, the others keep what they had; the drive brakes,
+  // its wheels as they are.
   ASSERT_TRUE(trial.last.joints[1].has_value());
   EXPECT_EQ(trial.last.joints[1]->mode, vehicle::JointMode::kVelocity);
   EXPECT_EQ(trial.last.joints[1]->target, 0);
@@ -130,7 +133,7 @@ TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
   for (const auto& joint : after.joints) EXPECT_FALSE(joint.has_value());
 }
 
-TEST(Outcome, OfARunningStepIsToldWithoutChangingIt) {
+TEST(Outcome, OfARunningStepIsReportedWithoutChangingIt) {
   Trial trial(StepState::kDone);
   trial.run(0.4);
   const std::uint64_t before = hash_of(trial.op).digest();
@@ -164,7 +167,7 @@ TEST(Watch, EndsAProgramWhoseMachineTipsOver) {
   EXPECT_NEAR(over.end, 0.2, 2 * kStep);
 }
 
-TEST(Watch, TellsOfAMachineThatTipsOverAfterItsProgram) {
+TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
   Trial trial(StepState::kDone);
   trial.run(5);
   ASSERT_TRUE(trial.op.done());
@@ -194,10 +197,14 @@ TEST(Watch, TellsOfAMachineThatTipsOverAfterItsProgram) {
 }
 
 TEST(Watch, LeavesAMachineAloneThatComesBackOrCannotTip) {
-  EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning) << "steep, within its feet";
-  EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning) << "it falls back";
-  EXPECT_EQ(standing({true, radians(31), 0.3, -0.1}, 0.1).state, StepState::kRunning) << "a moment on a stone";
-  EXPECT_EQ(standing({false, radians(90), 1, -1}, 1).state, StepState::kRunning) << "kinematic or held";
+  EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning)
+      << "steep, within its feet";
+  EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning)
+      << "it falls back";
+  EXPECT_EQ(standing({true, radians(31), 0.3, -0.1}, 0.1).state, StepState::kRunning)
+      << "a moment on a stone";
+  EXPECT_EQ(standing({false, radians(90), 1, -1}, 1).state, StepState::kRunning)
+      << "kinematic or held";
 }
 
 TEST(Watch, EndsAProgramWhoseMachineIsBuried) {

@@ -65,7 +65,8 @@ struct Followed {
   double time = 0;
 };
 
-/// From `start`, beside the path's own start: each leg from a stand, with the wheels turned before it begins.
+/// From `start`, beside the path's own start: each leg from a stand, with the wheels turned before
+/// it begins.
 Followed follow(const Path& path, const PlanePose& start, double speed) {
   const PathFollower law(ew180_like().drive);
   Followed out;
@@ -88,7 +89,8 @@ Followed follow(const Path& path, const PlanePose& start, double speed) {
 }
 
 TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
-  // Bends as planned ones, 1.2 times as wide as the tightest: left, straight, right, then backwards, then forwards.
+  // Bends as planned ones, 1.2 times as wide as the tightest: left, straight, right, then
+  // backwards, then forwards.
   const double k = 1 / (kRadiusReserve * PathFollower(ew180_like().drive).least_radius());
   const std::vector<Path> paths = {
       Path({Vec2(0, 0), 0.3}, {{6, k}, {4, 0}, {6, -k}}),
@@ -102,10 +104,13 @@ TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
       const PlanePose end = path.at(path.length());
       most = std::max(most, run.aside);
       miss = std::max(miss, (run.bicycle.at.p - end.p).norm());
-      // From one lock to the other at 0.55 m/s; from a stand the drive's lag and creeping cost seconds, no more.
-      EXPECT_LT(run.time, path.length() / std::min(speed, 0.55) + 12.0 * static_cast<double>(path.legs().size()))
+      // From one lock to the other at 0.55 m/s; from a stand the drive's lag and creeping cost
+      // seconds, no more.
+      EXPECT_LT(run.time, path.length() / std::min(speed, 0.55) +
+                              12.0 * static_cast<double>(path.legs().size()))
           << speed;
-      EXPECT_LT(std::abs(std::remainder(run.bicycle.at.yaw - end.yaw, 2 * kPi)), radians(3)) << speed;
+      EXPECT_LT(std::abs(std::remainder(run.bicycle.at.yaw - end.yaw, 2 * kPi)), radians(3))
+          << speed;
     }
   print_value("largest distance beside the path [m]", most, "<= 0.03", "a bicycle");
   print_value("largest miss at the end [m]", miss, "<= 0.12", "a bicycle");

@@ -18,7 +18,8 @@ class Reach : public ::testing::Test {
     program.steps = {step};
     program.lines = {42};
     std::string all;
-    for (const Fault& fault : check_reach(machine, program, make_pose(-4, 0, 0), GroundSurface(ground), "dig.sdf"))
+    for (const Fault& fault :
+         check_reach(machine, program, make_pose(-4, 0, 0), GroundSurfaceView(ground), "dig.sdf"))
       all += fault.text() + "\n";
     return all;
   }
@@ -41,13 +42,13 @@ TEST_F(Reach, NamesFileLineStepAndBothDistancesOfAFarEndTooFar) {
   expect_in("the bucket's tip reaches from", text);
 }
 
-TEST_F(Reach, TellsOfATrenchTooDeep) {
+TEST_F(Reach, ReportsATrenchTooDeep) {
   Dig dig = trench();
   dig.depth = 6.5;
   expect_in("dig/far end", told(dig));
 }
 
-TEST_F(Reach, TellsHowToPlaceTheMachineForALineBesideTheSwingAxis) {
+TEST_F(Reach, ReportsHowToPlaceTheMachineForALineBesideTheSwingAxis) {
   Dig dig = trench();
   dig.from.y() = dig.to.y() = 1;
   const std::string text = told(dig);
@@ -56,13 +57,13 @@ TEST_F(Reach, TellsHowToPlaceTheMachineForALineBesideTheSwingAxis) {
   expect_in("heading 0.00 deg", text);
 }
 
-TEST_F(Reach, TellsOfAnEndUnderTheMachine) {
+TEST_F(Reach, ReportsAnEndUnderTheMachine) {
   Dig dig = trench();
   dig.to.x() = -0.5;
   expect_in("must stay 3.00 m clear", told(dig));
 }
 
-TEST_F(Reach, TellsOfADumpTooHighAndTooFar) {
+TEST_F(Reach, ReportsADumpTooHighAndTooFar) {
   Dig dig = trench();
   dig.dump_height = 6;
   const std::string high = told(dig);
@@ -76,7 +77,7 @@ TEST_F(Reach, TellsOfADumpTooHighAndTooFar) {
   expect_in("can be opened from", far);
 }
 
-TEST_F(Reach, TellsOfATrenchWiderThanTheBucket) {
+TEST_F(Reach, ReportsATrenchWiderThanTheBucket) {
   Dig dig = trench();
   dig.width = 1.6;
   expect_in("the bucket cuts 1.05 m", told(dig));
@@ -97,13 +98,17 @@ TEST_F(Reach, LooksFromWhereTheDriveBeforeTheDigEnds) {
   drive.has_heading = true;
   scene::Program program;
   program.steps = {drive, trench()};
-  EXPECT_TRUE(check_reach(machine, program, make_pose(-9, 0, 0), GroundSurface(ground), "").empty());
+  EXPECT_TRUE(
+      check_reach(machine, program, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
   // From (-9, 0) alone the trench is out of reach.
   program.steps = {trench()};
-  EXPECT_FALSE(check_reach(machine, program, make_pose(-9, 0, 0), GroundSurface(ground), "").empty());
+  EXPECT_FALSE(
+      check_reach(machine, program, make_pose(-9, 0, 0), GroundSurfaceView(ground), "").empty());
   // A place that steering cannot get to.
   drive.target = Vec2(-6, 2.5);
-  EXPECT_FALSE(check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), GroundSurface(ground), "").empty());
+  EXPECT_FALSE(
+      check_reach(machine, {{drive}, {}}, make_pose(-9, 0, 0), GroundSurfaceView(ground), "")
+          .empty());
 }
 
 }  // namespace

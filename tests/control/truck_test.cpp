@@ -60,7 +60,7 @@ Trial run(Operator& op, double rate, double stop, Observation seen = {}) {
 
 scene::Program program(std::vector<scene::ProgramStep> steps) { return {std::move(steps), {}}; }
 
-TEST(Truck, TipsToTheAngleHoldsItAndTellsWhen) {
+TEST(Truck, TipsToTheAngleHoldsItAndReportsWhen) {
   Operator op(truck(), program({Tip{1.2, 2.0}}));
   const Trial tip = run(op, 0.1, 10);
   EXPECT_TRUE(op.done());
@@ -79,7 +79,8 @@ TEST(Truck, ABedThatSticksEndsTheProgramAsStalled) {
   EXPECT_GT(tip.ended, 20);
   ASSERT_EQ(op.reports().size(), 1u) << "the bed that sticks is not tipped back as if nothing were";
   EXPECT_EQ(op.reports()[0].state, StepState::kStalled);
-  EXPECT_NE(op.reports()[0].reason.find("40.1"), std::string::npos) << op.reports()[0].reason;  // 1.2 - 0.5 rad
+  // 1.2 - 0.5 rad
+  EXPECT_NE(op.reports()[0].reason.find("40.1"), std::string::npos) << op.reports()[0].reason;
 }
 
 TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
@@ -101,7 +102,7 @@ TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
   }
 }
 
-TEST(Truck, WaitsAsLongAsItIsToldAndSaysForWhat) {
+TEST(Truck, WaitsForTheCommandedTimeAndNamesTheReason) {
   Operator op(truck(), program({WaitFor{"digger", 0, 3}}), "dumper 7");
   std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
   Observation seen;

@@ -47,7 +47,8 @@ enum class Phase : int { kIdle, kDig, kDump };
 class Machine {
  public:
   void visit(Archive& a) {
-    a.constant("joints", commanded.size(), "the machine has another number of joints than the scene's");
+    a.constant("joints", commanded.size(),
+               "the machine has another number of joints than the scene's");
     a.section("machine", 3, [&] {
       a("steps", steps);
       a("running", running);
@@ -214,7 +215,8 @@ TEST(Archive, LeavesOutOfTheHashOnlyWhatIsMarked) {
   std::vector<std::string> silent;
   for (const ByteMap::Field& field : map.fields)
     if (!field.hashed) silent.push_back(field.path + ": " + field.reason);
-  EXPECT_EQ(silent, (std::vector<std::string>{"joints: ", "machine/seconds: tells how the work was shared out"}));
+  EXPECT_EQ(silent, (std::vector<std::string>{
+                        "joints: ", "machine/seconds: tells how the work was shared out"}));
 }
 
 TEST(Archive, NamesTheFieldOfEveryByte) {
@@ -240,20 +242,24 @@ TEST(Archive, NamesTheFieldOfEveryByte) {
 TEST(Archive, NeverReadsPastAnyTruncationNorTakesBytesTooMany) {
   const std::vector<char> whole = saved(Machine());
   for (std::size_t n = 0; n < whole.size(); ++n)
-    EXPECT_NE(fault_of({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(n)}), "no fault") << "cut at " << n;
+    EXPECT_NE(fault_of({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(n)}), "no fault")
+        << "cut at " << n;
   std::vector<char> longer = whole;
   longer.push_back(0);
   EXPECT_NE(fault_of(longer).find("holds more"), std::string::npos) << fault_of(longer);
 }
 
 TEST(Archive, RefusesLengthsBeyondTheEndBeforeItAllocates) {
-  for (const char* path : {"machine/name", "machine/grains", "machine/ruts", "machine/by_column", "machine/pending"})
-    for (const std::uint64_t n : {std::uint64_t{1} << 62, ~std::uint64_t{0}, std::uint64_t{100000}}) {
+  for (const char* path :
+       {"machine/name", "machine/grains", "machine/ruts", "machine/by_column", "machine/pending"})
+    for (const std::uint64_t n :
+         {std::uint64_t{1} << 62, ~std::uint64_t{0}, std::uint64_t{100000}}) {
       const std::string fault = fault_of(overwritten(path, n));
       EXPECT_NE(fault.find(path), std::string::npos) << fault;
       EXPECT_NE(fault.find("length"), std::string::npos) << fault;
     }
-  // A length that the bytes allow but the elements do not: found out by element, without memory for all.
+  // A length that the bytes allow but the elements do not: found out by element, without memory for
+  // all.
   EXPECT_NE(fault_of(overwritten("machine/ruts", std::uint64_t{300})), "no fault");
 }
 
@@ -267,10 +273,13 @@ TEST(Archive, NamesTheFieldThatIsOutOfItsRange) {
   says(fault_of(overwritten("machine/phase", -1)), "machine/phase");
   says(fault_of(overwritten("machine/activity", 2u)), "machine/activity");
   says(fault_of(overwritten("machine/share", 1.5)), "machine/share");
-  says(fault_of(overwritten("machine/share", std::numeric_limits<double>::quiet_NaN())), "machine/share");
+  says(fault_of(overwritten("machine/share", std::numeric_limits<double>::quiet_NaN())),
+       "machine/share");
   // A turn that stretches: what asks for the box of a body would get one of any size.
-  says(fault_of(overwritten("machine/X_WB", 2.0)), "machine/X_WB: is no finite place of a rigid body");
-  says(fault_of(overwritten("machine/X_WB", std::numeric_limits<double>::infinity())), "machine/X_WB: is no finite");
+  says(fault_of(overwritten("machine/X_WB", 2.0)),
+       "machine/X_WB: is no finite place of a rigid body");
+  says(fault_of(overwritten("machine/X_WB", std::numeric_limits<double>::infinity())),
+       "machine/X_WB: is no finite");
   says(fault_of(overwritten("machine/inner/depth", 100.0)), "machine/depth: must be below 100 m");
   says(fault_of(overwritten("machine/commanded", std::uint64_t{1})), "machine/commanded");
   says(fault_of(overwritten("joints", std::uint64_t{5})), "another number of joints");
@@ -315,7 +324,8 @@ TEST(Archive, LoadsTheFrontOfALongerState) {
   load_front(bytes, front);
   EXPECT_EQ(front.value, 1);
   EXPECT_THROW(load_saved(bytes, front), InputError);
-  EXPECT_THROW(load_front({bytes.begin(), bytes.begin() + 30}, front), InputError) << "the front itself is cut";
+  EXPECT_THROW(load_front({bytes.begin(), bytes.begin() + 30}, front), InputError)
+      << "the front itself is cut";
 }
 
 TEST(Archive, RefusesASectionThatIsShorterOrLongerThanItsVisit) {
@@ -408,7 +418,8 @@ TEST(Archive, TakesAViewLikeTheVectorItIsOf) {
   Values to;
   load_saved(saved(window), to);
   EXPECT_EQ(to.values, from.values);
-  EXPECT_THROW(load_saved(saved(from), window), InputError) << "nothing is written into what is not ours";
+  EXPECT_THROW(load_saved(saved(from), window), InputError)
+      << "nothing is written into what is not ours";
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ TEST_F(File, IsReadOnlyWhenItIsPlainAndOnlySoFar) {
   EXPECT_NE(message([&] { read_file(path("")); }).find("it is a directory"), std::string::npos);
   write_file_atomically(path("a"), std::string("12345"));
   EXPECT_EQ(read_file(path("a"), 5).size(), 5u);
-  EXPECT_NE(message([&] { read_file(path("a"), 4); }).find("it has more than 4 bytes"), std::string::npos);
+  EXPECT_NE(message([&] { read_file(path("a"), 4); }).find("it has more than 4 bytes"),
+            std::string::npos);
 }
 
 TEST_F(File, KeepsItsOldContentWhenTheDiskIsFull) {
@@ -78,14 +79,16 @@ TEST_F(File, KeepsItsOldContentWhenTheDiskIsFull) {
 
 TEST_F(File, KeepsItsOldContentWhenItIsCutInTheMiddle) {
   write_file_atomically(path("a"), std::string("old"));
-  // A limit on file size lets the first 4 KiB through and fails the rest, as a disk that fills up does.
+  // A limit on file size lets the first 4 KiB through and fails the rest, as a disk that fills up
+  // does.
   rlimit old{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit small = old;
   small.rlim_cur = 4096;
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string said = message([&] { write_file_atomically(path("a"), std::string(100000, 'x')); });
+  const std::string said =
+      message([&] { write_file_atomically(path("a"), std::string(100000, 'x')); });
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(said.find("cannot write"), std::string::npos) << said;
@@ -99,9 +102,10 @@ TEST_F(File, NamesPathAndCauseWhenItCannotBeReachedOrRead) {
   EXPECT_EQ(message([&] { read_file(path("")); }),
             "cannot read '" + path("") + "': it is a directory, a plain file is needed");
   EXPECT_EQ(message([&] { write_file_atomically(path("no/where"), std::string("x")); }),
-            "cannot write '" + path("no/where") + "': there is no folder '" + path("no") + "' (make it: mkdir -p '" +
-                path("no") + "')");
-  EXPECT_NE(message([&] { require_writable(path("no/where")); }).find("mkdir -p"), std::string::npos);
+            "cannot write '" + path("no/where") + "': there is no folder '" + path("no") +
+                "' (make it: mkdir -p '" + path("no") + "')");
+  EXPECT_NE(message([&] { require_writable(path("no/where")); }).find("mkdir -p"),
+            std::string::npos);
 }
 
 TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
@@ -115,8 +119,8 @@ TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
   for (const auto& each : all) {
     // A lambda takes no structured binding along.
     const std::string &name = each.first, &what = each.second;
-    const std::string told =
-        "cannot write '" + path(name) + "': it is " + what + ", and only a plain file is replaced (name a file)";
+    const std::string told = "cannot write '" + path(name) + "': it is " + what +
+                             ", and only a plain file is replaced (name a file)";
     EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
     EXPECT_EQ(message([&] { require_writable(path(name)); }), told);
     // Also when another library has written the part already.

@@ -70,7 +70,7 @@ TEST(Sealed, EveryFlippedBitIsRefused) {
   }
 }
 
-TEST(Sealed, ADamagedSectionIsToldByPlaceAndName) {
+TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
   const std::vector<char> content = seal(saved(State()));
   const auto told = [&](std::size_t byte) {
     std::vector<char> flipped = content;
@@ -82,7 +82,8 @@ TEST(Sealed, ADamagedSectionIsToldByPlaceAndName) {
     }
     return std::string();
   };
-  EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not fit"), std::string::npos)
+  EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not fit"),
+            std::string::npos)
       << told(content.size() - 1);
   // The name itself is damaged: as much of it as letters go.
   const std::size_t name = 32 + 8;
@@ -93,7 +94,8 @@ TEST(Sealed, ADamagedSectionIsToldByPlaceAndName) {
 TEST(Sealed, EveryLengthButTheRightOneIsRefused) {
   std::vector<char> content = seal(saved(State()));
   for (std::size_t size = 0; size < content.size(); ++size)
-    EXPECT_TRUE(refused(std::vector<char>(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(size))))
+    EXPECT_TRUE(refused(
+        std::vector<char>(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(size))))
         << size;
   content.push_back(0);
   EXPECT_TRUE(refused(content));

@@ -19,7 +19,9 @@ namespace {
 TEST(Fault, SaysWhereWhatWhichRuleAndWhatToDo) {
   Fault fault{Fault::Severity::kError, "a.sdf",           12, "world/navvy:soil/cohesion_pa", "-3",
               "must be at least 0",    "write 0 for sand"};
-  EXPECT_EQ(fault.text(), "a.sdf:12: error: world/navvy:soil/cohesion_pa: '-3': must be at least 0 (write 0 for sand)");
+  EXPECT_EQ(
+      fault.text(),
+      "a.sdf:12: error: world/navvy:soil/cohesion_pa: '-3': must be at least 0 (write 0 for sand)");
   fault.severity = Fault::Severity::kWarning;
   fault.line = 0;
   fault.value.clear();
@@ -49,7 +51,10 @@ TEST(StateHash, ChangesWithEveryBitLengthAndOrder) {
     bytes[bit / 8] ^= static_cast<unsigned char>(1u << (bit % 8));
   }
   for (std::size_t size = 0; size <= bytes.size(); ++size) {
-    EXPECT_TRUE(seen.insert(digest({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)})).second) << size;
+    EXPECT_TRUE(
+        seen.insert(digest({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}))
+            .second)
+        << size;
   }
   StateHash ab, ba;
   ab.value(1.5);
@@ -66,8 +71,9 @@ TEST(StateHash, IsWrittenAsSixteenHexDigits) {
 TEST(Random, GivesThePublishedSequence) {
   // First numbers of SplitMix64 for seed 1234567, as printed by the authors' C code.
   Random random(1234567);
-  for (const std::uint64_t expected : {6457827717110365317ULL, 3203168211198807973ULL, 9817491932198370423ULL,
-                                       4593380528125082431ULL, 16408922859458223821ULL}) {
+  for (const std::uint64_t expected :
+       {6457827717110365317ULL, 3203168211198807973ULL, 9817491932198370423ULL,
+        4593380528125082431ULL, 16408922859458223821ULL}) {
     EXPECT_EQ(random.next(), expected);
   }
 }
@@ -94,13 +100,15 @@ TEST(Random, IsUniformInItsRange) {
 }
 
 TEST(Suggestion, IsTheMostLikeAlsoWithItsWordsInAnotherOrder) {
-  const std::vector<std::string> soils = {"clay_stiff", "loam", "sand_dry", "sand_moist", "topsoil"};
+  const std::vector<std::string> soils = {"clay_stiff", "loam", "sand_dry", "sand_moist",
+                                          "topsoil"};
   EXPECT_EQ(suggestion("laom", soils), "did you mean 'loam'?");
   EXPECT_EQ(suggestion("dry_sand", soils), "did you mean 'sand_dry'?");
   EXPECT_EQ(suggestion("dry-sand", soils), "did you mean 'sand_dry'?");
   EXPECT_EQ(suggestion("stif_clay", soils), "did you mean 'clay_stiff'?");
   EXPECT_EQ(nearest_name(soils, "moist_sand"), "sand_moist");
-  EXPECT_EQ(suggestion("gravel", soils), "known here: clay_stiff, loam, sand_dry, sand_moist, topsoil");
+  EXPECT_EQ(suggestion("gravel", soils),
+            "known here: clay_stiff, loam, sand_dry, sand_moist, topsoil");
 }
 
 TEST(Log, GoesToTheSinkOrNowhere) {
@@ -128,7 +136,8 @@ TEST(Math, MassUnitsRoundToNearestAndBackExactly) {
   EXPECT_EQ(mass_units(1.0), 1 << 24);
   EXPECT_EQ(mass_units(-0.4 * kMassQuantum), 0);
   EXPECT_EQ(mass_units(1.6 * kMassQuantum), 2);
-  for (const std::int64_t units : {std::int64_t{1}, std::int64_t{123456789}, std::int64_t{1} << 52}) {
+  for (const std::int64_t units :
+       {std::int64_t{1}, std::int64_t{123456789}, std::int64_t{1} << 52}) {
     EXPECT_EQ(mass_units(kilograms(units)), units);
   }
 }

@@ -33,7 +33,8 @@ class ColumnTables : public ::testing::Test {
   ColumnTables() {
     Random random(7);
     for (int i = 0; i < 400; ++i) {
-      const int ix = static_cast<int>(random.uniform() * kNx), iy = static_cast<int>(random.uniform() * kNy);
+      const int ix = static_cast<int>(random.uniform() * kNx),
+                iy = static_cast<int>(random.uniform() * kNy);
       const double number = random.uniform();
       table_.at(ix, iy).number = number;
       map_.values[static_cast<std::int64_t>(iy) * kNx + ix].number = number;

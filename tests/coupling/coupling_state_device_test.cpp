@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the exchange keeps from step to step: tools' forces, ruts and the ground that rigid bodies meet.
+// What the exchange keeps from step to step: tools' forces, ruts and the ground that rigid bodies
+// meet.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -18,9 +19,11 @@
 namespace navvy::coupling {
 namespace {
 
-/// The shipped excavator standing on columns of 0.4 m: a patch of some 2000 heights, every byte of which is flipped.
+/// The shipped excavator standing on columns of 0.4 m: a patch of some 2000 heights, every byte of
+/// which is flipped.
 scene::Scene coarse_site() {
-  scene::Scene world = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+  scene::Scene world =
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   world.solver.cell = 0.4;
   world.machines.at(0).program = {};
   return world;
@@ -52,7 +55,8 @@ TEST_F(CouplingState, HashesEveryByteItSaves) {
   ByteMap map;
   saved(coupling(), &map);
   std::size_t ruts = 0;
-  for (const ByteMap::Field& field : map.fields) ruts += field.path.find("memory[") != std::string::npos;
+  for (const ByteMap::Field& field : map.fields)
+    ruts += field.path.find("memory[") != std::string::npos;
   EXPECT_GT(ruts, 0u) << "the machine stands in no ruts";
   EXPECT_EQ(test::flip_every_byte(coupling(), target()), "");
 }

@@ -27,8 +27,9 @@ class WithoutHighest final : public terramechanics::GroundQuery {
 };
 
 heightfield::Ground hills() {
-  return testing::bed(testing::shipped_soil("loam"), 0.1, Vec2(12, 9),
-                      [](double x, double y) { return 0.4 * std::sin(1.3 * x) + 0.3 * std::cos(2.1 * y) + 0.1 * x; });
+  return testing::bed(testing::shipped_soil("loam"), 0.1, Vec2(12, 9), [](double x, double y) {
+    return 0.4 * std::sin(1.3 * x) + 0.3 * std::cos(2.1 * y) + 0.1 * x;
+  });
 }
 
 TEST(GroundView, KnowsAnUpperBoundOfItsHeightsInAnyRectangle) {
@@ -41,8 +42,8 @@ TEST(GroundView, KnowsAnUpperBoundOfItsHeightsInAnyRectangle) {
     double most = -1e9;
     for (int i = 0; i <= 40; ++i)
       for (int j = 0; j <= 40; ++j)
-        most = std::max(most,
-                        view.height(low.x() + (high.x() - low.x()) * i / 40, low.y() + (high.y() - low.y()) * j / 40));
+        most = std::max(most, view.height(low.x() + (high.x() - low.x()) * i / 40,
+                                          low.y() + (high.y() - low.y()) * j / 40));
     EXPECT_GE(view.highest(low, high) + 1e-9, most);
     // Steepest is 0.9 m a metre: a ring of two columns round the rectangle.
     EXPECT_LE(view.highest(low, high), most + 0.35);
@@ -63,8 +64,9 @@ TEST(GroundView, WhatItSaysOfItsHighestPlacesChangesNothingThatABodyFeels) {
   link.collisions.push_back({});
   box.links.push_back(link);
   std::vector<Pose> places;
-  for (const terramechanics::GroundQuery* asked : {static_cast<const terramechanics::GroundQuery*>(&view),
-                                                   static_cast<const terramechanics::GroundQuery*>(&plain)}) {
+  for (const terramechanics::GroundQuery* asked :
+       {static_cast<const terramechanics::GroundQuery*>(&view),
+        static_cast<const terramechanics::GroundQuery*>(&plain)}) {
     const auto engine = vehicle::make_bullet_engine(Vec3(0, 0, -kGravity));
     engine->add_machine(box, make_pose(5, 4, 2.5));
     for (int step = 0; step < 1200; ++step) engine->step(testing::Ride::kStep, *asked);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine on columns of one soil without particles: engine, tyres and ruts alone, as a world steps them.
+// A machine on columns of one soil without particles: engine, tyres and ruts alone, as a world
+// steps them.
 #pragma once
 
 #include <cmath>
@@ -7,11 +8,11 @@
 #include <vector>
 
 #include "coupling/ground_view.h"
-#include "coupling/placing.h"
+#include "coupling/machine_placing.h"
 #include "coupling/ruts.h"
 #include "paths.h"
 #include "scene_io/loader.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::coupling::testing {
 
@@ -25,7 +26,9 @@ inline heightfield::Ground bed(const scene::Soil& soil, double cell, const Vec2&
   setup.datum = -20;
   setup.soils = {soil};
   setup.layers = {{soil.name, 100}};
-  setup.surface = [height, cell](int ix, int iy) { return height ? height(cell * (ix + 0.5), cell * (iy + 0.5)) : 0; };
+  setup.surface = [height, cell](int ix, int iy) {
+    return height ? height(cell * (ix + 0.5), cell * (iy + 0.5)) : 0;
+  };
   return heightfield::Ground(std::move(setup));
 }
 
@@ -38,7 +41,8 @@ inline scene::Soil shipped_soil(const std::string& name) {
 /// One machine on a bed; firm ground instead when told.
 class Ride {
  public:
-  Ride(const scene::Machine& machine, heightfield::Ground& ground, const Vec2& at, bool firm = false)
+  Ride(const scene::Machine& machine, heightfield::Ground& ground, const Vec2& at,
+       bool firm = false)
       : machine_(machine),
         ruts_(ground),
         view_(ground, ground.setup().soils, &ruts_),
@@ -58,7 +62,7 @@ class Ride {
     }
   }
 
-  vehicle::Engine& engine() { return *engine_; }
+  vehicle::PhysicsEngine& engine() { return *engine_; }
   vehicle::WheelState wheel(int w) const { return engine_->wheel(0, w); }
   Vec3 place_of_base() const { return engine_->link(0, 0).X_WL.translation(); }
 
@@ -84,7 +88,7 @@ class Ride {
   GroundView view_;
   bool firm_;
   Floor floor_;
-  std::unique_ptr<vehicle::Engine> engine_;
+  std::unique_ptr<vehicle::PhysicsEngine> engine_;
   int steps_ = 0;
 };
 

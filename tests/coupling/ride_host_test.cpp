@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator on soft columns: how deep its wheels sink, how evenly they bear, what their ruts take from the drive.
+// The excavator on soft columns: how deep its wheels sink, how evenly they bear, what their ruts
+// take from the drive.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +39,8 @@ class Spread {
 double rut_depth(const heightfield::Ground& ground, double from, double to) {
   Spread depth;
   for (double x = from; x < to; x += 0.05)
-    for (const double side : {-0.5 * kTwin, 0.5 * kTwin}) depth.add(-ground.sample(x, kSide + 0.5 * kTrack + side));
+    for (const double side : {-0.5 * kTwin, 0.5 * kTwin})
+      depth.add(-ground.sample(x, kSide + 0.5 * kTrack + side));
   return depth.mean();
 }
 
@@ -51,11 +53,14 @@ class RideSoil : public ::testing::TestWithParam<const char*> {
 TEST_P(RideSoil, StandsAsDeepAndAsEvenWhateverTheCell) {
   std::vector<double> sinkage;
   for (const double cell : {0.2, 0.1, 0.05}) {
-    heightfield::Ground ground = bed(soil_, cell, Vec2(12, 8)), hard = bed(soil_, cell, Vec2(12, 8));
+    heightfield::Ground ground = bed(soil_, cell, Vec2(12, 8)),
+                        hard = bed(soil_, cell, Vec2(12, 8));
     Ride ride(machine_, ground, Vec2(3, kSide)), firm(machine_, hard, Vec2(3, kSide), true);
     ride.run(2);
     firm.run(2);
-    const auto height = [](const Ride& one, int w) { return one.wheel(w).X_WWheel.translation().z(); };
+    const auto height = [](const Ride& one, int w) {
+      return one.wheel(w).X_WWheel.translation().z();
+    };
     std::vector<double> before;
     for (int w = 0; w < 4; ++w) {
       const double load = ride.wheel(w).force_W.z(), other = ride.wheel(w ^ 1).force_W.z();
@@ -64,9 +69,10 @@ TEST_P(RideSoil, StandsAsDeepAndAsEvenWhateverTheCell) {
       sinkage.push_back(height(firm, w) - height(ride, w));
     }
     ride.run(1);
-    for (int w = 0; w < 4; ++w) EXPECT_NEAR(height(ride, w), before[static_cast<std::size_t>(w)], 1e-3) << cell;
-    print_value("sinkage after 2 s, front left [m]", sinkage[sinkage.size() - 4], "equal within 10 % for each cell",
-                "[docs/machines.md, ruts]");
+    for (int w = 0; w < 4; ++w)
+      EXPECT_NEAR(height(ride, w), before[static_cast<std::size_t>(w)], 1e-3) << cell;
+    print_value("sinkage after 2 s, front left [m]", sinkage[sinkage.size() - 4],
+                "equal within 10 % for each cell", "[docs/machines.md, ruts]");
   }
   for (std::size_t i = 4; i < sinkage.size(); ++i) EXPECT_NEAR(sinkage[i] / sinkage[i % 4], 1, 0.1);
 }
@@ -85,27 +91,33 @@ TEST_P(RideSoil, LoadsStayEvenInTheOwnRutWhateverTheCell) {
       for (std::size_t w = 0; w < 4; ++w) loads[w].add(ride.wheel(static_cast<int>(w)).force_W.z());
     });
     for (const Spread& load : loads) {
-      print_value("load, rms over mean", load.rms() / load.mean(), "0 .. 0.1", "[docs/machines.md, ruts]");
+      print_value("load, rms over mean", load.rms() / load.mean(), "0 .. 0.1",
+                  "[docs/machines.md, ruts]");
       EXPECT_LT(load.rms(), 0.1 * load.mean()) << cell;
     }
     const double end = ride.place_of_base().x();
     EXPECT_NEAR(end - start, 3.6, 0.15);
     depth.push_back(rut_depth(ground, start, end - 1));
     force.push_back((ride.engine().work(0) - work) / (end - start));
-    print_value("drive [N]", force.back(), "equal within 10 % for each cell", "[docs/machines.md, tyres]");
+    print_value("drive [N]", force.back(), "equal within 10 % for each cell",
+                "[docs/machines.md, tyres]");
     for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
-    print_value("rut [m]", depth.back(), "equal within 10 % for each cell", "[docs/machines.md, ruts]");
+    print_value("rut [m]", depth.back(), "equal within 10 % for each cell",
+                "[docs/machines.md, ruts]");
   }
   for (const double one : depth) EXPECT_NEAR(one / depth[0], 1, 0.1);
   for (const double one : force) EXPECT_NEAR(one / force[1], 1, 0.1);
-  // The drive does the work of pressing two pairs of ruts, and rolls: R = b int p dz a tyre [Bekker 1969]. What slips,
-  // what the tyres push ahead and what the steep front of the rut takes comes on top, half as much again at most.
+  // The drive does the work of pressing two pairs of ruts, and rolls: R = b int p dz a tyre
+  // [Bekker 1969]. What slips, what the tyres push ahead and what the steep front of the rut takes
+  // comes on top, half as much again at most.
   const double rut = 4 * kWidth * terramechanics::plate_work(soil_, depth[1], kWidth);
   const double rolling = 0.02 * 18000 * kGravity;
-  print_value("drive [N]", force[1], "1 .. 1.5 of " + std::to_string(rut + rolling), "[Bekker 1969]");
+  print_value("drive [N]", force[1], "1 .. 1.5 of " + std::to_string(rut + rolling),
+              "[Bekker 1969]");
   EXPECT_GT(force[1], rut + rolling);
   EXPECT_LT(force[1], 1.5 * (rut + rolling));
-  // One pair would push as much ahead in a single pass; the rear wheels meet only what they press deeper.
+  // One pair would push as much ahead in a single pass; the rear wheels meet only what they press
+  // deeper.
   const double ahead = 4 * terramechanics::bulldozing({&soil_, 1}, kWidth, 0.525, depth[1], 1);
   print_value("four tyres push ahead of them at that depth [N]", ahead, "", "[Bekker 1969]");
 }
@@ -122,14 +134,16 @@ TEST_P(RideSoil, SecondPassSinksLessThanThreeFifthsOfTheFirst) {
     added.push_back(depth - before);
     before = depth;
   }
-  print_value("second pass over the first", added[1] / added[0], "0 .. 0.6", "[docs/validation.md, Wheels]");
+  print_value("second pass over the first", added[1] / added[0], "0 .. 0.6",
+              "[docs/validation.md, Wheels]");
   EXPECT_GT(added[0], 0.03);
   EXPECT_LT(added[1], 0.6 * added[0]);
   EXPECT_LE(added[2], added[1] + 1e-6);  // heights are whole mass quanta
 }
 
-/// Height [m] of ground that is even to a tenth of a millimetre and not to the bit. On that the two wheels of an open
-/// differential would slip alike until rounding has grown: when one of them spins would be chance.
+/// Height [m] of ground that is even to a tenth of a millimetre and not to the bit. On that the two
+/// wheels of an open differential would slip alike until rounding has grown: when one of them spins
+/// would be chance.
 double uneven(double x, double y) { return 1e-4 * std::sin(1e3 * (x + 2.7 * y)); }
 
 /// Pulls every link back at its centre of mass by a share of its weight.
@@ -142,11 +156,13 @@ void hold_back(Ride& ride, const scene::Machine& machine, double share) {
   }
 }
 
-/// How fast [m/s] it drives up a slope of soil after 6 s, its wheels in their ruts; 0.5 is commanded. `pull`: a share
-/// of the weight that holds it back besides.
-double climbing_speed(const scene::Machine& machine, const scene::Soil& soil, double slope, double pull) {
-  heightfield::Ground ground =
-      bed(soil, 0.1, Vec2(16, 8), [slope](double x, double y) { return (x - 4) * std::tan(slope) + uneven(x, y); });
+/// How fast [m/s] it drives up a slope of soil after 6 s, its wheels in their ruts; 0.5 is
+/// commanded. `pull`: a share of the weight that holds it back besides.
+double climbing_speed(const scene::Machine& machine, const scene::Soil& soil, double slope,
+                      double pull) {
+  heightfield::Ground ground = bed(soil, 0.1, Vec2(16, 8), [slope](double x, double y) {
+    return (x - 4) * std::tan(slope) + uneven(x, y);
+  });
   Ride ride(machine, ground, Vec2(4, kSide));
   ride.engine().set_drive(0, {0.5, 0, false});
   const auto pulled = [&] { hold_back(ride, machine, pull); };
@@ -157,26 +173,29 @@ double climbing_speed(const scene::Machine& machine, const scene::Soil& soil, do
 }
 
 TEST_P(RideSoil, SlopeOfTheFrictionThatItsWheelsMobiliseStopsIt) {
-  // What its wheels pull on the flat, compaction and rolling paid, as a share of the weight: the friction they
-  // mobilise.
+  // What its wheels pull on the flat, compaction and rolling paid, as a share of the weight: the
+  // friction they mobilise.
   double moves = 0, stops = 0.7;
   while (stops - moves > 0.01) {
     const double pull = 0.5 * (moves + stops);
     (climbing_speed(machine_, soil_, 0, pull) > 0.05 ? moves : stops) = pull;
   }
   const double limit = std::atan(stops);
-  print_value("slope of the mobilised friction [deg]", degrees(limit), "", "[docs/machines.md, tyres]");
+  print_value("slope of the mobilised friction [deg]", degrees(limit), "",
+              "[docs/machines.md, tyres]");
   const double steeper = climbing_speed(machine_, soil_, limit + radians(1), 0);
   const double gentler = climbing_speed(machine_, soil_, limit - radians(3), 0);
-  print_value("speed up one steeper by 1 deg [m/s]", steeper, "below 0.05", "[docs/machines.md, tyres]");
-  print_value("speed up one gentler by 3 deg [m/s]", gentler, "above 0.05", "[docs/machines.md, tyres]");
+  print_value("speed up one steeper by 1 deg [m/s]", steeper, "below 0.05",
+              "[docs/machines.md, tyres]");
+  print_value("speed up one gentler by 3 deg [m/s]", gentler, "above 0.05",
+              "[docs/machines.md, tyres]");
   EXPECT_LT(steeper, 0.05);
   EXPECT_GT(gentler, 0.05);
 }
 
 TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
-  heightfield::Ground ground =
-      bed(shipped_soil("loam"), 0.1, Vec2(16, 8), [](double x, double) { return (x - 3) * std::tan(radians(8)); });
+  heightfield::Ground ground = bed(shipped_soil("loam"), 0.1, Vec2(16, 8),
+                                   [](double x, double) { return (x - 3) * std::tan(radians(8)); });
   Ride ride(shipped_machine("ew180"), ground, Vec2(3, kSide));
   double most = 0;
   ride.run(2, [&] {
@@ -190,7 +209,7 @@ TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
   EXPECT_LT(ride.wheel(2).slip, 0.2);
 }
 
-TEST(Ride, ChassisComesToBearOnWhatSlippingWheelsPushUp) {
+TEST(Ride, ChassisBottomsOutOnSoilThatSlippingWheelsPushUp) {
   // Pulled back until its wheels dig themselves in.
   const scene::Soil soil = shipped_soil("loam");
   scene::Machine machine = shipped_machine("ew180");
@@ -211,8 +230,8 @@ TEST(Ride, ChassisComesToBearOnWhatSlippingWheelsPushUp) {
       for (int w = 0; w < 4; ++w) sum += ride.wheel(w).force_W.z() / weight / 600;
     });
     borne.push_back(sum);
-    print_value("share of the weight on the wheels", sum, has_chassis ? "below 0.95" : "1 within 3 %",
-                "[docs/machines.md, ruts]");
+    print_value("share of the weight on the wheels", sum,
+                has_chassis ? "below 0.95" : "1 within 3 %", "[docs/machines.md, ruts]");
   }
   EXPECT_LT(borne[0], 0.95);
   EXPECT_NEAR(borne[1], 1, 0.03);  // mean of a second in which it still rocks

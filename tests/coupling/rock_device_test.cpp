@@ -18,13 +18,15 @@ namespace {
 constexpr double kDepth = 0.15;
 
 TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
-  scene::Scene scene = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+  scene::Scene scene =
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   scene.ground.depth = kDepth;
   scene.machines.at(0).program = {};
   device::Device device;
   sim::World world(scene, device);
   const scene::Machine& machine = world.description().machines.at(0).machine;
-  const int boom = machine.joint_index(machine.arm.boom), bucket = machine.link_index(machine.buckets.at(0).link);
+  const int boom = machine.joint_index(machine.arm.boom),
+            bucket = machine.link_index(machine.buckets.at(0).link);
   world.command(world.machine(0).joint(boom), {vehicle::JointMode::kVelocity, -0.25});
   double lowest = 1, most = 0;
   while (world.time() < 6) {
@@ -33,7 +35,8 @@ TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
       lowest = std::min(lowest, (world.machine(0).link(bucket).pose() * v).z());
     most = std::max(most, world.tools().at(0).rock_force().z());
   }
-  print_value("bucket below the surface of the rock [mm]", 1e3 * (-kDepth - lowest), "<= 10", "vehicle/bullet/rock.h");
+  print_value("bucket below the surface of the rock [mm]", 1e3 * (-kDepth - lowest), "<= 10",
+              "vehicle/bullet/rock.h");
   print_value("rock on the bucket [N]", most, "> 10e3: lifts the front wheels", "test");
   EXPECT_LT(lowest, 0.05 - kDepth) << "it went through the soil";
   EXPECT_GT(lowest, -0.01 - kDepth);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One tyre on columns, rolled at a prescribed speed: what of its resistance is soil that it pushes ahead.
+// One tyre on columns, rolled at a prescribed speed: what of its resistance is soil that it pushes
+// ahead.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +33,9 @@ class NotSunk final : public terramechanics::GroundQuery {
   Vec3 normal(double x, double y) const override { return ground_.normal(x, y); }
   terramechanics::SoilState soil(double x, double y) const override { return ground_.soil(x, y); }
   terramechanics::GroundLattice lattice() const override { return ground_.lattice(); }
-  terramechanics::Sinking sinking(double x, double y) const override { return {ground_.sinking(x, y).work, 0}; }
+  terramechanics::Sinkage sinking(double x, double y) const override {
+    return {ground_.sinking(x, y).work, 0};
+  }
 
  private:
   const GroundView& ground_;
@@ -47,7 +50,8 @@ class RolledTyre {
     motion_.spin_inertia = 60;
   }
 
-  /// At `speed` with the rim at `rim` [m/s] for some seconds. @return the mean force [N] that pushing soil ahead took.
+  /// At `speed` with the rim at `rim` [m/s] for some seconds. @return the mean force [N] that
+  /// pushing soil ahead took.
   double roll(double speed, double rim, double seconds) {
     const terramechanics::GroundQuery& ground = view_;
     double sum = 0;
@@ -96,8 +100,8 @@ TEST_P(RollingTyre, PushesAsMuchAheadWhateverTheCellAndHardlyAnyInItsOwnRut) {
     double depth = 0;
     for (int i = 0; i < 20; ++i) depth -= ground.sample(2.5 + 0.05 * i, 2.03 + 0.16) / 20;
     const double expected = 2 * terramechanics::bulldozing({&soil, 1}, 0.28, 0.525, depth, 1);
-    print_value("rolls freely, pushes ahead [N]", pushed.back(), std::to_string(expected) + " within 5 %",
-                "[Bekker 1969]");
+    print_value("rolls freely, pushes ahead [N]", pushed.back(),
+                std::to_string(expected) + " within 5 %", "[Bekker 1969]");
     // 5 %: the rut is measured between columns, and loads swing a little; found 1.3.
     EXPECT_NEAR(pushed.back() / expected, 1, 0.05) << cell;
     const double locked = tyre.roll(kSpeed, 0, 0.5);

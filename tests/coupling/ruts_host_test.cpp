@@ -108,7 +108,8 @@ TEST(Ruts, SecondPassByAHeavierMachineSinksToWhatItsOwnPressureGives) {
     ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
     Ruts(once).press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
     print_value("20 kN [m]", light, "", "[docs/machines.md, ruts]");
-    print_value("then 44 kN [m]", deepest(twice), std::to_string(deepest(once)) + " by itself", "[Bekker 1969]");
+    print_value("then 44 kN [m]", deepest(twice), std::to_string(deepest(once)) + " by itself",
+                "[Bekker 1969]");
     EXPECT_LT(light, 0.9 * deepest(once));
     EXPECT_NEAR(deepest(twice), deepest(once), 1e-5);
     // Back to the light one: nothing more.
@@ -125,15 +126,17 @@ TEST(Ruts, PressFreshSoilInThemToTheirOldFloorAndNoDeeper) {
   const double floor = ground.height(at.x(), at.y());
   // 15 mm slid in, as a wheel presses it out in many steps.
   const auto fill = [&](double depth) {
-    heightfield::Layer loose = ground.layers(at.x(), at.y()).back();
+    heightfield::SoilLayer loose = ground.layers(at.x(), at.y()).back();
     loose.specific_volume = 1.2f;
     const double area = ground.cell() * ground.cell();
-    loose.mass = std::llround(depth * area * ground.setup().soils[0].bank_density / 1.2 / kMassQuantum);
+    loose.mass =
+        std::llround(depth * area * ground.setup().soils[0].bank_density / 1.2 / kMassQuantum);
     ground.put(at.x(), at.y(), loose);
   };
   fill(0.015);
   EXPECT_NEAR(ground.height(at.x(), at.y()), floor + 0.015, 1e-3);
-  for (double load = 4e3; load <= 44e3; load += 4e3) ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, load)}});
+  for (double load = 4e3; load <= 44e3; load += 4e3)
+    ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, load)}});
   EXPECT_NEAR(ground.height(at.x(), at.y()), floor, 1e-3);
   // More than a tyre presses through stays on it.
   fill(0.2);
@@ -148,13 +151,14 @@ TEST(Ruts, PressedOverTimeEndsWhereOnePressDoes) {
   Ruts(once).press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});
   Ruts ruts(slowly);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}}, 0.0133);
-  EXPECT_LT(deepest(slowly), 0.2 * deepest(once));  // what falls on the ground does not sink at once
+  // What falls on the ground does not sink at once
+  EXPECT_LT(deepest(slowly), 0.2 * deepest(once));
   for (int i = 0; i < 300; ++i) ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}}, 0.0133);
   // Columns keep whole mass quanta: heights are exact to a micrometre, in some dozen presses.
   EXPECT_NEAR(deepest(slowly), deepest(once), 5e-5);
 }
 
-TEST(Ruts, TellTheWorkAndTheDepthOfSinkingWhereATyreStands) {
+TEST(Ruts, ReportTheWorkAndTheSinkageWhereATyreStands) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);
@@ -232,7 +236,8 @@ TEST(Ruts, AreNotPumpedDeeperBySandThatSlidesFromTheirWalls) {
   const double late = deepest(bed.ground);
   double raised = 0, lowered = 0;
   bed.ground.volume_change(raised, lowered);
-  print_value("rut under 44 kN on dry sand after 30 s [m]", late, "0.10 .. 0.16", "[docs/machines.md, ruts]");
+  print_value("rut under 44 kN on dry sand after 30 s [m]", late, "0.10 .. 0.16",
+              "[docs/machines.md, ruts]");
   // Bekker's law for the pressure of this tyre: 0.114 m where the tyre stands on its own sinkage.
   EXPECT_GT(late, 0.10);
   EXPECT_LT(late, 0.16);
@@ -266,25 +271,25 @@ Edges edges(const heightfield::Ground& ground) {
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       std::int64_t mass = 0;
-      std::vector<heightfield::Layer> start;
-      for (const heightfield::Layer& layer : ground.layers(ix, iy)) mass += layer.mass;
+      std::vector<heightfield::SoilLayer> start;
+      for (const heightfield::SoilLayer& layer : ground.layers(ix, iy)) mass += layer.mass;
       ground.start_column(ix, iy, start);
-      for (const heightfield::Layer& layer : start) mass -= layer.mass;
+      for (const heightfield::SoilLayer& layer : start) mass -= layer.mass;
       out.volume += std::max(0.0, kilograms(mass)) / ground.setup().soils[0].bank_density;
       out.height = std::max(out.height, ground.height(ix, iy) - ground.start_height(ix, iy));
     }
   return out;
 }
 
-TEST(Ruts, EdgesRiseByWhatTheGroundCannotBear) {
+TEST(Ruts, EdgesRiseByTheLoadTheGroundCannotSupport) {
   std::vector<double> volume;
   for (const double cell : {0.2, 0.1, 0.05}) {
     heightfield::Ground ground = flat(dry_sand(), static_cast<int>(std::lround(6.4 / cell)), cell);
     Ruts ruts(ground);
     for (int i = 0; i < 300; ++i) ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}}, 0.0133);
     const Edges once = edges(ground);
-    print_value("bank volume pushed aside by 44 kN on dry sand [m3]", once.volume, "equal within 20 % for each cell",
-                "[Terzaghi 1943]");
+    print_value("bank volume pushed aside by 44 kN on dry sand [m3]", once.volume,
+                "equal within 20 % for each cell", "[Terzaghi 1943]");
     double raised = 0, lowered = 0;
     ground.volume_change(raised, lowered);
     print_value("volume of the rut [m3]", lowered, "", "[docs/machines.md, ruts]");
@@ -296,7 +301,8 @@ TEST(Ruts, EdgesRiseByWhatTheGroundCannotBear) {
     // To both sides alike: rows mirror each other to a few units of mass.
     for (int iy = 0; iy < ground.ny(); ++iy)
       for (int ix = 0; ix < ground.nx(); ++ix)
-        EXPECT_NEAR(ground.height(ix, iy), ground.height(ix, ground.ny() - 1 - iy), 1e-5) << ix << " " << iy;
+        EXPECT_NEAR(ground.height(ix, iy), ground.height(ix, ground.ny() - 1 - iy), 1e-5)
+            << ix << " " << iy;
     // Standing on, nothing more goes aside.
     ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}}, 0.0133);
     EXPECT_NEAR(edges(ground).volume, once.volume, 1e-6);
@@ -304,7 +310,7 @@ TEST(Ruts, EdgesRiseByWhatTheGroundCannotBear) {
   for (const double one : volume) EXPECT_NEAR(one / volume[1], 1, 0.2);
 }
 
-TEST(Ruts, EdgesOfGroundThatBearsTheTyreStay) {
+TEST(Ruts, EdgesOfGroundThatSupportsTheTyreStay) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
@@ -312,7 +318,7 @@ TEST(Ruts, EdgesOfGroundThatBearsTheTyreStay) {
   EXPECT_EQ(edges(ground).volume, 0);
 }
 
-TEST(Ruts, WhereNothingCanBeLaidDownItIsPressed) {
+TEST(Ruts, PressesWhereNothingCanBeDeposited) {
   // A site no wider than the wheel.
   heightfield::Ground ground = flat(dry_sand(), 6);
   Ruts ruts(ground);
@@ -330,7 +336,8 @@ TEST(Ruts, OnlyColumnsUnderTheTyresChange) {
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const double dx = std::abs(0.1 * (ix + 0.5) - 3.2), dy = std::abs(0.1 * (iy + 0.5) - 3.2);
       // Twin tyres of 0.28 m at +-0.16 m; the longest chord of a 0.525 m tyre is below 0.6 m here.
-      if (dx > 0.3 || dy > 0.31) EXPECT_EQ(ground.height(ix, iy), ground.start_height(ix, iy)) << ix << " " << iy;
+      if (dx > 0.3 || dy > 0.31)
+        EXPECT_EQ(ground.height(ix, iy), ground.start_height(ix, iy)) << ix << " " << iy;
     }
 }
 

@@ -19,12 +19,14 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kLayer = 0.15;   // loose soil under the machine [m]
-constexpr double kLifted = 0.05;  // it starts so high over the ground, as that rises when it is loosened [m]
+constexpr double kLayer = 0.15;  // loose soil under the machine [m]
+// It starts so high over the ground, as that rises when it is loosened [m]
+constexpr double kLifted = 0.05;
 
 /// The shipped site, flat, of one soil, and one machine without a program.
 scene::Scene yard(const std::string& vehicle, const std::string& soil = "loam") {
-  scene::Scene world = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+  scene::Scene world =
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   for (const scene::Soil& shipped : scene_io::load_soils(navvy::source_dir() + "/terrain/soils"))
     if (shipped.name == soil) world.soils = {shipped};
   world.ground.layers = {{soil, 100}};
@@ -33,7 +35,8 @@ scene::Scene yard(const std::string& vehicle, const std::string& soil = "loam") 
   placed.program = {};
   placed.X_WM.translation().z() += kLifted;
   if (vehicle != "ew180")
-    placed.machine = scene_io::load_machine(navvy::source_dir() + "/vehicles/" + vehicle + "/model.sdf");
+    placed.machine =
+        scene_io::load_machine(navvy::source_dir() + "/vehicles/" + vehicle + "/model.sdf");
   return world;
 }
 
@@ -50,16 +53,18 @@ Vec3 base_place(const sim::World& world) { return world.machine(0).link(0).pose(
 /// A rectangle of loose, remoulded soil on the site, 0.15 m deep; in columns, or awake.
 class Layer {
  public:
-  Layer(sim::World& world, const Vec2& low, const Vec2& high) : world_(world), parts_(sim::parts(world)) {
+  Layer(sim::World& world, const Vec2& low, const Vec2& high)
+      : world_(world), parts_(sim::parts(world)) {
     heightfield::Ground& ground = parts_.ground;
-    const Vec2i first = ground.column_at(low.x(), low.y()), last = ground.column_at(high.x(), high.y());
+    const Vec2i first = ground.column_at(low.x(), low.y()),
+                last = ground.column_at(high.x(), high.y());
     area_ = {first.x(), first.y(), last.x(), last.y()};
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
   void wake() { parts_.soil.wake(area_, foot_); }
-  /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within `around` [m] of a
-  /// wheel's middle.
+  /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within
+  /// `around` [m] of a wheel's middle.
   void keep_awake(double around) {
     if (world_.time() < next_) return;
     next_ = world_.time() + 0.05;
@@ -68,7 +73,8 @@ class Layer {
         const Vec2 p = parts_.ground.origin() + parts_.ground.cell() * Vec2(ix + 0.5, iy + 0.5);
         // Soil that a wheel pushed aside lies under what is awake.
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
-        for (int w = 0; rests && w < 4; ++w) rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
+        for (int w = 0; rests && w < 4; ++w)
+          rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
         if (rests) parts_.soil.wake({ix, iy, ix + 1, iy + 1}, foot_);
       }
   }
@@ -82,9 +88,9 @@ class Layer {
     const auto swell = static_cast<float>(ground.setup().soils[ground.surface_soil(ix, iy)].swell);
     foot_ = ground.height(ix, iy) - kLayer / static_cast<double>(swell);
     rise_ = kLayer - kLayer / static_cast<double>(swell);
-    std::vector<heightfield::Layer> taken;
+    std::vector<heightfield::SoilLayer> taken;
     ground.take_above(ix, iy, foot_, taken);
-    for (heightfield::Layer& layer : taken) {
+    for (heightfield::SoilLayer& layer : taken) {
       layer.specific_volume = swell;
       layer.plastic_shear = 2;
       ground.put(ix, iy, layer);
@@ -106,80 +112,83 @@ void run(
   }
 }
 
-std::string kind(bool awake) { return awake ? "awake" : "columns"; }
+std::string kind(bool active) { return active ? "awake" : "columns"; }
 
-/// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface [m].
-double sinks_where_it_stands(const std::string& soil, bool awake) {
+/// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
+/// [m].
+double sinks_where_it_stands(const std::string& soil, bool active) {
   sim::World world(yard("ew180", soil), shared_device());
   const Vec3 front = wheel_place(world, 0);
   Layer layer(world, {front.x() - 0.9, -1.9}, {front.x() + 0.9, 1.9});
-  if (awake) layer.wake();
+  if (active) layer.wake();
   int most = 0;
   run(world, 2.5, [&] {
-    if (awake) layer.keep_awake(0.7);
+    if (active) layer.keep_awake(0.7);
     most = std::max(most, layer.particles());
   });
-  EXPECT_EQ(most > 5000, awake);
+  EXPECT_EQ(most > 5000, active);
   EXPECT_EQ(world.mass_ledger().error, 0);
   // The machine is alike on both sides, and so is the ground.
   EXPECT_NEAR(wheel_place(world, 0).z(), wheel_place(world, 1).z(), 0.005);
   return front.z() - kLifted + layer.rise() - wheel_place(world, 0).z();
 }
 
-TEST(Spoil, AnExcavatorStandsOnAwakeSoilAsOnColumns) {
+TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
-    const double columns = sinks_where_it_stands(soil, false), awake = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]", awake,
-                std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
-    // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a cell.
-    EXPECT_NEAR(awake, columns, 0.005);
+    const double columns = sinks_where_it_stands(soil, false),
+                 active = sinks_where_it_stands(soil, true);
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]",
+                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
+    // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
+    // cell.
+    EXPECT_NEAR(active, columns, 0.005);
   }
 }
 
-TEST(Spoil, AnExcavatorDrivesOverAwakeSoilAsOverColumns) {
+TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
   double mean[2] = {}, lowest[2] = {1, 1};
-  for (const bool awake : {false, true}) {
+  for (const bool active : {false, true}) {
     sim::World world(yard("ew180"), shared_device());
     const double x = wheel_place(world, 0).x();
     Layer layer(world, {x + 1.0, -1.9}, {x + 2.2, 1.9});
     world.command(world.machine(0), {1.0, 0, false});
     while (wheel_place(world, 0).x() < x + 0.5) world.step();
-    if (awake) layer.wake();
-    int count = 0, over_awake = 0;
+    if (active) layer.wake();
+    int count = 0, over_active = 0;
     while (wheel_place(world, 0).x() < x + 2.0) {
       world.step();
-      if (awake) layer.keep_awake(0.9);
+      if (active) layer.keep_awake(0.9);
       if (wheel_place(world, 0).x() < x + 1.2) continue;
-      mean[awake] += wheel_place(world, 0).z();
-      lowest[awake] = std::min(lowest[awake], wheel_place(world, 0).z());
-      over_awake += layer.particles() > 500 ? 1 : 0;
+      mean[active] += wheel_place(world, 0).z();
+      lowest[active] = std::min(lowest[active], wheel_place(world, 0).z());
+      over_active += layer.particles() > 500 ? 1 : 0;
       ++count;
     }
-    mean[awake] /= count;
-    EXPECT_EQ(2 * over_awake > count, awake);
-    print_value("EW180 drives over 0.15 m of loose loam, " + kind(awake) + ": its axle, mean [m]", mean[awake],
-                std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
-    print_value("lowest [m]", lowest[awake], std::to_string(lowest[0]) + " +-0.01", "the same");
+    mean[active] /= count;
+    EXPECT_EQ(2 * over_active > count, active);
+    print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]",
+                mean[active], std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
+    print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
     EXPECT_EQ(world.mass_ledger().error, 0);
   }
-  // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm, which the tread evens
-  // out over its length.
+  // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm,
+  // which the tread evens out over its length.
   EXPECT_NEAR(mean[1], mean[0], 0.005);
   EXPECT_NEAR(lowest[1], lowest[0], 0.01);
 }
 
-TEST(Spoil, ACrawlerStandsOnAwakeSoilAsOnColumns) {
+TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
   double sinks[2];
-  for (const bool awake : {false, true}) {
+  for (const bool active : {false, true}) {
     sim::World world(yard("ex180_tracked"), shared_device());
     const Vec3 base = base_place(world);
     Layer layer(world, {base.x() - 2.6, -1.8}, {base.x() + 2.6, 1.8});
-    if (awake) layer.wake();
+    if (active) layer.wake();
     int most = 0;
     run(world, 1.0, [&] { most = std::max(most, layer.particles()); });
-    EXPECT_EQ(most > 5000, awake);
-    sinks[awake] = base.z() - kLifted + layer.rise() - base_place(world).z();
-    print_value("EX180 on 0.15 m of loose loam, " + kind(awake) + ": it sinks [m]", sinks[awake],
+    EXPECT_EQ(most > 5000, active);
+    sinks[active] = base.z() - kLifted + layer.rise() - base_place(world).z();
+    print_value("EX180 on 0.15 m of loose loam, " + kind(active) + ": it sinks [m]", sinks[active],
                 std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, footings]");
     EXPECT_EQ(world.mass_ledger().error, 0);
   }

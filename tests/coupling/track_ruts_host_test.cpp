@@ -27,7 +27,7 @@ heightfield::Ground flat_loam() {
 }
 
 /// 0.4 m of a belt of 0.6 m under `load` [N].
-terramechanics::BeltPatch patch_at(double x, double y, double load) {
+terramechanics::TrackPatch patch_at(double x, double y, double load) {
   return {Vec3(x, y, 0), Vec3::UnitX(), 0.4, 0.6, load};
 }
 
@@ -49,13 +49,13 @@ TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
   const Vec2i at = ground.column_at(3.2, 3.2);
   EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 1e-4);
   ruts.press({patch_at(3.2, 3.2, 24e3)}, kFar, true);
-  EXPECT_NEAR(ground.height(at.x(), at.y()), -terramechanics::plate_sinkage(ground.setup().soils[0], 2 * pressure, 0.6),
-              2e-4);
+  EXPECT_NEAR(ground.height(at.x(), at.y()),
+              -terramechanics::plate_sinkage(ground.setup().soils[0], 2 * pressure, 0.6), 2e-4);
   // Pressed, not lost.
   for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
 }
 
-TEST(TrackRuts, RaiseTheirEdgesByWhatTheGroundCannotBear) {
+TEST(TrackRuts, RaiseTheirEdgesByTheLoadTheGroundCannotSupport) {
   heightfield::Ground ground = flat_loam();
   Ruts tyres(ground);
   TrackRuts ruts(ground, tyres);
@@ -79,20 +79,20 @@ TEST(TrackRuts, PressTyresRutsOnlyByWhatTheyPressMoreAndTyresTheirs) {
   vehicle::WheelState under_load;
   under_load.X_WWheel.translation() = Vec3(3.2, 3.2, 0.5);
   under_load.force_W = Vec3(0, 0, 20e3);
-  const auto depth = [&](const std::vector<bool>& belt_first) {
+  const auto depth = [&](const std::vector<bool>& track_first) {
     heightfield::Ground ground = flat_loam();
     Ruts tyres(ground);
-    TrackRuts belts(ground, tyres);
-    for (const bool belt : belt_first)
-      if (belt)
-        belts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
+    TrackRuts running_tracks(ground, tyres);
+    for (const bool running_track : track_first)
+      if (running_track)
+        running_tracks.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
       else
         tyres.press({{wheel, under_load}});
     const Vec2i at = ground.column_at(3.2, 3.2);
     return -ground.height(at.x(), at.y());
   };
-  const double belt = depth({true}), tyre = depth({false});
-  EXPECT_GT(tyre, 1.5 * belt);
+  const double running_track = depth({true}), tyre = depth({false});
+  EXPECT_GT(tyre, 1.5 * running_track);
   // Plates of two widths: a pressure is remembered, and sinks the wider one a little more.
   EXPECT_NEAR(depth({true, false}), tyre, 0.02 * tyre);
   EXPECT_NEAR(depth({false, true}), tyre, 0.02 * tyre);
@@ -102,16 +102,16 @@ TEST(TrackRuts, HoldWhatTyresHoldBesides) {
   heightfield::Ground ground = flat_loam();
   Ruts tyres(ground);
   TrackRuts ruts(ground, tyres);
-  const Vec2i tyre = ground.column_at(1, 1), belt = ground.column_at(3.2, 3.2);
+  const Vec2i tyre = ground.column_at(1, 1), running_track = ground.column_at(3.2, 3.2);
   ground.hold({static_cast<std::int64_t>(tyre.y()) * ground.nx() + tyre.x()});
   ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, false);
   EXPECT_TRUE(ground.held(tyre.x(), tyre.y()));
-  EXPECT_TRUE(ground.held(belt.x(), belt.y()));
+  EXPECT_TRUE(ground.held(running_track.x(), running_track.y()));
   ruts.press({}, kFar, true);
-  EXPECT_FALSE(ground.held(belt.x(), belt.y()));
+  EXPECT_FALSE(ground.held(running_track.x(), running_track.y()));
 }
 
-TEST(TrackRuts, GiveWayNoFasterThanTold) {
+TEST(TrackRuts, YieldNoFasterThanTheLimit) {
   heightfield::Ground ground = flat_loam();
   Ruts tyres(ground);
   TrackRuts ruts(ground, tyres);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator on columns as they are: into a trench of its own size, onto spoil, two machines on one ground.
+// The excavator on columns as they are: into a trench of its own size, onto spoil, two machines on
+// one ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +17,11 @@ namespace {
 
 constexpr double kWheelRadius = 0.525;
 
-/// The shipped site with these shapes instead of its own; excavators side by side with their rear axles at x = -9,
-/// 6 m apart to the left, without programs.
+/// The shipped site with these shapes instead of its own; excavators side by side with their rear
+/// axles at x = -9, 6 m apart to the left, without programs.
 scene::Scene yard(const std::vector<scene::GroundFeature>& features, int machines = 1) {
-  scene::Scene world = scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
+  scene::Scene world =
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
   world.ground.features = features;
   world.machines.at(0).program = {};
   for (int m = 1; m < machines; ++m) {
@@ -79,7 +81,8 @@ TEST(Wheels, RiseOnASpoilHeapOnOneSideOnly) {
   run(world, 6, [&] {
     left = std::max(left, wheel_height(world, 0, 0));
     right = std::max(right, wheel_height(world, 0, 1));
-    for (int w = 0; w < 4; ++w) fastest = std::max(fastest, std::abs(world.machine(0).wheel(w).state().v_W.z()));
+    for (int w = 0; w < 4; ++w)
+      fastest = std::max(fastest, std::abs(world.machine(0).wheel(w).state().v_W.z()));
   });
   EXPECT_GT(left, kWheelRadius + 0.15);  // of 0.3 m: the tyre presses a rut into the top
   EXPECT_LT(right, kWheelRadius + 0.05);
@@ -93,9 +96,11 @@ TEST(Wheels, StandOnASlopeFromTheStartAndClimbIt) {
   sim::World world(yard({slope}), shared_device());
   double most = 0;
   run(world, 1, [&] {
-    for (int w = 0; w < 4; ++w) most = std::max(most, world.machine(0).wheel(w).state().force_W.norm());
+    for (int w = 0; w < 4; ++w)
+      most = std::max(most, world.machine(0).wheel(w).state().force_W.norm());
   });
-  // The heaviest wheel of the standing machine carries 0.35 of its weight; it settles on tyres that bend by 30 mm.
+  // The heaviest wheel of the standing machine carries 0.35 of its weight; it settles on tyres that
+  // bend by 30 mm.
   EXPECT_LT(most, 0.6 * 18000 * kGravity);
   world.command(world.machine(0), {0.8, 0, false});
   run(world, 5, [] {});
@@ -106,12 +111,14 @@ TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
   scene::GroundFeature slope;
   slope.kind = scene::GroundFeature::Kind::kSlope;
   slope.angle = radians(6);
-  for (const auto& features : {std::vector<scene::GroundFeature>{}, std::vector<scene::GroundFeature>{slope}}) {
+  for (const auto& features :
+       {std::vector<scene::GroundFeature>{}, std::vector<scene::GroundFeature>{slope}}) {
     scene::Scene lifted = yard(features);
     lifted.machines[0].X_WM.translation().z() += 1.0;
     lifted.machines[0].X_WM.linear() = make_pose(0, 0, 0, 0.1, 0.2, 0).linear();
-    const sim::World as_it_is(yard(features), shared_device()), as_told(lifted, shared_device());
-    const Pose a = as_it_is.machine(0).link(0).pose(), b = as_told.machine(0).link(0).pose();
+    const sim::World as_it_is(yard(features), shared_device()),
+        as_commanded(lifted, shared_device());
+    const Pose a = as_it_is.machine(0).link(0).pose(), b = as_commanded.machine(0).link(0).pose();
     EXPECT_NEAR(b.translation().z() - a.translation().z(), 1.0, 1e-6);
     const Mat3 turn = a.linear().transpose() * b.linear();
     EXPECT_NEAR((turn - make_pose(0, 0, 0, 0.1, 0.2, 0).linear()).norm(), 0, 1e-9);
@@ -124,9 +131,11 @@ TEST(Wheels, OfTwoExcavatorsRollAsIfEachWereAlone) {
     world->command(world->machine(0), {1.0, 0, false});
     run(*world, 1.5, [] {});
   }
-  const Vec3 difference = both.machine(0).link(0).pose().translation() - alone.machine(0).link(0).pose().translation();
+  const Vec3 difference =
+      both.machine(0).link(0).pose().translation() - alone.machine(0).link(0).pose().translation();
   EXPECT_GT(alone.machine(0).link(0).pose().translation().x(), -9 + 0.2);
-  // One sweep of the joint solver serves both machines; what it leaves grows in the ruts: 2 mm of 0.5 m measured.
+  // One sweep of the joint solver serves both machines; what it leaves grows in the ruts: 2 mm of
+  // 0.5 m measured.
   EXPECT_LT(difference.norm(), 0.01 * (alone.machine(0).link(0).pose().translation().x() + 9));
   // The other one stands where it stood; 5 mm: it settles on its tyres.
   EXPECT_LT((both.machine(1).link(0).pose().translation() - Vec3(-9, 6, 0)).head<2>().norm(), 5e-3);

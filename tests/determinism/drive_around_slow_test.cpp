@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator digs across its own way and goes round: with 1 and 2 threads, and gone on with in mid-path.
+// The excavator digs across its own way and goes round: with 1 and 2 threads, and gone on with in
+// mid-path.
 #include <cstdlib>
 
 #include "determinism/hashed_run.h"
@@ -28,17 +29,19 @@ bool crosses_trench(const std::string& name, int number) {
 TEST(DriveAround, GoesRoundItsOwnTrenchWithTheSameBitsEachTime) {
   const std::string snapshot = (run_folder("snapshots") / "mid_path").string();
   std::filesystem::create_directories(run_folder("snapshots"));
-  const HashedRun one =
-      hashed_run("one", "drive_around_trench.sdf", {"--snapshot", snapshot, "--snapshot-at", "62"}, threads(1));
+  const HashedRun one = hashed_run("one", "drive_around_trench.sdf",
+                                   {"--snapshot", snapshot, "--snapshot-at", "62"}, threads(1));
   const HashedRun two = hashed_run("two", "drive_around_trench.sdf", {}, threads(2));
-  const HashedRun rest = hashed_run("resumed", "drive_around_trench.sdf", {"--resume", snapshot}, threads(2));
+  const HashedRun rest =
+      hashed_run("resumed", "drive_around_trench.sdf", {"--resume", snapshot}, threads(2));
   EXPECT_EQ(first_difference(one, two), "");
   ASSERT_FALSE(rest.at.empty());
   EXPECT_EQ(first_difference(one, rest, rest.at.begin()->first), "");
   for (const HashedRun* run : {&one, &two, &rest}) {
     EXPECT_EQ(run->summary.at("status"), "finished");
     EXPECT_EQ(run->summary.at("state_hash"), one.summary.at("state_hash"));
-    for (const char* name : {"plans", "cusps", "driven_m", "goal_miss_m", "goal_miss_deg", "least_clearance_m"})
+    for (const char* name :
+         {"plans", "cusps", "driven_m", "goal_miss_m", "goal_miss_deg", "least_clearance_m"})
       std::printf("%s: %g\n", name, figure(*run, name));
     EXPECT_GE(figure(*run, "plans"), 2);
     EXPECT_LT(figure(*run, "goal_miss_m"), 0.5);

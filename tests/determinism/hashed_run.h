@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy run --hash-every` in a process of its own, with an environment of its own, and two such runs side by side.
+// `navvy run --hash-every` in a process of its own, with an environment of its own, and two such
+// runs side by side.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,8 +30,11 @@ inline Environment threads(int count) {
   return {{"POCL_MAX_PTHREAD_COUNT", n}, {"POCL_CPU_MAX_CU_COUNT", n}};
 }
 
-/// Kernels for AVX2: PoCL compiles for the processor it is told, so a machine with AVX-512 shows both sides.
-inline Environment avx2() { return {{"POCL_LLVM_CPU_NAME", "haswell"}, {"POCL_KERNELLIB_NAME", "avx2"}}; }
+/// Kernels for AVX2: PoCL compiles for the processor it is told, so a machine with AVX-512 shows
+/// both sides.
+inline Environment avx2() {
+  return {{"POCL_LLVM_CPU_NAME", "haswell"}, {"POCL_KERNELLIB_NAME", "avx2"}};
+}
 
 using test::text_of;
 
@@ -49,9 +53,11 @@ inline std::filesystem::path run_folder(const std::string& name) {
          testing::UnitTest::GetInstance()->current_test_info()->name() / name;
 }
 
-/// Runs `scene`, a shipped one or a path, with `options` on the CPU, without pictures unless `pictures`.
-inline HashedRun hashed_run(const std::string& name, const std::string& scene, std::vector<std::string> options,
-                            const Environment& environment, bool pictures = false) {
+/// Runs `scene`, a shipped one or a path, with `options` on the CPU, without pictures unless
+/// `pictures`.
+inline HashedRun hashed_run(const std::string& name, const std::string& scene,
+                            std::vector<std::string> options, const Environment& environment,
+                            bool pictures = false) {
   const std::filesystem::path directory = run_folder(name);
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
@@ -65,12 +71,14 @@ inline HashedRun hashed_run(const std::string& name, const std::string& scene, s
   arguments.insert(arguments.end(), options.begin(), options.end());
   HashedRun run;
   const std::string err = (directory / "stderr").string();
-  run.status = test::wait_for(test::start({NAVVY_PROGRAM, arguments, environment, "/dev/null", "/dev/null", err}));
+  run.status = test::wait_for(
+      test::start({NAVVY_PROGRAM, arguments, environment, "/dev/null", "/dev/null", err}));
   const std::string said = text_of(err);
   EXPECT_EQ(run.status, 0) << said;
   std::istringstream lines(said);
   for (std::string line; std::getline(lines, line);)
-    if (line.find("compute unit") != std::string::npos) run.device = line.substr(line.find("device"));
+    if (line.find("compute unit") != std::string::npos)
+      run.device = line.substr(line.find("device"));
   std::istringstream rows(text_of(out + "/hashes.csv"));
   std::getline(rows, run.header);
   for (std::string row; std::getline(rows, row);) run.at[std::stoull(row)] = row;
@@ -85,12 +93,15 @@ inline std::vector<std::string> cells_of(const std::string& row) {
   return out;
 }
 
-/// "" when all rows from `from` on are equal; else the first that is not, with the parts that differ in it.
-inline std::string first_difference(const HashedRun& a, const HashedRun& b, std::uint64_t from = 0) {
+/// "" when all rows from `from` on are equal; else the first that is not, with the parts that
+/// differ in it.
+inline std::string first_difference(const HashedRun& a, const HashedRun& b,
+                                    std::uint64_t from = 0) {
   const std::vector<std::string> names = cells_of(a.header);
   for (auto row = a.at.lower_bound(from); row != a.at.end(); ++row) {
     const auto other = b.at.find(row->first);
-    if (other == b.at.end()) return "step " + std::to_string(row->first) + " is missing in the second run";
+    if (other == b.at.end())
+      return "step " + std::to_string(row->first) + " is missing in the second run";
     if (row->second == other->second) continue;
     const std::vector<std::string> one = cells_of(row->second), two = cells_of(other->second);
     std::string out = "first different at step " + one[0] + ", t = " + one[1] + " s, in";

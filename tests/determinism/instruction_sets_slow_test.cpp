@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A minute of the trench in kernels built for AVX2 and for this processor, hashes every simulated second.
+// A minute of the trench in kernels built for AVX2 and for this processor, hashes every simulated
+// second.
 #include "determinism/hashed_run.h"
 
 namespace navvy::determinism {
@@ -7,9 +8,11 @@ namespace {
 
 TEST(InstructionSets, AMinuteOfDiggingIsTheSameBitsForAvx2AndAvx512) {
   const HashedRun own = hashed_run("own60", "trench.sdf", {"--duration", "60"}, {});
-  if (own.device.find("avx512") == std::string::npos) GTEST_SKIP() << "no AVX-512 here: " << own.device;
+  if (own.device.find("avx512") == std::string::npos)
+    GTEST_SKIP() << "no AVX-512 here: " << own.device;
   const HashedRun other = hashed_run("avx260", "trench.sdf", {"--duration", "60"}, avx2());
-  if (other.device == own.device) GTEST_SKIP() << "this PoCL does not take a processor's name: " << own.device;
+  if (other.device == own.device)
+    GTEST_SKIP() << "this PoCL does not take a processor's name: " << own.device;
   EXPECT_EQ(first_difference(own, other), "");
   EXPECT_GE(own.at.size(), 61u);
 }

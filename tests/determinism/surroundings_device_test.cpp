@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is no part of a run's physics does not change it: pictures, and the folder that scene, machines and soils lie
-// in.
+// What is no part of a run's physics does not change it: pictures, and the folder that scene,
+// machines and soils lie in.
 #include "determinism/hashed_run.h"
 
 namespace navvy::determinism {
@@ -25,14 +25,16 @@ TEST(Surroundings, AnotherFolderChangesNoBit) {
   const fs::path copy = run_folder("a copy of it all");
   fs::remove_all(copy);
   for (const char* part : {"scenarios", "vehicles", "terrain"})
-    fs::create_directories(copy), fs::copy(fs::path(source_dir()) / part, copy / part, fs::copy_options::recursive);
-  const HashedRun there = hashed_run("there", (copy / "scenarios" / kScene).string(), {"--duration", "2"},
-                                     {{"NAVVY_DATA_DIR", copy.string()}, {"HOME", copy.string()}});
+    fs::create_directories(copy),
+        fs::copy(fs::path(source_dir()) / part, copy / part, fs::copy_options::recursive);
+  const HashedRun there =
+      hashed_run("there", (copy / "scenarios" / kScene).string(), {"--duration", "2"},
+                 {{"NAVVY_DATA_DIR", copy.string()}, {"HOME", copy.string()}});
   EXPECT_EQ(first_difference(here, there), "");
   EXPECT_EQ(here.summary.at("state_hash"), there.summary.at("state_hash"));
   // The scene that a run leaves is the run again, from where it lies.
-  const HashedRun again =
-      hashed_run("again", (run_folder("here") / "out" / "scene.sdf").string(), {"--duration", "2"}, {});
+  const HashedRun again = hashed_run("again", (run_folder("here") / "out" / "scene.sdf").string(),
+                                     {"--duration", "2"}, {});
   EXPECT_EQ(first_difference(here, again), "");
 }
 

@@ -23,9 +23,10 @@ TEST(Threads, OneAndTwoThreadsScoopTheSameBits) {
 
 TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
   const std::string snapshot = navvy::build_dir() + "/test-determinism/resume.snapshot";
-  const HashedRun whole =
-      hashed_run("whole", kScene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.5"}, {});
-  const HashedRun resumed = hashed_run("resumed", kScene, {"--duration", "4", "--resume", snapshot}, {});
+  const HashedRun whole = hashed_run(
+      "whole", kScene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.5"}, {});
+  const HashedRun resumed =
+      hashed_run("resumed", kScene, {"--duration", "4", "--resume", snapshot}, {});
   ASSERT_FALSE(resumed.at.empty());
   const std::uint64_t from = resumed.at.begin()->first;
   EXPECT_LT(from, whole.at.rbegin()->first);
@@ -33,15 +34,17 @@ TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
 }
 
 /// Wheels on soil that is awake, which becomes columns under them.
-TEST(Threads, OneAndTwoThreadsBearAWheelOnAwakeSoilWithTheSameBits) {
+TEST(Threads, OneAndTwoThreadsGiveBitIdenticalWheelsOnActiveSoil) {
   const std::string scene = navvy::source_dir() + "/tests/determinism/spoil.sdf";
   const std::string snapshot = (run_folder("snapshot") / "spoil.snapshot").string();
   std::filesystem::create_directories(run_folder("snapshot"));
   const HashedRun one =
-      hashed_run("one", scene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.3"}, threads(1));
+      hashed_run("one", scene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.3"},
+                 threads(1));
   const HashedRun two = hashed_run("two", scene, {"--duration", "4"}, threads(2));
   EXPECT_EQ(first_difference(one, two), "");
-  const HashedRun resumed = hashed_run("resumed", scene, {"--duration", "4", "--resume", snapshot}, threads(2));
+  const HashedRun resumed =
+      hashed_run("resumed", scene, {"--duration", "4", "--resume", snapshot}, threads(2));
   ASSERT_FALSE(resumed.at.empty());
   EXPECT_EQ(first_difference(one, resumed, resumed.at.begin()->first), "");
 }

@@ -110,7 +110,9 @@ TEST(Buffer, SaysHowMuchMemoryCouldNotBeHad) {
     Buffer<char> buffer(device, std::size_t{1} << 50);
     FAIL() << "a petabyte was allocated";
   } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("1125899906842624 bytes failed: CL_"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("1125899906842624 bytes failed: CL_"),
+              std::string::npos)
+        << error.what();
     EXPECT_NE(std::string(error.what()).find(device.info().name), std::string::npos);
   }
 }

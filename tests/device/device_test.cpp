@@ -9,7 +9,7 @@
 #include <string>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 
 namespace navvy::device {
 namespace {
@@ -68,7 +68,7 @@ TEST(Device, IsPickedByTheEnvironmentUnlessOneIsNamed) {
   EXPECT_EQ(Device("0").info().index, 0);
 }
 
-TEST(Device, TellsWhatExistsWhenNoneMatches) {
+TEST(Device, ListsTheDevicesWhenNoneMatches) {
   const std::string text = message_of("quantum");
   EXPECT_NE(text.find("no OpenCL device matches 'quantum'"), std::string::npos) << text;
   EXPECT_NE(text.find(list_devices().front().name), std::string::npos) << text;
@@ -90,13 +90,15 @@ TEST(DeviceDeathTest, SaysWhatToInstallWhereThereIsNoPlatform) {
     }
     std::exit(5);
   };
-  EXPECT_EXIT(without_platform(), testing::ExitedWithCode(3), "no OpenCL device: .*apt-get install pocl-opencl-icd");
+  EXPECT_EXIT(without_platform(), testing::ExitedWithCode(3),
+              "no OpenCL device: .*apt-get install pocl-opencl-icd");
 }
 
 TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
   Device device;
-  const Program program = Program::from_text(
-      device, "spin", "kernel void spin(global int* x) { for (int i = 0; i < 1000; ++i) x[0] = x[0] * 3 + i; }");
+  const KernelProgram program = KernelProgram::from_text(
+      device, "spin",
+      "kernel void spin(global int* x) { for (int i = 0; i < 1000; ++i) x[0] = x[0] * 3 + i; }");
   Buffer<int> x(device, 1);
   x.fill(0);
   Kernel spin(program, "spin");
@@ -113,7 +115,7 @@ TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
   EXPECT_TRUE(device.profile().empty());
 }
 
-TEST(Device, IsKeptAliveByItsBuffers) {
+TEST(Device, IsHeldAliveByItsBuffers) {
   Buffer<int> buffer;
   {
     Device device;

@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "device/device.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "device/slow_call.h"
 #include "folder.h"
 #include "process.h"
@@ -47,7 +47,8 @@ void fill(const fs::path& folder) {
 TEST(KernelCache, KeepsWhatIsAsItWasListed) {
   const test::Folder folder;
   fill(folder.path());
-  write(folder.path() / "AB/one/last_accessed", "later");  // the driver's own stamp is no sign of damage
+  // The driver's own stamp is no sign of damage
+  write(folder.path() / "AB/one/last_accessed", "later");
   const KernelCache cache(folder.path());
   EXPECT_EQ(cache.whole(), 4u);
   EXPECT_EQ(cache.removed(), 0u);
@@ -87,7 +88,8 @@ TEST(KernelCache, RemovesWhatAKilledProcessLeftWhenAloneOnly) {
   write(folder.path() / "tempfile_a1b2", "half");
   const KernelCache cache(folder.path());
   EXPECT_EQ(cache.whole(), 5u) << "two programs of two files, and the neighbour's";
-  EXPECT_EQ(cache.removed(), 1u) << "a temporary file is no damage: the driver leaves one in every run";
+  EXPECT_EQ(cache.removed(), 1u)
+      << "a temporary file is no damage: the driver leaves one in every run";
   EXPECT_FALSE(fs::exists(folder.path() / "GH/four"));
   EXPECT_FALSE(fs::exists(folder.path() / "tempfile_a1b2"));
 }
@@ -106,7 +108,8 @@ TEST(KernelCache, LeavesWhatANeighbourCompilesInPlaceOfADamagedProgram) {
   EXPECT_TRUE(fs::exists(code));
 }
 
-// PoCL's bitcode names the temporary file that it was compiled from: no two processes write the same bytes.
+// PoCL's bitcode names the temporary file that it was compiled from: no two processes write the
+// same bytes.
 TEST(KernelCache, TwoThatCompileOneProgramLeaveItWhole) {
   const test::Folder folder;
   const fs::path code = folder.path() / "AB/one/program.bc";
@@ -129,7 +132,8 @@ TEST(KernelCache, ThatOpensBesideTwoThatCompileOneProgramRemovesNothing) {
   write(code, "compiled by the first");
   first.seal();
   write(code, "compiled by another");
-  fs::last_write_time(code, fs::last_write_time(folder.path() / "navvy.manifest") + std::chrono::seconds(1));
+  fs::last_write_time(
+      code, fs::last_write_time(folder.path() / "navvy.manifest") + std::chrono::seconds(1));
   EXPECT_EQ(KernelCache(folder.path()).removed(), 0u);
   EXPECT_TRUE(fs::exists(code));
 }
@@ -139,8 +143,8 @@ TEST(KernelCache, ADamagedListOnlyCostsCompiling) {
   fill(folder.path());
   const fs::path manifest = folder.path() / "navvy.manifest";
   const std::string whole = text_of(manifest);
-  for (const std::string& text :
-       {std::string(), std::string("another layout\n"), whole.substr(0, whole.size() / 2), std::string(1000, '\xff')}) {
+  for (const std::string& text : {std::string(), std::string("another layout\n"),
+                                  whole.substr(0, whole.size() / 2), std::string(1000, '\xff')}) {
     fill(folder.path());
     write(manifest, text);
     EXPECT_NO_THROW(KernelCache{folder.path()}) << text;

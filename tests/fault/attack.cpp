@@ -59,8 +59,8 @@ std::vector<std::pair<std::string, std::string>> environment_of(const Attack& wi
   return out;
 }
 
-/// A device that gave no memory: status 3, words that say so, and a summary with books that are closed. Nothing is
-/// wrong with a run that ended before it had a summary.
+/// A device that gave no memory: status 3, words that say so, and a summary with books that are
+/// closed. Nothing is wrong with a run that ended before it had a summary.
 std::string broken_by_full_device(const nlohmann::json& summary, const Outcome& got) {
   if (got.status != 3) return "ended with " + std::to_string(got.status);
   if (got.said.find("clCreateBuffer") == std::string::npos) return "does not name what failed";
@@ -71,8 +71,8 @@ std::string broken_by_full_device(const nlohmann::json& summary, const Outcome& 
   return units == 0 ? "" : "the mass ledger is open: " + units.dump();
 }
 
-/// Whether a process still gets on: a machine that is full of others gives it a second of a processor in minutes, and
-/// one that hangs uses none, or more than its patience.
+/// Whether a process still gets on: a machine that is full of others gives it a second of a
+/// processor in minutes, and one that hangs uses none, or more than its patience.
 class Patience {
  public:
   Patience(pid_t process, double limit) : process_(process), limit_(limit) {}
@@ -91,11 +91,14 @@ class Patience {
   double limit_, until_ = 0, had_ = 0;
 };
 
-/// Exit status of the process, or minus its signal, whether it ended by itself or was killed, at `kill_after` [s] where
-/// that is not 0 and else when it has hung for `patience` [s]; true when it was killed.
+/// Exit status of the process, or minus its signal, whether it ended by itself or was killed, at
+/// `kill_after` [s] where that is not 0 and else when it has hung for `patience` [s]; true when it
+/// was killed.
 bool wait_or_kill(pid_t child, double kill_after, double patience, int& status) {
   const auto begun = std::chrono::steady_clock::now();
-  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); };
+  const auto spent = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  };
   Patience left(child, patience);
   const auto over = [&] { return kill_after > 0 ? spent() >= kill_after : left.ended(spent()); };
   int raw = 0;
@@ -122,9 +125,10 @@ double processor_time(pid_t process) {
 }
 
 std::vector<std::string> small_run(bool drawing) {
-  std::vector<std::string> out{
-      "run", navvy::source_dir() + "/scenarios/bucket_path.sdf", "--duration", "0.2", "--hash-every", "0.1", "--device",
-      "cpu"};
+  std::vector<std::string> out{"run",          navvy::source_dir() + "/scenarios/bucket_path.sdf",
+                               "--duration",   "0.2",
+                               "--hash-every", "0.1",
+                               "--device",     "cpu"};
   if (drawing)
     out.insert(out.end(), {"--set", "camera.rate_hz=10"});
   else
@@ -153,16 +157,16 @@ std::string broken_files(const std::string& out, bool killed) {
   return "";
 }
 
-Outcome attack(const std::string& folder, const std::vector<std::string>& arguments, const Attack& with,
-               const std::string& hash) {
+Outcome attack(const std::string& folder, const std::vector<std::string>& arguments,
+               const Attack& with, const std::string& hash) {
   const std::string out = folder + "/out";
   fs::create_directories(folder);
   fs::remove_all(out);
   std::vector<std::string> all = arguments;
   all.insert(all.end(), {"--out", out});
   const auto begun = std::chrono::steady_clock::now();
-  const pid_t child =
-      test::start({NAVVY_PROGRAM, all, environment_of(with), "/dev/null", "/dev/null", folder + "/stderr"});
+  const pid_t child = test::start(
+      {NAVVY_PROGRAM, all, environment_of(with), "/dev/null", "/dev/null", folder + "/stderr"});
   Outcome got;
   const bool cut = wait_or_kill(child, with.kill_after, with.patience, got.status);
   got.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -170,7 +174,8 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
   const auto summary = nlohmann::json::parse(text_of(out + "/summary.json"), nullptr, false);
   if (summary.is_object()) {
     got.summary = summary.value("status", "");
-    if (summary.contains("state_hash") && summary["state_hash"].is_string()) got.hash = summary["state_hash"];
+    if (summary.contains("state_hash") && summary["state_hash"].is_string())
+      got.hash = summary["state_hash"];
   }
   const bool killed = with.kill_after > 0 && cut;
   static const std::set<int> kTable = {0, 1, 2, 3, 4, 5, 6, 130};
@@ -189,7 +194,8 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
     got.broken = broken_by_full_device(summary, got);
   else if (got.summary == "running")
     got.broken = "the summary still says running";
-  else if (got.status == 0 && got.summary != "finished" && got.summary != "incomplete")  // --duration cuts it off
+  // --duration cuts it off
+  else if (got.status == 0 && got.summary != "finished" && got.summary != "incomplete")
     got.broken = "status 0 and a summary that says '" + got.summary + "'";
   else if (got.status == 0 && !hash.empty() && got.hash != hash)
     got.broken = "another result";
@@ -197,7 +203,8 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
 }
 
 std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,
-                                                      const std::vector<std::string>& arguments, const Attack& with) {
+                                                      const std::vector<std::string>& arguments,
+                                                      const Attack& with) {
   Attack counting = with;
   fs::create_directories(folder);
   const std::string file = folder + "/counts";
@@ -208,7 +215,8 @@ std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,
   std::istringstream lines(text_of(file));
   std::string name;
   long count = 0;
-  // Programs that the driver starts tell theirs as well, before; the last lines, one a kind of call, are navvy's own.
+  // Programs that the driver starts tell theirs as well, before; the last lines, one a kind of
+  // call, are navvy's own.
   while (lines >> name >> count) out.emplace_back(name, count);
   if (out.size() > kKinds) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(kKinds));
   return out;

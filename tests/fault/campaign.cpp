@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole campaign (`./dev fault`): every open, write, fsync and rename of a small run fails once, every buffer on
-// the device, some hundred times our own memory, some hundred kills while it compiles and draws. Goes on where it
-// stopped; its table stands in a CSV.
+// The whole campaign (`./dev fault`): every open, write, fsync and rename of a small run fails
+// once, every buffer on the device, some hundred times our own memory, some hundred kills while it
+// compiles and draws. Goes on where it stopped; its table stands in a CSV.
 //
-// An attack costs what it takes to start the program, three tenths of a second of a core: the run itself is a fifth of
-// that, and its kernels come out of a cache that all attacks of a lane share unless the attack is on compiling.
+// An attack costs what it takes to start the program, three tenths of a second of a core: the run
+// itself is a fifth of that, and its kernels come out of a cache that all attacks of a lane share
+// unless the attack is on compiling.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -31,7 +32,8 @@ namespace fs = std::filesystem;
 
 constexpr long kAllocations = 500;  ///< of our own frames that fail, spread evenly over the run
 constexpr int kKills = 250;         ///< of each kind
-constexpr int kLookAgain = 25;      ///< attacks of a lane after which a run without any must still be sound
+/// Attacks of a lane after which a run without any must still be sound.
+constexpr int kLookAgain = 25;
 
 /// What was tried is known by its name, in this file and in the table.
 class Table {
@@ -45,8 +47,8 @@ class Table {
   }
   bool has(const std::string& name) const { return done_.count(name) > 0; }
   void add(const std::string& name, const Outcome& got) {
-    std::ofstream(path_, std::ios::app) << name << ',' << got.status << ',' << got.summary << ',' << got.seconds << ','
-                                        << got.broken << '\n';
+    std::ofstream(path_, std::ios::app) << name << ',' << got.status << ',' << got.summary << ','
+                                        << got.seconds << ',' << got.broken << '\n';
     done_.insert(name);
   }
   /// Prints counts by kind of attack and by status, and what did not survive. True when all did.
@@ -82,7 +84,8 @@ bool Table::tell() const {
   }
   for (const auto& [kind, row] : rows) {
     std::printf("%-14s %5d tried, %5d survived;", kind.c_str(), row.tried, row.survived);
-    for (const auto& [status, count] : row.statuses) std::printf(" status %s: %d", status.c_str(), count);
+    for (const auto& [status, count] : row.statuses)
+      std::printf(" status %s: %d", status.c_str(), count);
     std::printf("\n");
   }
   return all;
@@ -113,15 +116,16 @@ class Lane {
     folder_ = folder;
     fs::create_directories(folder_);
     fs::remove_all(folder_ + "/cold");
-    // One worker of the driver: what is counted is then the same every time, and a lane takes one core at most.
+    // One worker of the driver: what is counted is then the same every time, and a lane takes one
+    // core at most.
     none_.environment = {{"POCL_CACHE_DIR", folder_ + "/cache"}, {"POCL_MAX_PTHREAD_COUNT", "1"}};
     cold_.environment = {{"POCL_CACHE_DIR", folder_ + "/cold"}, {"POCL_MAX_PTHREAD_COUNT", "1"}};
   }
   Outcome require_sound(const std::vector<std::string>& arguments, const Attack& with) const {
     Outcome out = attack(folder_, arguments, with);
     if (out.status == 0 && out.broken.empty()) return out;
-    throw std::runtime_error("the run fails without any attack (status " + std::to_string(out.status) +
-                             "): " + out.broken + "\n" + out.said);
+    throw std::runtime_error("the run fails without any attack (status " +
+                             std::to_string(out.status) + "): " + out.broken + "\n" + out.said);
   }
   Outcome killed(bool compiling, std::uint64_t number);
 
@@ -141,7 +145,8 @@ std::vector<std::string> Lane::all() const {
     const long step = call == "new" ? std::max(1L, count / kAllocations) : 1;
     const auto& names = codes.at(call);
     for (long n = 1; n <= count; n += step)
-      out.push_back(call + ":" + std::to_string(n) + ":" + names[static_cast<std::size_t>(n) % names.size()]);
+      out.push_back(call + ":" + std::to_string(n) + ":" +
+                    names[static_cast<std::size_t>(n) % names.size()]);
   }
   for (int i = 0; i < kKills; ++i) {
     out.push_back("kill-compiling:" + std::to_string(i));
@@ -150,8 +155,8 @@ std::vector<std::string> Lane::all() const {
   return out;
 }
 
-/// At a moment that the number decides. A run that ended before, as the machine was less busy, is run again and killed
-/// sooner.
+/// At a moment that the number decides. A run that ended before, as the machine was less busy, is
+/// run again and killed sooner.
 Outcome Lane::killed(bool compiling, std::uint64_t number) {
   const Outcome& whole = compiling ? compiling_ : warm_;
   Attack with = compiling ? cold_ : none_;
@@ -183,15 +188,17 @@ Outcome Lane::operator()(const std::string& name) {
   return got;
 }
 
-/// One of each kind in turn, those of a kind in an order that looks everywhere early: whoever stops after a part has
-/// seen a fair share of each, and the few calls that decide what is left (rename, fsync) all of them.
+/// One of each kind in turn, those of a kind in an order that looks everywhere early: whoever stops
+/// after a part has seen a fair share of each, and the few calls that decide what is left (rename,
+/// fsync) all of them.
 std::vector<std::string> in_turn(const std::vector<std::string>& names) {
   std::map<std::string, std::vector<std::string>> kinds;
   for (const std::string& name : names) kinds[name.substr(0, name.find(':'))].push_back(name);
   Random random(1);
   for (auto& [kind, list] : kinds)
     for (std::size_t i = list.size(); i > 1; --i)
-      std::swap(list[i - 1], list[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i)))]);
+      std::swap(list[i - 1],
+                list[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i)))]);
   std::vector<std::string> out;
   for (std::size_t i = 0; out.size() < names.size(); ++i)
     for (const auto& [kind, list] : kinds)
@@ -205,10 +212,12 @@ int run(const std::string& folder, long most, int lanes) {
   // Before any thread: what fails here fails for all.
   std::vector<std::unique_ptr<Lane>> made;
   made.push_back(std::make_unique<Lane>(folder + "/0"));
-  for (int i = 1; i < lanes; ++i) made.push_back(std::make_unique<Lane>(folder + "/" + std::to_string(i), *made[0]));
+  for (int i = 1; i < lanes; ++i)
+    made.push_back(std::make_unique<Lane>(folder + "/" + std::to_string(i), *made[0]));
   std::vector<std::string> due = in_turn(made[0]->all());
   const std::size_t all = due.size();
-  due.erase(std::remove_if(due.begin(), due.end(), [&](const std::string& name) { return table.has(name); }),
+  due.erase(std::remove_if(due.begin(), due.end(),
+                           [&](const std::string& name) { return table.has(name); }),
             due.end());
   if (most > 0) due.resize(std::min(due.size(), static_cast<std::size_t>(most)));
   std::printf("%zu attacks, %zu of them this time\n", all, due.size());
@@ -227,13 +236,16 @@ int run(const std::string& folder, long most, int lanes) {
       const std::lock_guard<std::mutex> lock(one);
       table.add(name, got);
       if (!got.broken.empty())
-        std::printf("%s: %s, status %d\n%s\n", name.c_str(), got.broken.c_str(), got.status, got.said.c_str());
-      if (next % 100 == 0) std::printf("%zu of %zu, %.1f s each\n", next, due.size(), watch.seconds() / double(next));
+        std::printf("%s: %s, status %d\n%s\n", name.c_str(), got.broken.c_str(), got.status,
+                    got.said.c_str());
+      if (next % 100 == 0)
+        std::printf("%zu of %zu, %.1f s each\n", next, due.size(), watch.seconds() / double(next));
       std::fflush(stdout);
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 1; i < lanes; ++i) threads.emplace_back([&, i] { walk(*made[static_cast<std::size_t>(i)]); });
+  for (int i = 1; i < lanes; ++i)
+    threads.emplace_back([&, i] { walk(*made[static_cast<std::size_t>(i)]); });
   walk(*made[0]);
   for (std::thread& thread : threads) thread.join();
   return table.tell() ? 0 : 1;
@@ -245,11 +257,13 @@ int run(const std::string& folder, long most, int lanes) {
 int main(int argc, char** argv) {
   if (argc < 2) {
     std::printf(
-        "usage: navvy_fault_campaign FOLDER [N [LANES]]: N attacks at most, or all (0); so many side by side\n");
+        "usage: navvy_fault_campaign FOLDER [N [LANES]]: N attacks at most, or all (0); so many "
+        "side by side\n");
     return 2;
   }
   try {
-    return navvy::fault::run(argv[1], argc > 2 ? std::stol(argv[2]) : 0, argc > 3 ? std::stoi(argv[3]) : 1);
+    return navvy::fault::run(argv[1], argc > 2 ? std::stol(argv[2]) : 0,
+                             argc > 3 ? std::stoi(argv[3]) : 1);
   } catch (const std::exception& error) {
     std::printf("%s\n", error.what());
     return 1;

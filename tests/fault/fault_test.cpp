@@ -22,7 +22,7 @@ Attack with(const test::Folder& folder, const std::string& fault) {
   return out;
 }
 
-TEST(Fault, OneCallInManyFailsAndTheRunTellsOrGoesOn) {
+TEST(Fault, OneCallInManyFailsAndTheRunReportsOrGoesOn) {
   const test::Folder folder;
   const auto arguments = small_run(false);
   const Outcome sound = attack(folder.path().string(), arguments, with(folder, ""));
@@ -42,7 +42,8 @@ TEST(Fault, OneCallInManyFailsAndTheRunTellsOrGoesOn) {
     for (long i = 0; i < kSamples; ++i) {
       const long n = 1 + (2 * i + 1) * count / (2 * kSamples);
       const std::string fault = call + ":" + std::to_string(n) + ":" + code;
-      const Outcome got = attack(folder.path().string(), arguments, with(folder, fault), sound.hash);
+      const Outcome got =
+          attack(folder.path().string(), arguments, with(folder, fault), sound.hash);
       EXPECT_EQ(got.broken, "") << fault << " ended with " << got.status << "\n" << got.said;
       told += got.status != 0;
     }
@@ -53,7 +54,8 @@ TEST(Fault, OneCallInManyFailsAndTheRunTellsOrGoesOn) {
 TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
   const test::Folder folder;
   const auto arguments = small_run(false);
-  ASSERT_EQ(attack(folder.path().string(), arguments, with(folder, "")).status, 0) << "kernels are compiled once";
+  ASSERT_EQ(attack(folder.path().string(), arguments, with(folder, "")).status, 0)
+      << "kernels are compiled once";
   const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
   ASSERT_EQ(calls.size(), kKinds);
   ASSERT_EQ(calls[1].first, "write");
@@ -68,7 +70,9 @@ TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
     with_summary += got.summary == "failed";
     if (!got.summary.empty()) {
       EXPECT_EQ(got.summary, "failed") << fault;
-      EXPECT_EQ(got.status, got.said.find("OpenCL driver") == std::string::npos ? 4 : 3) << fault << "\n" << got.said;
+      EXPECT_EQ(got.status, got.said.find("OpenCL driver") == std::string::npos ? 4 : 3)
+          << fault << "\n"
+          << got.said;
     }
   }
   EXPECT_GT(with_summary, 1);
@@ -85,7 +89,8 @@ TEST(Fault, ARunThatHangsIsKilledAndToldOf) {
   EXPECT_EQ(got.status, -SIGKILL);
 }
 
-/// The campaign's find (allocation 43 355): the driver's compiler threw, and the run waited for a lock of its for ever.
+/// The campaign's find (allocation 43 355): the driver's compiler threw, and the run waited for a
+/// lock of its for ever.
 TEST(Fault, ADriverThatThrowsOutOfABuildIsNamedAndNotWaitedFor) {
   const test::Folder folder;
   // Also behind programs that were built: releasing those would wait as well.
@@ -96,7 +101,9 @@ TEST(Fault, ADriverThatThrowsOutOfABuildIsNamedAndNotWaitedFor) {
     const Outcome got = attack(folder.path().string(), small_run(false), thrown);
     EXPECT_EQ(got.broken, "") << got.said;
     EXPECT_EQ(got.status, 3);
-    EXPECT_NE(got.said.find("the OpenCL driver failed within itself (std::bad_alloc)"), std::string::npos) << got.said;
+    EXPECT_NE(got.said.find("the OpenCL driver failed within itself (std::bad_alloc)"),
+              std::string::npos)
+        << got.said;
   }
 }
 
@@ -110,12 +117,14 @@ TEST(Fault, AnAbortInsideTheDriverIsNamedAsSuch) {
     const Outcome got = attack(folder.path().string(), small_run(false), aborted);
     EXPECT_EQ(got.status, 3) << what << "\n" << got.said;
     EXPECT_EQ(got.broken, "") << what;
-    EXPECT_NE(got.said.find("error: abort inside the OpenCL driver, in "), std::string::npos) << what << "\n"
-                                                                                              << got.said;
+    EXPECT_NE(got.said.find("error: abort inside the OpenCL driver, in "), std::string::npos)
+        << what << "\n"
+        << got.said;
     EXPECT_NE(got.said.find("(signal 6)"), std::string::npos) << got.said;
     // The driver's own words stay.
     if (std::string(what) == "assert:1")
-      EXPECT_NE(got.said.find("driver.c:7: build: assertion 'the cache is sound' failed"), std::string::npos)
+      EXPECT_NE(got.said.find("driver.c:7: build: assertion 'the cache is sound' failed"),
+                std::string::npos)
           << got.said;
   }
 }
@@ -146,7 +155,8 @@ TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
     Attack killed = with(folder, "");
     killed.kill_after = random.uniform(0.05, 1.0) * (compiling ? cold.seconds : warm.seconds);
     const Outcome got = attack(folder.path().string(), arguments, killed, warm.hash);
-    EXPECT_EQ(got.broken, "") << killed.kill_after << " s, ended with " << got.status << "\n" << got.said;
+    EXPECT_EQ(got.broken, "") << killed.kill_after << " s, ended with " << got.status << "\n"
+                              << got.said;
   }
   // What the kills left in the kernel cache is found out.
   const Outcome after = attack(folder.path().string(), arguments, with(folder, ""), warm.hash);

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program, makes one of its calls fail, or its OpenCL driver hang.
 //
-// NAVVY_FAULT=call:n:errno makes the n-th call (from 1) fail; call:n+:errno that one and all after it. `call` is open,
-// write, fsync, rename (each with its relatives; write of regular files only), new (operator new called from the
-// program's own code, by whatever thread, once main has begun: sigaltstack tells) or buffer (clCreateBuffer, which says
-// that the device has no memory left, whatever the errno). With n+ and write, what lies within
-// a file's present size still succeeds, as on a full disk. NAVVY_FAULT_COUNT=FILE appends the number of calls of each
-// kind when the program ends. NAVVY_FAULT_TRACE=1 prints who made the failing call. NAVVY_HANG=build:n:seconds lets the
-// OpenCL driver hang in its n-th build of a program and in those after it; NAVVY_HANG=wait:n:seconds in the calls that
-// wait for the device; NAVVY_HANG=thrown:n:seconds throws out of the n-th build, and hangs where any program is
-// released from then on. NAVVY_ABORT=abort:n and NAVVY_ABORT=assert:n end the process at the first file that the driver
-// opens in its n-th build, by abort() or by an assertion that fails; NAVVY_ABORT=own:n by abort() at the n-th
-// allocation of the program's own code.
+// NAVVY_FAULT=call:n:errno makes the n-th call (from 1) fail; call:n+:errno that one and all after
+// it. `call` is open, write, fsync, rename (each with its relatives; write of regular files only),
+// new (operator new called from the program's own code, by whatever thread, once main has begun:
+// sigaltstack tells) or buffer (clCreateBuffer, which says that the device has no memory left,
+// whatever the errno). With n+ and write, what lies within a file's present size still succeeds, as
+// on a full disk. NAVVY_FAULT_COUNT=FILE appends the number of calls of each kind when the program
+// ends. NAVVY_FAULT_TRACE=1 prints who made the failing call. NAVVY_HANG=build:n:seconds lets the
+// OpenCL driver hang in its n-th build of a program and in those after it;
+// NAVVY_HANG=wait:n:seconds in the calls that wait for the device; NAVVY_HANG=thrown:n:seconds
+// throws out of the n-th build, and hangs where any program is released from then on.
+// NAVVY_ABORT=abort:n and NAVVY_ABORT=assert:n end the process at the first file that the driver
+// opens in its n-th build, by abort() or by an assertion that fails; NAVVY_ABORT=own:n by abort()
+// at the n-th allocation of the program's own code.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -33,7 +35,8 @@
 #include <new>
 
 // Where assertions are compiled out its header has none of it.
-extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file, unsigned line,  // NOLINT: its name
+extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
+                                           unsigned line,  // NOLINT: its name
                                            const char* function) noexcept;
 
 namespace {
@@ -52,7 +55,8 @@ std::uintptr_t own_begin = 0, own_end = 0;  // of the program's code
 struct {
   const char* name;
   int value;
-} const kCodes[] = {{"ENOSPC", ENOSPC}, {"EIO", EIO}, {"EMFILE", EMFILE}, {"ENOMEM", ENOMEM}, {"EACCES", EACCES}};
+} const kCodes[] = {
+    {"ENOSPC", ENOSPC}, {"EIO", EIO}, {"EMFILE", EMFILE}, {"ENOMEM", ENOMEM}, {"EACCES", EACCES}};
 
 // The first object of the list is the program itself.
 int find_program(dl_phdr_info* info, std::size_t, void*) {
@@ -79,10 +83,11 @@ __attribute__((constructor)) void read_environment() {
     if (std::strcmp(name, one.name) == 0) code = one.value;
 }
 
-__attribute__((destructor)) void tell_counts() {
+__attribute__((destructor)) void print_counts() {
   const char* path = getenv("NAVVY_FAULT_COUNT");
   if (path == nullptr) return;
-  const int file = static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND, 0644));
+  const int file =
+      static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND, 0644));
   if (file < 0) return;
   char line[64];
   for (int i = 0; i < kCalls; ++i) {
@@ -132,7 +137,8 @@ bool write_fails(int file, std::size_t size, off_t offset) {
   struct stat found;
   if (failing == kWrite && from_there_on && fstat(file, &found) == 0) {
     const off_t begin = offset >= 0 ? offset : lseek(file, 0, SEEK_CUR);
-    if ((fcntl(file, F_GETFL) & O_APPEND) == 0 && begin >= 0 && begin + static_cast<off_t>(size) <= found.st_size) {
+    if ((fcntl(file, F_GETFL) & O_APPEND) == 0 && begin >= 0 &&
+        begin + static_cast<off_t>(size) <= found.st_size) {
       ++counts[kWrite];
       return false;
     }
@@ -145,7 +151,9 @@ F next(const char* name) {
   return reinterpret_cast<F>(dlsym(RTLD_NEXT, name));
 }
 
-mode_t mode_of(int flags, va_list list) { return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0; }
+mode_t mode_of(int flags, va_list list) {
+  return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0;
+}
 
 void* thrown_out_of = nullptr;
 std::atomic<long> builds{0};
@@ -247,8 +255,10 @@ int renameat(int from_folder, const char* from, int to_folder, const char* to) {
   return fails(kRename) ? -1 : real(from_folder, from, to_folder, to);
 }
 
-void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t size, void* host, int* result) {
-  static const auto real = next<void* (*)(void*, std::uint64_t, std::size_t, void*, int*)>("clCreateBuffer");
+void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t size, void* host,
+                     int* result) {
+  static const auto real =
+      next<void* (*)(void*, std::uint64_t, std::size_t, void*, int*)>("clCreateBuffer");
   constexpr int kNoMemory = -4;  // CL_MEM_OBJECT_ALLOCATION_FAILURE
   if (!fails(kBuffer)) return real(context, flags, size, host, result);
   if (result != nullptr) *result = kNoMemory;
@@ -259,18 +269,20 @@ int clFinish(void* queue) {
   hang("wait");
   return real(queue);
 }
-void* clEnqueueMapBuffer(void* queue, void* buffer, unsigned blocking, std::uint64_t flags, std::size_t offset,
-                         std::size_t size, unsigned waits_for, const void* list, void* event, int* result) {
-  static const auto real = next<void* (*)(void*, void*, unsigned, std::uint64_t, std::size_t, std::size_t, unsigned,
-                                          const void*, void*, int*)>("clEnqueueMapBuffer");
+void* clEnqueueMapBuffer(void* queue, void* buffer, unsigned blocking, std::uint64_t flags,
+                         std::size_t offset, std::size_t size, unsigned waits_for, const void* list,
+                         void* event, int* result) {
+  static const auto real =
+      next<void* (*)(void*, void*, unsigned, std::uint64_t, std::size_t, std::size_t, unsigned,
+                     const void*, void*, int*)>("clEnqueueMapBuffer");
   if (blocking != 0) hang("wait");
   return real(queue, buffer, blocking, flags, offset, size, waits_for, list, event, result);
 }
-int clEnqueueReadBuffer(void* queue, void* buffer, unsigned blocking, std::size_t offset, std::size_t size, void* to,
-                        unsigned waits_for, const void* list, void* event) {
-  static const auto real =
-      next<int (*)(void*, void*, unsigned, std::size_t, std::size_t, void*, unsigned, const void*, void*)>(
-          "clEnqueueReadBuffer");
+int clEnqueueReadBuffer(void* queue, void* buffer, unsigned blocking, std::size_t offset,
+                        std::size_t size, void* to, unsigned waits_for, const void* list,
+                        void* event) {
+  static const auto real = next<int (*)(void*, void*, unsigned, std::size_t, std::size_t, void*,
+                                        unsigned, const void*, void*)>("clEnqueueReadBuffer");
   if (blocking != 0) hang("wait");
   return real(queue, buffer, blocking, offset, size, to, waits_for, list, event);
 }
@@ -282,8 +294,10 @@ int clReleaseProgram(void* program) {
   }
   return real(program);
 }
-int clBuildProgram(void* program, unsigned count, const void* devices, const char* options, void* notify, void* data) {
-  static const auto real = next<int (*)(void*, unsigned, const void*, const char*, void*, void*)>("clBuildProgram");
+int clBuildProgram(void* program, unsigned count, const void* devices, const char* options,
+                   void* notify, void* data) {
+  static const auto real =
+      next<int (*)(void*, unsigned, const void*, const char*, void*, void*)>("clBuildProgram");
   hang("build");
   const char* text = getenv("NAVVY_HANG");
   if (text != nullptr && std::strncmp(text, "thrown:", 7) == 0 && ++builds == std::atol(text + 7)) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signals reach a run wherever it is: between steps, in a driver that compiles, in one that does not answer.
+// Signals reach a run wherever it is: between steps, in a driver that compiles, in one that does
+// not answer.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -32,21 +33,27 @@ using test::text_of;
 
 class Stop : public testing::Test {
  protected:
-  pid_t start(const char* hang) { return start({{"LD_PRELOAD", NAVVY_FAULT_SHIM}, {"NAVVY_HANG", hang}}); }
+  pid_t start(const char* hang) {
+    return start({{"LD_PRELOAD", NAVVY_FAULT_SHIM}, {"NAVVY_HANG", hang}});
+  }
   pid_t start(const std::vector<std::pair<std::string, std::string>>& environment) {
-    return test::start({NAVVY_PROGRAM,
-                        {"run", navvy::source_dir() + "/scenarios/bucket_path.sdf", "--no-render", "--out", out()},
-                        environment,
-                        "/dev/null",
-                        "/dev/null",
-                        folder_ / "stderr"});
+    return test::start(
+        {NAVVY_PROGRAM,
+         {"run", navvy::source_dir() + "/scenarios/bucket_path.sdf", "--no-render", "--out", out()},
+         environment,
+         "/dev/null",
+         "/dev/null",
+         folder_ / "stderr"});
   }
   std::string out() const { return folder_ / "out"; }
   std::string complained() const { return text_of(folder_ / "stderr"); }
-  nlohmann::json summary() const { return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false); }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false);
+  }
   /// Until the file is there, a minute at most.
   static void wait_for_file(const std::string& path) {
-    for (int i = 0; i < 1200 && !fs::exists(path); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int i = 0; i < 1200 && !fs::exists(path); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   /// How a process ended after a signal.
   struct Ended {
@@ -67,16 +74,18 @@ class Stop : public testing::Test {
     const Ended ended{WIFEXITED(raw) ? WEXITSTATUS(raw) : -WTERMSIG(raw),
                       std::chrono::duration<double>(Clock::now() - sent).count(),
                       in_seconds(used.ru_utime) + in_seconds(used.ru_stime) - before};
-    std::printf("signal %d: %.2f s to the end, %.2f s of a processor\n", signal, ended.seconds, ended.processor);
+    std::printf("signal %d: %.2f s to the end, %.2f s of a processor\n", signal, ended.seconds,
+                ended.processor);
     return ended;
   }
 
   const test::Folder folder_;
 };
 
-// A signal is obeyed within 2 s of the process's own: a run that goes on with its steps, or waits for a compiler, takes
-// more. One that sleeps takes none, so the driver of these tests would hang for ten minutes, and the order of that is
-// the one verdict on a clock that others on the machine turn, too.
+// A signal is obeyed within 2 s of the process's own: a run that goes on with its steps, or waits
+// for a compiler, takes more. One that sleeps takes none, so the driver of these tests would hang
+// for ten minutes, and the order of that is the one verdict on a clock that others on the machine
+// turn, too.
 constexpr double kSoon = 2;         // [s] of a processor
 constexpr double kLongBefore = 60;  // [s]
 
@@ -92,10 +101,11 @@ TEST_F(Stop, WhileTheDriverCompiles) {
   EXPECT_NE(complained().find("driver is busy"), std::string::npos) << complained();
 }
 
-// The compiler inside the driver has handlers of its own, which delete the file it is writing: a build that failed for
-// that would be told as kernels that are wrong.
+// The compiler inside the driver has handlers of its own, which delete the file it is writing: a
+// build that failed for that would be told as kernels that are wrong.
 TEST_F(Stop, WhileTheDriversOwnCompilerWorks) {
-  for (const int pause : {0, 700, 1400}) {  // [ms] after the folder was taken, just before the device
+  // [ms] after the folder was taken, just before the device
+  for (const int pause : {0, 700, 1400}) {
     fs::remove_all(out());
     const std::string cache = folder_ / ("cache" + std::to_string(pause));
     const pid_t child = start({{"POCL_CACHE_DIR", cache}});

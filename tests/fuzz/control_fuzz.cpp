@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as what a controller writes: every line is obeyed or answered, until the bytes end. Then the world takes a step
-// with the inputs that were set. One simulation serves all; it is put back to its start whenever something was set.
+// Bytes as what a controller writes: every line is obeyed or answered, until the bytes end. Then
+// the world takes a step with the inputs that were set. One simulation serves all; it is put back
+// to its start whenever something was set.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -18,7 +19,8 @@ namespace {
 
 using namespace navvy;
 
-const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil name="s"/>
+const char* const kScene =
+    R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil name="s"/>
 <navvy:ground><size_m>4 4</size_m><depth_m>0.5</depth_m></navvy:ground>
 <navvy:solver><cell_m>0.5</cell_m><max_particles>1000</max_particles></navvy:solver>
 <model name="m"><static>true</static><link name="a"/><link name="b"><pose>0 0 1 0 0 0</pose>
@@ -27,7 +29,8 @@ const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name
 <navvy:program><wait><duration_s>1</duration_s></wait></navvy:program></model></world></sdf>)";
 
 struct Driven {
-  run::Simulation simulation{scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds())};
+  run::Simulation simulation{
+      scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds())};
   int input = ::memfd_create("input", 0);
 
   Driven() {
@@ -63,7 +66,8 @@ NAVVY_FUZZ_TARGET(control) {
   while (controller.exchange()) {
   }
   // Only a line that names inputs changes something; the others cost no step.
-  if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos) return 0;
+  if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos)
+    return 0;
   try {
     driven.simulation.step();
   } catch (const Error&) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kept inputs of the fuzz targets in the plain build: each goes through without a crash or a broken property.
+// The kept inputs of the fuzz targets in the plain build: each goes through without a crash or a
+// broken property.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -23,7 +24,8 @@ namespace {
 
 void replay(const std::string& target, int (*run)(const std::uint8_t*, std::size_t)) {
   int inputs = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/tests/fuzz/corpus/" + target)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(source_dir() + "/tests/fuzz/corpus/" + target)) {
     SCOPED_TRACE(entry.path().filename().string());
     const std::vector<char> bytes = read_file(entry.path().string());
     EXPECT_EQ(run(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), 0);

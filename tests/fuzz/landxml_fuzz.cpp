@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as LandXML, then the surface on a small site: both may refuse with InputError, nothing else.
+// Any bytes as LandXML, then the surface on a small site: both may refuse with InputError, nothing
+// else.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -7,8 +8,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "heightfield/design.h"
-#include "heightfield/site.h"
+#include "heightfield/design_surface.h"
+#include "heightfield/make_ground.h"
 #include "scene_io/landxml.h"
 #include "target.h"
 
@@ -29,7 +30,8 @@ NAVVY_FUZZ_TARGET(landxml) {
     world.design.tin = tin;
     try {
       if (tin != nullptr) {
-        const auto design = navvy::heightfield::make_design(world, navvy::heightfield::make_ground(world));
+        const auto design =
+            navvy::heightfield::make_design(world, navvy::heightfield::make_ground(world));
         for (const float z : design->z) navvy::fuzz::hold(!std::isinf(z));
       }
     } catch (const navvy::InputError&) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene file, read by the whole loader with libsdformat. It loads or is refused with InputError; what has loaded can
-// be written out, and that text loads.
+// A scene file, read by the whole loader with libsdformat. It loads or is refused with InputError;
+// what has loaded can be written out, and that text loads.
 #include <string>
 
 #include "control/step_kinds.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine file, with a program in it for once: our own readers on its element tree, links and joints without
-// libsdformat (sdf_stand_in.cpp). What is let in holds what the engines take for granted.
+// A machine file, with a program in it for once: our own readers on its element tree, links and
+// joints without libsdformat (sdf_stand_in.cpp). What is let in holds what the engines take for
+// granted.
 #include <cmath>
 #include <string>
 
@@ -22,12 +23,15 @@ void check_shells(const scene::Machine& machine) {
   for (const scene::Shell& shell : machine.shells) {
     fuzz::hold(machine.link_index(shell.link) >= 0);
     for (const auto& triangle : shell.triangles)
-      for (const int corner : triangle) fuzz::hold(corner >= 0 && corner < static_cast<int>(shell.vertices.size()));
-    for (std::size_t n = 0; n < shell.triangles.size(); ++n) fuzz::hold(shell.area_vector(n).norm() > 0);
+      for (const int corner : triangle)
+        fuzz::hold(corner >= 0 && corner < static_cast<int>(shell.vertices.size()));
+    for (std::size_t n = 0; n < shell.triangles.size(); ++n)
+      fuzz::hold(shell.area_vector(n).norm() > 0);
   }
   for (const scene::Bucket& bucket : machine.buckets) {
     fuzz::hold(machine.link_index(bucket.link) >= 0);
-    fuzz::hold(std::abs(bucket.opening.norm() - 1) < 1e-6 && std::abs(bucket.cut_direction.norm() - 1) < 1e-6);
+    fuzz::hold(std::abs(bucket.opening.norm() - 1) < 1e-6 &&
+               std::abs(bucket.cut_direction.norm() - 1) < 1e-6);
   }
   for (const scene::Bed& bed : machine.beds) fuzz::hold(machine.joint_index(bed.joint) >= 0);
 }
@@ -42,7 +46,8 @@ void check_joints(const scene::Machine& machine) {
     fuzz::hold(machine.joint_index(wheel.joint) >= 0 && wheel.radius > 0);
   for (const scene::Cylinder& cylinder : machine.cylinders) {
     fuzz::hold(machine.joint_index(cylinder.joint) >= 0);
-    fuzz::hold(machine.link_index(cylinder.base_link) >= 0 && machine.link_index(cylinder.rod_link) >= 0);
+    fuzz::hold(machine.link_index(cylinder.base_link) >= 0 &&
+               machine.link_index(cylinder.rod_link) >= 0);
     fuzz::hold(cylinder.count > 0 && cylinder.rod < cylinder.bore);
   }
 }

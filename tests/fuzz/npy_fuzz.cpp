@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an NPY: the reader may refuse them with InputError, nothing else; what it lets in has the size it says.
+// Any bytes as an NPY: the reader may refuse them with InputError, nothing else; what it lets in
+// has the size it says.
 #include <sys/mman.h>
 #include <unistd.h>
 

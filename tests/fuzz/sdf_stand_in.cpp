@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the place of scene_io/sdf_model.cpp in targets that read without libsdformat, which costs 80 ms a model under
-// the sanitizers: the linker takes this function and leaves the library's. Links, joints and meshes come straight from
-// the element tree; frames and poses are not resolved through each other, inertias not turned, as no reader of ours
-// asks for them. loader_fuzz reads with libsdformat itself.
+// Takes the place of scene_io/sdf_model.cpp in targets that read without libsdformat, which costs
+// 80 ms a model under the sanitizers: the linker takes this function and leaves the library's.
+// Links, joints and meshes come straight from the element tree; frames and poses are not resolved
+// through each other, inertias not turned, as no reader of ours asks for them. loader_fuzz reads
+// with libsdformat itself.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ namespace {
 std::string link_of(const Element& model, std::string name) {
   for (int hops = 0; hops < 8; ++hops) {
     const Element* frame = named_child(model, "frame", name);
-    if (frame == nullptr) return name == "world" || named_child(model, "link", name) != nullptr ? name : "";
+    if (frame == nullptr)
+      return name == "world" || named_child(model, "link", name) != nullptr ? name : "";
     name = attribute(*frame, "attached_to");
   }
   return "";
@@ -41,9 +43,11 @@ double number_in(const Element* element, const char* name, double otherwise) {
 /// Meshes are our own reader's work; other shapes are libsdformat's.
 void check_meshes(const Element& link, Faults& faults) {
   for (const char* kind : {"visual", "collision"})
-    for (const Element* shape = link.FirstChildElement(kind); shape; shape = shape->NextSiblingElement(kind)) {
+    for (const Element* shape = link.FirstChildElement(kind); shape;
+         shape = shape->NextSiblingElement(kind)) {
       const Element* at = shape;
-      for (const char* name : {"geometry", "mesh", "uri"}) at = at != nullptr ? at->FirstChildElement(name) : nullptr;
+      for (const char* name : {"geometry", "mesh", "uri"})
+        at = at != nullptr ? at->FirstChildElement(name) : nullptr;
       std::string path;
       if (at != nullptr && resolve_mesh(*at, path, faults))
         check_mesh(*at, path, std::string(kind) == "collision", faults);
@@ -63,7 +67,8 @@ scene::Joint joint_of(const Element& element) {
   if (axis == nullptr) return joint;
   std::vector<double> xyz;
   Faults told;
-  if (const Element* e = axis->FirstChildElement("xyz"); e != nullptr && read_numbers(*e, 3, {-1e3, 1e3}, xyz, told))
+  if (const Element* e = axis->FirstChildElement("xyz");
+      e != nullptr && read_numbers(*e, 3, {-1e3, 1e3}, xyz, told))
     joint.axis = Vec3(xyz[0], xyz[1], xyz[2]).normalized();
   const Element* limit = axis->FirstChildElement("limit");
   joint.lower = number_in(limit, "lower", -1e16);
@@ -100,7 +105,8 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
       add(attribute(*e, "name"));
   for (std::size_t i = 0; i < machine.links.size(); ++i)
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      if (parents[k] != machine.links[i].name || children[k].empty() || children[k] == "world") continue;
+      if (parents[k] != machine.links[i].name || children[k].empty() || children[k] == "world")
+        continue;
       if (machine.link_index(children[k]) >= 0) {
         faults.error(*joints[k], children[k], "the joints form no tree");
         return false;
@@ -112,9 +118,11 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
       add(children[k]);
     }
   std::size_t links = 0, to_world = 0;
-  for (const Element* e = model.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) ++links;
+  for (const Element* e = model.FirstChildElement("link"); e; e = e->NextSiblingElement("link"))
+    ++links;
   to_world = static_cast<std::size_t>(std::count(parents.begin(), parents.end(), "world"));
-  if (machine.links.empty() || machine.links.size() != links || machine.joints.size() + to_world != joints.size())
+  if (machine.links.empty() || machine.links.size() != links ||
+      machine.joints.size() + to_world != joints.size())
     faults.error(model, "", "the joints form no tree");
   const std::string is_static = child_text(model, "static");
   machine.fixed_base = to_world > 0 || is_static == "true" || is_static == "1";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines as `--set KEY=VALUE`, and as the other options that change a scene, on one scene that is then read. What is let
-// in is a scene that says the same when it is written out; models go without libsdformat (sdf_stand_in.cpp).
+// Lines as `--set KEY=VALUE`, and as the other options that change a scene, on one scene that is
+// then read. What is let in is a scene that says the same when it is written out; models go without
+// libsdformat (sdf_stand_in.cpp).
 #include <sstream>
 #include <string>
 
@@ -70,15 +71,17 @@ NAVVY_FUZZ_TARGET(set) {
   scene_io::Faults faults;
   const auto document = scene_io::Document::parse(kScene, "fuzz/scene.sdf", faults);
   scene_io::apply_overrides(*document, overrides, faults);
-  // Machines of other files are read in world_fuzz; here their files would take nearly all of the time.
+  // Machines of other files are read in world_fuzz; here their files would take nearly all of the
+  // time.
   scene_io::Element& world = *document->root()->FirstChildElement("world");
-  while (scene_io::Element* include = world.FirstChildElement("include")) world.DeleteChild(include);
+  while (scene_io::Element* include = world.FirstChildElement("include"))
+    world.DeleteChild(include);
   const scene::Scene scene = scene_io::read_world(*document, control::step_kinds(), faults);
   for (const Fault& fault : faults.list()) fuzz::hold(!fault.text().empty());
   if (faults.has_errors()) return 0;
   scene_io::Faults again_faults;
-  const auto again =
-      scene_io::Document::parse(scene_io::resolved_text(*document, scene), "fuzz/scene.sdf", again_faults);
+  const auto again = scene_io::Document::parse(scene_io::resolved_text(*document, scene),
+                                               "fuzz/scene.sdf", again_faults);
   fuzz::hold(again != nullptr);
   const scene::Scene twin = scene_io::read_world(*again, control::step_kinds(), again_faults);
   fuzz::hold(!again_faults.has_errors() && scene::parameters(scene) == scene::parameters(twin));

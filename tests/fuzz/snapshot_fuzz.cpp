@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snapshots that somebody made up: edits of a good state, under checksums that fit again, loaded from a file and run
-// for three steps. An input is a list of edits of 16 bytes each; which field one goes to is chosen by kinds of fields
-// (names without their numbers), as most bytes of a state are alike.
+// Snapshots that somebody made up: edits of a good state, under checksums that fit again, loaded
+// from a file and run for three steps. An input is a list of edits of 16 bytes each; which field
+// one goes to is chosen by kinds of fields (names without their numbers), as most bytes of a state
+// are alike.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -27,8 +28,10 @@ namespace {
 
 using namespace navvy;
 
-// As small as a scene with all kinds of parts can be: a bucket in the soil, a dumper with a load that drives.
-const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
+// As small as a scene with all kinds of parts can be: a bucket in the soil, a dumper with a load
+// that drives.
+const char* const kScene =
+    R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
 <navvy:ground><size_m>12 6</size_m><depth_m>1</depth_m></navvy:ground>
 <navvy:solver><cell_m>0.3</cell_m><max_particles>20000</max_particles></navvy:solver>
 <include><uri>model://test_bucket</uri><name>bucket</name><pose>-4 0 0 0 0 0</pose>
@@ -57,11 +60,12 @@ struct Place {
   std::size_t offset = 0, size = 0;  ///< [bytes]
 };
 
-/// A good state, its fields by what they are called without their numbers, and the session that takes what becomes of
-/// it.
+/// A good state, its fields by what they are called without their numbers, and the session that
+/// takes what becomes of it.
 struct Crafted {
   device::Device device;
-  session::Session session{scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
+  session::Session session{
+      scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
   std::vector<char> state;
   std::vector<std::vector<Place>> kinds;
   std::vector<std::size_t> heads;  ///< offsets of the heads of sections
@@ -71,7 +75,8 @@ struct Crafted {
   Crafted() {
     while (session.world().time() < kBefore) session.step();
     ByteMap map;
-    state = saved(Content{{session.world().start(), session.world().description().name}, session}, &map);
+    state = saved(Content{{session.world().start(), session.world().description().name}, session},
+                  &map);
     std::map<std::string, std::vector<Place>> by_name;
     std::size_t end = 0;
     for (const ByteMap::Field& field : map.fields) {
@@ -82,7 +87,9 @@ struct Crafted {
       }
       end = field.offset + field.size;
       std::string name = field.path;
-      name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }), name.end());
+      name.erase(
+          std::remove_if(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }),
+          name.end());
       if (field.size > 0) by_name[name].push_back({field.offset, field.size});
     }
     for (auto& [name, places] : by_name) kinds.push_back(std::move(places));
@@ -100,7 +107,8 @@ void put_extreme(unsigned which, char* to, std::size_t size) {
   const float floats[] = {std::nanf(""), kInf, -kInf, 1e30f, -1e30f, 1e-40f, 0, 1};
   const std::int32_t ints[] = {-1, 1, 1000, 1 << 20, 2147483647, -2147483647 - 1, 0, 2};
   const double doubles[] = {std::nan(""), kInf, -kInf, 1e300, -1e300, 1e-310, 0, 1};
-  const std::int64_t longs[] = {-1, 1, std::int64_t{1} << 40, INT64_MAX, INT64_MIN, std::int64_t{1} << 31, 0, 2};
+  const std::int64_t longs[] = {
+      -1, 1, std::int64_t{1} << 40, INT64_MAX, INT64_MIN, std::int64_t{1} << 31, 0, 2};
   const bool whole = (which & 8) != 0;
   which &= 7;
   if (whole) {
@@ -113,7 +121,8 @@ void put_extreme(unsigned which, char* to, std::size_t size) {
   put(static_cast<std::uint8_t>(which * 37 - 1), to, size);
 }
 
-/// Bytes that come into the state or go out of it; the lengths of the sections round them are mended.
+/// Bytes that come into the state or go out of it; the lengths of the sections round them are
+/// mended.
 struct Resize {
   Place place;
   bool grow = false;
@@ -168,14 +177,19 @@ std::vector<char> edited(const Crafted& crafted, const std::uint8_t* data, std::
         break;
       case 2: {
         const Place other = places[(edit[8] + 256u * edit[9]) % places.size()];
-        std::memcpy(to, crafted.state.data() + other.offset, std::min(field.size - within, other.size));
+        std::memcpy(to, crafted.state.data() + other.offset,
+                    std::min(field.size - within, other.size));
         break;
       }
       case 3:
-        resizes.push_back({{field.offset + within, width * (1 + edit[8] % ((field.size - within) / width))}, true});
+        resizes.push_back(
+            {{field.offset + within, width * (1 + edit[8] % ((field.size - within) / width))},
+             true});
         break;
       case 4:
-        resizes.push_back({{field.offset + within, width * (1 + edit[8] % ((field.size - within) / width))}, false});
+        resizes.push_back(
+            {{field.offset + within, width * (1 + edit[8] % ((field.size - within) / width))},
+             false});
         break;
       default:
         // Runs of plain values are eights to the eye, and may be fours.
@@ -209,7 +223,8 @@ NAVVY_FUZZ_TARGET(snapshot) {
     return 0;  // its sections fit no longer
   }
   fuzz::hold(::ftruncate(crafted.file, 0) == 0);
-  fuzz::hold(::pwrite(crafted.file, content.data(), content.size(), 0) == static_cast<ssize_t>(content.size()));
+  fuzz::hold(::pwrite(crafted.file, content.data(), content.size(), 0) ==
+             static_cast<ssize_t>(content.size()));
   try {
     crafted.session.load(crafted.path, true);
     for (int i = 0; i < 3; ++i) crafted.session.step();

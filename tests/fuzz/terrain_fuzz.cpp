@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "target.h"
 
 NAVVY_FUZZ_TARGET(terrain) {

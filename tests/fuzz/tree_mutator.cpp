@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mutations of XML for libFuzzer, which by itself changes bytes: nearly all of what it makes is no XML, and the readers
-// behind the parser never see it. Here elements are removed, copied, moved, renamed and given other values, and trees
-// of two inputs are crossed. One change in eight stays one of bytes, as what is no XML must be refused too.
+// Mutations of XML for libFuzzer, which by itself changes bytes: nearly all of what it makes is no
+// XML, and the readers behind the parser never see it. Here elements are removed, copied, moved,
+// renamed and given other values, and trees of two inputs are crossed. One change in eight stays
+// one of bytes, as what is no XML must be refused too.
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -21,14 +22,16 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Values at and beyond the edges of what readers take, and words that mean something in some place.
-const char* const kValues[] = {"",          "0",        "-0",          "1",        "-1",    "2",
-                               "3",         "0.5",      "1e-9",        "1e9",      "1e308", "1e400",
-                               "-1e300",    "1e-320",   "nan",         "inf",      "-inf",  "255",
-                               "256",       "65536",    "2147483648",  "-5",       "1e16",  "18446744073709551615",
-                               "true",      "false",    "0 0",         "1 2 3",    "0 0 0", "0 0 1",
-                               "world",     "settle",   "1 0 0 0 0 0", "\xc3\xa9", "a,b",   "../x",
-                               "/dev/zero", "slide.sdf"};
+/// Values at and beyond the edges of what readers take, and words that mean something in some
+/// place.
+const char* const kValues[] = {
+    "",          "0",        "-0",          "1",        "-1",    "2",
+    "3",         "0.5",      "1e-9",        "1e9",      "1e308", "1e400",
+    "-1e300",    "1e-320",   "nan",         "inf",      "-inf",  "255",
+    "256",       "65536",    "2147483648",  "-5",       "1e16",  "18446744073709551615",
+    "true",      "false",    "0 0",         "1 2 3",    "0 0 0", "0 0 1",
+    "world",     "settle",   "1 0 0 0 0 0", "\xc3\xa9", "a,b",   "../x",
+    "/dev/zero", "slide.sdf"};
 
 std::size_t below(navvy::Random& random, std::size_t count) {
   return count == 0 ? 0 : static_cast<std::size_t>(random.next() % count);
@@ -43,7 +46,8 @@ std::vector<XMLElement*> elements_of(XMLDocument& tree) {
   std::vector<XMLElement*> all;
   if (tree.RootElement() != nullptr) all.push_back(tree.RootElement());
   for (std::size_t i = 0; i < all.size() && i < 5000; ++i)
-    for (XMLElement* child = all[i]->FirstChildElement(); child; child = child->NextSiblingElement())
+    for (XMLElement* child = all[i]->FirstChildElement(); child;
+         child = child->NextSiblingElement())
       all.push_back(child);
   return all;
 }
@@ -82,7 +86,8 @@ std::string other_value(navvy::Random& random, const std::string& text) {
       char bytes[64] = {};
       const std::size_t size = std::min(word.size(), sizeof bytes);
       std::memcpy(bytes, word.data(), size);
-      word.assign(bytes, LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes), size, sizeof bytes));
+      word.assign(bytes,
+                  LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes), size, sizeof bytes));
       break;
     }
     case 2:
@@ -99,13 +104,15 @@ std::string other_value(navvy::Random& random, const std::string& text) {
   return out;
 }
 
-void change_attribute(navvy::Random& random, XMLElement& element, const std::vector<XMLElement*>& all) {
+void change_attribute(navvy::Random& random, XMLElement& element,
+                      const std::vector<XMLElement*>& all) {
   const XMLElement& other = *any_of(random, all);
   const tinyxml2::XMLAttribute* from = other.FirstAttribute();
   const tinyxml2::XMLAttribute* own = element.FirstAttribute();
   // Copied, as it may be the attribute's own value.
   if (from != nullptr && below(random, 2) == 0)
-    element.SetAttribute(own != nullptr ? own->Name() : from->Name(), std::string(from->Value()).c_str());
+    element.SetAttribute(own != nullptr ? own->Name() : from->Name(),
+                         std::string(from->Value()).c_str());
   else if (own != nullptr && below(random, 2) == 0)
     element.DeleteAttribute(own->Name());
   else if (own != nullptr)
@@ -169,20 +176,23 @@ std::size_t print(const XMLDocument& tree, std::uint8_t* data, std::size_t max_s
 
 }  // namespace
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned seed) {
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned seed) {
   navvy::Random random(seed);
   XMLDocument tree;
-  if (below(random, 8) == 0 || !parse(tree, data, size)) return LLVMFuzzerMutate(data, size, max_size);
+  if (below(random, 8) == 0 || !parse(tree, data, size))
+    return LLVMFuzzerMutate(data, size, max_size);
   for (std::size_t changes = 1 + below(random, 3); changes > 0; --changes) change(random, tree);
   const std::size_t printed = print(tree, data, max_size);
   return printed > 0 ? printed : LLVMFuzzerMutate(data, size, max_size);
 }
 
-/// A tree of the second input comes into the first: beside elements of its name, or below one of its parent's name.
+/// A tree of the second input comes into the first: beside elements of its name, or below one of
+/// its parent's name.
 extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
-                                                 const std::uint8_t* data2, std::size_t size2, std::uint8_t* out,
-                                                 std::size_t max_size, unsigned seed) {
+                                                 const std::uint8_t* data2, std::size_t size2,
+                                                 std::uint8_t* out, std::size_t max_size,
+                                                 unsigned seed) {
   navvy::Random random(seed);
   XMLDocument to, from;
   if (!parse(to, data1, size1) || !parse(from, data2, size2)) return 0;
@@ -192,7 +202,8 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
   const auto* parent = gift.Parent() != nullptr ? gift.Parent()->ToElement() : nullptr;
   std::vector<XMLElement*> places;
   for (XMLElement* element : all)
-    if (parent != nullptr && std::strcmp(element->Name(), parent->Name()) == 0) places.push_back(element);
+    if (parent != nullptr && std::strcmp(element->Name(), parent->Name()) == 0)
+      places.push_back(element);
   XMLElement& place = *any_of(random, places.empty() ? all : places);
   XMLElement* same = place.FirstChildElement(gift.Name());
   if (same != nullptr && below(random, 2) == 0) place.DeleteChild(same);

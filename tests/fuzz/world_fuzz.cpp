@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene file, read by our own readers on its element tree; models without libsdformat (sdf_stand_in.cpp). It is
-// refused with a list of faults, or what it became can be written out, read again as the same scene, and laid out as
-// ground.
+// A scene file, read by our own readers on its element tree; models without libsdformat
+// (sdf_stand_in.cpp). It is refused with a list of faults, or what it became can be written out,
+// read again as the same scene, and laid out as ground.
 #include <string>
 
 #include "control/step_kinds.h"
 #include "core/error.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "paths.h"
 #include "scene/parameters.h"
 #include "scene_io/resolved.h"
@@ -54,7 +54,8 @@ NAVVY_FUZZ_TARGET(world) {
   if (faults.has_errors()) return 0;
   lay_out(world);
   scene_io::Faults again_faults;
-  const auto again = scene_io::Document::parse(scene_io::resolved_text(*document, world), kName, again_faults);
+  const auto again =
+      scene_io::Document::parse(scene_io::resolved_text(*document, world), kName, again_faults);
   fuzz::hold(again != nullptr);
   const scene::Scene twin = read(*again, again_faults);
   fuzz::hold(!again_faults.has_errors());

@@ -13,7 +13,8 @@ namespace navvy::geometry {
 /// A box turned outwards from `low` [m], of the given edges.
 inline TriangleMesh make_box(const Vec3& low, const Vec3& edges) {
   TriangleMesh mesh;
-  for (int k = 0; k < 8; ++k) mesh.vertices.push_back(low + Vec3(k & 1, (k >> 1) & 1, k >> 2).cwiseProduct(edges));
+  for (int k = 0; k < 8; ++k)
+    mesh.vertices.push_back(low + Vec3(k & 1, (k >> 1) & 1, k >> 2).cwiseProduct(edges));
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
@@ -27,18 +28,22 @@ inline TriangleMesh make_tetrahedron(double a, double b, double c) {
   return mesh;
 }
 
-/// An octahedron with each triangle split in four `levels` times and its corners put on the ellipsoid.
+/// An octahedron with each triangle split in four `levels` times and its corners put on the
+/// ellipsoid.
 inline TriangleMesh make_ellipsoid(const Vec3& axes, int levels) {
   TriangleMesh mesh;
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<int, int>, int> halves;
     const auto half = [&](int a, int b) {
-      const auto [at, is_new] = halves.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
+      const auto [at, is_new] =
+          halves.try_emplace(std::minmax(a, b), static_cast<int>(mesh.vertices.size()));
       if (is_new)
-        mesh.vertices.push_back(
-            (mesh.vertices[static_cast<std::size_t>(a)] + mesh.vertices[static_cast<std::size_t>(b)]).normalized());
+        mesh.vertices.push_back((mesh.vertices[static_cast<std::size_t>(a)] +
+                                 mesh.vertices[static_cast<std::size_t>(b)])
+                                    .normalized());
       return at->second;
     };
     std::vector<std::array<int, 3>> fine;

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "geometry/bodies.h"
-#include "geometry/solid.h"
+#include "geometry/solid_properties.h"
 #include "geometry/topology.h"
 
 namespace navvy::geometry {
@@ -18,7 +18,8 @@ namespace {
 std::vector<Vec3> cloud(int n, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> points;
-  for (int i = 0; i < n; ++i) points.emplace_back(random.uniform(-1, 1), random.uniform(-2, 2), random.uniform(0, 1));
+  for (int i = 0; i < n; ++i)
+    points.emplace_back(random.uniform(-1, 1), random.uniform(-2, 2), random.uniform(0, 1));
   return points;
 }
 
@@ -76,7 +77,8 @@ TEST(ConvexHull, HasThePlanesOfThreePointsInTurnBitForBit) {
   // Faces of many points, as plates and drums have them.
   std::vector<Vec3> drum;
   for (int i = 0; i < 12; ++i)
-    for (const double y : {-0.2, 0.2}) drum.emplace_back(std::cos(kPi * i / 6), y, std::sin(kPi * i / 6));
+    for (const double y : {-0.2, 0.2})
+      drum.emplace_back(std::cos(kPi * i / 6), y, std::sin(kPi * i / 6));
   expect_equal_bits(convex_hull(drum).planes, planes_by_force(drum));
 }
 
@@ -98,7 +100,8 @@ TEST(ConvexHull, OfASphereKeepsEveryPoint) {
   const TriangleMesh sphere = make_ellipsoid(Vec3::Ones(), 4);
   const ConvexHull hull = convex_hull(sphere.vertices);
   EXPECT_EQ(hull.mesh.vertices.size(), sphere.vertices.size());
-  // Patches of the octahedron that lie symmetrically are flat quads, cut either way with the same volume.
+  // Patches of the octahedron that lie symmetrically are flat quads, cut either way with the same
+  // volume.
   EXPECT_NEAR(solid_properties(hull.mesh).volume, solid_properties(sphere).volume, 1e-4);
 }
 
@@ -113,8 +116,8 @@ TEST(ConvexHull, DoesNotDependOnTheOrderNorOnDoubles) {
 }
 
 TEST(ConvexHull, SurvivesPointsThatNearlyLieInAFace) {
-  // Noise of a millionth of the tolerance up to ten times it on the faces of a box: whatever becomes of them, the
-  // body stays closed and its volume that of the box.
+  // Noise of a millionth of the tolerance up to ten times it on the faces of a box: whatever
+  // becomes of them, the body stays closed and its volume that of the box.
   for (const double noise : {1e-13, 1e-9, 1e-7, 1e-6}) {
     Random random(3);
     std::vector<Vec3> points;
@@ -145,8 +148,10 @@ TEST(ConvexHull, RefusesLinesPointsAndNumbersThatAreNone) {
   EXPECT_THROW(convex_hull({}), InputError);
   EXPECT_THROW(convex_hull({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}), InputError);
   EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}), InputError);
-  EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::quiet_NaN()}}),
-               InputError);
+  EXPECT_THROW(
+      convex_hull(
+          {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::quiet_NaN()}}),
+      InputError);
 }
 
 }  // namespace

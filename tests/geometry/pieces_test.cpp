@@ -22,8 +22,10 @@ TEST(Pieces, CoverTheTriangleAndAreNoLongerThanAsked) {
   double area = 0;
   for (const MeshPiece& piece : pieces) {
     EXPECT_EQ(piece.triangle, 0);
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_LE((piece.corner[(i + 1) % 3] - piece.corner[i]).norm(), 0.3);
-    area += 0.5 * (piece.corner[1] - piece.corner[0]).cross(piece.corner[2] - piece.corner[0]).norm();
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LE((piece.corner[(i + 1) % 3] - piece.corner[i]).norm(), 0.3);
+    area +=
+        0.5 * (piece.corner[1] - piece.corner[0]).cross(piece.corner[2] - piece.corner[0]).norm();
   }
   EXPECT_NEAR(area, 2, 1e-12);
   EXPECT_EQ(count_pieces(mesh, 0.3, 1'000'000), pieces.size());

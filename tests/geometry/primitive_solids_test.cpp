@@ -42,7 +42,8 @@ TriangleMesh turned(const std::vector<Vec2>& outline) {
 void expect_same(const SolidProperties& a, const SolidProperties& b, double share) {
   EXPECT_NEAR(a.volume, b.volume, share * b.volume);
   EXPECT_LT((a.p_BCom - b.p_BCom).norm(), share);
-  EXPECT_LT((a.inertia - b.inertia).norm(), share * b.inertia.norm()) << a.inertia << "\n" << b.inertia;
+  EXPECT_LT((a.inertia - b.inertia).norm(), share * b.inertia.norm()) << a.inertia << "\n"
+                                                                      << b.inertia;
 }
 
 TEST(PrimitiveSolids, EqualTheMeshesOfTheirShapes) {
@@ -50,11 +51,14 @@ TEST(PrimitiveSolids, EqualTheMeshesOfTheirShapes) {
   expect_same(solid_box(e), solid_properties(make_box(-0.5 * e, e)), kRounding);
   // 256 sides and 64 rings fall short of the round body by some 1e-4 of its volume.
   constexpr double kSided = 1e-3;
-  expect_same(solid_cylinder(0.3, 1.4), solid_properties(turned({{-0.7, 0.3}, {0.7, 0.3}})), kSided);
-  expect_same(solid_cone(0.5, 1.2), solid_properties(turned({{-0.6, 0.5}, {0.6 - 1e-6, 1e-6 * 0.5 / 1.2}})), kSided);
+  expect_same(solid_cylinder(0.3, 1.4), solid_properties(turned({{-0.7, 0.3}, {0.7, 0.3}})),
+              kSided);
+  expect_same(solid_cone(0.5, 1.2),
+              solid_properties(turned({{-0.6, 0.5}, {0.6 - 1e-6, 1e-6 * 0.5 / 1.2}})), kSided);
   std::vector<Vec2> ball, pill;
   for (int i = 0; i <= 64; ++i) {
-    const double up = kPi * (i / 64.0 - 0.5), z = 0.4 * std::sin(up), r = std::max(0.4 * std::cos(up), 1e-7);
+    const double up = kPi * (i / 64.0 - 0.5), z = 0.4 * std::sin(up),
+                 r = std::max(0.4 * std::cos(up), 1e-7);
     ball.emplace_back(z + (i == 0 ? -1e-9 : 0), r);
     pill.emplace_back(i < 32 ? z - 0.5 : z + 0.5, r);
   }
@@ -66,7 +70,8 @@ TEST(PrimitiveSolids, TwoHalvesOfABoxAreTheBox) {
   // Each half turned and put to its place: turning, moving and joining undo the cut.
   const Pose left = make_pose(-0.5, 0, 0), right = make_pose(0.5, 0, 0, 0, 0, kPi);
   const SolidProperties half = solid_box(Vec3(1, 0.6, 0.8));
-  expect_same(joined(placed(half, left), placed(half, right)), solid_box(Vec3(2, 0.6, 0.8)), kRounding);
+  expect_same(joined(placed(half, left), placed(half, right)), solid_box(Vec3(2, 0.6, 0.8)),
+              kRounding);
   EXPECT_NEAR(weighed(half, 7850).volume, 7850 * 0.48, 1e-9);
 }
 

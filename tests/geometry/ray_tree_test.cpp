@@ -21,10 +21,12 @@ Vec3 somewhere(Random& random, double size) {
 }
 
 /// `first_hit` without a tree; `direction` is unit.
-std::optional<RayHit> by_force(const TriangleMesh& mesh, const Vec3& origin, const Vec3& direction, double reach) {
+std::optional<RayHit> by_force(const TriangleMesh& mesh, const Vec3& origin, const Vec3& direction,
+                               double reach) {
   std::optional<RayHit> best;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto d = ray_triangle(origin, direction, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    const auto d =
+        ray_triangle(origin, direction, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
     if (d && *d <= reach && (!best || *d < best->distance))
       best = RayHit{static_cast<int>(t), *d, mesh.area_vector(t).normalized()};
   }
@@ -104,7 +106,8 @@ TEST(RayTree, TakesTheLowestTriangleOfEqualOnes) {
   const TriangleMesh box = make_box(Vec3::Zero(), Vec3::Ones());
   const auto corner = RayTree(box).first_hit(Vec3(2, 2, 2), Vec3(-1, -1, -1));
   ASSERT_TRUE(corner);
-  EXPECT_EQ(corner->triangle, by_force(box, Vec3(2, 2, 2), Vec3(-1, -1, -1).normalized(), kInfinity)->triangle);
+  EXPECT_EQ(corner->triangle,
+            by_force(box, Vec3(2, 2, 2), Vec3(-1, -1, -1).normalized(), kInfinity)->triangle);
 }
 
 TEST(RayTree, TakesRaysAlongTheAxesInThePlanesOfItsBoxes) {

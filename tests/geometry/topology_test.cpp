@@ -84,7 +84,8 @@ TEST(SolidMesh, IsClosedAndTurnedOutwardsPieceByPiece) {
 
 TEST(SolidMesh, ToleratesBodiesThatShareAnEdge) {
   // Two boxes that touch along an edge: four triangles meet there, run through twice either way.
-  const TriangleMesh both = together(make_box(Vec3::Zero(), Vec3::Ones()), make_box(Vec3(1, 1, 0), Vec3::Ones()));
+  const TriangleMesh both =
+      together(make_box(Vec3::Zero(), Vec3::Ones()), make_box(Vec3(1, 1, 0), Vec3::Ones()));
   EXPECT_TRUE(is_solid(both));
   EXPECT_EQ(inspect(welded(both)).crowded_edges, 1);
 }

@@ -9,8 +9,8 @@
 
 #include "core/random.h"
 #include "core/saved_state.h"
-#include "heightfield/ground.h"
 #include "heightfield/grounds.h"
+#include "heightfield/layered_ground.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -31,8 +31,10 @@ Columns differing(const Terrain& a, const Terrain& b) {
   Columns out;
   for (int iy = 0; iy < a.ny(); ++iy)
     for (int ix = 0; ix < a.nx(); ++ix)
-      if (a.height(ix, iy) != b.height(ix, iy) || a.surface_soil(ix, iy) != b.surface_soil(ix, iy) ||
-          a.specific_volume(ix, iy) != b.specific_volume(ix, iy) || a.loose_depth(ix, iy) != b.loose_depth(ix, iy))
+      if (a.height(ix, iy) != b.height(ix, iy) ||
+          a.surface_soil(ix, iy) != b.surface_soil(ix, iy) ||
+          a.specific_volume(ix, iy) != b.specific_volume(ix, iy) ||
+          a.loose_depth(ix, iy) != b.loose_depth(ix, iy))
         out.insert({ix, iy});
   return out;
 }
@@ -48,7 +50,7 @@ std::int64_t area(const std::vector<CellRect>& rects) {
 }
 
 void edit(Ground& ground, Random& random, int count, const CellRect& where) {
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   for (int n = 0; n < count; ++n) {
     const int ix = static_cast<int>(random.uniform(where.x0, where.x1));
     const int iy = static_cast<int>(random.uniform(where.y0, where.y1));
@@ -65,7 +67,7 @@ void edit(Ground& ground, Random& random, int count, const CellRect& where) {
   }
 }
 
-TEST(ChangeFollower, TellsTheWholeSiteFirstAndThenNothing) {
+TEST(ChangeFollower, ReportsTheWholeSiteFirstAndThenNothing) {
   Ground ground(wavy_setup());
   ChangeFollower follower;
   EXPECT_EQ(covered(follower.take(ground.view())).size(), 77u * 45u);
@@ -74,19 +76,20 @@ TEST(ChangeFollower, TellsTheWholeSiteFirstAndThenNothing) {
   EXPECT_EQ(covered(follower.take(ground.view())).size(), 77u * 45u);
 }
 
-TEST(ChangeFollower, TellsFewChangesExactly) {
+TEST(ChangeFollower, ReportsFewChangesExactly) {
   Ground ground(wavy_setup());
   ChangeFollower follower;
   follower.take(ground.view());
-  for (const auto& [ix, iy] : Columns{{3, 4}, {4, 4}, {3, 5}, {4, 5}, {70, 40}}) ground.put(ix, iy, {0, 1000, 1, 0});
+  for (const auto& [ix, iy] : Columns{{3, 4}, {4, 4}, {3, 5}, {4, 5}, {70, 40}})
+    ground.put(ix, iy, {0, 1000, 1, 0});
   const std::vector<CellRect> rects = follower.take(ground.view());
   EXPECT_EQ(rects.size(), 2u);  // the four neighbours are one rectangle
   EXPECT_EQ(area(rects), 5);
   // What was put back is no change, although it was announced as two.
   const double before = ground.height(70, 40);
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(70, 40, before - 0.1, taken);
-  for (const Layer& layer : taken) ground.put(70, 40, layer);
+  for (const SoilLayer& layer : taken) ground.put(70, 40, layer);
   ASSERT_EQ(ground.height(70, 40), before);
   EXPECT_TRUE(follower.take(ground.view()).empty());
 }
@@ -99,14 +102,16 @@ TEST(ChangeFollower, CoversRandomEditsAsAFullComparisonFindsThem) {
   often.take(last);
   seldom.take(last);
   for (int round = 0; round < 60; ++round) {
-    const int x = static_cast<int>(random.uniform(0, 180)), y = static_cast<int>(random.uniform(0, 130));
+    const int x = static_cast<int>(random.uniform(0, 180)),
+              y = static_cast<int>(random.uniform(0, 130));
     // From one column to scattered over the whole site.
     const CellRect where = round % 10 == 9 ? ground.site_rect() : CellRect{x, y, x + 20, y + 20};
     edit(ground, random, 1 << (round % 9), where);
     TerrainView view = ground.view();
     if (round % 3 == 0) {
       const double z = view.height(x, y);
-      view = view.with(LooseSoil(view, {{x, y, z, 0.001, 0, 1.2f}, {x + 7, y + 9, z, 0.001, 0, 1.2f}}));
+      view = view.with(
+          LooseSoil(view, {{x, y, z, 0.001, 0, 1.2f}, {x + 7, y + 9, z, 0.001, 0, 1.2f}}));
     }
     const std::vector<CellRect> rects = often.take(view);
     const Columns truth = differing(last, view);
@@ -136,7 +141,8 @@ TEST(ChangeFollower, IsRightAfterASnapshotWasLoaded) {
   const TerrainView later = ground.view();
   follower.take(later);
   load_saved(state, ground);
-  // Back to what it was: what the edits changed has changed again, though the sequence number went down.
+  // Back to what it was: what the edits changed has changed again, though the sequence number went
+  // down.
   const TerrainView loaded = ground.view();
   EXPECT_TRUE(differing(then, loaded).empty());
   EXPECT_TRUE(holds(covered(follower.take(loaded)), differing(later, loaded)));
@@ -151,8 +157,10 @@ TEST(RectList, CoversWhatWasAddedWithAtMostItsNumber) {
     RectList list;
     std::vector<CellRect> all;
     for (int n = 0; n < 10 + 20 * round; ++n) {
-      const int x = static_cast<int>(random.uniform(0, 300)), y = static_cast<int>(random.uniform(0, 200));
-      const CellRect rect{x, y, x + static_cast<int>(random.uniform(0, 6)), y + static_cast<int>(random.uniform(0, 6))};
+      const int x = static_cast<int>(random.uniform(0, 300)),
+                y = static_cast<int>(random.uniform(0, 200));
+      const CellRect rect{x, y, x + static_cast<int>(random.uniform(0, 6)),
+                          y + static_cast<int>(random.uniform(0, 6))};
       list.add(rect);
       all.push_back(rect);
     }

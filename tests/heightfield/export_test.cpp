@@ -9,8 +9,8 @@
 #include "heightfield/file_rows.h"
 #include "heightfield/grounds.h"
 #include "heightfield/loose_soil.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
 #include "heightfield/terrain_view.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
@@ -31,7 +31,7 @@ Ground marked(double easting, double northing, double offset) {
   setup.northing = northing;
   setup.height_offset = offset;
   Ground ground(std::move(setup));
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(70, 3, -1, taken);
   return ground;
 }
@@ -64,7 +64,8 @@ TEST(Export, IsReadByOthersAtTheRightPlace) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const int nx = ground.nx();
       const double height = ground.height(static_cast<int>(i) % nx, static_cast<int>(i) / nx) + 412;
-      ASSERT_NEAR(values[i], height, 3e-5) << format.name << " " << i;  // half an ulp of float at 412 m
+      // Half an ulp of float at 412 m
+      ASSERT_NEAR(values[i], height, 3e-5) << format.name << " " << i;
     }
     EXPECT_FALSE(std::filesystem::exists(dir + format.name + ".part"));
   }
@@ -73,14 +74,17 @@ TEST(Export, IsReadByOthersAtTheRightPlace) {
 #ifdef NAVVY_WITH_GDAL
 TEST(Export, ReturnsToTheSameGroundAtAnEastingOfAMillionAndAHalf) {
   const std::string dir = folder();
-  const auto z = [](int c, int r) { return std::to_string(870 + 0.375 * c - 0.25 * r + 0.0625 * ((c * r) % 5)); };
+  const auto z = [](int c, int r) {
+    return std::to_string(870 + 0.375 * c - 0.25 * r + 0.0625 * ((c * r) % 5));
+  };
   const std::string header = "xllcorner 1540000.37\nyllcorner 5150000.81\ncellsize 1\n";
   testing::write_text(dir + "source.asc", testing::ascii_grid(30, 20, header, z));
   const Ground first = make_ground(testing::map_world(dir + "source.asc", 0.25, Vec2(20, 12)));
   for (const Format& format : formats()) {
     format.writer(first, dir + format.name);
     std::string report;
-    const Ground second = make_ground(testing::map_world(dir + format.name, 0.25, Vec2(20, 12)), &report);
+    const Ground second =
+        make_ground(testing::map_world(dir + format.name, 0.25, Vec2(20, 12)), &report);
     // 1e-6 m: coordinates stay double; in float they would be off by 0.125 m.
     EXPECT_NEAR(second.setup().easting, first.setup().easting, 1e-6) << report;
     EXPECT_NEAR(second.setup().northing, first.setup().northing, 1e-6);
@@ -96,57 +100,69 @@ TEST(Export, KeepsTheReferenceAndNodataOfTheSource) {
   if (!has_tool("gdal_translate") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   const std::string dir = folder();
   const auto z = [](int c, int r) { return std::to_string(10 + 0.5 * c + r); };
-  testing::write_text(dir + "feet.asc",
-                      testing::ascii_grid(30, 20, "xllcorner 981000\nyllcorner 195000\ncellsize 1\n", z));
-  testing::output_of("gdal_translate -ot Float32 -a_srs EPSG:2263 '" + dir + "feet.asc' '" + dir + "feet.tif'");
+  testing::write_text(
+      dir + "feet.asc",
+      testing::ascii_grid(30, 20, "xllcorner 981000\nyllcorner 195000\ncellsize 1\n", z));
+  testing::output_of("gdal_translate -ot Float32 -a_srs EPSG:2263 '" + dir + "feet.asc' '" + dir +
+                     "feet.tif'");
   const double foot = 1200.0 / 3937.0;
-  const Ground ground = make_ground(testing::map_world(dir + "feet.tif", foot, Vec2(20 * foot, 12 * foot)));
+  const Ground ground =
+      make_ground(testing::map_world(dir + "feet.tif", foot, Vec2(20 * foot, 12 * foot)));
   write_geotiff(ground, dir + "out.tif");
   const std::string info = testing::output_of("gdalinfo '" + dir + "out.tif'");
-  for (const char* part :
-       {"2263", "NoData Value=-9999", "COMPRESSION=DEFLATE", "PREDICTOR=3", "Type=Float32", "Size is 20, 12"})
+  for (const char* part : {"2263", "NoData Value=-9999", "COMPRESSION=DEFLATE", "PREDICTOR=3",
+                           "Type=Float32", "Size is 20, 12"})
     EXPECT_NE(info.find(part), std::string::npos) << part << "\n" << info;
   const std::vector<Vec2> points = {{981005.5, 195004.5}, {981024.5, 195015.5}};
-  const std::vector<double> before = located(dir + "feet.tif", points), after = located(dir + "out.tif", points);
+  const std::vector<double> before = located(dir + "feet.tif", points),
+                            after = located(dir + "out.tif", points);
   ASSERT_EQ(after.size(), 2u);
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], 2e-5);
 }
 
-TEST(Export, KeepsTheUnitOfHeightsWhoeverToldIt) {
+TEST(Export, KeepsTheUnitOfHeightsWhereverItCameFrom) {
   for (const char* tool : {"gdal_translate", "gdal_edit.py", "gdalinfo"})
     if (!testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
   const std::string dir = folder();
   const auto z = [](int c, int r) { return std::to_string(2800 + 0.5 * c + 1.25 * r); };
-  testing::write_text(dir + "map.asc",
-                      testing::ascii_grid(30, 20, "xllcorner 481000\nyllcorner 195000\ncellsize 1\n", z));
+  testing::write_text(
+      dir + "map.asc",
+      testing::ascii_grid(30, 20, "xllcorner 481000\nyllcorner 195000\ncellsize 1\n", z));
   struct Case {
     const char *crs, *tag, *written;
     double metres, cell;
   };
   const double survey = 1200.0 / 3937.0;
-  // Heights in feet over metres, metres over feet, and a vertical CRS in feet (NAVD88, US survey feet).
-  for (const Case& one :
-       {Case{"EPSG:26915", "ft", "ft", 0.3048, 1}, Case{"EPSG:26915", "US survey foot", "US survey foot", survey, 1},
-        Case{"EPSG:26915", "m", "m", 1, 1}, Case{"EPSG:26915", "", "m", 1, 1}, Case{"EPSG:2263", "m", "m", 1, survey},
-        Case{"EPSG:2263", "", "US survey foot", survey, survey},
-        Case{"EPSG:26915+6360", "", "US survey foot", survey, 1}}) {
-    const std::string file = dir + "in.tif", out = dir + "out.tif", what = std::string(one.crs) + " " + one.tag;
-    testing::output_of(std::string("gdal_translate -ot Float32 -a_srs ") + one.crs + " '" + dir + "map.asc' '" + file +
-                       "'");
-    if (*one.tag != '\0') testing::output_of(std::string("gdal_edit.py -units '") + one.tag + "' '" + file + "'");
+  // Heights in feet over metres, metres over feet, and a vertical CRS in feet (NAVD88, US survey
+  // feet).
+  for (const Case& one : {Case{"EPSG:26915", "ft", "ft", 0.3048, 1},
+                          Case{"EPSG:26915", "US survey foot", "US survey foot", survey, 1},
+                          Case{"EPSG:26915", "m", "m", 1, 1}, Case{"EPSG:26915", "", "m", 1, 1},
+                          Case{"EPSG:2263", "m", "m", 1, survey},
+                          Case{"EPSG:2263", "", "US survey foot", survey, survey},
+                          Case{"EPSG:26915+6360", "", "US survey foot", survey, 1}}) {
+    const std::string file = dir + "in.tif", out = dir + "out.tif",
+                      what = std::string(one.crs) + " " + one.tag;
+    testing::output_of(std::string("gdal_translate -ot Float32 -a_srs ") + one.crs + " '" + dir +
+                       "map.asc' '" + file + "'");
+    if (*one.tag != '\0')
+      testing::output_of(std::string("gdal_edit.py -units '") + one.tag + "' '" + file + "'");
     const Vec2 size(20 * one.cell, 12 * one.cell);
     const Ground ground = make_ground(testing::map_world(file, one.cell, size));
     EXPECT_NEAR(ground.setup().file_height_unit, one.metres, 1e-12) << what;
     write_geotiff(ground, out);
     const std::string info = testing::output_of("gdalinfo '" + out + "'");
-    EXPECT_NE(info.find(std::string("Unit Type: ") + one.written + "\n"), std::string::npos) << what << "\n" << info;
+    EXPECT_NE(info.find(std::string("Unit Type: ") + one.written + "\n"), std::string::npos)
+        << what << "\n"
+        << info;
     const Ground again = make_ground(testing::map_world(out, one.cell, size));
     EXPECT_NEAR(again.setup().file_height_unit, one.metres, 1e-12) << what;
     for (int iy = 0; iy < ground.ny(); ++iy)
       for (int ix = 0; ix < ground.nx(); ++ix)
         // An ulp of float at 2800 units, and two quanta.
         ASSERT_NEAR(again.height(ix, iy) + again.setup().height_offset,
-                    ground.height(ix, iy) + ground.setup().height_offset, 2.5e-4 * one.metres + 1e-6)
+                    ground.height(ix, iy) + ground.setup().height_offset,
+                    2.5e-4 * one.metres + 1e-6)
             << what;
   }
 }
@@ -155,12 +171,13 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   const std::string dir = folder();
   const Ground ground = marked(100, 200, 0);
   const double top = ground.height(5, 6);
-  const TerrainView view =
-      ground.view().with(LooseSoil(ground.view(), {{5, 6, top, 0.0015, 0, 1.2f}}), SurfaceKind::kMapped);
+  const TerrainView view = ground.view().with(
+      LooseSoil(ground.view(), {{5, 6, top, 0.0015, 0, 1.2f}}), SurfaceKind::kMapped);
   write_geotiff(view, dir + "awake.tif", {"loose_depth", "awake"});
   write_geotiff(view, dir + "plain.tif");
   std::string report;
-  const Ground read = make_ground(testing::map_world(dir + "awake.tif", 0.1, Vec2(7.7, 4.5)), &report);
+  const Ground read =
+      make_ground(testing::map_world(dir + "awake.tif", 0.1, Vec2(7.7, 4.5)), &report);
   EXPECT_NE(report.find("3 bands"), std::string::npos) << report;
   const Ground plain = make_ground(testing::map_world(dir + "plain.tif", 0.1, Vec2(7.7, 4.5)));
   for (int iy = 0; iy < read.ny(); ++iy)
@@ -169,7 +186,8 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   EXPECT_FALSE(std::filesystem::exists(dir + "none.tif"));
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   // A point's values, band after band.
-  const std::vector<double> values = located(dir + "awake.tif", {{100.55, 200.65}, {100.75, 200.65}});
+  const std::vector<double> values =
+      located(dir + "awake.tif", {{100.55, 200.65}, {100.75, 200.65}});
   ASSERT_EQ(values.size(), 6u);
   EXPECT_NEAR(values[0], top + 0.15, 1e-6);  // 1.5 l on 0.01 m2; half an ulp of a float at 1 m
   EXPECT_NEAR(values[1], 0.15, 1e-6);
@@ -177,7 +195,8 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   EXPECT_NEAR(values[3], ground.height(7, 6), 1e-6);
   EXPECT_EQ(values[4], 0);
   EXPECT_EQ(values[5], 0);
-  EXPECT_NE(testing::output_of("gdalinfo '" + dir + "awake.tif'").find("loose_depth"), std::string::npos);
+  EXPECT_NE(testing::output_of("gdalinfo '" + dir + "awake.tif'").find("loose_depth"),
+            std::string::npos);
 }
 
 TEST(Export, WritesALayerOfARectangle) {
@@ -187,7 +206,8 @@ TEST(Export, WritesALayerOfARectangle) {
   std::vector<float> values(3 * 70);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
   write_geotiff(ground, CellRect{10, 2, 13, 45 + 27}, values, dir + "layer.tif");
-  const std::vector<double> read = located(dir + "layer.tif", {{101.05, 200.25}, {101.25, 200.25}, {101.05, 207.15}});
+  const std::vector<double> read =
+      located(dir + "layer.tif", {{101.05, 200.25}, {101.25, 200.25}, {101.05, 207.15}});
   EXPECT_EQ(read, (std::vector<double>{0, 2, 207}));
   EXPECT_THROW(write_geotiff(ground, CellRect{0, 0, 2, 2}, values, dir + "layer.tif"), Error);
 }

@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/limits.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -23,11 +23,15 @@ using testing::map_world;
 using testing::output_of;
 using testing::write_text;
 
-// No symmetry in it: every mirror or transposition of a 13 x 7 map of this changes nearly all cells.
-double asymmetric(int column, int row) { return 100 + 1.25 * column + 7.5 * row + 0.5 * ((column * row * 5) % 7); }
+// No symmetry in it: every mirror or transposition of a 13 x 7 map of this changes nearly all
+// cells.
+double asymmetric(int column, int row) {
+  return 100 + 1.25 * column + 7.5 * row + 0.5 * ((column * row * 5) % 7);
+}
 std::string asymmetric_text(int column, int row) { return std::to_string(asymmetric(column, row)); }
 
-std::string asymmetric_map(const std::string& path, const std::string& corner = "xllcorner 500\nyllcorner 8000\n") {
+std::string asymmetric_map(const std::string& path,
+                           const std::string& corner = "xllcorner 500\nyllcorner 8000\n") {
   return write_text(path, ascii_grid(13, 7, corner + "cellsize 1\n", asymmetric_text));
 }
 
@@ -40,15 +44,19 @@ std::string message_of(const scene::Scene& world) {
   return "";
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
-// Every column of a site whose columns coincide with the cells of the map, against gdallocationinfo.
+// Every column of a site whose columns coincide with the cells of the map, against
+// gdallocationinfo.
 void expect_as_located(const std::string& file, const Ground& ground, double tolerance) {
   const Ground::Setup& setup = ground.setup();
   std::vector<Vec2> points;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix)
-      points.push_back(Vec2(setup.easting, setup.northing) + setup.cell / setup.file_unit * Vec2(ix + 0.5, iy + 0.5));
+      points.push_back(Vec2(setup.easting, setup.northing) +
+                       setup.cell / setup.file_unit * Vec2(ix + 0.5, iy + 0.5));
   const std::vector<double> values = located(file, points);
   ASSERT_EQ(values.size(), points.size());
   for (int iy = 0; iy < ground.ny(); ++iy)
@@ -83,12 +91,13 @@ TEST(Import, IsNeitherMirroredNorTransposed) {
 }
 
 TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
-  if (!has_tool("gdallocationinfo") || !has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
+  if (!has_tool("gdallocationinfo") || !has_tool("gdal_translate"))
+    GTEST_SKIP() << "gdal-bin is missing";
   const std::string dir = folder(), ascii = asymmetric_map(dir + "map.asc");
   for (const std::string kind : {"Area", "Point"}) {
     const std::string file = dir + kind + ".tif";
-    output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 -mo AREA_OR_POINT=" + kind + " '" + ascii + "' '" + file +
-              "'");
+    output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 -mo AREA_OR_POINT=" + kind + " '" +
+              ascii + "' '" + file + "'");
     scene::Scene world = map_world(file, 1, Vec2(8, 4));
     world.ground.has_at = true;
     world.ground.at = Vec2(506, 8004);
@@ -101,7 +110,8 @@ TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
     expect_as_located(file, make_ground(world), kFloatHeight);
   }
   // ESRI's own way to register at points: the corner lies half a cell lower.
-  const std::string centred = asymmetric_map(dir + "centre.asc", "xllcenter 500.5\nyllcenter 8000.5\n");
+  const std::string centred =
+      asymmetric_map(dir + "centre.asc", "xllcenter 500.5\nyllcenter 8000.5\n");
   scene::Scene world = map_world(centred, 1, Vec2(8, 4));
   world.ground.has_at = true;
   world.ground.at = Vec2(506, 8004);
@@ -111,8 +121,9 @@ TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
 
 TEST(Import, ReadsCellsThatAreNotSquare) {
   const std::string file =
-      write_text(folder() + "map.asc", ascii_grid(20, 6, "XLLCORNER 0\nYLLCORNER 0\nDX 0.5\nDY 2\n",
-                                                  [](int c, int r) { return std::to_string(0.5 * c + 3 * (5 - r)); }));
+      write_text(folder() + "map.asc",
+                 ascii_grid(20, 6, "XLLCORNER 0\nYLLCORNER 0\nDX 0.5\nDY 2\n",
+                            [](int c, int r) { return std::to_string(0.5 * c + 3 * (5 - r)); }));
   const Ground ground = make_ground(map_world(file, 0.1, Vec2(4, 4)));
   // A plane of slope 1 along x and 1.5 along y, whatever the cells are.
   const double left = ground.sample(-1.5, 0), right = ground.sample(1.5, 0);
@@ -125,13 +136,14 @@ TEST(Import, KnowsEverySpellingOfNodata) {
   struct Case {
     std::string name, header, cell;
   };
-  const std::vector<Case> cases = {{"usual", "NODATA_value -9999\n", "-9999"},
-                                   {"odd", "NODATA_value -9999.005859375\n", "-9999.005859375"},
-                                   {"float", "NODATA_value -3.4028230607370965e+38\n", "-3.4028230607370965e+38"},
-                                   {"infinite", "NODATA_value -inf\n", "-inf"},
-                                   {"undeclared", "", "-9999"},
-                                   {"undeclared_float", "", "-3.4028230607370965e+38"},
-                                   {"nan", "", "nan"}};
+  const std::vector<Case> cases = {
+      {"usual", "NODATA_value -9999\n", "-9999"},
+      {"odd", "NODATA_value -9999.005859375\n", "-9999.005859375"},
+      {"float", "NODATA_value -3.4028230607370965e+38\n", "-3.4028230607370965e+38"},
+      {"infinite", "NODATA_value -inf\n", "-inf"},
+      {"undeclared", "", "-9999"},
+      {"undeclared_float", "", "-3.4028230607370965e+38"},
+      {"nan", "", "nan"}};
   for (const Case& c : cases) {
     const auto z = [&](int column, int row) {
       return column >= 9 && column < 12 && row == 10 ? c.cell : std::to_string(5.5 + 0.25 * column);
@@ -154,18 +166,23 @@ TEST(Import, KnowsEverySpellingOfNodata) {
 TEST(Import, KeepsZeroNegativeAndHighHeights) {
   const std::string dir = folder();
   for (const double base : {0.0, -431.5, 4807.25}) {
-    const auto z = [&](int c, int r) { return std::to_string(base + (c + r == 0 ? 0.0 : 0.125 * (c % 3))); };
+    const auto z = [&](int c, int r) {
+      return std::to_string(base + (c + r == 0 ? 0.0 : 0.125 * (c % 3)));
+    };
     const std::string file = write_text(
-        dir + "map.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n", z));
+        dir + "map.asc",
+        ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n", z));
     const Ground ground = make_ground(map_world(file, 1, Vec2(16, 16)));
-    EXPECT_NEAR(ground.height(4, 5) + ground.setup().height_offset, base + 0.125, kFloatHeight) << base;
+    EXPECT_NEAR(ground.height(4, 5) + ground.setup().height_offset, base + 0.125, kFloatHeight)
+        << base;
     EXPECT_LT(std::abs(ground.height(4, 5)), 2) << base;  // W heights are small
     EXPECT_EQ(ground.setup().height_offset, std::floor(ground.setup().height_offset));
   }
   // A map without any height is refused.
   const std::string empty =
-      write_text(dir + "empty.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n",
-                                               [](int, int) { return "-9999"; }));
+      write_text(dir + "empty.asc",
+                 ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n",
+                            [](int, int) { return "-9999"; }));
   EXPECT_TRUE(contains(message_of(map_world(empty, 1, Vec2(8, 8))), "all is nodata"));
 }
 
@@ -190,7 +207,8 @@ TEST(Import, RefusesDegreesWithTheRemedyAndSeesThroughFalseOnes) {
   if (!has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
   const std::string dir = folder();
   const std::string small = write_text(
-      dir + "small.asc", ascii_grid(13, 7, "xllcorner -93.9\nyllcorner 46.5\ncellsize 0.00001\n", asymmetric_text));
+      dir + "small.asc",
+      ascii_grid(13, 7, "xllcorner -93.9\nyllcorner 46.5\ncellsize 0.00001\n", asymmetric_text));
   output_of("gdal_translate -a_srs EPSG:4326 '" + small + "' '" + dir + "degrees.tif'");
   const std::string message = message_of(map_world(dir + "degrees.tif", 0.1, Vec2(4, 4)));
   EXPECT_TRUE(contains(message, "degrees")) << message;
@@ -215,7 +233,7 @@ bool notes(const TerrainReport& report, const std::string& part) {
                      [&](const std::string& note) { return contains(note, part); });
 }
 
-TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
+TEST(Import, ReportsHowMuchOfTheSiteWasFilledFromWhereAndTheRemedy) {
   const std::string dir = folder(), header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
   const auto plane = [](int c, int r) { return std::to_string(100.125 + 0.5 * c + 0.25 * r); };
   // A hole of 7 x 7 cells: its middle is the fourth from any height.
@@ -225,8 +243,8 @@ TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
   const std::string whole = write_text(dir + "whole.asc", ascii_grid(20, 20, header, plane));
   EXPECT_EQ(report_of(whole).warning(), "");
   EXPECT_EQ(make_ground(map_world(whole, 0.25, Vec2(10, 10))).setup().filled_share, 0);
-  const std::string holes =
-      write_text(dir + "holes.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", holed("-9999")));
+  const std::string holes = write_text(
+      dir + "holes.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", holed("-9999")));
   const TerrainReport told = report_of(holes);
   EXPECT_EQ(told.site_cells, 100);
   EXPECT_EQ(told.site_gaps, 49);
@@ -234,10 +252,13 @@ TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
   EXPECT_EQ(filled.setup().filled_share, 0.49);
   EXPECT_EQ(filled.setup().filled_from, 4);
   const std::string warning = told.warning();
-  EXPECT_TRUE(contains(warning, "49 of 100 map cells on the site (49 %, 49 m2) have no height")) << warning;
+  EXPECT_TRUE(contains(warning, "49 of 100 map cells on the site (49 %, 49 m2) have no height"))
+      << warning;
   EXPECT_TRUE(contains(warning, "from up to 4 m away")) << warning;
   EXPECT_EQ(warning.find('\n'), std::string::npos) << warning;
-  EXPECT_TRUE(contains(told.text(), "49 of 100 cells on the site (49 %), filled from up to 4 m away")) << told.text();
+  EXPECT_TRUE(
+      contains(told.text(), "49 of 100 cells on the site (49 %), filled from up to 4 m away"))
+      << told.text();
   // A gap beside the site is none of it.
   const auto beside = [&](int c, int r) { return c == 3 ? std::string("-9999") : plane(c, r); };
   const std::string margin =
@@ -248,10 +269,13 @@ TEST(Import, TellsHowMuchOfTheSiteWasFilledAndFromHowFarAndWhatDoesItBetter) {
   const std::string odd = write_text(dir + "odd.asc", ascii_grid(20, 20, header, holed("1e38")));
   const std::string undeclared = report_of(odd).warning();
   EXPECT_TRUE(contains(undeclared, "1e+38 is no ground's height")) << undeclared;
-  if (!has_tool("gdal_fillnodata.py") || !has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
-  ASSERT_TRUE(testing::run_remedy(warning, "gdal_fillnodata.py", holes, dir + "filled.tif")) << warning;
+  if (!has_tool("gdal_fillnodata.py") || !has_tool("gdal_translate"))
+    GTEST_SKIP() << "gdal-bin is missing";
+  ASSERT_TRUE(testing::run_remedy(warning, "gdal_fillnodata.py", holes, dir + "filled.tif"))
+      << warning;
   EXPECT_EQ(report_of(dir + "filled.tif").warning(), "");
-  ASSERT_TRUE(testing::run_remedy(undeclared, "gdal_translate", odd, dir + "declared.tif")) << undeclared;
+  ASSERT_TRUE(testing::run_remedy(undeclared, "gdal_translate", odd, dir + "declared.tif"))
+      << undeclared;
   EXPECT_EQ(report_of(dir + "declared.tif").unmarked, 0);
   EXPECT_EQ(report_of(dir + "declared.tif").site_gaps, 49);
 }
@@ -265,13 +289,16 @@ TEST(Import, NotesAStaircaseAndWhatSmoothsIt) {
   };
   const std::string stairs = map("stairs.asc", [](double z) { return std::round(z); });
   const TerrainReport told = report_of(stairs);
-  EXPECT_TRUE(notes(told, "whole numbers of the metre: a staircase with steps of 1 m")) << told.text();
+  EXPECT_TRUE(notes(told, "whole numbers of the metre: a staircase with steps of 1 m"))
+      << told.text();
   EXPECT_FALSE(notes(report_of(map("fine.asc", [](double z) { return z; })), "staircase"));
-  EXPECT_FALSE(notes(report_of(map("tenths.asc", [](double z) { return std::round(10 * z) / 10; })), "staircase"));
+  EXPECT_FALSE(notes(report_of(map("tenths.asc", [](double z) { return std::round(10 * z) / 10; })),
+                     "staircase"));
   EXPECT_FALSE(notes(report_of(map("level.asc", [](double) { return 312.0; })), "staircase"));
   if (!has_tool("gdalwarp") || !has_tool("gdal_edit.py")) GTEST_SKIP() << "gdal-bin is missing";
   // Its remedy leaves no staircase, and the heights that there were.
-  ASSERT_TRUE(testing::run_remedy(told.text(), "gdalwarp", stairs, dir + "smooth.tif")) << told.text();
+  ASSERT_TRUE(testing::run_remedy(told.text(), "gdalwarp", stairs, dir + "smooth.tif"))
+      << told.text();
   const TerrainReport smooth = report_of(dir + "smooth.tif");
   EXPECT_FALSE(notes(smooth, "staircase")) << smooth.text();
   EXPECT_LT(smooth.slope.most, told.slope.most);
@@ -281,9 +308,11 @@ TEST(Import, NotesAStaircaseAndWhatSmoothsIt) {
   const std::string feet = dir + "feet.tif", turned = dir + "turned.tif";
   output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" + stairs + "' '" + feet + "'");
   output_of("gdal_edit.py -units ft '" + feet + "'");
-  EXPECT_TRUE(notes(report_of(feet), "whole numbers of the ft: a staircase with steps of 0.3048 m"));
+  EXPECT_TRUE(
+      notes(report_of(feet), "whole numbers of the ft: a staircase with steps of 0.3048 m"));
   output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" +
-            map("turned.asc", [](double z) { return std::round(z) / 0.3048; }) + "' '" + turned + "'");
+            map("turned.asc", [](double z) { return std::round(z) / 0.3048; }) + "' '" + turned +
+            "'");
   output_of("gdal_edit.py -units ft '" + turned + "'");
   EXPECT_TRUE(notes(report_of(turned), "whole numbers of the metre"));
 }
@@ -294,45 +323,56 @@ TEST(Import, NamesRemediesThatMend) {
   const std::string dir = folder();
   const auto z = [](int c, int r) { return std::to_string(100.25 + 0.5 * c + 0.3 * r); };
   // Turned against its axes.
-  const std::string plain =
-      write_text(dir + "plain.asc", ascii_grid(30, 30, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  const std::string plain = write_text(
+      dir + "plain.asc", ascii_grid(30, 30, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
   output_of("gdal_translate -of VRT '" + plain + "' '" + dir + "turned.vrt'");
   std::ifstream in(dir + "turned.vrt");
   std::string text(std::istreambuf_iterator<char>(in), {});
   const std::size_t begin = text.find("<GeoTransform>"), end = text.find("</GeoTransform>");
   ASSERT_NE(end, std::string::npos) << text;
-  write_text(dir + "turned.vrt", text.replace(begin, end - begin, "<GeoTransform>0, 0.9, 0.1, 30, 0.1, -0.9"));
+  write_text(dir + "turned.vrt",
+             text.replace(begin, end - begin, "<GeoTransform>0, 0.9, 0.1, 30, 0.1, -0.9"));
   output_of("gdal_translate '" + dir + "turned.vrt' '" + dir + "turned.tif'");
   std::string message = message_of(map_world(dir + "turned.tif", 0.5, Vec2(4, 4)));
-  ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "turned.tif", dir + "straight.tif")) << message;
+  ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "turned.tif", dir + "straight.tif"))
+      << message;
   EXPECT_EQ(message_of(map_world(dir + "straight.tif", 0.5, Vec2(4, 4))), "");
   // Degrees.
-  write_text(dir + "degrees.asc", ascii_grid(30, 30, "xllcorner -93.1\nyllcorner 44.9\ncellsize 0.0001\n", z));
+  write_text(dir + "degrees.asc",
+             ascii_grid(30, 30, "xllcorner -93.1\nyllcorner 44.9\ncellsize 0.0001\n", z));
   output_of("gdal_translate -a_srs EPSG:4326 '" + dir + "degrees.asc' '" + dir + "degrees.tif'");
   message = message_of(map_world(dir + "degrees.tif", 0.5, Vec2(4, 4)));
-  ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "degrees.tif", dir + "metres.tif")) << message;
+  ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "degrees.tif", dir + "metres.tif"))
+      << message;
   EXPECT_EQ(message_of(map_world(dir + "metres.tif", 0.5, Vec2(4, 4))), "");
-  // Degrees by a wrong label, in a file that gdal_edit.py cannot write to: it says to make one that it can.
+  // Degrees by a wrong label, in a file that gdal_edit.py cannot write to: it says to make one that
+  // it can.
   write_text(dir + "label.asc", ascii_grid(90, 60, "xllcorner 100\nyllcorner 20\ncellsize 1\n", z));
-  write_text(dir + "label.prj",
-             "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,298.257223563]],"
-             "PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.0174532925199433]]\n");
+  write_text(
+      dir + "label.prj",
+      "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,298.257223563]],"
+      "PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.0174532925199433]]\n");
   message = message_of(map_world(dir + "label.asc", 0.5, Vec2(4, 4)));
-  ASSERT_TRUE(testing::run_remedy(message, "gdal_translate", dir + "label.asc", dir + "label.tif")) << message;
-  ASSERT_TRUE(testing::run_remedy(message, "gdal_edit.py", dir + "label.tif", dir + "label.tif")) << message;
+  ASSERT_TRUE(testing::run_remedy(message, "gdal_translate", dir + "label.asc", dir + "label.tif"))
+      << message;
+  ASSERT_TRUE(testing::run_remedy(message, "gdal_edit.py", dir + "label.tif", dir + "label.tif"))
+      << message;
   EXPECT_EQ(message_of(map_world(dir + "label.tif", 0.5, Vec2(4, 4))), "");
   // A unit that nobody knows is a note with its remedy.
   output_of("gdal_translate -a_srs EPSG:26915 '" + plain + "' '" + dir + "unit.tif'");
   output_of("gdal_edit.py -units cubit '" + dir + "unit.tif'");
   const TerrainReport told = report_of(dir + "unit.tif");
   EXPECT_TRUE(notes(told, "heights in 'cubit'")) << told.text();
-  ASSERT_TRUE(testing::run_remedy(told.text(), "gdal_edit.py", dir + "unit.tif", "")) << told.text();
+  ASSERT_TRUE(testing::run_remedy(told.text(), "gdal_edit.py", dir + "unit.tif", ""))
+      << told.text();
   EXPECT_EQ(report_of(dir + "unit.tif").height_metres, 0.3048);
 }
 
 TEST(Import, ConvertsFeetOnAllThreeAxes) {
-  if (!has_tool("gdal_translate") || !has_tool("gdallocationinfo")) GTEST_SKIP() << "gdal-bin is missing";
-  const std::string dir = folder(), ascii = asymmetric_map(dir + "map.asc", "xllcorner 981000\nyllcorner 195000\n");
+  if (!has_tool("gdal_translate") || !has_tool("gdallocationinfo"))
+    GTEST_SKIP() << "gdal-bin is missing";
+  const std::string dir = folder(),
+                    ascii = asymmetric_map(dir + "map.asc", "xllcorner 981000\nyllcorner 195000\n");
   const std::string file = dir + "feet.tif";
   output_of("gdal_translate -ot Float32 -a_srs EPSG:2263 '" + ascii + "' '" + file + "'");
   const double foot = 1200.0 / 3937.0;  // US survey foot
@@ -342,16 +382,18 @@ TEST(Import, ConvertsFeetOnAllThreeAxes) {
   std::string report;
   const Ground ground = make_ground(world, &report);
   EXPECT_TRUE(contains(report, "heights carry no unit")) << report;
-  EXPECT_NEAR(ground.height(0, 0) + ground.setup().height_offset, asymmetric(2, 4) * foot, kFloatHeight);
-  // One column of feet is 0.3048 m wide and 0.09 m2: the mass quantum stays below the float of a height.
+  EXPECT_NEAR(ground.height(0, 0) + ground.setup().height_offset, asymmetric(2, 4) * foot,
+              kFloatHeight);
+  // One column of feet is 0.3048 m wide and 0.09 m2: the mass quantum stays below the float of a
+  // height.
   expect_as_located(file, ground, 2 * kFloatHeight);
 }
 
 TEST(Import, ReportsSlopesAndRepose) {
   // A face of 45 deg in a plane: 2 of 15 steps between rows.
   const auto z = [](int, int r) { return std::to_string(r < 7 ? 2.0 : r == 7 ? 1.0 : 0.0); };
-  const std::string file =
-      write_text(folder() + "face.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  const std::string file = write_text(
+      folder() + "face.asc", ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
   Ground::Setup setup;
   setup.nx = setup.ny = 160, setup.cell = 0.1;
   const TerrainReport report = import_terrain(map_world(file, 0.1, Vec2(16, 16)), setup);
@@ -374,8 +416,8 @@ TEST(Import, ReportsSlopesAndRepose) {
 
 TEST(Import, AveragesAMapFinerThanTheSoilCell) {
   const auto z = [](int c, int r) { return std::to_string((c + r) % 2 == 0 ? 1.0 : 0.0); };
-  const std::string file =
-      write_text(folder() + "fine.asc", ascii_grid(80, 80, "xllcorner 0\nyllcorner 0\ncellsize 0.05\n", z));
+  const std::string file = write_text(
+      folder() + "fine.asc", ascii_grid(80, 80, "xllcorner 0\nyllcorner 0\ncellsize 0.05\n", z));
   const Ground ground = make_ground(map_world(file, 0.2, Vec2(4, 4)));
   EXPECT_NEAR(ground.height(7, 9), 0.5, 1e-6);  // a chequerboard's mean, not one of its cells
 }
@@ -383,14 +425,15 @@ TEST(Import, AveragesAMapFinerThanTheSoilCell) {
 TEST(Import, RefusesDamagedFilesQuietly) {
   const std::string dir = folder();
   const std::string junk = write_text(dir + "junk.tif", "II*\0 this is no map");
-  const std::string half =
-      write_text(dir + "half.asc", "ncols 13\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
-  const std::string huge =
-      write_text(dir + "huge.asc", "ncols 2000000000\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
-  const std::string zero =
-      write_text(dir + "zero.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4 5 6");
+  const std::string half = write_text(
+      dir + "half.asc", "ncols 13\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
+  const std::string huge = write_text(
+      dir + "huge.asc", "ncols 2000000000\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
+  const std::string zero = write_text(
+      dir + "zero.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0\n1 2 3 4 5 6");
   const std::string nowhere =
-      write_text(dir + "nowhere.asc", ascii_grid(13, 7, "xllcorner nan\nyllcorner 0\ncellsize 1\n", asymmetric_text));
+      write_text(dir + "nowhere.asc",
+                 ascii_grid(13, 7, "xllcorner nan\nyllcorner 0\ncellsize 1\n", asymmetric_text));
   ::testing::internal::CaptureStderr();
   for (const std::string& file : {junk, half, huge, zero, nowhere, dir, dir + "missing.tif"}) {
     const std::string message = message_of(map_world(file, 0.5, Vec2(4, 4)));
@@ -403,13 +446,16 @@ TEST(Import, RefusesAMapWhoseBlocksDecodeToMoreThanTheSiteIsWorth) {
   if (!has_tool("gdal_create")) GTEST_SKIP() << "gdal_create (gdal-bin) is missing";
   const std::string dir = folder();
   // Rows of one block each, empty, so that a kilobyte of file stands for as many as one likes.
-  const auto made = [&](const std::string& name, const std::string& columns, const std::string& rows) {
-    const std::string size = " -outsize " + columns + " " + rows + " -a_ullr 0 " + rows + " " + columns + " 0 ";
+  const auto made = [&](const std::string& name, const std::string& columns,
+                        const std::string& rows) {
+    const std::string size =
+        " -outsize " + columns + " " + rows + " -a_ullr 0 " + rows + " " + columns + " 0 ";
     const std::string file = dir + name;
-    EXPECT_EQ(std::system(
-                  ("gdal_create -q -of GTiff -ot Float32 -co SPARSE_OK=TRUE -co BLOCKYSIZE=1" + size + "'" + file + "'")
-                      .c_str()),
-              0);
+    EXPECT_EQ(
+        std::system(("gdal_create -q -of GTiff -ot Float32 -co SPARSE_OK=TRUE -co BLOCKYSIZE=1" +
+                     size + "'" + file + "'")
+                        .c_str()),
+        0);
     EXPECT_LT(std::filesystem::file_size(file), 10'000u);
     return file;
   };
@@ -417,43 +463,51 @@ TEST(Import, RefusesAMapWhoseBlocksDecodeToMoreThanTheSiteIsWorth) {
   const std::string wide = made("wide.tif", "30000000", "60");
   const std::string message = message_of(map_world(wide, 0.5, Vec2(40, 40)));
   EXPECT_TRUE(contains(message, wide)) << message;
-  EXPECT_TRUE(contains(message, "more than " + std::to_string(static_cast<std::int64_t>(limits::kMapDecodedBytes)) +
-                                    " to decode for this site"))
+  EXPECT_TRUE(contains(
+      message, "more than " + std::to_string(static_cast<std::int64_t>(limits::kMapDecodedBytes)) +
+                   " to decode for this site"))
       << message;
   EXPECT_TRUE(contains(message, "gdal_translate -co TILED=YES")) << message;
   // What is refused is the work, not the form: rows of 4 MB are read.
-  EXPECT_EQ(message_of(map_world(made("narrow.tif", "1000000", "60"), 0.5, Vec2(40, 40))).find("to decode"),
+  EXPECT_EQ(message_of(map_world(made("narrow.tif", "1000000", "60"), 0.5, Vec2(40, 40)))
+                .find("to decode"),
             std::string::npos);
 }
 
 TEST(Import, RefusesWordsAmongTheNumbersOfAnAsciiGrid) {
   const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
   const auto grid = [&](const std::string& word) {
-    return ascii_grid(13, 7, header, [&](int c, int r) { return c == 6 && r == 3 ? word : std::string("5.5"); });
+    return ascii_grid(13, 7, header,
+                      [&](int c, int r) { return c == 6 && r == 3 ? word : std::string("5.5"); });
   };
   // Row 3 of the heights is line 9: five lines of header before it.
   for (const char* word : {"abc", "12abc", "--3", "1.2.3", "0x10", "#", "5;5", "+", "-.", "+-5x"}) {
     const std::string file = write_text(folder() + "words.asc", grid(word));
     const std::string message = message_of(map_world(file, 0.5, Vec2(4, 4)));
-    EXPECT_TRUE(contains(message, file + ":9: error: terrain: '" + std::string(word) + "'")) << message;
+    EXPECT_TRUE(contains(message, file + ":9: error: terrain: '" + std::string(word) + "'"))
+        << message;
   }
   for (const char* number : {"7", "-1.5e-1", "+3", "5.", ".5", "4,25", "nan", "-9999", "1.#QNAN"}) {
     const std::string file = write_text(folder() + "numbers.asc", grid(number));
     EXPECT_EQ(message_of(map_world(file, 0.5, Vec2(4, 4))), "") << number;
   }
-  const std::string key = write_text(folder() + "key.asc", ascii_grid(13, 7, header + "colour 3\n", asymmetric_text));
+  const std::string key =
+      write_text(folder() + "key.asc", ascii_grid(13, 7, header + "colour 3\n", asymmetric_text));
   EXPECT_TRUE(contains(message_of(map_world(key, 0.5, Vec2(4, 4))), "'colour'"));
 }
 
 TEST(Import, FindsAWordWhereverItLiesAcrossThePiecesAFileIsReadIn) {
-  // Seven bytes a height, 1400 a row: the first piece of 64 KiB ends in row 46, wherever the blanks push it.
+  // Seven bytes a height, 1400 a row: the first piece of 64 KiB ends in row 46, wherever the blanks
+  // push it.
   constexpr int kRow = 46, kColumns = 200, kPiece = 1 << 16;
   const std::string dir = folder();
   for (int blanks = 0; blanks < 8; ++blanks) {
-    const std::string header = "xllcorner 0\nyllcorner 0\ncellsize 1" + std::string(blanks, ' ') + "\n";
+    const std::string header =
+        "xllcorner 0\nyllcorner 0\ncellsize 1" + std::string(blanks, ' ') + "\n";
     const auto grid = [&](int bad) {
-      return ascii_grid(kColumns, 50, header,
-                        [&](int c, int r) { return std::string(c == bad && r == kRow ? "12e.25" : "123.25"); });
+      return ascii_grid(kColumns, 50, header, [&](int c, int r) {
+        return std::string(c == bad && r == kRow ? "12e.25" : "123.25");
+      });
     };
     const std::string good = grid(-1);
     const std::size_t begin = good.find("123.25") + 7ul * kColumns * kRow;
@@ -464,7 +518,8 @@ TEST(Import, FindsAWordWhereverItLiesAcrossThePiecesAFileIsReadIn) {
     for (const int bad : {last - 1, last, last + 1}) {
       const std::string file = write_text(dir + "bad.asc", grid(bad)),
                         message = message_of(map_world(file, 0.5, Vec2(4, 48)));
-      EXPECT_TRUE(contains(message, file + ":" + std::to_string(kRow + 6) + ": error: terrain: '12e.25'"))
+      EXPECT_TRUE(
+          contains(message, file + ":" + std::to_string(kRow + 6) + ": error: terrain: '12e.25'"))
           << "[" << message << "] " << bad << " " << last;
     }
   }
@@ -476,18 +531,22 @@ TEST(Import, RefusesPipesAndDevicesAsMapsAndBesideThem) {
   EXPECT_TRUE(contains(message_of(map_world(dir + "pipe.tif", 0.5, Vec2(4, 4))), "no plain file"));
   EXPECT_TRUE(contains(message_of(map_world("/dev/zero", 0.5, Vec2(4, 4))), "no plain file"));
   const std::string map =
-      write_text(dir + "Site.asc", ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
+      write_text(dir + "Site.asc",
+                 ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
   EXPECT_EQ(message_of(map_world(map, 0.5, Vec2(4, 4))), "");
   // Other files of the map's name are nobody's business; GDAL looks for capitals too.
   ASSERT_EQ(::mkfifo((dir + "Site.txt").c_str(), 0600), 0);
   EXPECT_EQ(message_of(map_world(map, 0.5, Vec2(4, 4))), "");
   for (const char* name : {"Site.prj", "SITE.PRJ", "Site.asc.aux.xml"}) {
     ASSERT_EQ(::mkfifo((dir + name).c_str(), 0600), 0);
-    EXPECT_TRUE(contains(message_of(map_world(map, 0.5, Vec2(4, 4))), std::string(name) + "': it is a pipe")) << name;
+    EXPECT_TRUE(contains(message_of(map_world(map, 0.5, Vec2(4, 4))),
+                         std::string(name) + "': it is a pipe"))
+        << name;
     std::filesystem::remove(dir + name);
   }
   write_text(dir + "Site.prj", std::string(limits::kMapSidecarBytes + 1, ' '));
-  EXPECT_TRUE(contains(message_of(map_world(map, 0.5, Vec2(4, 4))), "a file beside a map may have"));
+  EXPECT_TRUE(
+      contains(message_of(map_world(map, 0.5, Vec2(4, 4))), "a file beside a map may have"));
 }
 
 TEST(Import, ReadsTheLidarMapOfMinnesota) {
@@ -497,7 +556,8 @@ TEST(Import, ReadsTheLidarMapOfMinnesota) {
   setup.nx = setup.ny = 4000, setup.cell = 0.1;
   const TerrainReport report = import_terrain(map_world(file, 0.1, Vec2(400, 400)), setup);
   std::printf("%s", report.text().c_str());
-  // From the NOTICE beside the file: heights 379.66 .. 410.76 m, slope median 11.4, at most 35.7 deg (by their method).
+  // From the NOTICE beside the file: heights 379.66 .. 410.76 m, slope median 11.4, at most 35.7
+  // deg (by their method).
   EXPECT_NEAR(report.lowest, 379.66, 0.01);
   EXPECT_NEAR(report.highest, 410.76, 0.01);
   EXPECT_NEAR(degrees(report.slope.median), 11.4, 0.5);

@@ -15,10 +15,11 @@ TEST(MapView, ShowsEveryLayerOfARectangle) {
   Ground::Setup setup = wavy_setup();
   setup.surface = [](int ix, int iy) { return 0.05 * ix - 0.02 * iy; };
   Ground ground(std::move(setup));
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(40, 33, ground.height(40, 33) - 0.5, taken);
   const CellRect rect{35, 30, 50, 40};
-  const MapView elevation = map_view(ground, "elevation", rect), change = map_view(ground, "change", rect);
+  const MapView elevation = map_view(ground, "elevation", rect),
+                change = map_view(ground, "change", rect);
   EXPECT_EQ(elevation.nx(), 15);
   EXPECT_EQ(elevation.ny(), 10);
   EXPECT_NEAR(elevation.origin.x(), -3.3 + 3.5, 1e-12);

@@ -21,7 +21,8 @@
 
 namespace navvy::heightfield::testing {
 
-/// A folder of its own for each test, with a slash at its end; goes with the next one or the program.
+/// A folder of its own for each test, with a slash at its end; goes with the next one or the
+/// program.
 inline std::string folder() {
   static std::unique_ptr<test::Folder> own;
   own.reset();
@@ -62,22 +63,24 @@ inline std::string output_of(const std::string& command) {
   return out;
 }
 
-/// Values that gdallocationinfo reads from `file` at file coordinates; NaN where it answers nothing.
+/// Values that gdallocationinfo reads from `file` at file coordinates; NaN where it answers
+/// nothing.
 inline std::vector<double> located(const std::string& file, const std::vector<Vec2>& points) {
   const std::string list = file + ".points";
   std::ofstream points_file(list);
   points_file.precision(17);
   for (const Vec2& p : points) points_file << p.x() << " " << p.y() << "\n";
   points_file.close();
-  std::istringstream lines(output_of("gdallocationinfo -valonly -geoloc '" + file + "' < '" + list + "'"));
+  std::istringstream lines(
+      output_of("gdallocationinfo -valonly -geoloc '" + file + "' < '" + list + "'"));
   std::vector<double> values;
   for (std::string line; std::getline(lines, line);)
     values.push_back(line.empty() ? std::nan("") : std::strtod(line.c_str(), nullptr));
   return values;
 }
 
-/// Runs the command that a message names, from its first word to a bracket, a comma or its end, with these files for
-/// IN and OUT.tif. Returns whether it did its work.
+/// Runs the command that a message names, from its first word to a bracket, a comma or its end,
+/// with these files for IN and OUT.tif. Returns whether it did its work.
 inline bool run_remedy(const std::string& message, const std::string& first, const std::string& in,
                        const std::string& out) {
   const std::size_t begin = message.find(first);

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -18,8 +18,10 @@ using testing::output_of;
 using testing::write_text;
 
 /// An NPY of version 1 as numpy.save writes it.
-std::string npy(const std::string& descr, const std::string& order, const std::string& shape, const std::string& data) {
-  std::string header = "{'descr': " + descr + ", 'fortran_order': " + order + ", 'shape': " + shape + ", }";
+std::string npy(const std::string& descr, const std::string& order, const std::string& shape,
+                const std::string& data) {
+  std::string header =
+      "{'descr': " + descr + ", 'fortran_order': " + order + ", 'shape': " + shape + ", }";
   header.append((64 - (header.size() + 11) % 64) % 64, ' ');
   header += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);
@@ -47,7 +49,8 @@ std::string message_of(const std::string& path) {
 const std::vector<float> kSix = {0, 1, 2, 3, 4, 5};
 
 TEST(Npy, IsReadInTheOrderOfTheFile) {
-  const std::string path = write_text(folder() + "a.npy", npy("'<f4'", "False", "(2, 3)", bytes_of(kSix)));
+  const std::string path =
+      write_text(folder() + "a.npy", npy("'<f4'", "False", "(2, 3)", bytes_of(kSix)));
   EXPECT_TRUE(is_npy_file(path));
   const NpyGrid grid = read_npy(path);
   EXPECT_EQ(grid.rows, 2);
@@ -72,8 +75,10 @@ TEST(Npy, RefusesWhatIsNoMapWithFileKeyValueAndRemedy) {
   expect(npy("'<f4'", "False", "(1, 2, 3)", data), {"shape", "(1, 2, 3)"});
   expect(npy("'<f4'", "False", "(0, 3)", ""), {"shape", "(0, 3)"});
   expect(npy("'<f4'", "False", "(2, -3)", data), {"shape"});
-  expect(npy("'<f4'", "False", "(999999999, 999999999)", data), {"24 bytes", "999999999 x 999999999"});
-  expect(npy("'<f4'", "False", "(2, 3)", data.substr(4)), {"byte 128", "20 bytes", "cut or damaged"});
+  expect(npy("'<f4'", "False", "(999999999, 999999999)", data),
+         {"24 bytes", "999999999 x 999999999"});
+  expect(npy("'<f4'", "False", "(2, 3)", data.substr(4)),
+         {"byte 128", "20 bytes", "cut or damaged"});
   expect(npy("'<f4'", "False", "(2, 3)", data + "x"), {"25 bytes"});
   expect(npy("'<f4'", "False", "(2, 3)", data).substr(0, 40), {"byte 8", "damaged"});
   expect("no array", {"byte 0", "numpy.save"});
@@ -82,7 +87,9 @@ TEST(Npy, RefusesWhatIsNoMapWithFileKeyValueAndRemedy) {
 
 #ifdef NAVVY_WITH_GDAL
 // Heights without symmetry on a grid that is not square.
-double asymmetric(int column, int row) { return 3 + 0.25 * column + 1.5 * row + 0.125 * ((column * row * 5) % 7); }
+double asymmetric(int column, int row) {
+  return 3 + 0.25 * column + 1.5 * row + 0.125 * ((column * row * 5) % 7);
+}
 
 scene::Scene world_of(const std::string& path) {
   scene::Scene world = map_world(path, 0.5, Vec2(6, 4));
@@ -91,7 +98,8 @@ scene::Scene world_of(const std::string& path) {
 }
 
 TEST(Npy, OfNumPyItselfIsTheGroundItSays) {
-  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0) GTEST_SKIP() << "NumPy is missing";
+  if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "NumPy is missing";
   const std::string dir = folder();
   write_text(dir + "make.py", R"(
 import numpy, sys
@@ -110,7 +118,8 @@ for kind in ('<i2', '<i4', '<u2', '|u1'): numpy.save(sys.argv[1] + kind[1:], (8 
     // Row 0 has least y unless told otherwise. Whole numbers are floats of three digits.
     for (int iy = 0; iy < 8; ++iy)
       for (int ix = 0; ix < 12; ++ix)
-        ASSERT_NEAR(ground.height(ix, iy) + ground.setup().height_offset, factor * asymmetric(ix, iy), 1e-5)
+        ASSERT_NEAR(ground.height(ix, iy) + ground.setup().height_offset,
+                    factor * asymmetric(ix, iy), 1e-5)
             << kind << " " << ix << " " << iy;
   }
 }
@@ -122,7 +131,8 @@ TEST(Npy, NeedsACellAndKnowsGaps) {
   const std::string path = write_text(dir + "a.npy", npy("'<f4'", "False", "(8, 12)", bytes_of(z)));
   std::string report;
   make_ground(world_of(path), &report);
-  EXPECT_NE(report.find("1 of 96 cells on the site (1.04 %), filled from up to 0.5 m away"), std::string::npos)
+  EXPECT_NE(report.find("1 of 96 cells on the site (1.04 %), filled from up to 0.5 m away"),
+            std::string::npos)
       << report;
   EXPECT_NE(report.find("first row south"), std::string::npos) << report;
   scene::Scene world = world_of(path);
@@ -136,9 +146,11 @@ TEST(Npy, NeedsACellAndKnowsGaps) {
 TEST(Png, OfSixteenBitsIsTheGroundBetweenBlackAndWhite) {
   if (!testing::has_tool("gdal_translate")) GTEST_SKIP() << "gdal_translate (gdal-bin) is missing";
   const std::string dir = folder();
-  write_text(dir + "map.asc", testing::ascii_grid(12, 8, "xllcorner 0\nyllcorner 0\ncellsize 0.5\n", [](int c, int r) {
-               return std::to_string(static_cast<int>(3000 * asymmetric(c, 7 - r)));
-             }));
+  write_text(
+      dir + "map.asc",
+      testing::ascii_grid(12, 8, "xllcorner 0\nyllcorner 0\ncellsize 0.5\n", [](int c, int r) {
+        return std::to_string(static_cast<int>(3000 * asymmetric(c, 7 - r)));
+      }));
   output_of("gdal_translate -of PNG -ot UInt16 '" + dir + "map.asc' '" + dir + "map.png'");
   // The picture alone: what GDAL wrote beside it would tell its place.
   std::filesystem::remove(dir + "map.png.aux.xml");
@@ -151,7 +163,8 @@ TEST(Png, OfSixteenBitsIsTheGroundBetweenBlackAndWhite) {
   // A gray value is a third of a millimetre here.
   for (int iy = 0; iy < 8; ++iy)
     for (int ix = 0; ix < 12; ++ix)
-      ASSERT_NEAR(ground.height(ix, iy) + ground.setup().height_offset, asymmetric(ix, iy) - 2, 3.5e-4)
+      ASSERT_NEAR(ground.height(ix, iy) + ground.setup().height_offset, asymmetric(ix, iy) - 2,
+                  3.5e-4)
           << ix << " " << iy;
   // Of other files the cells are their own.
   world.ground.file = dir + "map.asc";

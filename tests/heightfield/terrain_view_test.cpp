@@ -15,24 +15,25 @@
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/saved_state.h"
-#include "heightfield/ground.h"
 #include "heightfield/grounds.h"
+#include "heightfield/layered_ground.h"
 
 namespace navvy::heightfield {
 namespace {
 
 using testing::wavy_setup;
 
-/// Digs and fills `count` random columns of the rectangle; layers that were dug are put down elsewhere.
+/// Digs and fills `count` random columns of the rectangle; layers that were dug are put down
+/// elsewhere.
 void work(Ground& ground, Random& random, int count, const CellRect& where) {
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   for (int n = 0; n < count; ++n) {
     const int ix = static_cast<int>(random.uniform(where.x0, where.x1));
     const int iy = static_cast<int>(random.uniform(where.y0, where.y1));
     if (n % 2 == 0) {
       ground.take_above(ix, iy, ground.height(ix, iy) - random.uniform(0, 0.3), taken);
     } else if (!taken.empty()) {
-      Layer layer = taken.back();
+      SoilLayer layer = taken.back();
       layer.specific_volume = 1.2f;
       ground.put(ix, iy, layer);
       taken.pop_back();
@@ -90,7 +91,7 @@ TEST(TerrainView, StaysWhatItWasWhileTheGroundChanges) {
 
 TEST(TerrainView, ShowsSoilAndDensityStateOfTheSurface) {
   Ground ground(wavy_setup());
-  std::vector<Layer> taken;
+  std::vector<SoilLayer> taken;
   ground.take_above(20, 20, ground.height(20, 20) - 0.5, taken);  // through 0.3 m of topsoil
   ground.put(21, 20, {0, 1000000, 1.25f, 0.0f});
   ground.take_above(22, 20, -10, taken);  // down to bedrock
@@ -117,22 +118,24 @@ TEST(TerrainView, ShowsLooseSoilOnlyWhereItIsAskedFor) {
   // Two litres on 0.01 m2.
   EXPECT_NEAR(seen.height(33, 20), top + 0.2, 1e-12);
   EXPECT_NEAR(seen.loose_depth(33, 20), 0.2, 1e-7);  // float
-  EXPECT_TRUE(seen.awake(33, 20));
+  EXPECT_TRUE(seen.active(33, 20));
   EXPECT_EQ(seen.surface_soil(33, 20), 1);
   EXPECT_EQ(seen.specific_volume(33, 20), 1.3f);
-  EXPECT_FALSE(seen.awake(34, 20));
-  EXPECT_FALSE(columns.awake(33, 20));
+  EXPECT_FALSE(seen.active(34, 20));
+  EXPECT_FALSE(columns.active(33, 20));
   EXPECT_EQ(seen.height(60, 40), below);  // the third is in the air
-  EXPECT_FALSE(seen.awake(60, 40));
+  EXPECT_FALSE(seen.active(60, 40));
   // Halfway between two centres.
-  EXPECT_NEAR(seen.sample(-3.3 + 3.4, 1.7 + 2.05), 0.5 * (top + 0.2 + ground.height(34, 20)), 1e-12);
+  EXPECT_NEAR(seen.sample(-3.3 + 3.4, 1.7 + 2.05), 0.5 * (top + 0.2 + ground.height(34, 20)),
+              1e-12);
   EXPECT_EQ(seen.start_height(33, 20), ground.start_height(33, 20));
 }
 
 TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
   const Ground ground(wavy_setup());
   const double top = ground.height(5, 5);
-  // Given out of order; each raises the surface by 0.05 m. The one 0.26 m up is more than two cells above 0.05.
+  // Given out of order; each raises the surface by 0.05 m. The one 0.26 m up is more than two cells
+  // above 0.05.
   const LooseSoil loose(ground, {{5, 5, top + 0.26, 0.0005, 0, 1},
                                  {5, 5, top, 0.0005, 1, 1},
                                  {99, 5, top, 1, 0, 1},
@@ -144,8 +147,9 @@ TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
   EXPECT_EQ(loose.columns()[0].soil, 1);
   EXPECT_EQ(loose.columns()[1].iy, 6);
   // With a grain in between the gap is closed and all three lie.
-  const LooseSoil closed(
-      ground, {{5, 5, top + 0.26, 0.0005, 0, 1}, {5, 5, top, 0.0005, 1, 1}, {5, 5, top + 0.2, 0.0005, 1, 1}});
+  const LooseSoil closed(ground, {{5, 5, top + 0.26, 0.0005, 0, 1},
+                                  {5, 5, top, 0.0005, 1, 1},
+                                  {5, 5, top + 0.2, 0.0005, 1, 1}});
   EXPECT_NEAR(closed.columns().at(0).depth, 0.15, 1e-12);
   // It tells which of them lie, so that masses can be told apart by where they are.
   EXPECT_EQ(closed.grains().size(), 3u);
@@ -193,8 +197,10 @@ TEST(Ground, IsReadBySeveralThreadsAtATime) {
   work(ground, random, 2000, {100, 100, 300, 300});
   std::vector<std::string> found(4);
   std::vector<std::thread> readers;
-  // Each meets untouched tiles that the others fill in at the same time, and takes a view in between.
-  for (std::string& mine : found) readers.emplace_back([&] { mine = reading(ground.view()) + reading(ground); });
+  // Each meets untouched tiles that the others fill in at the same time, and takes a view in
+  // between.
+  for (std::string& mine : found)
+    readers.emplace_back([&] { mine = reading(ground.view()) + reading(ground); });
   for (std::thread& reader : readers) reader.join();
   const std::string alone = reading(ground) + reading(ground);
   for (const std::string& mine : found) EXPECT_EQ(mine, alone);
@@ -208,15 +214,19 @@ TEST(Ground, RemembersNoMoreOfAWideSiteThanItSays) {
   const std::size_t before = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
   double most = 0;
   for (int iy = 0; iy < 1600; iy += 16)
-    for (int ix = 0; ix < 6400; ix += 16) most = std::max(most, std::abs(ground.height(ix, iy) - source(ix, iy)));
+    for (int ix = 0; ix < 6400; ix += 16)
+      most = std::max(most, std::abs(ground.height(ix, iy) - source(ix, iy)));
   EXPECT_LT(most, 1e-7);  // quantum of mass
   const std::size_t after = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
   EXPECT_LT(after - before, 20u << 20);  // 2048 tiles of 8 KiB and tables
-  // Columns that were not remembered are so again after the next change, once enough of them were asked for.
+  // Columns that were not remembered are so again after the next change, once enough of them were
+  // asked for.
   for (int n = 0; n < 400000; ++n)
-    most = std::max(most, std::abs(ground.height(6399 - n % 64, 1599) - source(6399 - n % 64, 1599)));
+    most =
+        std::max(most, std::abs(ground.height(6399 - n % 64, 1599) - source(6399 - n % 64, 1599)));
   ground.put(1, 1, {0, 10, 1, 0});
-  for (int n = 0; n < 64; ++n) most = std::max(most, std::abs(ground.height(6399 - n, 1599) - source(6399 - n, 1599)));
+  for (int n = 0; n < 64; ++n)
+    most = std::max(most, std::abs(ground.height(6399 - n, 1599) - source(6399 - n, 1599)));
   EXPECT_LT(most, 1e-7);
   EXPECT_LT(::mallinfo2().uordblks + ::mallinfo2().hblkhd - before, 4u << 20);
 }

@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "heightfield/grounds.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #include "heightfield/gdal/import.h"
@@ -22,8 +22,9 @@
 namespace navvy::heightfield {
 namespace {
 
-/// Neither square nor a multiple of any window; cells are not square either. Gaps: one cell, a corner, a row's end, and
-/// a block of 11 x 9, which is filled in five rings and lies across windows.
+/// Neither square nor a multiple of any window; cells are not square either. Gaps: one cell, a
+/// corner, a row's end, and a block of 11 x 9, which is filled in five rings and lies across
+/// windows.
 HeightRaster bumpy(bool gaps) {
   HeightRaster out;
   out.nx = 61, out.ny = 47;
@@ -31,7 +32,8 @@ HeightRaster bumpy(bool gaps) {
   out.x0 = -1.3, out.y0 = 2.1;
   for (int iy = 0; iy < out.ny; ++iy)
     for (int ix = 0; ix < out.nx; ++ix)
-      out.z.push_back(static_cast<float>(3 * std::sin(0.31 * ix) - 2 * std::cos(0.17 * iy + 0.05 * ix) + 0.001 * iy));
+      out.z.push_back(static_cast<float>(3 * std::sin(0.31 * ix) -
+                                         2 * std::cos(0.17 * iy + 0.05 * ix) + 0.001 * iy));
   if (!gaps) return out;
   const float none = std::numeric_limits<float>::quiet_NaN();
   out.at(7, 3) = out.at(0, 0) = out.at(60, 20) = out.at(59, 20) = none;
@@ -61,7 +63,8 @@ WindowedRaster windows_of(const HeightRaster& raster, int side, std::int64_t* re
       side);
 }
 
-/// Places on and between cells and beyond the edges; at an edge of 1.2 m several samples go into one.
+/// Places on and between cells and beyond the edges; at an edge of 1.2 m several samples go into
+/// one.
 void expect_equal(const HeightRaster& whole, const WindowedRaster& windows) {
   for (const double edge : {0.1, 1.2})
     for (double y = 1; y < 39; y += 0.37)
@@ -90,7 +93,7 @@ TEST(WindowedRaster, FillsGapsAsAWholeOne) {
   }
 }
 
-TEST(WindowedRaster, TellsOfAllCellsWhatAWholeOneTells) {
+TEST(WindowedRaster, ReportsTheSameCellsAsAWholeRaster) {
   const HeightRaster broken = bumpy(true);
   HeightRaster whole = broken;
   fill_gaps(whole);
@@ -120,7 +123,8 @@ TEST(WindowedRaster, ReadsOnlyTheWindowsThatAreAskedFor) {
   const WindowedRaster windows = windows_of(whole, 8, &read);
   EXPECT_EQ(read, 0);
   windows.mean(whole.x0 + 4 * 0.5, whole.y0 + 3 * 0.75, 0.1);
-  EXPECT_EQ(read, 81) << "one window of 8 x 8 and the row and column that it shares with its neighbours";
+  EXPECT_EQ(read, 81)
+      << "one window of 8 x 8 and the row and column that it shares with its neighbours";
   windows.mean(whole.x0 + 5.5 * 0.5, whole.y0 + 2 * 0.75, 0.1);
   EXPECT_EQ(read, 81) << "is held";
 }
@@ -142,8 +146,10 @@ TEST(WindowedRaster, AnswersSeveralThreadsAtATime) {
 }
 
 #ifdef NAVVY_WITH_GDAL
-/// A site on a map held whole and on the same map by windows: all that a run or a reader of the report can see.
-void expect_the_same_import(const std::string& file, double cell, const Vec2& size, const std::string& what) {
+/// A site on a map held whole and on the same map by windows: all that a run or a reader of the
+/// report can see.
+void expect_the_same_import(const std::string& file, double cell, const Vec2& size,
+                            const std::string& what) {
   const scene::Scene world = testing::map_world(file, cell, size);
   Ground::Setup whole;
   whole.cell = cell;
@@ -162,25 +168,32 @@ void expect_the_same_import(const std::string& file, double cell, const Vec2& si
     EXPECT_EQ(windows.height_offset, whole.height_offset) << what;
     for (int iy = 0; iy < whole.ny; ++iy)
       for (int ix = 0; ix < whole.nx; ++ix)
-        ASSERT_EQ(windows.surface(ix, iy), whole.surface(ix, iy)) << what << " " << side << ": " << ix << ", " << iy;
+        ASSERT_EQ(windows.surface(ix, iy), whole.surface(ix, iy))
+            << what << " " << side << ": " << ix << ", " << iy;
   }
 }
 
 TEST(Import, ByWindowsIsThatOfTheWholeMap) {
   const std::string dir = testing::folder();
-  // Rows in the file run southwards; a corner, an edge and the middle have no height, and one is none that is declared.
+  // Rows in the file run southwards; a corner, an edge and the middle have no height, and one is
+  // none that is declared.
   const auto z = [](int c, int r) -> std::string {
-    const bool gap = (c < 3 && r > 38) || (c > 18 && c < 29 && r > 12 && r < 19) || (r == 0 && c % 7 == 0);
-    return gap ? "-9999" : c == 40 && r == 30 ? "1e30" : std::to_string(812.34 + 0.7 * std::sin(0.4 * c) + 0.11 * r);
+    const bool gap =
+        (c < 3 && r > 38) || (c > 18 && c < 29 && r > 12 && r < 19) || (r == 0 && c % 7 == 0);
+    return gap                  ? "-9999"
+           : c == 40 && r == 30 ? "1e30"
+                                : std::to_string(812.34 + 0.7 * std::sin(0.4 * c) + 0.11 * r);
   };
   const std::string text = dir + "map.asc";
-  testing::write_text(text, testing::ascii_grid(53, 41, "xllcorner 700\nyllcorner 300\ncellsize 0.5\n", z));
+  testing::write_text(
+      text, testing::ascii_grid(53, 41, "xllcorner 700\nyllcorner 300\ncellsize 0.5\n", z));
   expect_the_same_import(text, 0.2, Vec2(26, 20), "all of a text, finer columns");
   expect_the_same_import(text, 1.3, Vec2(13, 10.4), "part of a text, coarser columns");
   if (!testing::has_tool("gdal_translate")) GTEST_SKIP() << "gdal_translate (gdal-bin) is missing";
   testing::output_of(
-      "gdal_translate -ot Float32 -co TILED=YES -co BLOCKXSIZE=16 -co BLOCKYSIZE=32 -co COMPRESS=DEFLATE '" + text +
-      "' '" + dir + "tiled.tif'");
+      "gdal_translate -ot Float32 -co TILED=YES -co BLOCKXSIZE=16 -co BLOCKYSIZE=32 -co "
+      "COMPRESS=DEFLATE '" +
+      text + "' '" + dir + "tiled.tif'");
   expect_the_same_import(dir + "tiled.tif", 0.2, Vec2(26, 20), "tiles");
   testing::output_of("gdal_translate -ot Int16 '" + text + "' '" + dir + "whole.tif'");
   testing::output_of("gdal_edit.py -a_ullr 0 0 26.5 20.5 '" + dir + "whole.tif'");
@@ -190,7 +203,8 @@ TEST(Import, ByWindowsIsThatOfTheWholeMap) {
 TEST(Import, ByWindowsNamesWhatItCannotRead) {
   const std::string dir = testing::folder();
   const auto none = [](int, int) -> std::string { return "-9999"; };
-  testing::write_text(dir + "none.asc", testing::ascii_grid(9, 9, "xllcorner 0\nyllcorner 0\ncellsize 1\n", none));
+  testing::write_text(dir + "none.asc",
+                      testing::ascii_grid(9, 9, "xllcorner 0\nyllcorner 0\ncellsize 1\n", none));
   scene::Scene world = testing::map_world(dir + "none.asc", 0.5, Vec2(6, 6));
   Ground::Setup setup;
   setup.cell = 0.5;
@@ -203,7 +217,8 @@ TEST(Import, ByWindowsNamesWhatItCannotRead) {
   }
   if (!testing::has_tool("gdal_translate")) GTEST_SKIP() << "gdal_translate (gdal-bin) is missing";
   const auto z = [](int c, int r) { return std::to_string(100 * c + r); };
-  testing::write_text(dir + "map.asc", testing::ascii_grid(9, 9, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  testing::write_text(dir + "map.asc",
+                      testing::ascii_grid(9, 9, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
   testing::output_of("gdal_translate -of PNG -ot UInt16 '" + dir + "map.asc' '" + dir + "map.png'");
   world.ground.file = dir + "map.png";
   world.ground.scale.has_heights = true;
@@ -213,7 +228,8 @@ TEST(Import, ByWindowsNamesWhatItCannotRead) {
     import_terrain(world, setup, 0, 4);
     FAIL() << "a picture was read by windows";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("gdal_translate -of GTiff"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("gdal_translate -of GTiff"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -229,7 +245,8 @@ TEST(Export, OfManyRowsIsReadBackWholeAndByWindows) {
   for (int iy = 0; iy < 700; ++iy)
     for (int ix = 0; ix < 24; ++ix)
       // A float at a metre, and two roundings to quanta of mass.
-      ASSERT_NEAR(read.height(ix, iy) + read.setup().height_offset, ground.height(ix, iy), 2e-7) << ix << " " << iy;
+      ASSERT_NEAR(read.height(ix, iy) + read.setup().height_offset, ground.height(ix, iy), 2e-7)
+          << ix << " " << iy;
 }
 
 TEST(Export, LeavesNothingWhereHeightsCannotBeHad) {

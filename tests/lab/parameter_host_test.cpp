@@ -12,7 +12,7 @@
 namespace navvy::lab {
 namespace {
 
-TEST(Range, OpenEndsAreOutsideAndClosedOnesInside) {
+TEST(ParameterRange, OpenEndsAreOutsideAndClosedOnesInside) {
   EXPECT_FALSE(above(0).contains(0));
   EXPECT_TRUE(above(0).contains(1e-9));
   EXPECT_TRUE(at_least(0).contains(0));
@@ -20,14 +20,14 @@ TEST(Range, OpenEndsAreOutsideAndClosedOnesInside) {
   EXPECT_TRUE(between(-1, 0.95).contains(-1));
   EXPECT_TRUE(between(-1, 0.95).contains(0.95));
   EXPECT_FALSE(between(-1, 0.95).contains(0.96));
-  Range open = between(0, 1);
+  ParameterRange open = between(0, 1);
   open.open_most = true;
   EXPECT_FALSE(open.contains(1));
   EXPECT_TRUE(any().contains(-7));
 }
 
-TEST(Range, HoldsFiniteNumbersOnlyAndCountsAreWhole) {
-  for (const Range& range : {any(), above(0), at_least(0)}) {
+TEST(ParameterRange, HoldsFiniteNumbersOnlyAndCountsAreWhole) {
+  for (const ParameterRange& range : {any(), above(0), at_least(0)}) {
     EXPECT_FALSE(range.contains(std::numeric_limits<double>::infinity()));
     EXPECT_FALSE(range.contains(std::nan("")));
   }
@@ -36,19 +36,20 @@ TEST(Range, HoldsFiniteNumbersOnlyAndCountsAreWhole) {
   EXPECT_FALSE(count_from(1).contains(2.5));
 }
 
-TEST(Range, SaysItsRuleInWords) {
+TEST(ParameterRange, SaysItsRuleInWords) {
   EXPECT_EQ(above(0).text(), "above 0");
   EXPECT_EQ(at_least(0).text(), "at least 0");
   EXPECT_EQ(between(15, 150).text(), "15 .. 150");
   EXPECT_EQ(count_from(1).text(), "a whole number, at least 1");
   EXPECT_EQ(any().text(), "a finite number");
-  Range open = between(0, 1);
+  ParameterRange open = between(0, 1);
   open.open_most = true;
   EXPECT_EQ(open.text(), "at least 0 and below 1");
 }
 
 TEST(Parameter, ReadsNumbersAndTheWordsOfItsChoices) {
-  const Parameter shape = choice("shape", "round", "", {{"plane", 0, "a block"}, {"round", 1, "a cylinder"}});
+  const Parameter shape =
+      choice("shape", "round", "", {{"plane", 0, "a block"}, {"round", 1, "a cylinder"}});
   EXPECT_EQ(shape.value, 1);
   EXPECT_EQ(shape.read("plane"), 0);
   EXPECT_EQ(shape.read("1"), 1);  // the number stands for the choice as well

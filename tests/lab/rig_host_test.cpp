@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of rigs, their parameters and examples, and the errors that setups get. No experiment runs here.
+// The list of rigs, their parameters and examples, and the errors that setups get. No experiment
+// runs here.
 #include "lab/rig.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,9 @@ std::string refusal(const Call& call) {
   return "";
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(Rig, DefaultsAreAllowedAndEveryParameterSaysWhatItIs) {
   for (const Rig& rig : rigs()) {
@@ -46,7 +49,7 @@ TEST(Rig, DefaultsAreAllowedAndEveryParameterSaysWhatItIs) {
   }
 }
 
-TEST(Rig, TextsAreLaidOutByTheProgramNotByTheRig) {
+TEST(Rig, TheProgramFormatsTextsNotTheRig) {
   for (const Rig& rig : rigs())
     for (const std::string& text : {rig.summary, rig.drawing}) {
       EXPECT_EQ(text.find('\n'), std::string::npos) << rig.name;
@@ -63,8 +66,10 @@ TEST(Rig, ExamplesUseParametersItHasWithinTheirRanges) {
       std::istringstream words(example.arguments);
       for (std::string option, value; words >> option >> value;) {
         ASSERT_EQ(option.rfind("--", 0), 0u) << rig.name << ": " << option;
-        // The rest are options of the soil and of the program. Of a list every value must do: the last is tried here.
-        if (rig.find(option.substr(2)) != nullptr) written[option.substr(2)] = listed(option, value).back();
+        // The rest are options of the soil and of the program. Of a list every value must do: the
+        // last is tried here.
+        if (rig.find(option.substr(2)) != nullptr)
+          written[option.substr(2)] = listed(option, value).back();
       }
       EXPECT_NO_THROW(set_written(setup, written)) << rig.name;
       EXPECT_NO_THROW(check(rig, setup)) << rig.name;
@@ -89,13 +94,16 @@ TEST(Rig, RefusalsNameRigParameterValueRuleAndTheNearest) {
   lab::Setup setup = setup_of(column);
   setup.geometry["l0"] = -1;
   std::string text = refusal([&] { check(column, setup); });
-  for (const char* part : {"column", "--l0", "-1", "above 0 m", "1.5 m"}) EXPECT_TRUE(holds(text, part)) << text;
+  for (const char* part : {"column", "--l0", "-1", "above 0 m", "1.5 m"})
+    EXPECT_TRUE(holds(text, part)) << text;
   setup.geometry["l0"] = 1;
   setup.geometry["shape"] = 7;
   text = refusal([&] { column.run(setup); });  // checks before it runs
-  for (const char* part : {"--shape", "7", "plane or round"}) EXPECT_TRUE(holds(text, part)) << text;
+  for (const char* part : {"--shape", "7", "plane or round"})
+    EXPECT_TRUE(holds(text, part)) << text;
   text = refusal([&] { set_written(setup, {{"shape", "plain"}, {"ll0", "1"}, {"gap", "wide"}}); });
-  for (const char* part : {"'plane'", "'l0'", "--gap", "wide"}) EXPECT_TRUE(holds(text, part)) << text;
+  for (const char* part : {"'plane'", "'l0'", "--gap", "wide"})
+    EXPECT_TRUE(holds(text, part)) << text;
   text = refusal([&] {
     check(find_rig("cycle"), [] {
       lab::Setup counts = setup_of(find_rig("cycle"));
@@ -125,7 +133,7 @@ TEST(Rig, UnknownNamesNameTheNearest) {
   EXPECT_TRUE(holds(refusal([&] { setup["dept"]; }), "'depth'"));
 }
 
-TEST(Quantity, MissesOutsideItsGateAndWhenItIsNoNumber) {
+TEST(Quantity, FailsOutsideItsToleranceAndWhenItIsNotANumber) {
   EXPECT_FALSE((Quantity{"a", 2, "", kNone, kNone, kNone, ""}.missed()));
   EXPECT_FALSE((Quantity{"a", 2, "", 2, 1.9, 2.1, ""}.missed()));
   EXPECT_TRUE((Quantity{"a", 2.2, "", 2, 1.9, 2.1, ""}.missed()));
@@ -134,7 +142,7 @@ TEST(Quantity, MissesOutsideItsGateAndWhenItIsNoNumber) {
   Report report;
   report.add("a", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", false);
   EXPECT_FALSE(report.missed());
-  EXPECT_TRUE(report.results[0].has_gate());
+  EXPECT_TRUE(report.results[0].has_tolerance());
   EXPECT_FALSE(report.results[0].judged());
   EXPECT_EQ(report.results[0].range, "sand");
   report.add("b", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", true);

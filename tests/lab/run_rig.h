@@ -32,18 +32,20 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
   if (change) change(setup);
   const Report report = find_rig(name).run(setup);  // checks the setup as the program does
   for (const Quantity& q : report.results) {
-    // Who reads a gate can look up where it comes from; that the reference resolves, a style test sees.
-    EXPECT_TRUE(!q.has_gate() || q.source.find('[') != std::string::npos) << name << ", " << q.name << ": " << q.source;
+    // Who reads a gate can look up where it comes from; that the reference resolves, a style test
+    // sees.
+    EXPECT_TRUE(!q.has_tolerance() || q.source.find('[') != std::string::npos)
+        << name << ", " << q.name << ": " << q.source;
     EXPECT_TRUE(q.in_range || !q.range.empty()) << name << ", " << q.name;
-    std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, gate %g .. %g %s (%s)\n", name.c_str(),
-                q.name.c_str(), q.measured, q.unit.c_str(), q.expected, q.low, q.high,
+    std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, gate %g .. %g %s (%s)\n",
+                name.c_str(), q.name.c_str(), q.measured, q.unit.c_str(), q.expected, q.low, q.high,
                 q.missed()   ? "MISS"
                 : q.in_range ? ""
                              : "not judged",
                 q.source.c_str());
   }
-  std::printf("[ VALUE    ] %-8s cell %g m, %d particles, %.2f s simulated, %.2f s\n", name.c_str(), setup.cell,
-              report.particles_peak, report.simulated_time, report.wall_time);
+  std::printf("[ VALUE    ] %-8s cell %g m, %d particles, %.2f s simulated, %.2f s\n", name.c_str(),
+              setup.cell, report.particles_peak, report.simulated_time, report.wall_time);
   return report;
 }
 

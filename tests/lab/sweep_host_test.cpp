@@ -43,13 +43,15 @@ TEST(Sweep, RunsEveryCombinationLastAxisFastest) {
 TEST(Sweep, ListsAreCutAtCommasAndAnEmptyPartIsRefused) {
   EXPECT_EQ(listed("--speed", "0.05,0.3"), (std::vector<std::string>{"0.05", "0.3"}));
   EXPECT_EQ(listed("--shape", "plane"), (std::vector<std::string>{"plane"}));
-  for (const char* text : {"", "1,", ",1", "1,,2"}) EXPECT_THROW(listed("--speed", text), InputError) << text;
+  for (const char* text : {"", "1,", ",1", "1,,2"})
+    EXPECT_THROW(listed("--speed", text), InputError) << text;
 }
 
-TEST(Sweep, TableHasAxesHeadlineAndMisses) {
+TEST(Sweep, TableHasAxesHeadlineAndDeviations) {
   const auto table = table_of(rig_with_headline(), four_runs());
   ASSERT_EQ(table.size(), 5u);
-  EXPECT_EQ(table[0], (std::vector<std::string>{"speed [m/s]", "courant", "force [N]", "steps", "s", "gates"}));
+  EXPECT_EQ(table[0], (std::vector<std::string>{"speed [m/s]", "courant", "force [N]", "steps", "s",
+                                                "gates"}));
   EXPECT_EQ(table[1][2], "1");  // 10 x 0.05 + 0.5, at the gate's end
   EXPECT_EQ(table[1].back(), "");
   EXPECT_EQ(table[2][2], "0.75");
@@ -66,8 +68,8 @@ TEST(Sweep, PictureHasALineForEachStepOverTheSpeeds) {
   EXPECT_EQ(plot.lines[0].x, (std::vector<double>{0.05, 0.3}));
   EXPECT_NEAR(plot.lines[1].y[1], 3.25, 1e-12);
   EXPECT_EQ(plot.expected, (std::vector<double>{2}));
-  ASSERT_EQ(plot.gates.size(), 1u);
-  EXPECT_EQ(plot.gates[0].second, 3);
+  ASSERT_EQ(plot.tolerances.size(), 1u);
+  EXPECT_EQ(plot.tolerances[0].second, 3);
 }
 
 TEST(SvgPlot, TicksAreRoundAndCoverTheRange) {

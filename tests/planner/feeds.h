@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "planner/map_maker.h"
 
 namespace navvy::planner::testing {
@@ -20,12 +20,13 @@ inline MapOptions two_layers() {
 
 /// Takes a small pit out, deeper every time it comes back.
 inline void dig(heightfield::Ground& ground, Random& random, int& number) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   const int x0 = static_cast<int>(random.uniform(0, ground.nx() - 4)),
             y0 = static_cast<int>(random.uniform(0, ground.ny() - 4));
   ++number;
   for (int iy = y0; iy < y0 + 4; ++iy)
-    for (int ix = x0; ix < x0 + 4; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
+    for (int ix = x0; ix < x0 + 4; ++ix)
+      ground.take_above(ix, iy, ground.height(ix, iy) - 0.001, taken);
 }
 
 }  // namespace navvy::planner::testing

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every format read back by a reader that is not ours: gdalinfo and gdallocationinfo, NumPy, Python's zlib for PNG
-// pixels, and nav2's rules of loading. The grid is not square, has holes, lies far from its map's origin and is marked
-// in one corner, so that every axis, flip and half cell shows.
+// Every format read back by a reader that is not ours: gdalinfo and gdallocationinfo, NumPy,
+// Python's zlib for PNG pixels, and nav2's rules of loading. The grid is not square, has holes,
+// lies far from its map's origin and is marked in one corner, so that every axis, flip and half
+// cell shows.
 #include "planner/formats/formats.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,9 @@ bool hole(int ix, int iy) { return ix >= 10 && ix < 13 && iy >= 20 && iy < 22; }
 
 float elevation(int ix, int iy) {
   if (hole(ix, iy)) return kUnknown;
-  return marked(ix, iy) ? 9.0f : static_cast<float>(0.5 * std::sin(0.2 * ix) + 0.03 * iy - 0.001 * ix * iy);
+  return marked(ix, iy)
+             ? 9.0f
+             : static_cast<float>(0.5 * std::sin(0.2 * ix) + 0.03 * iy - 0.001 * ix * iy);
 }
 float good(int ix, int iy) {
   if (hole(ix, iy)) return kUnknown;
@@ -49,11 +52,16 @@ TerrainMap example() {
   s.filled_share = 0.25;
   s.filled_from = 1.5;
   s.crs_wkt =
-      "PROJCS[\"WGS 84 / UTM zone 32N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563,"
-      "AUTHORITY[\"EPSG\",\"7030\"]],AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\","
-      "0.0174532925199433],AUTHORITY[\"EPSG\",\"4326\"]],PROJECTION[\"Transverse_Mercator\"],PARAMETER["
-      "\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",0.9996],PARAMETER["
-      "\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32632\"]]";
+      "PROJCS[\"WGS 84 / UTM zone 32N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+      "84\",6378137,298.257223563,"
+      "AUTHORITY[\"EPSG\",\"7030\"]],AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0],UNIT["
+      "\"degree\","
+      "0.0174532925199433],AUTHORITY[\"EPSG\",\"4326\"]],PROJECTION[\"Transverse_Mercator\"],"
+      "PARAMETER["
+      "\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",0."
+      "9996],PARAMETER["
+      "\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1],AUTHORITY["
+      "\"EPSG\",\"32632\"]]";
   std::vector<float> z, t;
   for (int iy = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix) z.push_back(elevation(ix, iy)), t.push_back(good(ix, iy));
@@ -65,13 +73,15 @@ const std::vector<Layer> kTwo = {Layer::kElevation, Layer::kTraversability};
 bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0; }
 
 /// What Python prints of `script`, as JSON; the file's path is sys.argv[1].
-nlohmann::json python(const test::Folder& folder, const std::string& script, const std::string& file) {
+nlohmann::json python(const test::Folder& folder, const std::string& script,
+                      const std::string& file) {
   write_text(folder / "read.py", "import json, sys\n" + script);
-  return nlohmann::json::parse(output_of("/usr/bin/python3 '" + folder / "read.py" + "' '" + file + "'"), nullptr,
-                               false);
+  return nlohmann::json::parse(
+      output_of("/usr/bin/python3 '" + folder / "read.py" + "' '" + file + "'"), nullptr, false);
 }
 
-// A PNG as its standard tells [filters 0 to 4], by Python's zlib alone: prints width, height, channels and the pixels.
+// A PNG as its standard tells [filters 0 to 4], by Python's zlib alone: prints width, height,
+// channels and the pixels.
 const char* const kPng = R"(
 import struct, zlib
 d = open(sys.argv[1], 'rb').read()
@@ -105,18 +115,20 @@ TEST(GeoTiff, IsReadByGdalAtTheRightPlacesWithNamesUnitsAndHoles) {
   write_geotiff(example(), kTwo, folder / "map.tif");
   std::vector<Vec2> points;
   for (int iy = 0; iy < kNy; ++iy)
-    for (int ix = 0; ix < kNx; ++ix) points.push_back(Vec2(1540000.25, 5150000.5) + 0.1 * Vec2(ix + 0.5, iy + 0.5));
+    for (int ix = 0; ix < kNx; ++ix)
+      points.push_back(Vec2(1540000.25, 5150000.5) + 0.1 * Vec2(ix + 0.5, iy + 0.5));
   const std::vector<double> values = heightfield::testing::located(folder / "map.tif", points);
   ASSERT_EQ(values.size(), 2 * points.size());
   for (int iy = 0, i = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix, i += 2) {
       const auto k = static_cast<std::size_t>(i);
       // Half an ulp of float at 412 m; traversability as it is.
-      ASSERT_NEAR(values[k], hole(ix, iy) ? -9999 : static_cast<double>(elevation(ix, iy)) + 412, 3e-5);
+      ASSERT_NEAR(values[k], hole(ix, iy) ? -9999 : static_cast<double>(elevation(ix, iy)) + 412,
+                  3e-5);
       ASSERT_NEAR(values[k + 1], hole(ix, iy) ? -9999 : static_cast<double>(good(ix, iy)), 1e-7);
     }
-  const nlohmann::json told =
-      nlohmann::json::parse(output_of("gdalinfo -json '" + folder / "map.tif" + "'"), nullptr, false);
+  const nlohmann::json told = nlohmann::json::parse(
+      output_of("gdalinfo -json '" + folder / "map.tif" + "'"), nullptr, false);
   ASSERT_FALSE(told.is_discarded());
   EXPECT_EQ(told["size"], (nlohmann::json{kNx, kNy}));
   EXPECT_EQ(told["bands"][0]["description"], "elevation");
@@ -133,14 +145,16 @@ TEST(GeoTiff, IsReadByGdalAtTheRightPlacesWithNamesUnitsAndHoles) {
   EXPECT_NE(told["coordinateSystem"]["wkt"].get<std::string>().find("32632"), std::string::npos);
 }
 
-TEST(GeoTiff, OfASiteInFeetTellsHeightsInFeet) {
+TEST(GeoTiff, OfASiteInFeetReportsHeightsInFeet) {
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   const test::Folder folder;
   heightfield::GroundSetup s = example().setup();
   s.file_height_unit = 0.3048;
-  const TerrainMap map = TerrainMap(s, 0, 1).with(Layer::kElevation, example().copy(Layer::kElevation));
+  const TerrainMap map =
+      TerrainMap(s, 0, 1).with(Layer::kElevation, example().copy(Layer::kElevation));
   write_geotiff(map, {Layer::kElevation}, folder / "feet.tif");
-  EXPECT_NE(output_of("gdalinfo '" + folder / "feet.tif" + "'").find("Unit Type: ft"), std::string::npos);
+  EXPECT_NE(output_of("gdalinfo '" + folder / "feet.tif" + "'").find("Unit Type: ft"),
+            std::string::npos);
   const double x = 1540000.25 + 0.35, y = 5150000.5 + 0.45;
   EXPECT_NEAR(heightfield::testing::located(folder / "feet.tif", {Vec2(x, y)}).at(0),
               (static_cast<double>(elevation(3, 4)) + 412) / 0.3048, 1e-4);
@@ -166,7 +180,8 @@ print(json.dumps(out)))",
   for (int iy = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix) {
       const auto& z = read["elevation"][static_cast<std::size_t>(iy)][static_cast<std::size_t>(ix)];
-      const auto& t = read["traversability"][static_cast<std::size_t>(iy)][static_cast<std::size_t>(ix)];
+      const auto& t =
+          read["traversability"][static_cast<std::size_t>(iy)][static_cast<std::size_t>(ix)];
       ASSERT_EQ(z.is_null(), hole(ix, iy));
       ASSERT_EQ(t.is_null(), hole(ix, iy));
       if (hole(ix, iy)) continue;
@@ -191,22 +206,27 @@ print(json.dumps(out)))",
 
 TEST(Npz, OfMoreRowsThanAreHeldAtOnceHasThemAllInOrder) {
   const test::Folder folder;
-  const TerrainMap map = testing::map_of(testing::setup(31, 600), [](double x, double y) { return 0.1 * x + y * y; });
+  const TerrainMap map =
+      testing::map_of(testing::setup(31, 600), [](double x, double y) { return 0.1 * x + y * y; });
   const std::vector<Layer> layers = {Layer::kElevation, Layer::kStepHeight};
   write_npz(map, layers, folder / "tall.npz");
   const std::vector<char> bytes = read_file(folder / "tall.npz");
   const std::string text(bytes.begin(), bytes.end());
   for (const Layer layer : layers) {
     // Behind the entry's name stands NPY's header of 128 bytes, and then the numbers.
-    const std::size_t name = text.find(info(layer).name + ".npy"), begin = text.find("\x93NUMPY", name) + 128;
+    const std::size_t name = text.find(info(layer).name + ".npy"),
+                      begin = text.find("\x93NUMPY", name) + 128;
     const std::vector<float> values = map.copy(layer);
     ASSERT_LE(begin + values.size() * sizeof(float), text.size());
-    EXPECT_EQ(std::memcmp(text.data() + begin, values.data(), values.size() * sizeof(float)), 0) << info(layer).name;
+    EXPECT_EQ(std::memcmp(text.data() + begin, values.data(), values.size() * sizeof(float)), 0)
+        << info(layer).name;
   }
   if (!has_tool("python3")) GTEST_SKIP() << "python3 is missing";
-  EXPECT_EQ(output_of("python3 -c 'import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).testzip())' '" +
-                      (folder / "tall.npz") + "'"),
-            "None\n");
+  EXPECT_EQ(
+      output_of(
+          "python3 -c 'import sys, zipfile; print(zipfile.ZipFile(sys.argv[1]).testzip())' '" +
+          (folder / "tall.npz") + "'"),
+      "None\n");
 }
 
 TEST(Npz, OfOneMapIsTheSameByteForByte) {
@@ -218,7 +238,8 @@ TEST(Npz, OfOneMapIsTheSameByteForByte) {
 
 /// Keys of a nav2 YAML file, by PyYAML.
 nlohmann::json yaml(const test::Folder& folder, const std::string& file) {
-  return python(folder, "import yaml\nprint(json.dumps(yaml.safe_load(open(sys.argv[1]))))\n", file);
+  return python(folder, "import yaml\nprint(json.dumps(yaml.safe_load(open(sys.argv[1]))))\n",
+                file);
 }
 
 /// nav2's rules, by its documentation: what map_server puts into the OccupancyGrid for one pixel.
@@ -257,13 +278,16 @@ TEST(Nav2, TrinaryLoadsAsFreeOccupiedAndUnknownUnderCommonThresholds) {
     for (int y = 0; y < kNy; ++y)
       for (int ix = 0; ix < kNx; ++ix) {
         const int iy = kNy - 1 - y;  // msg.data[width * (height - y - 1) + x]
-        const auto pixel = static_cast<std::uint8_t>(pgm[head.size() + static_cast<std::size_t>(y * kNx + ix)]);
+        const auto pixel =
+            static_cast<std::uint8_t>(pgm[head.size() + static_cast<std::size_t>(y * kNx + ix)]);
         const int expected = hole(ix, iy) ? -1 : marked(ix, iy) ? 100 : 0;
-        ASSERT_EQ(loaded("trinary", pixel / 255.0, true, free, keys["occupied_thresh"]), expected) << ix << " " << iy;
+        ASSERT_EQ(loaded("trinary", pixel / 255.0, true, free, keys["occupied_thresh"]), expected)
+            << ix << " " << iy;
       }
   EXPECT_EQ(loaded("trinary", 205 / 255.0, true, 0.25, 0.65), 0) << "the trap is none";
   if (has_tool("gdalinfo"))
-    EXPECT_NE(output_of("gdalinfo '" + folder / "map.pgm" + "'").find("Size is 52, 36"), std::string::npos);
+    EXPECT_NE(output_of("gdalinfo '" + folder / "map.pgm" + "'").find("Size is 52, 36"),
+              std::string::npos);
 }
 
 TEST(Nav2, ScaleLoadsAsOccupancyToAPercentWithHolesUnknown) {
@@ -281,8 +305,8 @@ TEST(Nav2, ScaleLoadsAsOccupancyToAPercentWithHolesUnknown) {
     for (int ix = 0; ix < kNx; ++ix) {
       const int iy = kNy - 1 - y;
       const auto at = static_cast<std::size_t>(2 * (y * kNx + ix));
-      const int got = loaded("scale", png[3][at].get<int>() / 255.0, png[3][at + 1] == 255, keys["free_thresh"],
-                             keys["occupied_thresh"]);
+      const int got = loaded("scale", png[3][at].get<int>() / 255.0, png[3][at + 1] == 255,
+                             keys["free_thresh"], keys["occupied_thresh"]);
       // 8 bits and the rounding to whole percents: 0.2 + 0.5.
       if (hole(ix, iy))
         ASSERT_EQ(got, -1);
@@ -301,7 +325,8 @@ TEST(Pictures, ShowNorthUpLightFromTheNorthWestAndHolesAsNothing) {
     for (int ix = 0; ix < kNx; ++ix)
       z.push_back(hole(ix, iy)
                       ? kUnknown
-                      : std::max(0.0f, 0.8f - 0.1f * static_cast<float>(std::abs(ix - 40) + std::abs(iy - 9))));
+                      : std::max(0.0f, 0.8f - 0.1f * static_cast<float>(std::abs(ix - 40) +
+                                                                        std::abs(iy - 9))));
   const TerrainMap map = TerrainMap(s, 0, 1).with(Layer::kElevation, z);
   write_hillshade(map, {Layer::kElevation}, folder / "shade.png");
   const nlohmann::json png = python(folder, kPng, folder / "shade.png");
@@ -312,8 +337,10 @@ TEST(Pictures, ShowNorthUpLightFromTheNorthWestAndHolesAsNothing) {
   const auto pixel = [&](int ix, int iy, int c) {
     return png[3][static_cast<std::size_t>(4 * ((kNy - 1 - iy) * kNx + ix) + c)].get<int>();
   };
-  EXPECT_EQ(pixel(2, 2, 0), std::lround(255 * std::sqrt(0.5)));  // level ground under a sun at 45 deg
-  // Faces of 45 deg along both axes: the north-west one looks at the sun, the south-east one away from it.
+  // Level ground under a sun at 45 deg
+  EXPECT_EQ(pixel(2, 2, 0), std::lround(255 * std::sqrt(0.5)));
+  // Faces of 45 deg along both axes: the north-west one looks at the sun, the south-east one away
+  // from it.
   EXPECT_EQ(pixel(38, 11, 0), std::lround(255 * (2 + std::sqrt(2.0)) / 2 / std::sqrt(3.0)));
   EXPECT_EQ(pixel(42, 7, 0), 0);
   for (int iy = 0; iy < kNy; ++iy)
@@ -333,7 +360,8 @@ TEST(Pictures, OfALayerRunFromItsLeastToItsGreatestColour) {
   EXPECT_GT(pixel(kNx - 4, 30, 1), pixel(kNx - 4, 30, 0)) << "good ground is green";
   EXPECT_EQ(pixel(11, 21, 3), 0);
   EXPECT_THROW(write_relief(example(), kTwo, folder / "two.png"), InputError);
-  EXPECT_THROW(write_hillshade(example(), {Layer::kTraversability}, folder / "none.png"), InputError);
+  EXPECT_THROW(write_hillshade(example(), {Layer::kTraversability}, folder / "none.png"),
+               InputError);
 }
 
 TEST(Ply, HoldsTheKnownColumnsAndFacesThatLookUp) {
@@ -358,8 +386,8 @@ print(json.dumps([nv, nf, float(up.min()), float(up.sum() / 2), v['p'].tolist(),
                                      folder / "map.ply");
   ASSERT_FALSE(read.is_discarded());
   ASSERT_EQ(read[0], kNx * kNy - 6);
-  // Two faces a square of columns, less those that meet a hole of 3 x 2: 4 x 3 squares, two triangles of which keep
-  // clear of it at the ends of the diagonals.
+  // Two faces a square of columns, less those that meet a hole of 3 x 2: 4 x 3 squares, two
+  // triangles of which keep clear of it at the ends of the diagonals.
   EXPECT_EQ(read[1], 2 * (kNx - 1) * (kNy - 1) - 2 * 12 + 2);
   EXPECT_GT(read[2].get<double>(), 0);
   EXPECT_NEAR(read[3].get<double>(), 0.01 * read[1].get<double>() / 2, 1e-9);
@@ -370,7 +398,8 @@ print(json.dumps([nv, nf, float(up.min()), float(up.sum() / 2), v['p'].tolist(),
       ASSERT_NEAR(p[0].get<double>(), -3.3 + 0.1 * (ix + 0.5), 1e-12);
       ASSERT_NEAR(p[1].get<double>(), 1.7 + 0.1 * (iy + 0.5), 1e-12);
       ASSERT_EQ(p[2].get<double>(), static_cast<double>(elevation(ix, iy)));
-      ASSERT_EQ(read[5][static_cast<std::size_t>(i++)].get<double>(), static_cast<double>(good(ix, iy)));
+      ASSERT_EQ(read[5][static_cast<std::size_t>(i++)].get<double>(),
+                static_cast<double>(good(ix, iy)));
     }
 }
 
@@ -395,7 +424,8 @@ TEST(Formats, KeepTheOldFileWhenTheDiskIsFull) {
     }
     ::setrlimit(RLIMIT_FSIZE, &before);
     ::signal(SIGXFSZ, handler);
-    EXPECT_NE(message.find((folder / format.name)), std::string::npos) << format.name << ": " << message;
+    EXPECT_NE(message.find((folder / format.name)), std::string::npos)
+        << format.name << ": " << message;
     EXPECT_EQ(std::filesystem::file_size(path), 3u) << format.name;
     EXPECT_FALSE(std::filesystem::exists(path + ".part")) << format.name;
   }
@@ -405,7 +435,8 @@ TEST(Formats, KeepTheOldFileWhenTheDiskIsFull) {
 std::map<std::string, std::vector<char>> content_of(const std::string& folder) {
   std::map<std::string, std::vector<char>> out;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) out[entry.path().lexically_relative(folder)] = read_file(entry.path().string());
+    if (entry.is_regular_file())
+      out[entry.path().lexically_relative(folder)] = read_file(entry.path().string());
   return out;
 }
 
@@ -418,7 +449,8 @@ TerrainMap with_target() {
 TEST(Formats, ThatAreFoldersKeepTheOldOneWhenTheDiskIsFull) {
   const test::Folder folder;
   const TerrainMap map = with_target();
-  for (const auto& [name, limit] : {std::pair<std::string, rlim_t>{"terra", 2000}, {"bag", 60000}}) {
+  for (const auto& [name, limit] :
+       {std::pair<std::string, rlim_t>{"terra", 2000}, {"bag", 60000}}) {
     const Format& format = format_named(name);
     const std::string path = folder / name;
     format.write(map, format.by_default, path);
@@ -440,7 +472,8 @@ TEST(Formats, ThatAreFoldersKeepTheOldOneWhenTheDiskIsFull) {
     EXPECT_NE(message.find(path), std::string::npos) << name << ": " << message;
     EXPECT_EQ(content_of(path), before) << name;
     EXPECT_FALSE(std::filesystem::exists(path + ".part")) << name;
-    // With room again the new one takes its place, as a whole: what a kill left of either is in no one's way.
+    // With room again the new one takes its place, as a whole: what a kill left of either is in no
+    // one's way.
     std::filesystem::create_directories(path + ".part/" + name);
     std::filesystem::remove(path + "/" + before.rbegin()->first);
     format.write(map, format.by_default, path + "/");
@@ -453,7 +486,8 @@ TEST(Formats, ThatAreFoldersLeaveAForeignOneAlone) {
   const test::Folder folder;
   for (const std::string name : {"terra", "bag"}) {
     const Format& format = format_named(name);
-    const std::string mine = folder / (name + "_mine"), part = folder / (name + "_part"), file = folder / (name + "_f");
+    const std::string mine = folder / (name + "_mine"), part = folder / (name + "_part"),
+                      file = folder / (name + "_f");
     std::filesystem::create_directories(mine + "/images");
     write_text(mine + "/images/img_2.npy", "precious");
     std::filesystem::create_directories(part + ".part");
@@ -478,29 +512,33 @@ TEST(Formats, ThatAreFoldersLeaveAForeignOneAlone) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
     for (const std::string& each : files_of(format, folder / ("deep/" + name)))
       EXPECT_TRUE(std::filesystem::exists(each) || each.ends_with("-journal")) << each;
-    for (const char* end : {"_mine", "_part.part", "_f", ""}) std::filesystem::remove_all(folder / (name + end));
+    for (const char* end : {"_mine", "_part.part", "_f", ""})
+      std::filesystem::remove_all(folder / (name + end));
     std::filesystem::remove_all(folder / "deep");
     std::filesystem::remove(folder / "link");
   }
-  EXPECT_EQ(files_of(format_named("nav2"), "a/map.yaml"), (std::vector<std::string>{"a/map.yaml", "a/map.pgm"}));
+  EXPECT_EQ(files_of(format_named("nav2"), "a/map.yaml"),
+            (std::vector<std::string>{"a/map.yaml", "a/map.pgm"}));
 }
 
-TEST(Formats, AreFoundByNameOrTheNearestIsTold) {
+TEST(Formats, AreFoundByNameOrTheNearestIsReported) {
   for (const Format& format : formats()) EXPECT_EQ(&format_named(format.name), &format);
   try {
     format_named("geotif");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean 'geotiff'?"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("did you mean 'geotiff'?"), std::string::npos)
+        << error.what();
   }
   const test::Folder folder;
   EXPECT_THROW(write_nav2_trinary(example(), kTwo, folder / "map.yaml"), InputError);
-  EXPECT_THROW(write_nav2_trinary(example(), {Layer::kTraversability}, folder / "map.pgm"), InputError);
+  EXPECT_THROW(write_nav2_trinary(example(), {Layer::kTraversability}, folder / "map.pgm"),
+               InputError);
   EXPECT_THROW(write_geotiff(example(), {}, folder / "map.tif"), Error);
 }
 
 // Two readers that know nothing of each other see the same pixels.
-TEST(Pictures, AreReadByPillowAsTheStandardTells) {
+TEST(Pictures, AreReadByPillowAsTheStandardSays) {
   if (std::system("/usr/bin/python3 -c 'import PIL' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "Pillow for /usr/bin/python3 is missing (python3-pil)";
   const char* const script = R"(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step go_to with the real planner, on a bicycle and a ground that changes under way. No OpenCL.
+// The step go_to with the real planner, on a bicycle and a ground that changes under way. No
+// OpenCL.
 #include "control/activities/go_to.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +79,7 @@ struct Trip {
     return least;
   }
   double figure(const std::string& name) const {
-    for (const control::Figure& each : op.reports().back().figures)
+    for (const control::Measurement& each : op.reports().back().figures)
       if (each.name == name) return each.value;
     return NAN;
   }
@@ -95,7 +96,8 @@ struct Trip {
 class GoToStep : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!path_planners()) GTEST_SKIP() << "no OMPL in this build: install libompl-dev and build with NAVVY_WITH_OMPL";
+    if (!path_planners())
+      GTEST_SKIP() << "no OMPL in this build: install libompl-dev and build with NAVVY_WITH_OMPL";
   }
 };
 
@@ -137,7 +139,7 @@ TEST_F(GoToStep, DrivesRoundATrenchThatWasNotThereWhenItPlanned) {
   }
 }
 
-TEST_F(GoToStep, ArrivesFacingAnyWayOverCusps) {
+TEST_F(GoToStep, ArrivesWithAnyHeadingOverCusps) {
   for (const double yaw : {kPi, -kPi / 2}) {
     const GoTo goal = to(6, 3, yaw);
     Trip trip({goal});
@@ -170,9 +172,12 @@ TEST_F(GoToStep, WaitsWhereThereIsNoPathAndEndsWithThatReason) {
   EXPECT_STREQ(name_of(report.state), "no_path");
   EXPECT_EQ(trip.op.phase(), "no_path");
   EXPECT_NEAR(report.end, 2 * 3, 0.1);
-  EXPECT_EQ(report.reason.rfind("no path from (-8.00 , 0.00 ) to (9.00 , 0.00 ) that keeps 0.30 m", 0), 0u)
+  EXPECT_EQ(
+      report.reason.rfind("no path from (-8.00 , 0.00 ) to (9.00 , 0.00 ) that keeps 0.30 m", 0),
+      0u)
       << report.reason;
-  EXPECT_NE(report.reason.find("100 iterations found none, try 3 of 3"), std::string::npos) << report.reason;
+  EXPECT_NE(report.reason.find("100 iterations found none, try 3 of 3"), std::string::npos)
+      << report.reason;
   EXPECT_EQ(trip.bicycle.fastest, 0);
 }
 
@@ -189,7 +194,7 @@ TEST_F(GoToStep, GoesOnWhenThereIsAPathAgain) {
   expect_arrived(trip, goal);
 }
 
-TEST_F(GoToStep, TellsWhyThereIsNoPath) {
+TEST_F(GoToStep, ReportsWhyThereIsNoPath) {
   GoTo goal = to(9, 0, 0);
   goal.tries = 1;
   Trip stuck({goal});
@@ -200,7 +205,8 @@ TEST_F(GoToStep, TellsWhyThereIsNoPath) {
   Trip taken({goal});
   dig(taken.ground, Vec2(9, -1), Vec2(10, 1));
   taken.run(5);
-  EXPECT_NE(taken.op.reports().back().reason.find("the goal lies 0.00 m from some"), std::string::npos);
+  EXPECT_NE(taken.op.reports().back().reason.find("the goal lies 0.00 m from some"),
+            std::string::npos);
 }
 
 TEST_F(GoToStep, RepeatsAndResumesInMidPathBitForBit) {
@@ -237,8 +243,8 @@ TEST_F(GoToStep, RepeatsAndResumesInMidPathBitForBit) {
 std::vector<Fault> faults_of(const GoTo& step, const control::MakePathPlanner& planners) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(8, -1), Vec2(10, 1));
-  return control::check_reach(excavator(), {{step}, {17}}, make_pose(-8, 0, 0), control::GroundSurface(ground),
-                              "mine.sdf", "digger", planners);
+  return control::check_reach(excavator(), {{step}, {17}}, make_pose(-8, 0, 0),
+                              control::GroundSurfaceView(ground), "mine.sdf", "digger", planners);
 }
 
 TEST_F(GoToStep, WithAGoalOnAnObstacleIsRefusedBeforeTheRun) {
@@ -246,8 +252,9 @@ TEST_F(GoToStep, WithAGoalOnAnObstacleIsRefusedBeforeTheRun) {
   const std::vector<Fault> faults = faults_of(to(9, 0, 0), path_planners());
   ASSERT_EQ(faults.size(), 1u);
   const std::string text = faults[0].text();
-  for (const char* part : {"mine.sdf:17", "digger/navvy:program/step 1/go_to/target", "(9.00 , 0.00 )",
-                           "would stand 0.00 m from ground that it cannot drive on", "choose another goal"})
+  for (const char* part :
+       {"mine.sdf:17", "digger/navvy:program/step 1/go_to/target", "(9.00 , 0.00 )",
+        "would stand 0.00 m from ground that it cannot drive on", "choose another goal"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in " << text;
   // The machine is 3.8 m long ahead of its origin: this goal lies on the site, its bow does not.
   EXPECT_EQ(faults_of(to(15, -6, 0), path_planners()).size(), 1u);
@@ -257,7 +264,8 @@ TEST(GoTo, WithoutAPlannerIsRefusedWithARemedy) {
   const std::vector<Fault> faults = faults_of(to(0, 5, 0), {});
   ASSERT_EQ(faults.size(), 1u);
   const std::string text = faults[0].text();
-  for (const char* part : {"mine.sdf:17", "go_to", "nobody plans paths here", "-DNAVVY_WITH_OMPL=ON", "libompl-dev"})
+  for (const char* part :
+       {"mine.sdf:17", "go_to", "nobody plans paths here", "-DNAVVY_WITH_OMPL=ON", "libompl-dev"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in " << text;
   EXPECT_THROW(control::Operator(excavator(), {{to(0, 5, 0)}, {}}), InputError);
 }

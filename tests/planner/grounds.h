@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/terrain_view.h"
 #include "planner/map_maker.h"
 
@@ -35,7 +35,8 @@ inline Vec2 centre(const heightfield::GroundSetup& s, int ix, int iy) {
   return s.origin + s.cell * Vec2(ix + 0.5, iy + 0.5);
 }
 
-/// A map of the heights that `z` gives at column centres, its start flat at 0, with all derived layers.
+/// A map of the heights that `z` gives at column centres, its start flat at 0, with all derived
+/// layers.
 inline TerrainMap map_of(heightfield::GroundSetup s, const std::function<double(double, double)>& z,
                          MapOptions options = {}) {
   const heightfield::GroundSetup place = s;
@@ -45,7 +46,8 @@ inline TerrainMap map_of(heightfield::GroundSetup s, const std::function<double(
   };
   MapMaker maker(std::move(options));
   maker.update(heightfield::Ground(s).view());
-  const std::vector<float> flat(static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny), 0.0f);
+  const std::vector<float> flat(static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny),
+                                0.0f);
   return maker.map().with(Layer::kElevationStart, flat);
 }
 

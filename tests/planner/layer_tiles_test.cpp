@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles that nobody wrote to: computed when asked for, kept or not, and never seen to be other than the rest.
+// Tiles that nobody wrote to: computed when asked for, kept or not, and never seen to be other than
+// the rest.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -16,7 +17,9 @@ namespace {
 
 using heightfield::CellRect;
 
-float formula(int ix, int iy) { return ix % 11 == 3 ? kUnknown : static_cast<float>(0.25 * ix - 0.125 * iy); }
+float formula(int ix, int iy) {
+  return ix % 11 == 3 ? kUnknown : static_cast<float>(0.25 * ix - 0.125 * iy);
+}
 
 /// A formula; counts the columns that it was asked for.
 class Counting final : public LayerSource {
@@ -25,7 +28,8 @@ class Counting final : public LayerSource {
     columns += rect.area();
     for (int iy = rect.y0; iy < rect.y1; ++iy)
       for (int ix = rect.x0; ix < rect.x1; ++ix)
-        out[static_cast<std::size_t>(iy - rect.y0) * stride + static_cast<std::size_t>(ix - rect.x0)] = formula(ix, iy);
+        out[static_cast<std::size_t>(iy - rect.y0) * stride +
+            static_cast<std::size_t>(ix - rect.x0)] = formula(ix, iy);
   }
   mutable std::atomic<std::int64_t> columns{0};
 };
@@ -43,8 +47,8 @@ struct Fixture {
 const CellRect kRects[] = {
     {0, 0, kNx, kNy}, {63, 63, 65, 65}, {5, 100, 299, 101}, {130, 3, 131, 169}, {17, 9, 280, 155}};
 
-void expect_formula(const LayerTiles& tiles, const CellRect& rect, const std::vector<float>& values, int wx, int wy,
-                    float written) {
+void expect_formula(const LayerTiles& tiles, const CellRect& rect, const std::vector<float>& values,
+                    int wx, int wy, float written) {
   const float* next = values.data();
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix, ++next) {

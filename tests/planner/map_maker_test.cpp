@@ -24,7 +24,9 @@ using testing::setup;
 
 Ground wavy() {
   heightfield::GroundSetup s = setup();
-  s.surface = [](int ix, int iy) { return 0.3 * std::sin(0.11 * ix) + 0.2 * std::cos(0.07 * iy) + 0.01 * ix; };
+  s.surface = [](int ix, int iy) {
+    return 0.3 * std::sin(0.11 * ix) + 0.2 * std::cos(0.07 * iy) + 0.01 * ix;
+  };
   return Ground(s);
 }
 
@@ -32,9 +34,10 @@ Ground wavy() {
 CellRect edit(Ground& ground, Random& random) {
   const auto within = [&](int most) { return static_cast<int>(random.uniform() * most); };
   const int x0 = within(ground.nx()), y0 = within(ground.ny());
-  const CellRect rect = CellRect{x0, y0, x0 + 1 + within(12), y0 + 1 + within(12)}.cut(ground.site_rect());
+  const CellRect rect =
+      CellRect{x0, y0, x0 + 1 + within(12), y0 + 1 + within(12)}.cut(ground.site_rect());
   const bool dig = random.uniform() < 0.5;
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       if (dig)
@@ -49,7 +52,8 @@ CellRect edit(Ground& ground, Random& random) {
 TerrainView seen(const Ground& ground, double time, Random& random) {
   std::vector<heightfield::LooseGrain> grains;
   for (int i = 0; i < 30; ++i) {
-    const int ix = 20 + static_cast<int>(random.uniform() * 30), iy = 40 + static_cast<int>(random.uniform() * 30);
+    const int ix = 20 + static_cast<int>(random.uniform() * 30),
+              iy = 40 + static_cast<int>(random.uniform() * 30);
     grains.push_back({ix, iy, ground.height(ix, iy) + 0.02, 1e-4, 0, 1.25f, 0});
   }
   const TerrainView view = ground.view(time);
@@ -81,7 +85,8 @@ TEST(MapMaker, UpdatesGiveTheBitsOfAFullComputationAfterRandomEdits) {
     for (const LayerInfo& each : layers())
       // A history, which a full computation does not know; the next test is about it.
       if (each.layer != Layer::kDisturbedAt)
-        ASSERT_TRUE(same_bits(maker.map(), whole.map(), each.layer)) << each.name << " in round " << round;
+        ASSERT_TRUE(same_bits(maker.map(), whole.map(), each.layer))
+            << each.name << " in round " << round;
   }
   EXPECT_GT(partial, 50) << "the updates were full computations themselves";
 }
@@ -105,7 +110,8 @@ TEST(MapMaker, StampsThoseColumnsThatChangedAndNoOthers) {
         float& stamp = expected[static_cast<std::size_t>(iy) * ground.nx() + ix];
         if (differs) stamp = 0.25f * static_cast<float>(round);
         const float told = now.at(Layer::kDisturbedAt, ix, iy);
-        ASSERT_TRUE(told == stamp || (told != told && stamp != stamp)) << ix << " " << iy << " in round " << round;
+        ASSERT_TRUE(told == stamp || (told != told && stamp != stamp))
+            << ix << " " << iy << " in round " << round;
       }
     before = now;
   }
@@ -131,11 +137,11 @@ TEST(MapMaker, LeavesMapsThatWereTakenAsTheyWere) {
   }
 }
 
-TEST(MapMaker, TellsOfOneBucketOnlyWhatIsRoundIt) {
+TEST(MapMaker, ReportsOnlyTheSoilAroundOneBucket) {
   Ground ground = wavy();
   MapMaker maker({});
   ASSERT_EQ(maker.update(ground.view()).size(), 1u);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 30; iy < 38; ++iy)
     for (int ix = 50; ix < 60; ++ix) ground.take_above(ix, iy, -1, taken);
   const std::vector<CellRect> changed = maker.update(ground.view(1));
@@ -166,7 +172,7 @@ TEST(MapMaker, CostsWhatChangedAndNotTheSite) {
     const TerrainMap map = maker.map();
     for (const LayerInfo& each : layers()) map.copy(each.layer);
   });
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   double update = 0;
   constexpr int kBuckets = 50;
   for (int k = 0; k < kBuckets; ++k) {
@@ -179,13 +185,14 @@ TEST(MapMaker, CostsWhatChangedAndNotTheSite) {
     });
     EXPECT_LE(area, 16 * 14);
   }
-  std::printf("100 m: full %.3g s, an update after a bucket %.3g ms, %.0f times less\n", full, 1e3 * update / kBuckets,
-              full / update * kBuckets);
+  std::printf("100 m: full %.3g s, an update after a bucket %.3g ms, %.0f times less\n", full,
+              1e3 * update / kBuckets, full / update * kBuckets);
 }
 
-TEST(MapMaker, OfAPlaneTellsItsSlopeNoRoughnessAndItsStep) {
+TEST(MapMaker, OfAPlaneReportsItsSlopeNoRoughnessAndItsStep) {
   const TerrainMap map = map_of(setup(), [](double x, double y) { return 0.3 * x - 0.2 * y; });
-  for (const auto& [ix, iy] : {std::pair{0, 0}, std::pair{147, 83}, std::pair{147, 0}, std::pair{60, 40}}) {
+  for (const auto& [ix, iy] :
+       {std::pair{0, 0}, std::pair{147, 83}, std::pair{147, 0}, std::pair{60, 40}}) {
     // Float heights of a metre are good to 6e-8 m, which is 6e-7 of a slope over two columns.
     EXPECT_NEAR(map.at(Layer::kSlope, ix, iy), std::atan(std::hypot(0.3, 0.2)), 2e-6);
     EXPECT_NEAR(map.at(Layer::kStepHeight, ix, iy), 0.03, 1e-6);
@@ -195,7 +202,7 @@ TEST(MapMaker, OfAPlaneTellsItsSlopeNoRoughnessAndItsStep) {
   }
 }
 
-TEST(MapMaker, OfAWallTellsItsHeightAndThatItIsBad) {
+TEST(MapMaker, OfAWallReportsItsHeightAndThatItIsBad) {
   const double wall = 0.4;
   const TerrainMap map = map_of(setup(), [&](double x, double) { return x < 0 ? 0 : wall; });
   // x = 0 lies between columns 32 and 33.
@@ -204,31 +211,35 @@ TEST(MapMaker, OfAWallTellsItsHeightAndThatItIsBad) {
     EXPECT_NEAR(map.at(Layer::kStepHeight, ix, 40), near ? wall : 0, 1e-6) << ix;
     EXPECT_EQ(map.at(Layer::kTraversability, ix, 40), near ? 0.0f : 1.0f) << ix;
   }
-  // Column 32: a step of five columns x = -2..2, z = 0 0 0 w w. Its line has the slope (w + 2 w) / 10 and the
-  // residuals' mean square 0.03 w^2: total 0.24 w^2, explained 0.18 w^2, each of 1/5 weight.
+  // Column 32: a step of five columns x = -2..2, z = 0 0 0 w w. Its line has the slope (w + 2 w) /
+  // 10 and the residuals' mean square 0.03 w^2: total 0.24 w^2, explained 0.18 w^2, each of 1/5
+  // weight.
   EXPECT_NEAR(map.at(Layer::kRoughness, 32, 40), wall * std::sqrt(0.24 - 0.18), 1e-6);
   EXPECT_NEAR(map.at(Layer::kSlope, 32, 40), std::atan(wall / 0.2), 1e-6);
 }
 
-TEST(MapMaker, TellsLayersOfWhatLiesThere) {
+TEST(MapMaker, ReportsLayersOfTheSoilPresent) {
   Ground ground{setup()};
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground.take_above(5, 6, -0.5, taken);
   ground.put(9, 6, {0, mass_units(1.54), 1.25f, 0});
   const TerrainView columns = ground.view(3);
-  const TerrainView view = columns.with(heightfield::LooseSoil(columns, {{20, 7, 0.05, 1e-3, 0, 1.1f, 0}}),
-                                        heightfield::SurfaceKind::kMapped);
+  const TerrainView view =
+      columns.with(heightfield::LooseSoil(columns, {{20, 7, 0.05, 1e-3, 0, 1.1f, 0}}),
+                   heightfield::SurfaceKind::kMapped);
   MapMaker maker({});
   maker.update(view);
   const TerrainMap map = maker.map();
   EXPECT_EQ(map.time(), 3);
   EXPECT_NEAR(map.at(Layer::kElevation, 5, 6), -0.5, 1e-6);
-  EXPECT_NEAR(map.at(Layer::kElevationStart, 5, 6), 0, 1e-8);  // a quantum of mass is 5e-9 m of topsoil
-  EXPECT_EQ(map.at(Layer::kSoil, 5, 6), 0);                    // loam below 0.3 m of topsoil
+  // A quantum of mass is 5e-9 m of topsoil
+  EXPECT_NEAR(map.at(Layer::kElevationStart, 5, 6), 0, 1e-8);
+  EXPECT_EQ(map.at(Layer::kSoil, 5, 6), 0);  // loam below 0.3 m of topsoil
   EXPECT_EQ(map.at(Layer::kSoil, 4, 6), 1);
   EXPECT_EQ(map.at(Layer::kDensity, 4, 6), 1100);
   EXPECT_NEAR(map.at(Layer::kDensity, 9, 6), 1540 / 1.25, 1e-3);
-  EXPECT_NEAR(map.at(Layer::kElevation, 9, 6), 0.125, 1e-6);  // 1.54 kg are 1 l of bank and 1.25 l as they lie
+  // 1.54 kg are 1 l of bank and 1.25 l as they lie
+  EXPECT_NEAR(map.at(Layer::kElevation, 9, 6), 0.125, 1e-6);
   EXPECT_NEAR(map.at(Layer::kLooseDepth, 20, 7), 0.1, 1e-6);
   EXPECT_NEAR(map.at(Layer::kElevation, 20, 7), 0.1, 1e-6);
   EXPECT_EQ(map.at(Layer::kAwake, 20, 7), 1);
@@ -255,8 +266,9 @@ TEST(MapMaker, RefusesATargetOfAnotherSizeAndLimitsThatMakeNoSense) {
   MapOptions short_target;
   short_target.target.assign(10, 0.0f);
   EXPECT_THROW(MapMaker(short_target).update(wavy().view()), InputError);
-  for (double TraversabilityLimits::*limit : {&TraversabilityLimits::slope, &TraversabilityLimits::step_height,
-                                              &TraversabilityLimits::roughness, &TraversabilityLimits::window})
+  for (double TraversabilityLimits::*limit :
+       {&TraversabilityLimits::slope, &TraversabilityLimits::step_height,
+        &TraversabilityLimits::roughness, &TraversabilityLimits::window})
     for (const double wrong : {0.0, -1.0, std::nan(""), 1e9}) {
       MapOptions options;
       options.limits.*limit = wrong;
@@ -298,12 +310,14 @@ TEST(Layers, HaveARowEachAndAreFoundByName) {
     layers_named("elevation,slop");
     FAIL() << "'slop' was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean 'slope'?"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("did you mean 'slope'?"), std::string::npos)
+        << error.what();
   }
 }
 
 TEST(TerrainMap, ShowsItsTilesWithoutACopy) {
-  const TerrainMap map = testing::map_of(testing::setup(), [](double x, double y) { return 0.1 * x - 0.2 * y; });
+  const TerrainMap map =
+      testing::map_of(testing::setup(), [](double x, double y) { return 0.1 * x - 0.2 * y; });
   const LayerTiles& tiles = map.tiles(Layer::kElevation);
   const LayerTiles::View view = tiles.view(1, 1);
   // Column (64 + 5, 64 + 7): rows run along y.

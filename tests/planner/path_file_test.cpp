@@ -35,7 +35,8 @@ TEST(PathFile, GivesBackEachPathItHolds) {
 TEST(PathFile, RefusesWhatIsNoneByFileAndLine) {
   const test::Folder folder;
   const std::string file = folder / "paths.csv";
-  for (const std::string& text : {path_header() + "\ndigger,3,1,0,zero,1,2,0,1\n", path_header() + "\nnothing\n"}) {
+  for (const std::string& text :
+       {path_header() + "\ndigger,3,1,0,zero,1,2,0,1\n", path_header() + "\nnothing\n"}) {
     write_file_atomically(file, text);
     try {
       read_paths(file);
@@ -49,13 +50,15 @@ TEST(PathFile, RefusesWhatIsNoneByFileAndLine) {
 }
 
 TEST(PathFile, IsDrawnOnAHillshadeAndNothingElse) {
-  const TerrainMap map = testing::map_of(testing::setup(), [](double x, double) { return 0.1 * x; });
+  const TerrainMap map =
+      testing::map_of(testing::setup(), [](double x, double) { return 0.1 * x; });
   const test::Folder folder;
   const std::string plain = folder / "plain.png", drawn = folder / "drawn.png";
   write_hillshade(map, {Layer::kElevation}, plain);
   write_picture_with_paths("hillshade", map, {Layer::kElevation}, drawn, {});
   EXPECT_EQ(read_file(drawn), read_file(plain));
-  write_picture_with_paths("hillshade", map, {Layer::kElevation}, drawn, {{1, {Vec2(0, 3), Vec2(5, 5), Vec2(99, 99)}}});
+  write_picture_with_paths("hillshade", map, {Layer::kElevation}, drawn,
+                           {{1, {Vec2(0, 3), Vec2(5, 5), Vec2(99, 99)}}});
   EXPECT_NE(read_file(drawn), read_file(plain));
   EXPECT_THROW(write_picture_with_paths("npz", map, {Layer::kElevation}, drawn, {}), InputError);
 }

@@ -21,7 +21,7 @@
 namespace navvy::planner {
 namespace {
 
-using control::GroundSurface;
+using control::GroundSurfaceView;
 using control::Path;
 using control::PathQuery;
 using testing::dig;
@@ -61,7 +61,8 @@ void expect_drivable(const Path& path, const PathQuery& asked) {
   EXPECT_LT((end.p - asked.goal.p).norm(), 1e-6);
   EXPECT_LT(std::abs(std::remainder(end.yaw - asked.goal.yaw, 2 * kPi)), 1e-6);
   const double tightest = control::PathFollower(excavator().drive).least_radius();
-  for (const control::PathPiece& piece : path.pieces()) EXPECT_LT(std::abs(piece.curvature), 1 / (1.15 * tightest));
+  for (const control::PathPiece& piece : path.pieces())
+    EXPECT_LT(std::abs(piece.curvature), 1 / (1.15 * tightest));
 }
 
 TEST(Footprint, OfTheExcavatorIsThatOfItsFile) {
@@ -86,21 +87,24 @@ TEST(ObstacleIndex, NeverCallsAPlaceClearThatIsNot) {
   Random random(3);
   int clear = 0, told = 0;
   for (int i = 0; i < 20000; ++i) {
-    const double x = random.uniform() * 40 - 20, y = random.uniform() * 28 - 14, yaw = random.uniform() * 7;
+    const double x = random.uniform() * 40 - 20, y = random.uniform() * 28 - 14,
+                 yaw = random.uniform() * 7;
     const bool is = clearance(map, footprint, x, y, yaw, 0.4) >= 0.4;
     const bool says = index.surely_clear(footprint, x, y, yaw, 0.4);
     ASSERT_TRUE(is || !says) << x << " " << y << " " << yaw;
     clear += is, told += says;
   }
   // What it leaves open is asked of the map itself: few enough to be worth it.
-  print_value("share of clear places that the index tells", static_cast<double>(told) / clear, "> 0.6", "20 000 poses");
+  print_value("share of clear places that the index tells", static_cast<double>(told) / clear,
+              "> 0.6", "20 000 poses");
   EXPECT_GT(told, 0.6 * clear);
 }
 
 class PathPlanner : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!path_planners()) GTEST_SKIP() << "no OMPL in this build: install libompl-dev and build with NAVVY_WITH_OMPL";
+    if (!path_planners())
+      GTEST_SKIP() << "no OMPL in this build: install libompl-dev and build with NAVVY_WITH_OMPL";
     planner_ = path_planners()(excavator());
   }
   std::optional<Path> plan(const heightfield::Ground& ground, const PathQuery& asked) {
@@ -110,7 +114,7 @@ class PathPlanner : public ::testing::Test {
   std::unique_ptr<control::PathPlanner> planner_;
 };
 
-TEST_F(PathPlanner, GoesStraightWhereNothingLiesInTheWay) {
+TEST_F(PathPlanner, GoesStraightWhereNothingBlocksThePath) {
   const heightfield::Ground ground = level_site();
   const auto path = plan(ground, query(-8, 9));
   ASSERT_TRUE(path);
@@ -128,13 +132,14 @@ TEST_F(PathPlanner, GoesRoundATrenchAndTurnsInANarrowPlace) {
     expect_drivable(*path, asked);
     const double least = least_clearance(ground, *path);
     print_value("least clearance of a path round a trench [m]", least, ">= 0.3", "asked for");
-    print_value("its length [m], cusps", path->length(), std::to_string(path->cusps()), "17 m straight");
+    print_value("its length [m], cusps", path->length(), std::to_string(path->cusps()),
+                "17 m straight");
     EXPECT_GE(least, kClearance);
     EXPECT_LT(path->length(), 60);
   }
 }
 
-TEST_F(PathPlanner, AnswersTheSameToTheBitWhateverWasAskedBefore) {
+TEST_F(PathPlanner, AnswersTheSameBitIdenticalWhateverWasAskedBefore) {
   heightfield::Ground ground = level_site();
   const PathQuery asked = query(-8, 9);
   plan(ground, asked);
@@ -170,7 +175,7 @@ TEST_F(PathPlanner, AnswersTheSameInThreadsSideBySide) {
   EXPECT_EQ(alone, beside);
 }
 
-TEST_F(PathPlanner, FindsNothingWhereThereIsNoWay) {
+TEST_F(PathPlanner, FindsNothingWhereNoPathExists) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -13), Vec2(1.5, 13));
   PathQuery across = query(-8, 9);

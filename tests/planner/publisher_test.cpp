@@ -51,11 +51,12 @@ layers['elevation'].astype('<f4').tofile(sys.argv[3])
 print(header['sequence'], count)
 )";
 
-void expect_same_as_python(const std::string& place, const test::Folder& folder, const std::function<void()>& publish,
-                           const UpdateFeed& feed) {
+void expect_same_as_python(const std::string& place, const test::Folder& folder,
+                           const std::function<void()>& publish, const UpdateFeed& feed) {
   heightfield::testing::write_text(folder / "follow.py", kFollow);
-  const std::string command = "/usr/bin/python3 '" + folder / "follow.py" + "' '" + navvy::source_dir() +
-                              "/examples/planner' " + place + " '" + folder / "end.bin" + "'";
+  const std::string command = "/usr/bin/python3 '" + folder / "follow.py" + "' '" +
+                              navvy::source_dir() + "/examples/planner' " + place + " '" +
+                              folder / "end.bin" + "'";
   std::string said;
   if (place[0] == '/') publish();
   std::thread python([&] { said = heightfield::testing::output_of(command); });
@@ -123,12 +124,14 @@ void read_and_leave(int port, std::size_t bytes) {
 }
 
 std::ptrdiff_t threads() {
-  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"),
+                       std::filesystem::directory_iterator());
 }
 
 /// Whether that comes true within 10 s.
 bool comes_true(const std::function<bool()>& what) {
-  for (int i = 0; i < 200 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  for (int i = 0; i < 200 && !what(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return what();
 }
 
@@ -142,7 +145,8 @@ TEST(Publisher, ForgetsReadersThatAreGoneWhileNothingIsPublished) {
   const std::ptrdiff_t alone = threads();
   // Each takes its whole map and closes; nothing changes meanwhile.
   for (std::size_t i = 0; i < Publisher::kMostReaders; ++i) read_and_leave(publisher.port(), whole);
-  EXPECT_TRUE(comes_true([&] { return threads() == alone; })) << threads() << " threads, " << alone << " before";
+  EXPECT_TRUE(comes_true([&] { return threads() == alone; }))
+      << threads() << " threads, " << alone << " before";
   // As many again find room.
   std::vector<int> readers;
   for (std::size_t i = 0; i < Publisher::kMostReaders; ++i) {
@@ -169,8 +173,9 @@ TEST(Publisher, WaitsWhereNoFileCanBeOpened) {
   UpdateFeed feed(two_layers());
   feed.publish(ground.view(0));
   Publisher publisher(feed, "tcp:0", kTwo);
-  // A first reader comes and goes: the thread that accepts is at work, and what runs for the first time has run. Where
-  // nothing can be opened, the sanitizers cannot look at a new type: they ask a pipe whether its memory can be read.
+  // A first reader comes and goes: the thread that accepts is at work, and what runs for the first
+  // time has run. Where nothing can be opened, the sanitizers cannot look at a new type: they ask a
+  // pipe whether its memory can be read.
   const std::ptrdiff_t alone = threads();
   read_and_leave(publisher.port(), 12);
   ASSERT_TRUE(comes_true([&] { return threads() == alone; }));
@@ -254,8 +259,9 @@ TEST(Publisher, IntoAFolderIsFollowedWhileItIsWritten) {
   UpdateFeed feed(two_layers());
   // The reader is there first.
   std::thread python([&] {
-    said = heightfield::testing::output_of("/usr/bin/python3 '" + folder / "follow.py" + "' '" + navvy::source_dir() +
-                                           "/examples/planner' '" + folder / "maps" + "' '" + folder / "end.bin" + "'");
+    said = heightfield::testing::output_of("/usr/bin/python3 '" + folder / "follow.py" + "' '" +
+                                           navvy::source_dir() + "/examples/planner' '" +
+                                           folder / "maps" + "' '" + folder / "end.bin" + "'");
   });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   Publisher publisher(feed, folder / "maps", kTwo);
@@ -274,20 +280,22 @@ TEST(Publisher, IntoAFolderIsFollowedWhileItIsWritten) {
   EXPECT_EQ(said, "5 5\n") << "the last number, and how many patches";
 }
 
-TEST(Publisher, TellsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
+TEST(Publisher, ReportsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
   const test::Folder folder;
   Ground ground(testing::setup(20, 20));
   UpdateFeed feed(two_layers());
   Publisher publisher(feed, folder / "maps", kTwo);
   feed.publish(ground.view(0));
-  ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(folder / "maps/patch_000000001.navvymap"); }));
+  ASSERT_TRUE(comes_true(
+      [&] { return std::filesystem::exists(folder / "maps/patch_000000001.navvymap"); }));
   std::filesystem::remove_all(folder / "maps");
   Random random(2);
   int number = 0;
   dig(ground, random, number);
   feed.publish(ground.view(1));
   publisher.finish();
-  EXPECT_NE(publisher.fault().find("patch_000000002.navvymap"), std::string::npos) << publisher.fault();
+  EXPECT_NE(publisher.fault().find("patch_000000002.navvymap"), std::string::npos)
+      << publisher.fault();
 }
 
 TEST(Publisher, RefusesAPortThatIsTakenAndPlacesThatAreNone) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags read by the Python packages `mcap` and `rosbags` (`./dev readers`), which know nothing of us; a grid map is
-// asked by the rule that its users ask by. Not square, with a hole and a marked corner.
+// Bags read by the Python packages `mcap` and `rosbags` (`./dev readers`), which know nothing of
+// us; a grid map is asked by the rule that its users ask by. Not square, with a hole and a marked
+// corner.
 #include "planner/ros/streams.h"
 
 #include <gtest/gtest.h>
@@ -28,14 +29,20 @@ using nlohmann::json;
 constexpr int kNx = 12, kNy = 8;
 
 bool hole(int ix, int iy) { return ix == 3 && iy == 5; }
-float elevation(int ix, int iy) { return hole(ix, iy) ? kUnknown : static_cast<float>(0.1 * ix - 0.03 * iy * ix + iy); }
-float good(int ix, int iy) { return hole(ix, iy) ? kUnknown : ix == kNx - 1 && iy == 0 ? 0.0f : 0.01f * (ix + 10); }
+float elevation(int ix, int iy) {
+  return hole(ix, iy) ? kUnknown : static_cast<float>(0.1 * ix - 0.03 * iy * ix + iy);
+}
+float good(int ix, int iy) {
+  return hole(ix, iy) ? kUnknown : ix == kNx - 1 && iy == 0 ? 0.0f : 0.01f * (ix + 10);
+}
 
 TerrainMap example() {
   std::vector<float> z, t;
   for (int iy = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix) z.push_back(elevation(ix, iy)), t.push_back(good(ix, iy));
-  return TerrainMap(testing::setup(kNx, kNy), 12.5, 3).with(Layer::kElevation, z).with(Layer::kTraversability, t);
+  return TerrainMap(testing::setup(kNx, kNy), 12.5, 3)
+      .with(Layer::kElevation, z)
+      .with(Layer::kTraversability, t);
 }
 const std::vector<Layer> kTwo = {Layer::kElevation, Layer::kTraversability};
 
@@ -120,8 +127,9 @@ json read(const test::Folder& folder, const std::string& bag) {
   heightfield::testing::write_text(folder / "read.py", kRead);
   const Vec2 origin = testing::setup().origin;
   const std::string text = heightfield::testing::output_of(
-      "'" + readers() + "' '" + folder / "read.py" + "' '" + bag + "' " + std::to_string(origin.x()) + " " +
-      std::to_string(origin.y()) + " '" + folder / "types.json" + "'");
+      "'" + readers() + "' '" + folder / "read.py" + "' '" + bag + "' " +
+      std::to_string(origin.x()) + " " + std::to_string(origin.y()) + " '" + folder / "types.json" +
+      "'");
   return json::parse(text, nullptr, false);
 }
 
@@ -140,7 +148,8 @@ void expect_map(const json& bag) {
   EXPECT_EQ(cells.at("size")[1], kNy);
   EXPECT_NEAR(cells.at("size")[3].get<double>(), -3.3, 1e-12);
   const json& cloud = bag.at("/terrain/points");
-  EXPECT_EQ(cloud.at("fields"), json({{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"traversability", 12, 7, 1}}));
+  EXPECT_EQ(cloud.at("fields"),
+            json({{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"traversability", 12, 7, 1}}));
   ASSERT_EQ(cloud.at("points").size(), kNx * kNy - 1u);
   std::size_t k = 0, point = 0;
   for (int iy = 0; iy < kNy; ++iy)
@@ -217,7 +226,8 @@ void expect_bodies(const json& bag) {
   for (std::size_t i = 0; i < state.size(); ++i)
     EXPECT_NEAR(bag.at("/ew/odom").at("state")[i].get<double>(), state[i], 1e-12) << i;
   EXPECT_EQ(bag.at("/ew/odom").at("child"), "ew/chassis");
-  EXPECT_EQ(bag.at("/ew/joint_states").at("joints"), json({{"boom", "arm"}, {0.5, -1.0}, {0.0, 2.0}, {7.0, 8.0}}));
+  EXPECT_EQ(bag.at("/ew/joint_states").at("joints"),
+            json({{"boom", "arm"}, {0.5, -1.0}, {0.0, 2.0}, {7.0, 8.0}}));
   EXPECT_EQ(bag.at("/tf").at("frames").size(), 2u);
   EXPECT_EQ(bag.at("/tf").at("frames")[1][0], "map");
   EXPECT_EQ(bag.at("/clock").at("clock"), json({2, 500000001}));
@@ -240,7 +250,8 @@ TEST(RosBag, OfMovingBodiesIsReadByOthers) {
   EXPECT_EQ(bag.at("statistics")[0], 8);
 }
 
-// Counts whole messages: of SQLite by its rows, of MCAP by following its records up to one that is torn.
+// Counts whole messages: of SQLite by its rows, of MCAP by following its records up to one that is
+// torn.
 const char* const kCount = R"(
 import sqlite3, struct, sys
 if sys.argv[1].endswith('.db3'):
@@ -256,13 +267,15 @@ else:
 )";
 
 TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
-  if (std::system("/usr/bin/python3 -c 'import sqlite3' >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is missing";
+  if (std::system("/usr/bin/python3 -c 'import sqlite3' >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "python3 is missing";
   const test::Folder folder;
   heightfield::testing::write_text(folder / "count.py", kCount);
   const ros::Bytes points = ros::point_cloud(example(), kTwo, 0);
   for (const bool mcap : {true, false}) {
     const std::string file = mcap ? folder / "run.mcap" : folder / "run/run_0.db3";
-    const std::unique_ptr<ros::Bag> bag = mcap ? ros::make_mcap(file) : ros::make_bag_folder(folder / "run");
+    const std::unique_ptr<ros::Bag> bag =
+        mcap ? ros::make_mcap(file) : ros::make_bag_folder(folder / "run");
     rlimit before;
     ::getrlimit(RLIMIT_FSIZE, &before);
     const rlimit little{200000, before.rlim_max};
@@ -271,7 +284,8 @@ TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
     std::string message;
     int written = 0;
     try {
-      for (; written < 1000; ++written) bag->write("/terrain/points", ros::Kind::kPointCloud, written, points);
+      for (; written < 1000; ++written)
+        bag->write("/terrain/points", ros::Kind::kPointCloud, written, points);
     } catch (const FileError& error) {
       message = error.what();
     }
@@ -279,8 +293,8 @@ TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
     ::signal(SIGXFSZ, handler);
     EXPECT_NE(message.find("cannot write '" + file + "': "), std::string::npos) << message;
     EXPECT_GT(written, 10);
-    const std::string counted =
-        heightfield::testing::output_of("/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
+    const std::string counted = heightfield::testing::output_of(
+        "/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
     // SQLite ends the transaction of one time when the next time comes.
     EXPECT_EQ(counted, std::to_string(mcap ? written : written - 1) + "\n") << file;
   }
@@ -294,20 +308,22 @@ std::uint64_t number_at(const std::vector<char>& bytes, std::size_t at) {
   return out;
 }
 
-TEST(Bags, TellTheLeastAndTheGreatestTimeInWhateverOrderTheyCame) {
+TEST(Bags, ReportTheLeastAndTheGreatestTimeInAnyOrder) {
   const test::Folder folder;
   for (const bool mcap : {true, false}) {
     const std::unique_ptr<ros::Bag> bag =
         mcap ? ros::make_mcap(folder / "run.mcap") : ros::make_bag_folder(folder / "run");
-    for (const std::int64_t ns : {300, 800, 100, 400}) bag->write("/clock", ros::Kind::kClock, ns, ros::clock(ns));
+    for (const std::int64_t ns : {300, 800, 100, 400})
+      bag->write("/clock", ros::Kind::kClock, ns, ros::clock(ns));
     bag->close();
   }
   const std::vector<char> yaml = read_file(folder / "run/metadata.yaml");
   const std::string metadata(yaml.begin(), yaml.end());
-  for (const char* part : {"nanoseconds: 700\n", "nanoseconds_since_epoch: 100\n", "message_count: 4\n"})
+  for (const char* part :
+       {"nanoseconds: 700\n", "nanoseconds_since_epoch: 100\n", "message_count: 4\n"})
     EXPECT_NE(metadata.find(part), std::string::npos) << part << " in: " << metadata;
-  // Before the last 8 + 29 bytes (magic, footer) stand the statistics: of one topic they end in its id, the count of
-  // its messages and, before the length of that map, both times.
+  // Before the last 8 + 29 bytes (magic, footer) stand the statistics: of one topic they end in its
+  // id, the count of its messages and, before the length of that map, both times.
   const std::vector<char> file = read_file(folder / "run.mcap");
   const std::size_t end = file.size() - 8 - 29;
   EXPECT_EQ(number_at(file, end - 8), 4u);

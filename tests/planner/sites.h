@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "control/surface.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "paths.h"
 #include "planner/grounds.h"
 #include "scene_io/loader.h"
 
 namespace navvy::planner::testing {
 
-inline scene::Machine excavator() { return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf"); }
+inline scene::Machine excavator() {
+  return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
+}
 
 /// Level, 36 m x 24 m about the origin, columns of 0.15 m.
 inline heightfield::Ground level_site() {
@@ -26,11 +28,12 @@ inline heightfield::Ground level_site() {
 
 /// Takes half a metre off every column whose middle lies in the rectangle.
 inline void dig(heightfield::Ground& ground, const Vec2& low, const Vec2& high) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = centre(ground.setup(), ix, iy);
-      if ((p.array() > low.array()).all() && (p.array() < high.array()).all()) ground.take_above(ix, iy, -0.5, taken);
+      if ((p.array() > low.array()).all() && (p.array() < high.array()).all())
+        ground.take_above(ix, iy, -0.5, taken);
     }
 }
 

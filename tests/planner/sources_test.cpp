@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "folder.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/maps.h"
-#include "heightfield/site.h"
 #include "planner/grounds.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
@@ -62,7 +62,7 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   heightfield::Ground ground = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 30; iy < 40; ++iy)
     for (int ix = 28; ix < 50; ++ix) ground.take_above(ix, iy, -0.9 - 0.01 * ix, taken);
   heightfield::write_geotiff(ground, folder / "terrain_end.tif");
@@ -71,35 +71,38 @@ TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix) {
       // A float's ulp at a metre, and a quantum of mass.
-      ASSERT_NEAR(map.at(Layer::kElevation, ix, iy), ground.height(ix, iy), 2e-7) << ix << " " << iy;
+      ASSERT_NEAR(map.at(Layer::kElevation, ix, iy), ground.height(ix, iy), 2e-7)
+          << ix << " " << iy;
       ASSERT_EQ(map.at(Layer::kElevationStart, ix, iy), static_cast<float>(start.height(ix, iy)));
       const bool dug = iy >= 30 && iy < 40 && ix >= 28 && ix < 50;
-      ASSERT_EQ(map.at(Layer::kElevation, ix, iy) != map.at(Layer::kElevationStart, ix, iy), dug) << ix << " " << iy;
+      ASSERT_EQ(map.at(Layer::kElevation, ix, iy) != map.at(Layer::kElevationStart, ix, iy), dug)
+          << ix << " " << iy;
     }
   EXPECT_TRUE(std::isnan(map.at(Layer::kDensity, 3, 3)));
   EXPECT_TRUE(std::isnan(map.time()));
   EXPECT_FALSE(std::isnan(map.at(Layer::kTraversability, 3, 3)));
 }
 
-TEST(MapOfRun, KnowsWhatLayLooseAndSoAwake) {
+TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   const heightfield::Ground start = heightfield::make_ground(scene);
   const heightfield::TerrainView columns = start.view(2);
   // Beyond the first tile of a map, and more than one grain on a column.
-  const heightfield::TerrainView view =
-      columns.with(heightfield::LooseSoil(columns, {{70, 41, start.height(70, 41) + 0.02, 1e-4, 0, 1.2f, 0},
-                                                    {70, 41, start.height(70, 41) + 0.03, 1e-4, 0, 1.2f, 0},
-                                                    {3, 2, start.height(3, 2) + 0.02, 1e-4, 1, 1.1f, 0}}),
-                   heightfield::SurfaceKind::kMapped);
+  const heightfield::TerrainView view = columns.with(
+      heightfield::LooseSoil(columns, {{70, 41, start.height(70, 41) + 0.02, 1e-4, 0, 1.2f, 0},
+                                       {70, 41, start.height(70, 41) + 0.03, 1e-4, 0, 1.2f, 0},
+                                       {3, 2, start.height(3, 2) + 0.02, 1e-4, 1, 1.1f, 0}}),
+      heightfield::SurfaceKind::kMapped);
   heightfield::write_geotiff(view, folder / "terrain_end.tif", {"loose_depth"});
   const TerrainMap map = map_of_run(scene, start, folder / "terrain_end.tif", {});
   int lying = 0;
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix) {
       ASSERT_EQ(map.at(Layer::kLooseDepth, ix, iy), view.loose_depth(ix, iy)) << ix << " " << iy;
-      ASSERT_EQ(map.at(Layer::kAwake, ix, iy), view.awake(ix, iy) ? 1.0f : 0.0f) << ix << " " << iy;
-      lying += view.awake(ix, iy) ? 1 : 0;
+      ASSERT_EQ(map.at(Layer::kAwake, ix, iy), view.active(ix, iy) ? 1.0f : 0.0f)
+          << ix << " " << iy;
+      lying += view.active(ix, iy) ? 1 : 0;
     }
   EXPECT_EQ(lying, 2);
   // Where all soil rests a run writes heights alone: nothing lies loose.
@@ -114,7 +117,7 @@ TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   std::optional<heightfield::Ground> ground = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground->take_above(33, 44, -2, taken);
   const double dug = ground->height(33, 44);
   heightfield::write_geotiff(*ground, folder / "terrain_end.tif");
@@ -133,21 +136,23 @@ TEST(MapOfRun, OfAMapInFeetHasItsHeights) {
   const std::string dir = heightfield::testing::folder();
   const auto z = [](int c, int r) { return std::to_string(900 + 0.5 * c + 0.25 * r); };
   heightfield::testing::write_text(
-      dir + "map.asc", heightfield::testing::ascii_grid(30, 20, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
-  heightfield::testing::output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" + dir + "map.asc' '" + dir +
-                                  "map.tif'");
+      dir + "map.asc",
+      heightfield::testing::ascii_grid(30, 20, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
+  heightfield::testing::output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" + dir +
+                                  "map.asc' '" + dir + "map.tif'");
   heightfield::testing::output_of("gdal_edit.py -units ft '" + dir + "map.tif'");
   const scene::Scene scene = heightfield::testing::map_world(dir + "map.tif", 1, Vec2(20, 12));
   const heightfield::Ground start = heightfield::make_ground(scene);
   heightfield::Ground ground = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground.take_above(7, 5, ground.height(7, 5) - 0.5, taken);
   heightfield::write_geotiff(ground, dir + "terrain_end.tif");
   const TerrainMap map = map_of_run(scene, start, dir + "terrain_end.tif", {});
   for (int iy = 0; iy < 12; ++iy)
     for (int ix = 0; ix < 20; ++ix)
       // An ulp of float at 900 feet; a quantum of a column of 1 m2 is less.
-      ASSERT_NEAR(static_cast<double>(map.at(Layer::kElevation, ix, iy)), ground.height(ix, iy), 3e-5)
+      ASSERT_NEAR(static_cast<double>(map.at(Layer::kElevation, ix, iy)), ground.height(ix, iy),
+                  3e-5)
           << ix << " " << iy;
 }
 

@@ -42,7 +42,8 @@ bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' >/dev/
 
 json python(const test::Folder& folder, const std::string& script, const std::string& path) {
   heightfield::testing::write_text(folder / "read.py", script);
-  return json::parse(heightfield::testing::output_of("/usr/bin/python3 '" + folder / "read.py" + "' '" + path + "'"),
+  return json::parse(heightfield::testing::output_of("/usr/bin/python3 '" + folder / "read.py" +
+                                                     "' '" + path + "'"),
                      nullptr, false);
 }
 
@@ -87,7 +88,8 @@ print(json.dumps([float(a.min()), float(a.max())]))
 )",
                            folder / "terra");
   EXPECT_EQ(read, json({-1.0, -1.0}));
-  EXPECT_THROW(write_terra(TerrainMap(testing::setup(kNx, kNy), 0, 1), {}, folder / "none"), InputError);
+  EXPECT_THROW(write_terra(TerrainMap(testing::setup(kNx, kNy), 0, 1), {}, folder / "none"),
+               InputError);
 }
 
 TEST(Obj, HasEveryKnownColumnAndFacesThatLookUp) {
@@ -121,7 +123,8 @@ print(json.dumps([v, len(f), area]))
       EXPECT_EQ(read[0][k][2].get<float>(), 1.0f + 0.25f * static_cast<float>(ix));
       ++k;
     }
-  // Two triangles a square of four columns; the hole spoils six of the eight at its corners' squares.
+  // Two triangles a square of four columns; the hole spoils six of the eight at its corners'
+  // squares.
   const int squares = (kNx - 1) * (kNy - 1);
   EXPECT_EQ(read[1], 2 * squares - 6);
   EXPECT_NEAR(read[2].get<double>(), 0.01 * squares - 0.03, 1e-9);

@@ -37,8 +37,8 @@ void apply(const MapUpdate& update, std::vector<float>& mine, Layer layer) {
   for (const heightfield::CellRect& r : update.rects)
     for (int iy = r.y0; iy < r.y1; ++iy)
       for (int ix = r.x0; ix < r.x1; ++ix)
-        mine[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix)] =
-            map.at(layer, ix, iy);
+        mine[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) +
+             static_cast<std::size_t>(ix)] = map.at(layer, ix, iy);
 }
 
 TEST(UpdateFeed, SendsALargeMapInPiecesThatAreItsPatch) {
@@ -56,15 +56,15 @@ TEST(UpdateFeed, SendsALargeMapInPiecesThatAreItsPatch) {
   EXPECT_EQ(sent, patch_bytes(*first, kTwo));
   const std::vector<float> slope = first->map.copy(Layer::kSlope);
   ASSERT_GT(sent.size(), slope.size() * 2 * sizeof(float));
-  EXPECT_EQ(
-      std::memcmp(sent.data() + sent.size() - slope.size() * sizeof(float), slope.data(), slope.size() * sizeof(float)),
-      0);
+  EXPECT_EQ(std::memcmp(sent.data() + sent.size() - slope.size() * sizeof(float), slope.data(),
+                        slope.size() * sizeof(float)),
+            0);
   int until = 3;
   EXPECT_FALSE(send_patch(*first, kTwo, [&](const char*, std::size_t) { return --until > 0; }));
   EXPECT_EQ(until, 0) << "ends when it is told to";
 }
 
-TEST(UpdateFeed, NumbersWhatChangedAndTellsNothingElse) {
+TEST(UpdateFeed, NumbersWhatChangedAndReportsNothingElse) {
   Ground ground(testing::setup(70, 66));
   UpdateFeed feed(two_layers());
   EXPECT_EQ(feed.latest(), nullptr);
@@ -73,7 +73,7 @@ TEST(UpdateFeed, NumbersWhatChangedAndTellsNothingElse) {
   EXPECT_EQ(first->sequence, 1u);
   EXPECT_EQ(first->changed, 70 * 66);
   EXPECT_EQ(feed.publish(ground.view(1)), first) << "nothing changed";
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   ground.take_above(20, 30, -0.2, taken);
   const UpdateFeed::Update second = feed.publish(ground.view(1.5));
   EXPECT_EQ(second->sequence, 2u);
@@ -110,7 +110,7 @@ TEST(UpdateFeed, GivesMapsTheNumberOfTheirUpdate) {
   EXPECT_GT(next->changed, 0);
 }
 
-TEST(UpdateFeed, CountsFromNothingWhereTimeGoesBackOrItIsToldTo) {
+TEST(UpdateFeed, RestartsItsCountWhenTimeGoesBackOrOnRequest) {
   Ground ground(testing::setup(70, 66));
   MapOptions options = two_layers();
   options.layers.push_back(Layer::kDisturbedAt);
@@ -149,7 +149,7 @@ TEST(UpdateFeed, CountsFromNothingWhereTimeGoesBackOrItIsToldTo) {
   EXPECT_GT(disturbed(), 0);
 }
 
-TEST(UpdateFeed, TellsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
+TEST(UpdateFeed, ReportsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
   Ground ground(testing::setup(340, 260));
   UpdateFeed feed({});
   feed.publish(ground.view(0));
@@ -162,12 +162,14 @@ TEST(UpdateFeed, TellsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
   int number = 0;
   for (int i = 1; i <= 60; ++i) {
     // As many pits as fit into the list, each of its own size and at its own place of a grid.
-    std::vector<heightfield::Layer> taken;
+    std::vector<heightfield::SoilLayer> taken;
     for (int pit = 0; pit < i; ++pit) {
       const int x0 = 10 + 40 * (pit % 8), y0 = 8 + 30 * (pit / 8);
-      const int nx = static_cast<int>(random.uniform(1, 12)), ny = static_cast<int>(random.uniform(1, 12));
+      const int nx = static_cast<int>(random.uniform(1, 12)),
+                ny = static_cast<int>(random.uniform(1, 12));
       for (int iy = y0; iy < y0 + ny; ++iy)
-        for (int ix = x0; ix < x0 + nx; ++ix) ground.take_above(ix, iy, ground.height(ix, iy) - 0.01, taken);
+        for (int ix = x0; ix < x0 + nx; ++ix)
+          ground.take_above(ix, iy, ground.height(ix, iy) - 0.01, taken);
     }
     const UpdateFeed::Update update = feed.publish(ground.view(i));
     ASSERT_LE(area(*update), 2 * update->changed) << i << " pits";
@@ -217,7 +219,8 @@ struct Follower {
   }
 };
 
-/// Asks the newest map every kind of question, again and again, and notes which map it was and what it holds.
+/// Asks the newest map every kind of question, again and again, and notes which map it was and what
+/// it holds.
 struct Asker {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> held;  ///< sequence, print of the elevation
   int faults = 0;
@@ -230,10 +233,12 @@ struct Asker {
       seen = update->sequence;
       const TerrainMap& map = update->map;
       // Twice: what is answered for one map stays so, however far the feed has come meanwhile.
-      const double x = random.uniform(-3, 3.4), y = random.uniform(2, 8), yaw = random.uniform(-3, 3);
+      const double x = random.uniform(-3, 3.4), y = random.uniform(2, 8),
+                   yaw = random.uniform(-3, 3);
       const auto answer = [&] {
         const bool sees = line_of_sight(map, Vec3(x, y, 0.3), Vec3(0, 5, 0.3)) == Sight::kFree;
-        return height(map, x, y) + slope(map, x, y) + static_cast<double>(value(map, Layer::kTraversability, x, y)) +
+        return height(map, x, y) + slope(map, x, y) +
+               static_cast<double>(value(map, Layer::kTraversability, x, y)) +
                clearance(map, {0.3, 0.3, 0.2, 0.2}, x, y, yaw, 0.5) + (sees ? 1 : 0) +
                cut_and_fill(map, std::vector{Vec2(-2, 3), Vec2(3, 4), Vec2(x, y)}).cut;
       };
@@ -250,7 +255,8 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
   constexpr int kUpdates = 10000;
   Ground ground(testing::setup(70, 66));
   MapOptions options;
-  options.layers = {Layer::kElevation, Layer::kElevationStart, Layer::kSlope, Layer::kTraversability};
+  options.layers = {Layer::kElevation, Layer::kElevationStart, Layer::kSlope,
+                    Layer::kTraversability};
   UpdateFeed feed(options);
   std::atomic<bool> ended{false};
   // Of the map of each number, by the one thread that publishes; index 0 is no map.
@@ -261,7 +267,8 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
   std::vector<std::thread> threads;
   threads.emplace_back([&] { slow.follow(feed, ended, false, 3000); });
   threads.emplace_back([&] { dying.follow(feed, ended, true, 100); });
-  for (std::size_t i = 0; i < askers.size(); ++i) threads.emplace_back([&, i] { askers[i].ask(feed, ended, 20 + i); });
+  for (std::size_t i = 0; i < askers.size(); ++i)
+    threads.emplace_back([&, i] { askers[i].ask(feed, ended, 20 + i); });
   Random random(9);
   int number = 0;
   for (int i = 1; i <= kUpdates; ++i) {
@@ -290,7 +297,8 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
   MapMaker anew(options);
   anew.update(ground.view(100));
   EXPECT_TRUE(same(anew.map(), last));
-  EXPECT_EQ(std::set<std::uint64_t>(prints.begin(), prints.end()).size(), prints.size()) << "maps that look alike";
+  EXPECT_EQ(std::set<std::uint64_t>(prints.begin(), prints.end()).size(), prints.size())
+      << "maps that look alike";
 }
 
 TEST(UpdateFeed, CallsWhoSubscribedWithEveryUpdate) {

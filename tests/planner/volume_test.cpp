@@ -28,8 +28,9 @@ std::vector<Vec2> box(double x0, double y0, double x1, double y1) {
 const std::vector<Vec2> kSite = box(-3.3, 1.7, 11.5, 10.1);
 
 TEST(CutAndFill, OfATrenchIsThatOfAPrism) {
-  const TerrainMap map =
-      map_of(setup(), [](double x, double y) { return x > -1.0 && x < 5.0 && y > 4.0 && y < 5.2 ? -1.5 : 0.0; });
+  const TerrainMap map = map_of(setup(), [](double x, double y) {
+    return x > -1.0 && x < 5.0 && y > 4.0 && y < 5.2 ? -1.5 : 0.0;
+  });
   const CutFill all = cut_and_fill(map, kSite);
   expect_volume("prism", all.cut, 6.0 * 1.2 * 1.5);
   EXPECT_NEAR(all.fill, 0, 1e-6);  // heights are whole quanta of mass
@@ -37,7 +38,8 @@ TEST(CutAndFill, OfATrenchIsThatOfAPrism) {
   EXPECT_NEAR(all.unknown_area, 0, 1e-9);
   // Half of it, by a slanting border through its middle; wound the other way, the same.
   std::vector<Vec2> half = {Vec2(2.3, 1.7), Vec2(1.7, 10.1), Vec2(-3.3, 10.1), Vec2(-3.3, 1.7)};
-  const double share = (2.3 - 0.6 * (4.6 - 1.7) / 8.4 + 1) / 6;  // its mean end over y = 4..5.2 is that at 4.6
+  // Its mean end over y = 4..5.2 is that at 4.6
+  const double share = (2.3 - 0.6 * (4.6 - 1.7) / 8.4 + 1) / 6;
   expect_volume("half a prism", cut_and_fill(map, half).cut, 6.0 * 1.2 * 1.5 * share);
   std::reverse(half.begin(), half.end());
   expect_volume("the same, clockwise", cut_and_fill(map, half).cut, 6.0 * 1.2 * 1.5 * share);
@@ -54,34 +56,39 @@ TEST(CutAndFill, OfABatteredPitIsThatOfAFrustum) {
 
 TEST(CutAndFill, OfAHeapIsThatOfACone) {
   const double radius = 2.2, tall = 1.4;
-  const TerrainMap map = map_of(
-      setup(), [&](double x, double y) { return std::max(0.0, tall * (1 - std::hypot(x - 3.97, y - 5.91) / radius)); });
+  const TerrainMap map = map_of(setup(), [&](double x, double y) {
+    return std::max(0.0, tall * (1 - std::hypot(x - 3.97, y - 5.91) / radius));
+  });
   const CutFill all = cut_and_fill(map, kSite);
   expect_volume("cone", all.fill, kPi * radius * radius * tall / 3);
   EXPECT_EQ(all.cut, 0);
   EXPECT_NEAR(all.fill_bank, all.fill, 1e-6 * all.fill) << "the map's soil is as dense as bank";
-  EXPECT_EQ(all.awake, 0);
+  EXPECT_EQ(all.active, 0);
   // A sector of it: an eighth.
-  const std::vector<Vec2> eighth = {Vec2(3.97, 5.91), Vec2(3.97 + 4, 5.91), Vec2(3.97 + 4, 5.91 + 4)};
-  expect_volume("an eighth of a cone", cut_and_fill(map, eighth).fill, kPi * radius * radius * tall / 24);
+  const std::vector<Vec2> eighth = {Vec2(3.97, 5.91), Vec2(3.97 + 4, 5.91),
+                                    Vec2(3.97 + 4, 5.91 + 4)};
+  expect_volume("an eighth of a cone", cut_and_fill(map, eighth).fill,
+                kPi * radius * radius * tall / 24);
 }
 
-TEST(CutAndFill, TellsBankAndAwakeSoilApart) {
+TEST(CutAndFill, ReportsBankAndActiveSoilApart) {
   TerrainMap map = map_of(setup(), [](double, double) { return 0.2; });
-  map = map.with(Layer::kDensity, std::vector<float>(148 * 84, 880.0f));  // topsoil of 1100 swollen by 1.25
+  // Topsoil of 1100 swollen by 1.25
+  map = map.with(Layer::kDensity, std::vector<float>(148 * 84, 880.0f));
   map = map.with(Layer::kLooseDepth, std::vector<float>(148 * 84, 0.05f));
   const CutFill part = cut_and_fill(map, box(0, 2, 2, 5));
   EXPECT_NEAR(part.fill, 1.2, 1e-6);
   EXPECT_NEAR(part.fill_bank, 0.96, 1e-6);
-  EXPECT_NEAR(part.awake, 0.3, 1e-6);
+  EXPECT_NEAR(part.active, 0.3, 1e-6);
 }
 
-TEST(CutAndFill, AgainstTheTargetTellsWhatTheDesignStillWants) {
+TEST(CutAndFill, AgainstTheTargetReportsWhatTheDesignStillWants) {
   heightfield::GroundSetup s = setup();
   MapOptions options;
   options.target.assign(static_cast<std::size_t>(s.nx) * s.ny, kUnknown);
   for (int iy = 10; iy < 20; ++iy)
-    for (int ix = 30; ix < 50; ++ix) options.target[static_cast<std::size_t>(iy * s.nx + ix)] = -0.75f;
+    for (int ix = 30; ix < 50; ++ix)
+      options.target[static_cast<std::size_t>(iy * s.nx + ix)] = -0.75f;
   const TerrainMap map = map_of(
       s, [](double, double) { return 0.25; }, options);
   const CutFill all = cut_and_fill(map, kSite, Layer::kTarget);

@@ -70,7 +70,8 @@ TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
   EXPECT_LT(written, expected + expected / 100);
 }
 
-/// A run's memory after a day is that at its start: strings that grow with the longest wait would look like a leak.
+/// A run's memory after a day is that at its start: strings that grow with the longest wait would
+/// look like a leak.
 TEST(RowFile, TakesNoMemoryWhileRowsWait) {
   const test::Folder folder;
   RowFile file(folder / "rows.csv", "number");
@@ -89,7 +90,8 @@ TEST(RowFile, TakesNoMemoryWhileRowsWait) {
 TEST(RowFile, HoldsTheRowsInTheirOrder) {
   const test::Folder folder;
   // A kill has torn the earlier run's last row: nothing is appended behind it.
-  write_file_atomically(folder / "rows.csv", std::string("of an earlier run,\nlonger than what comes now, and to"));
+  write_file_atomically(folder / "rows.csv",
+                        std::string("of an earlier run,\nlonger than what comes now, and to"));
   {
     RowFile file(folder / "rows.csv", "a,b");
     file.flush();
@@ -104,7 +106,7 @@ TEST(RowFile, HoldsTheRowsInTheirOrder) {
   EXPECT_EQ(text_of(folder / "rows.csv"), "a,b\n1,2\n3,4\n");
 }
 
-TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndGoesOnWhenThereIsRoom) {
+TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndContinuesWhenThereIsSpace) {
   const test::Folder folder;
   RowFile file(folder / "rows.csv", "header");
   file.add(row_of(0));
@@ -127,7 +129,7 @@ TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndGoesOnWhenThereIsRoom) {
   EXPECT_EQ(text_of(folder / "rows.csv"), before + row_of(1) + "\n");
 }
 
-TEST(RowFile, TellsOfAFolderThatIsNotThere) {
+TEST(RowFile, ReportsAFolderThatIsNotThere) {
   const test::Folder folder;
   RowFile file(folder / "none/rows.csv", "header");
   EXPECT_THROW(file.flush(), FileError);

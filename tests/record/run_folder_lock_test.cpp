@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose files lie in a run's folder: what a run wrote is moved and removed, what anybody else put there stays.
+// Whose files lie in a run's folder: what a run wrote is moved and removed, what anybody else put
+// there stays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "folder.h"
-#include "record/last_words.h"
+#include "record/crash_summary.h"
 #include "record/run_folder.h"
 #include "text_of.h"
 
@@ -40,7 +41,8 @@ void run(const std::string& out, int number) {
 std::vector<std::string> everything_in(const fs::path& folder) {
   std::vector<std::string> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
-    out.push_back(entry.path().string() + (entry.is_regular_file() ? ": " + text_of(entry.path()) : "/"));
+    out.push_back(entry.path().string() +
+                  (entry.is_regular_file() ? ": " + text_of(entry.path()) : "/"));
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -83,7 +85,8 @@ TEST(RunFolderLock, FilesOfOnesOwnSurviveAnyNumberOfRuns) {
   const test::Folder folder;
   const std::string out = folder / "out";
   run(out, 1);
-  const std::vector<std::string> own = {out + "/notes.txt", out + "/frames/mine.png", out + "/deep/er/notes.txt"};
+  const std::vector<std::string> own = {out + "/notes.txt", out + "/frames/mine.png",
+                                        out + "/deep/er/notes.txt"};
   for (const std::string& path : own) write(path, path);
   run(out, 2);
   write(out + ".previous/notes.txt", "beside the earlier run");
@@ -100,7 +103,8 @@ TEST(RunFolderLock, AFolderOfSomebodyElsesResultsIsRefusedUntouched) {
   write(out + "/summary.json", "of another program");
   write(out + "/thesis.tex", "years of work");
   const std::vector<std::string> before = everything_in(folder.path());
-  EXPECT_NE(refusal(out).find("'summary.json' that no run wrote"), std::string::npos) << refusal(out);
+  EXPECT_NE(refusal(out).find("'summary.json' that no run wrote"), std::string::npos)
+      << refusal(out);
   EXPECT_NE(refusal(out).find("--out"), std::string::npos);
   EXPECT_EQ(everything_in(folder.path()), before);
   // The same where the earlier run would go.
@@ -157,7 +161,8 @@ TEST(RunFolderLock, AMoveThatWasCutShortIsGoneOnWith) {
   run(out, 1);
   run(out, 2);
   // As a kill leaves it: the list says "moving", one file of three has come.
-  write(out + ".previous/navvy.run", "navvy run folder 1 moving\nframes/left_00001.png\nsummary.json\ntelemetry.csv\n");
+  write(out + ".previous/navvy.run",
+        "navvy run folder 1 moving\nframes/left_00001.png\nsummary.json\ntelemetry.csv\n");
   fs::rename(out + "/summary.json", out + ".previous/summary.json");
   fs::remove(out + ".previous/telemetry.csv");
   fs::remove_all(out + ".previous/frames");
@@ -172,7 +177,8 @@ TEST(RunFolderLock, ADamagedListReachesNothingElse) {
   const test::Folder folder;
   const std::string out = folder / "out";
   write(folder / "precious", "mine");
-  write(out + ".previous/navvy.run", "navvy run folder 1\n../precious\n" + (folder / "precious") + "\n./x\n\nsumm");
+  write(out + ".previous/navvy.run",
+        "navvy run folder 1\n../precious\n" + (folder / "precious") + "\n./x\n\nsumm");
   run(out, 1);
   run(out, 2);
   EXPECT_EQ(text_of(folder / "precious"), "mine");
@@ -236,18 +242,20 @@ TEST(RunFolderLock, AMarkerThatGoesUnderAnotherRunIsMadeAnew) {
   EXPECT_TRUE(fs::is_empty(out));
 }
 
-TEST(LastWords, PutStatusAndMessageIntoTheLastSummary) {
+TEST(CrashSummary, PutStatusAndMessageIntoTheLastSummary) {
   const test::Folder folder;
-  LastWords words(folder / "reserve", folder / "summary.json");
+  CrashSummary words(folder / "reserve", folder / "summary.json");
   EXPECT_GE(fs::file_size(folder / "reserve"), 64u << 10);
-  EXPECT_FALSE(leave_last_words("failed", "nothing was kept")) << "and it may be asked once only";
-  LastWords again(folder / "reserve2", folder / "summary.json");
+  EXPECT_FALSE(write_crash_summary("failed", "nothing was kept"))
+      << "and it may be asked once only";
+  CrashSummary again(folder / "reserve2", folder / "summary.json");
   nlohmann::json summary{{"status", "running"}, {"steps", 7}, {"cycles", nlohmann::json::array()}};
-  for (int i = 0; i < 5000; ++i) summary["cycles"].push_back("a line a cycle: it grows beyond what was taken at first");
+  for (int i = 0; i < 5000; ++i)
+    summary["cycles"].push_back("a line a cycle: it grows beyond what was taken at first");
   again.keep(summary.dump(2));
   summary["steps"] = 8;
   again.keep(summary.dump(2));
-  ASSERT_TRUE(leave_last_words("failed", "a \"quote\", a \\ and\na line"));
+  ASSERT_TRUE(write_crash_summary("failed", "a \"quote\", a \\ and\na line"));
   const auto left = nlohmann::json::parse(text_of(folder / "summary.json"));
   EXPECT_EQ(left.at("status"), "failed");
   EXPECT_EQ(left.at("message"), "a 'quote', a   and;a line");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/record/run_1 is a folder that `navvy run` left when folders had format 1. It is kept as it is, and every later
-// version must read it: users' results outlive the program that made them.
+// tests/record/run_1 is a folder that `navvy run` left when folders had format 1. It is kept as it
+// is, and every later version must read it: users' results outlive the program that made them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string text_of(const std::string& file) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-TEST(RunFolder, OfFormat1TellsWhatMadeIt) {
+TEST(RunFolder, OfFormat1ReportsWhatMadeIt) {
   const RunInfo info = read_run_info(kKept);
   EXPECT_EQ(info.format, 1);
   EXPECT_EQ(info.version, "0.1.0");
@@ -61,12 +61,13 @@ TEST(RunFolder, OfFormat1HoldsResultsThatScriptsKnow) {
   std::istringstream telemetry(text_of("telemetry.csv"));
   std::string header, row;
   ASSERT_TRUE(std::getline(telemetry, header));
-  EXPECT_EQ(header.rfind("time [s],soil/particles [1],bucket/slide_x/position [m]", 0), 0u) << header;
+  EXPECT_EQ(header.rfind("time [s],soil/particles [1],bucket/slide_x/position [m]", 0), 0u)
+      << header;
   ASSERT_TRUE(std::getline(telemetry, row));
   EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
 }
 
-TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsTold) {
+TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsReported) {
   const test::Folder folder;
   write_file_atomically(folder / "run.json", std::string(R"({"format": 2, "navvy": "9.0.0"})"));
   try {
@@ -82,7 +83,8 @@ TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsTold) {
 
 TEST(RunFolder, TextIsReadBackWhole) {
   const test::Folder folder;
-  const RunInfo info{kRunFormat, navvy_version(), {"navvy", "run", "a \"b\" c"}, "a.sdf", "some device"};
+  const RunInfo info{
+      kRunFormat, navvy_version(), {"navvy", "run", "a \"b\" c"}, "a.sdf", "some device"};
   write_file_atomically(folder / "run.json", run_json(info));
   const RunInfo read = read_run_info(folder.path().string());
   EXPECT_EQ(read.version, info.version);

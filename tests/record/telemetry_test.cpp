@@ -15,12 +15,15 @@ TEST(Telemetry, StampsOfTwoStepsAreNeverTheSame) {
     for (const double start : {0.0, 1e2, 1e4, 86400.0, 1e6 - 1}) {
       const auto first = static_cast<std::uint64_t>(start / dt);
       for (std::uint64_t step = first; step < first + 100; ++step)
-        EXPECT_NE(time_stamp(static_cast<double>(step) * dt), time_stamp(static_cast<double>(step + 1) * dt)) << step;
+        EXPECT_NE(time_stamp(static_cast<double>(step) * dt),
+                  time_stamp(static_cast<double>(step + 1) * dt))
+            << step;
     }
   EXPECT_EQ(time_stamp(10000.02), "10000.02");
 }
 
-/// A cycle of 20 s has 380 bytes in the summary, which is written whole: over a day some 10^5 times as often as that.
+/// A cycle of 20 s has 380 bytes in the summary, which is written whole: over a day some 10^5 times
+/// as often as that.
 TEST(Summary, IsRewrittenSoSeldomThatItsBytesGrowLikeTime) {
   const auto written_by = [](double end) {
     double bytes = 0;

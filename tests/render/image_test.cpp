@@ -18,7 +18,8 @@ Image gradient(int width, int height) {
   Image image{width, height, {}};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
-      for (const int v : {x * 3, y * 5, x * y}) image.rgb.push_back(static_cast<std::uint8_t>((v * 2654435761u) >> 24));
+      for (const int v : {x * 3, y * 5, x * y})
+        image.rgb.push_back(static_cast<std::uint8_t>((v * 2654435761u) >> 24));
   return image;
 }
 

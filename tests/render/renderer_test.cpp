@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of small scenes, looked at pixel by pixel. Everything here fails when Coin's fetched functions go to another
-// OpenGL than OSMesa (see src/render/gl_shim.cpp).
+// Pictures of small scenes, looked at pixel by pixel. Everything here fails when Coin's fetched
+// functions go to another OpenGL than OSMesa (see src/render/gl_shim.cpp).
 #include "render/renderer.h"
 
 #include <gtest/gtest.h>
@@ -22,20 +22,24 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 200;
 
-scene::FrameCamera small_camera(const Vec3& eye, const Vec3& target) { return look_from(eye, target, kWidth, kHeight); }
+scene::FrameCamera small_camera(const Vec3& eye, const Vec3& target) {
+  return look_from(eye, target, kWidth, kHeight);
+}
 
 /// Column and row of a point of W in the picture of `camera`.
 Vec2 project(const scene::FrameCamera& camera, const Vec3& p) {
   const Vec3 c = camera.X_WC.inverse() * p;
   const double scale = 0.5 * camera.width / std::tan(0.5 * camera.fov);
-  return {0.5 * camera.width + scale * c.x() / -c.z(), 0.5 * camera.height - scale * c.y() / -c.z()};
+  return {0.5 * camera.width + scale * c.x() / -c.z(),
+          0.5 * camera.height - scale * c.y() / -c.z()};
 }
 
 int changed_pixels(const Image& a, const Image& b, int tolerance = 12) {
   int changed = 0;
   for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
     int most = 0;
-    for (std::size_t k = 0; k < 3; ++k) most = std::max(most, std::abs(int{a.rgb[i + k]} - int{b.rgb[i + k]}));
+    for (std::size_t k = 0; k < 3; ++k)
+      most = std::max(most, std::abs(int{a.rgb[i + k]} - int{b.rgb[i + k]}));
     changed += most > tolerance ? 1 : 0;
   }
   return changed;
@@ -76,8 +80,8 @@ TEST_F(RendererTest, DrawsEveryColumnOfAHeightfield) {
   Renderer renderer(options);
   DepthImage depth;
   renderer.render(frame_, small_camera({0, 0, 8}, {0, 0, 0}), &depth);
-  // From 8 m above, 50 degrees see 7.5 m x 4.7 m of the 9.6 m square: ground in every pixel, 8 m away but for its
-  // unevenness of 0.02 m and the precision of a 24-bit depth buffer.
+  // From 8 m above, 50 degrees see 7.5 m x 4.7 m of the 9.6 m square: ground in every pixel, 8 m
+  // away but for its unevenness of 0.02 m and the precision of a 24-bit depth buffer.
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) ASSERT_NEAR(depth.at(x, y), 8.0, 0.05) << x << ", " << y;
   EXPECT_GE(renderer.stats().ground_triangles, 2000);
@@ -115,7 +119,8 @@ TEST_F(RendererTest, SeveralRectanglesGiveTheSamePictureAsAWholeUpdate) {
   updated.render(frame_, camera_);
   scene::FrameGround& ground = frame_.ground;
   // Two that share shadows, one far away, one column and one beyond the edge.
-  ground.changed = {{40, 40, 50, 44}, {52, 41, 60, 47}, {5, 8, 9, 20}, {ground.nx - 3, 2, ground.nx - 2, 3}};
+  ground.changed = {
+      {40, 40, 50, 44}, {52, 41, 60, 47}, {5, 8, 9, 20}, {ground.nx - 3, 2, ground.nx - 2, 3}};
   for (const scene::FrameRect& rect : ground.changed)
     for (int iy = rect.y0; iy < rect.y1; ++iy)
       for (int ix = rect.x0; ix < rect.x1; ++ix) {
@@ -155,7 +160,9 @@ TEST_F(RendererTest, TheContentOfABucketChangesPixels) {
   std::vector<scene::Visual> plates(5, red_visual(scene::Geometry::Kind::kBox));
   const Vec3 at[5] = {{0, 0, 1.0}, {0.5, 0, 1.3}, {-0.5, 0, 1.3}, {0, 0.5, 1.3}, {0, -0.5, 1.3}};
   for (std::size_t i = 0; i < 5; ++i) {
-    plates[i].geometry.size = i == 0 ? Vec3(1, 1, 0.02) : i < 3 ? Vec3(0.02, 1, 0.6) : Vec3(1, 0.02, 0.6);
+    plates[i].geometry.size = i == 0  ? Vec3(1, 1, 0.02)
+                              : i < 3 ? Vec3(0.02, 1, 0.6)
+                                      : Vec3(1, 0.02, 0.6);
     frame_.shapes.push_back({&plates[i], make_pose(at[i].x(), at[i].y(), at[i].z())});
   }
   const scene::FrameCamera above = small_camera({1, -1.5, 4.5}, {0, 0, 1.2});
@@ -179,7 +186,8 @@ TEST_F(RendererTest, NoLumpReachesThroughAPlate) {
   const Image bare = renderer.render(frame_, from_behind);
   // Soil that lies against the plate's other face.
   add_soil(frame_.particles, {0.03, -0.6, 1.0}, {0.3, 0.6, 2.0}, 0.1);
-  EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20) << "lumps of full size would show";
+  EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20)
+      << "lumps of full size would show";
   for (std::size_t i = 0; i < frame_.particles.position.size(); i += 3)
     frame_.particles.room.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
   EXPECT_EQ(changed_pixels(bare, renderer.render(frame_, from_behind)), 0);
@@ -187,8 +195,8 @@ TEST_F(RendererTest, NoLumpReachesThroughAPlate) {
 
 TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
   Renderer renderer;
-  for (const auto kind :
-       {scene::Geometry::Kind::kSphere, scene::Geometry::Kind::kBox, scene::Geometry::Kind::kCylinder}) {
+  for (const auto kind : {scene::Geometry::Kind::kSphere, scene::Geometry::Kind::kBox,
+                          scene::Geometry::Kind::kCylinder}) {
     const scene::Visual visual = red_visual(kind);
     for (const Vec3& p : {Vec3(-1, -0.5, 0.8), Vec3(1, 1, 1.2)}) {
       frame_.shapes = {{&visual, make_pose(p.x(), p.y(), p.z(), 0, 0, 0.4)}};
@@ -204,7 +212,8 @@ TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
           }
       ASSERT_GT(n, 300);
       const Vec2 expected = project(camera_, p);
-      // The middle of a body's outline differs from its projected centre by perspective: under 3 pixels here.
+      // The middle of a body's outline differs from its projected centre by perspective: under 3
+      // pixels here.
       EXPECT_NEAR(sum_x / n, expected.x(), 3);
       EXPECT_NEAR(sum_y / n, expected.y(), 3);
     }
@@ -212,8 +221,8 @@ TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
 }
 
 TEST_F(RendererTest, CapsulesAndConesHaveTheirOutline) {
-  // From the side and from far off, so that perspective takes less than a pixel; widths of the picture's rows in
-  // metres.
+  // From the side and from far off, so that perspective takes less than a pixel; widths of the
+  // picture's rows in metres.
   const Vec3 at(0, 0, 3);
   const scene::FrameCamera side = small_camera({0, -6, 3}, at);
   Renderer renderer;
@@ -228,9 +237,12 @@ TEST_F(RendererTest, CapsulesAndConesHaveTheirOutline) {
   };
   using Kind = scene::Geometry::Kind;
   constexpr double kPixels = 0.06;  // [m] two, and the corners of the polygons
-  for (const double z : {-0.37, 0.0, 0.37}) EXPECT_NEAR(width(Kind::kCapsule, z), 0.8, kPixels) << z;
-  for (const double z : {-0.7, 0.7}) EXPECT_NEAR(width(Kind::kCapsule, z), 2 * std::sqrt(0.16 - 0.09), kPixels) << z;
-  for (const double z : {-0.35, 0.0, 0.3}) EXPECT_NEAR(width(Kind::kCone, z), 0.4 - z, kPixels) << z;
+  for (const double z : {-0.37, 0.0, 0.37})
+    EXPECT_NEAR(width(Kind::kCapsule, z), 0.8, kPixels) << z;
+  for (const double z : {-0.7, 0.7})
+    EXPECT_NEAR(width(Kind::kCapsule, z), 2 * std::sqrt(0.16 - 0.09), kPixels) << z;
+  for (const double z : {-0.35, 0.0, 0.3})
+    EXPECT_NEAR(width(Kind::kCone, z), 0.4 - z, kPixels) << z;
   for (const double z : {-0.85, 0.85}) EXPECT_EQ(width(Kind::kCapsule, z), 0) << z;
   for (const double z : {-0.45, 0.45}) EXPECT_EQ(width(Kind::kCone, z), 0) << z;
 }
@@ -242,7 +254,8 @@ TEST_F(RendererTest, LargeMeshFilesAreDrawnWhole) {
   std::ofstream out(file);
   constexpr int kSide = 65;
   for (int j = 0; j < kSide; ++j)
-    for (int i = 0; i < kSide; ++i) out << "v " << i / 64.0 - 0.5 << ' ' << j / 64.0 - 0.5 << " 0\n";
+    for (int i = 0; i < kSide; ++i)
+      out << "v " << i / 64.0 - 0.5 << ' ' << j / 64.0 - 0.5 << " 0\n";
   for (int j = 0; j + 1 < kSide; ++j)
     for (int i = 0; i + 1 < kSide; ++i) {
       const int a = j * kSide + i + 1;
@@ -259,7 +272,8 @@ TEST_F(RendererTest, LargeMeshFilesAreDrawnWhole) {
   for (double x = -0.95; x < 1; x += 0.1)
     for (double y = -0.95; y < 1; y += 0.1) {
       const Vec2 at = project(above, Vec3(x, y, 1));
-      ASSERT_TRUE(is_red(image.pixel(static_cast<int>(at.x()), static_cast<int>(at.y())))) << x << ", " << y;
+      ASSERT_TRUE(is_red(image.pixel(static_cast<int>(at.x()), static_cast<int>(at.y()))))
+          << x << ", " << y;
     }
 }
 
@@ -351,8 +365,10 @@ TEST_F(RendererTest, PrintsTheTimeOfALargeSite) {
     renderer.render(site, camera);
     least = std::min(least, 1e3 * watch.seconds());
   }
-  std::printf("1280 x 720 over 1024 x 1024 columns: %.1f ms a picture, %d ground triangles (wanted: 60 ms)\n", least,
-              renderer.stats().ground_triangles);
+  std::printf(
+      "1280 x 720 over 1024 x 1024 columns: %.1f ms a picture, %d ground triangles (wanted: 60 "
+      "ms)\n",
+      least, renderer.stats().ground_triangles);
   // The budget holds but for skirts, walls and the surroundings.
   EXPECT_LT(renderer.stats().ground_triangles, 130000);
   EXPECT_EQ(renderer.stats().tiles_rebuilt, 0) << "nothing changed, nothing is built again";

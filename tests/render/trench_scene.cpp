@@ -9,7 +9,8 @@ namespace navvy::render {
 namespace {
 
 std::size_t at(const scene::FrameGround& g, int ix, int iy) {
-  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(g.nx) + static_cast<std::size_t>(ix);
+  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(g.nx) +
+         static_cast<std::size_t>(ix);
 }
 
 /// Bucket of the picture in its link frame: inside corner points of the loose soil it holds.
@@ -19,12 +20,14 @@ void fill_bucket(scene::FrameParticles& particles, const Pose& X_WBucket, double
   for (double x = 0.15; x < 1.15; x += step)
     for (double y = -0.44; y < 0.45; y += step)
       for (double z = -0.35; z < 0.42; z += step) {
-        const double r = std::hypot((x - 0.66) / 0.60, (z - 0.03) / (z > 0.03 ? 0.44 : 0.24), y / 0.62);
+        const double r =
+            std::hypot((x - 0.66) / 0.60, (z - 0.03) / (z > 0.03 ? 0.44 : 0.24), y / 0.62);
         if (r > 1) continue;
         Vec3 p(x, y, z);
         for (int k = 0; k < 3; ++k) p[k] += step * 0.7 * (hash_unit(++n, 3) - 0.5);
         p = X_WBucket * p;
-        for (int k = 0; k < 3; ++k) particles.position.push_back(static_cast<float>(p[k] - particles.origin[k]));
+        for (int k = 0; k < 3; ++k)
+          particles.position.push_back(static_cast<float>(p[k] - particles.origin[k]));
         particles.soil.push_back(0);
         particles.id.push_back(n);
       }
@@ -53,13 +56,15 @@ void add_mesh(TrenchScene& scene, const std::string& file, const Pose& X_WV) {
   scene.visuals.push_back(std::move(visual));
 }
 
-void add_cylinder(TrenchScene& scene, const Vec3& base, const Vec3& rod, double radius, double barrel) {
+void add_cylinder(TrenchScene& scene, const Vec3& base, const Vec3& rod, double radius,
+                  double barrel) {
   scene.frame.cylinders.push_back({base, rod, radius, barrel * (rod - base).norm()});
 }
 
 }  // namespace
 
-scene::FrameCamera look_from(const Vec3& eye, const Vec3& target, int width, int height, double fov_degrees) {
+scene::FrameCamera look_from(const Vec3& eye, const Vec3& target, int width, int height,
+                             double fov_degrees) {
   scene::FrameCamera out;
   const Vec3 back = (eye - target).normalized();
   Vec3 right = Vec3::UnitZ().cross(back);
@@ -85,20 +90,24 @@ void make_ground(scene::FrameGround& ground, int nx, int ny, double cell) {
   ground.revision = 1;
   for (int iy = 0; iy < ny; ++iy)
     for (int ix = 0; ix < nx; ++ix) {
-      const double x = ground.origin.x() + (ix + 0.5) * cell, y = ground.origin.y() + (iy + 0.5) * cell;
+      const double x = ground.origin.x() + (ix + 0.5) * cell,
+                   y = ground.origin.y() + (iy + 0.5) * cell;
       const double far = smooth_step(9, 30, static_cast<float>(std::hypot(x, y)));
       ground.height[at(ground, ix, iy)] = static_cast<float>(
           far * (1.6 * std::sin(0.09 * x + 1) * std::cos(0.07 * y)) +
-          0.02 * static_cast<double>(value_noise(static_cast<float>(x) / 1.7f, static_cast<float>(y) / 1.7f, 5)));
+          0.02 * static_cast<double>(
+                     value_noise(static_cast<float>(x) / 1.7f, static_cast<float>(y) / 1.7f, 5)));
     }
 }
 
 void dig_trench(scene::FrameGround& ground, double x0, double y0) {
   for (int iy = 0; iy < ground.ny; ++iy)
     for (int ix = 0; ix < ground.nx; ++ix) {
-      const double x = ground.origin.x() + (ix + 0.5) * ground.cell, y = ground.origin.y() + (iy + 0.5) * ground.cell;
+      const double x = ground.origin.x() + (ix + 0.5) * ground.cell,
+                   y = ground.origin.y() + (iy + 0.5) * ground.cell;
       double change = 0;
-      const double rough = hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 6) - 0.5;
+      const double rough =
+          hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 6) - 0.5;
       if (x > x0 && x < x0 + 4 && std::abs(y - y0) < 0.55)
         change = -std::min(0.9, 1.4 * std::min(x - x0 + 0.1, 10.0)) + 0.05 * rough;
       const double along = std::max(0.0, std::abs(x - x0 - 2.2) - 0.9);
@@ -121,8 +130,9 @@ void add_soil(scene::FrameParticles& particles, const Vec3& low, const Vec3& hig
         const Vec3 p(x, y, z);
         ++n;
         for (int k = 0; k < 3; ++k)
-          particles.position.push_back(static_cast<float>(
-              p[k] - particles.origin[k] + 0.7 * step * (hash_unit(n, static_cast<std::uint32_t>(k)) - 0.5)));
+          particles.position.push_back(
+              static_cast<float>(p[k] - particles.origin[k] +
+                                 0.7 * step * (hash_unit(n, static_cast<std::uint32_t>(k)) - 0.5)));
         particles.soil.push_back(0);
         particles.id.push_back(n);
       }
@@ -144,15 +154,18 @@ void add_machine(TrenchScene& scene, const std::string& dir, const MachinePose& 
   add_mesh(scene, dir + "/bucket.obj", f.bucket);
   // Pins of the picture, near those of the machine's model.
   for (const double side : {0.34, -0.34})
-    add_cylinder(scene, f.upper * Vec3(0.70, side, 0.20), f.boom * Vec3(2.20, side, 0.55), 0.075, 0.6);
+    add_cylinder(scene, f.upper * Vec3(0.70, side, 0.20), f.boom * Vec3(2.20, side, 0.55), 0.075,
+                 0.6);
   add_cylinder(scene, f.boom * Vec3(2.90, 0, 0.90), f.stick * Vec3(-0.68, 0, 0.17), 0.08, 0.6);
-  // Bucket linkage: where the rocker's circle about its pivot meets the coupler's about the pin on the bucket.
+  // Bucket linkage: where the rocker's circle about its pivot meets the coupler's about the pin on
+  // the bucket.
   const Vec3 pivot(2.084, 0, 0), pin = f.stick.inverse() * (f.bucket * Vec3(-0.2907, 0, 0.3294));
   const double reach = 0.697, coupler = 0.62, d = (pin - pivot).norm();
   const double along = (reach * reach - coupler * coupler + d * d) / (2 * d);
   const Vec3 way = (pin - pivot) / d;
   const Vec3 joint =
-      pivot + along * way + std::sqrt(std::max(0.0, reach * reach - along * along)) * Vec3(-way.z(), 0, way.x());
+      pivot + along * way +
+      std::sqrt(std::max(0.0, reach * reach - along * along)) * Vec3(-way.z(), 0, way.x());
   add_cylinder(scene, f.stick * Vec3(-0.097, 0, 0.314), f.stick * joint, 0.065, 0.6);
   for (const double side : {0.20, -0.20}) {
     const Vec3 y(0, side, 0);
@@ -180,8 +193,8 @@ void make_trench_scene(TrenchScene& scene, const std::string& mesh_dir, int nx) 
   std::uint32_t n = 5000000;
   for (int i = 0; i < 260; ++i) {
     const double t = hash_unit(++n, 1);
-    const Vec3 p(mouth.x() + 0.5 * (hash_unit(n, 2) - 0.5), mouth.y() + 0.8 * (hash_unit(n, 3) - 0.5),
-                 mouth.z() - 2.0 * t * t);
+    const Vec3 p(mouth.x() + 0.5 * (hash_unit(n, 2) - 0.5),
+                 mouth.y() + 0.8 * (hash_unit(n, 3) - 0.5), mouth.z() - 2.0 * t * t);
     for (int k = 0; k < 3; ++k) particles.position.push_back(static_cast<float>(p[k]));
     particles.soil.push_back(0);
     particles.id.push_back(n);

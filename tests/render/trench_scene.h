@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A posed picture for tests and bench: the EW180 beside a trench, a heap of loose soil, a full bucket.
+// A posed picture for tests and bench: the EW180 beside a trench, a heap of loose soil, a full
+// bucket.
 #pragma once
 
 #include <memory>
@@ -23,8 +24,8 @@ struct TrenchScene {
 };
 
 /// Camera at `eye` looking at `target`, z up.
-scene::FrameCamera look_from(const Vec3& eye, const Vec3& target, int width = 1280, int height = 720,
-                             double fov_degrees = 50);
+scene::FrameCamera look_from(const Vec3& eye, const Vec3& target, int width = 1280,
+                             int height = 720, double fov_degrees = 50);
 
 /// Ground of nx x ny columns of `cell` [m], gently uneven, centred on the origin.
 void make_ground(scene::FrameGround& ground, int nx, int ny, double cell);

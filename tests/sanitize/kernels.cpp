@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kernel of the soil on a handful of particles, small enough for a simulator of OpenCL devices that checks each
-// access (`./dev sanitize kernels`): `navvy_kernels [STEPS]` throws two soils against a plate and prints what came of
-// it; `navvy_kernels broken` reads one value behind a buffer, to show that the simulator would say so.
+// Every kernel of the soil on a handful of particles, small enough for a simulator of OpenCL
+// devices that checks each access (`./dev sanitize kernels`): `navvy_kernels [STEPS]` throws two
+// soils against a plate and prints what came of it; `navvy_kernels broken` reads one value behind a
+// buffer, to show that the simulator would say so.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,9 +10,9 @@
 
 #include "device/buffer.h"
 #include "device/device.h"
-#include "device/program.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "device/kernel_program.h"
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 
 namespace {
@@ -25,8 +26,8 @@ void throw_soil(lab::Site& site, const Vec3& low, double speed, int soil) {
   site.solver().insert(particles);
 }
 
-/// A site of two metres with cells of 0.2 m. Soil that crosses its border in flight leaves it, so that particles are
-/// sorted both ways; soil that dilates asks for the longer law.
+/// A site of two metres with cells of 0.2 m. Soil that crosses its border in flight leaves it, so
+/// that particles are sorted both ways; soil that dilates asks for the longer law.
 bool dig(int steps, bool dilating) {
   device::Device device;
   std::vector<scene::Soil> soils(2, lab::clean_sand(33));
@@ -44,9 +45,11 @@ bool dig(int steps, bool dilating) {
   throw_soil(site, Vec3(1.6, 1.4, 0.2), 12, 1);
   for (int i = 0; i < steps; ++i) site.step(site.step_limit());
   const soil::SolverStats& stats = site.solver().stats();
-  const std::int64_t open = site.solver().ledger().error(), left = site.solver().ledger().left_site.at(1);
+  const std::int64_t open = site.solver().ledger().error(),
+                     left = site.solver().ledger().left_site.at(1);
   std::printf(
-      "%s: %d particles in %d blocks, %llu steps, %llu re-bins, %lld units left the site, books open by %lld, state "
+      "%s: %d particles in %d blocks, %llu steps, %llu re-bins, %lld units left the site, books "
+      "open by %lld, state "
       "%s\n",
       dilating ? "cohesive sand that dilates" : "sand", stats.particles, stats.blocks,
       static_cast<unsigned long long>(stats.steps), static_cast<unsigned long long>(stats.rebins),
@@ -57,8 +60,9 @@ bool dig(int steps, bool dilating) {
 
 void read_behind() {
   device::Device device;
-  const auto program = device::Program::from_text(
-      device, "behind", "kernel void behind(global const int* in, global int* out) { out[0] = in[4]; }");
+  const auto program = device::KernelProgram::from_text(
+      device, "behind",
+      "kernel void behind(global const int* in, global int* out) { out[0] = in[4]; }");
   device::Kernel kernel(program, "behind");
   const device::Buffer<int> in(device, std::vector<int>(4, 1));
   device::Buffer<int> out(device, 4);

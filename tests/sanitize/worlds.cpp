@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds side by side, each in a thread of its own with a device of its own: `navvy_worlds SCENE SECONDS [SCENE
-// SECONDS]...` runs each for so long [s simulated] and prints its name, steps and state hash. For builds under
-// ThreadSanitizer and AddressSanitizer.
+// Worlds side by side, each in a thread of its own with a device of its own: `navvy_worlds SCENE
+// SECONDS [SCENE SECONDS]...` runs each for so long [s simulated] and prints its name, steps and
+// state hash. For builds under ThreadSanitizer and AddressSanitizer.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -33,7 +33,8 @@ void run(Run& one) {
     device::Device device("cpu");
     session::Session session(std::move(scene), device);
     while (session.world().time() < one.seconds && !session.done()) session.step();
-    one.told = name + " " + std::to_string(session.world().steps()) + " steps " + session.state_hash();
+    one.told =
+        name + " " + std::to_string(session.world().steps()) + " steps " + session.state_hash();
   } catch (const std::exception& error) {
     one.told = one.file + ": " + error.what();
     one.failed = true;
@@ -48,7 +49,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::vector<Run> runs;
-  for (int i = 1; i + 1 < argc; i += 2) runs.push_back({argv[i], std::atof(argv[i + 1]), "", false});
+  for (int i = 1; i + 1 < argc; i += 2)
+    runs.push_back({argv[i], std::atof(argv[i + 1]), "", false});
   std::vector<std::thread> threads;
   threads.reserve(runs.size());
   for (Run& one : runs) threads.emplace_back(run, std::ref(one));

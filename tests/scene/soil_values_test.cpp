@@ -32,16 +32,19 @@ TEST(SoilValues, TheDefaultSoilAndTheBoundsThemselvesAreAllowed) {
     }
 }
 
-TEST(SoilValues, WhatIsOutsideIsToldByItsNameInScenesAndInItsUnit) {
+TEST(SoilValues, ReportsValuesOutsideByTheirSceneNameAndUnit) {
   Soil soil;
   soil.name = "mud";
   soil.friction_angle = radians(75);
   soil.poisson = std::nan("");
   soil.residual_cohesion = 2 * soil.cohesion;
   const std::string all = messages(soil);
-  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 60"), std::string::npos) << all;
+  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 60"),
+            std::string::npos)
+      << all;
   EXPECT_NE(all.find("soil[mud]/poisson: 'nan'"), std::string::npos) << all;
-  EXPECT_NE(all.find("soil[mud]/residual_cohesion_pa: '10000': must not exceed cohesion_pa, 5000"), std::string::npos)
+  EXPECT_NE(all.find("soil[mud]/residual_cohesion_pa: '10000': must not exceed cohesion_pa, 5000"),
+            std::string::npos)
       << all;
 }
 
@@ -71,7 +74,7 @@ TEST(SoilValues, LooseCohesionFollowsTheResidualOneWhereNoneIsGiven) {
   EXPECT_EQ(soil.loose_cohesion, 700) << "its own";
 }
 
-TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) {
+TEST(SoilValues, SoilTooSoftForItsCohesionGetsTheRequiredStiffnessAndItsCost) {
   Soil clay;
   clay.name = "clay";
   clay.cohesion = 50e3;
@@ -80,11 +83,12 @@ TEST(SoilValues, SoilTooSoftForItsCohesionIsToldWhatItMissesAndWhatItWouldCost) 
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->severity, Fault::Severity::kWarning);
   const std::string text = warning->text();
-  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 86 %", "0.30 of its depth",
-                           "1e+07", "2.0 times as many steps"})
+  for (const char* part : {"soil[clay]/young_modulus_pa", "50 times the cohesion", "about 86 %",
+                           "0.30 of its depth", "1e+07", "2.0 times as many steps"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   clay.young_modulus = 0.5e6;
-  EXPECT_NE(too_soft(clay)->text().find("less than 63 %"), std::string::npos) << too_soft(clay)->text();
+  EXPECT_NE(too_soft(clay)->text().find("less than 63 %"), std::string::npos)
+      << too_soft(clay)->text();
   clay.young_modulus = 5e6;
   EXPECT_FALSE(too_soft(clay));
   clay.cohesion = 0;
@@ -97,7 +101,8 @@ TEST(SoilValues, ThePageOfScenesSaysTheSame) {
   for (std::string line; std::getline(page, line);) {
     if (line.rfind("| `", 0) != 0) continue;
     std::vector<std::string> cells;
-    for (std::size_t from = 1, bar; (bar = line.find('|', from)) != std::string::npos; from = bar + 1)
+    for (std::size_t from = 1, bar; (bar = line.find('|', from)) != std::string::npos;
+         from = bar + 1)
       cells.push_back(line.substr(from, bar - from));
     if (cells.size() != 5) continue;
     const std::size_t first = cells[0].find('`'), last = cells[0].rfind('`');
@@ -111,7 +116,9 @@ TEST(SoilValues, ThePageOfScenesSaysTheSame) {
     EXPECT_DOUBLE_EQ(std::stod(ranges[v.name].substr(0, dots)), v.low) << v.name;
     EXPECT_DOUBLE_EQ(std::stod(ranges[v.name].substr(dots + 2)), v.high) << v.name;
     // The struct's angles are written in radians with few digits.
-    EXPECT_NEAR(std::stod(defaults[v.name]), v.written(Soil{}), 1e-3 * (1 + std::abs(v.written(Soil{})))) << v.name;
+    EXPECT_NEAR(std::stod(defaults[v.name]), v.written(Soil{}),
+                1e-3 * (1 + std::abs(v.written(Soil{}))))
+        << v.name;
   }
 }
 

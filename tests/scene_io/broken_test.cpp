@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every broken/NAME.sdf must be refused with all the fragments that broken/NAME.txt lists, one per line.
+// Every broken/NAME.sdf must be refused with all the fragments that broken/NAME.txt lists, one per
+// line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 namespace navvy::scene_io {
 namespace {
 
-const std::filesystem::path kBroken = std::filesystem::path(navvy::source_dir()) / "tests/scene_io/broken";
+const std::filesystem::path kBroken =
+    std::filesystem::path(navvy::source_dir()) / "tests/scene_io/broken";
 
 using test::text_of;
 
@@ -39,14 +41,16 @@ TEST(BrokenFiles, EachIsRefusedWithFileLineElementValueAndRule) {
   for (const auto& file : files) {
     SCOPED_TRACE(file.filename().string());
     const std::vector<Fault> faults = check(file.string(), control::step_kinds());
-    const bool refused =
-        std::any_of(faults.begin(), faults.end(), [](const Fault& f) { return f.severity == Fault::Severity::kError; });
+    const bool refused = std::any_of(faults.begin(), faults.end(), [](const Fault& f) {
+      return f.severity == Fault::Severity::kError;
+    });
     EXPECT_TRUE(refused);
     const std::string all = messages(faults);
     EXPECT_NE(all.find(kBroken.string()), std::string::npos) << "no file named in:\n" << all;
     std::istringstream expected(text_of(std::filesystem::path(file).replace_extension(".txt")));
     for (std::string fragment; std::getline(expected, fragment);)
-      EXPECT_NE(all.find(fragment), std::string::npos) << "'" << fragment << "' not found in:\n" << all;
+      EXPECT_NE(all.find(fragment), std::string::npos) << "'" << fragment << "' not found in:\n"
+                                                       << all;
   }
 }
 
@@ -71,7 +75,8 @@ TEST(BrokenFiles, LoadingThrowsAllFaultsAtOnce) {
     load_scene((kBroken / "many.sdf").string(), control::step_kinds());
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().size(), check((kBroken / "many.sdf").string(), control::step_kinds()).size());
+    EXPECT_EQ(error.faults().size(),
+              check((kBroken / "many.sdf").string(), control::step_kinds()).size());
     EXPECT_GE(error.faults().size(), 5u);
   }
 }

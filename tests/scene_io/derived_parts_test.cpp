@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
@@ -20,19 +20,22 @@ scene::Scene scene_with(const std::string& elements, const std::string& ground =
       "w.sdf", control::step_kinds());
 }
 
-std::string visual(const std::string& name, const std::string& shape, const std::string& pose = "0 0 0 0 0 0") {
-  return "<visual name=\"" + name + "\"><pose>" + pose + "</pose><geometry>" + shape + "</geometry></visual>";
+std::string visual(const std::string& name, const std::string& shape,
+                   const std::string& pose = "0 0 0 0 0 0") {
+  return "<visual name=\"" + name + "\"><pose>" + pose + "</pose><geometry>" + shape +
+         "</geometry></visual>";
 }
 
-const std::string kBody = visual("body", "<box><size>0.5 0.3 0.2</size></box>", "0 0 0.1 0 0 0") +
-                          visual("dome", "<sphere><radius>0.1</radius></sphere>", "0 0 0.3 0 0 0") +
-                          visual("mast", "<capsule><radius>0.02</radius><length>0.3</length></capsule>") +
-                          visual("hat", "<cone><radius>0.1</radius><length>0.2</length></cone>");
+const std::string kBody =
+    visual("body", "<box><size>0.5 0.3 0.2</size></box>", "0 0 0.1 0 0 0") +
+    visual("dome", "<sphere><radius>0.1</radius></sphere>", "0 0 0.3 0 0 0") +
+    visual("mast", "<capsule><radius>0.02</radius><length>0.3</length></capsule>") +
+    visual("hat", "<cone><radius>0.1</radius><length>0.2</length></cone>");
 
 TEST(DerivedParts, CollideAsVisualsAndWeighByDensity) {
-  const scene::Scene scene =
-      scene_with("<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>1000</navvy:density_kg_per_m3>" +
-                 visual("body", "<box><size>0.5 0.3 0.2</size></box>", "0 0 0.1 0 0 0") + "</link></model>");
+  const scene::Scene scene = scene_with(
+      "<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>1000</navvy:density_kg_per_m3>" +
+      visual("body", "<box><size>0.5 0.3 0.2</size></box>", "0 0 0.1 0 0 0") + "</link></model>");
   const scene::Machine& machine = scene.machines.at(0).machine;
   const scene::Link& link = machine.links.at(0);
   ASSERT_EQ(link.collisions.size(), 1u);
@@ -48,9 +51,9 @@ TEST(DerivedParts, CollideAsVisualsAndWeighByDensity) {
 }
 
 TEST(DerivedParts, EveryShapeHasACollisionOfItsKind) {
-  const scene::Scene scene =
-      scene_with("<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>500</navvy:density_kg_per_m3>" + kBody +
-                 "</link></model>");
+  const scene::Scene scene = scene_with(
+      "<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>500</navvy:density_kg_per_m3>" +
+      kBody + "</link></model>");
   const scene::Link& link = scene.machines.at(0).machine.links.at(0);
   ASSERT_EQ(link.collisions.size(), 4u);
   EXPECT_EQ(link.collisions[1].geometry.kind, Kind::kSphere);
@@ -63,9 +66,10 @@ TEST(DerivedParts, EveryShapeHasACollisionOfItsKind) {
 TEST(DerivedParts, AGivenCollisionOrAWordAgainstItKeepsVisualsFromColliding) {
   const std::string inertial =
       "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>";
-  const scene::Scene given = scene_with("<model name=\"r\"><link name=\"a\">" + inertial + kBody +
-                                        "<collision name=\"c\"><geometry><sphere><radius>1</radius></sphere></geometry>"
-                                        "</collision></link></model>");
+  const scene::Scene given =
+      scene_with("<model name=\"r\"><link name=\"a\">" + inertial + kBody +
+                 "<collision name=\"c\"><geometry><sphere><radius>1</radius></sphere></geometry>"
+                 "</collision></link></model>");
   EXPECT_EQ(given.machines.at(0).machine.links.at(0).collisions.size(), 1u);
   const scene::Scene none = scene_with(
       "<model name=\"r\"><navvy:derive_collisions>false</navvy:derive_collisions>"
@@ -79,7 +83,8 @@ TEST(DerivedParts, ADensityOfAShapeGoesBeforeThatOfItsLink) {
   const scene::Scene scene = scene_with(
       "<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>1000</navvy:density_kg_per_m3>"
       "<collision name=\"wood\"><geometry><box><size>1 1 1</size></box></geometry></collision>"
-      "<collision name=\"lead\"><pose>1 0 0 0 0 0</pose><navvy:density_kg_per_m3>3000</navvy:density_kg_per_m3>"
+      "<collision name=\"lead\"><pose>1 0 0 0 0 "
+      "0</pose><navvy:density_kg_per_m3>3000</navvy:density_kg_per_m3>"
       "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model>");
   const scene::Link& link = scene.machines.at(0).machine.links.at(0);
   EXPECT_NEAR(link.mass, 4000, 1e-9);
@@ -87,12 +92,17 @@ TEST(DerivedParts, ADensityOfAShapeGoesBeforeThatOfItsLink) {
   EXPECT_NEAR(link.inertia(1, 1), 4000.0 / 6 + 1000 * 0.75 * 0.75 + 3000 * 0.25 * 0.25, 1e-6);
 }
 
-// As Gazebo ships it, but for its texture; its numbers of friction are those of a pair that nobody meant.
+// As Gazebo ships it, but for its texture; its numbers of friction are those of a pair that nobody
+// meant.
 const std::string kGroundPlane =
-    "<model name=\"ground_plane\"><static>true</static><link name=\"link\"><collision name=\"collision\"><geometry>"
-    "<plane><normal>0 0 1</normal><size>100 100</size></plane></geometry><surface><contact/><friction><ode>"
-    "<mu>100</mu><mu2>50</mu2></ode></friction><bounce/></surface></collision><visual name=\"visual\"><cast_shadows>"
-    "false</cast_shadows><geometry><plane><normal>0 0 1</normal><size>100 100</size></plane></geometry></visual>"
+    "<model name=\"ground_plane\"><static>true</static><link name=\"link\"><collision "
+    "name=\"collision\"><geometry>"
+    "<plane><normal>0 0 1</normal><size>100 "
+    "100</size></plane></geometry><surface><contact/><friction><ode>"
+    "<mu>100</mu><mu2>50</mu2></ode></friction><bounce/></surface></collision><visual "
+    "name=\"visual\"><cast_shadows>"
+    "false</cast_shadows><geometry><plane><normal>0 0 1</normal><size>100 "
+    "100</size></plane></geometry></visual>"
     "</link></model>";
 
 TEST(GroundPlane, OfGazeboIsTheRockUnderTheSoil) {

@@ -29,7 +29,8 @@ std::string landxml(const std::string& units, const std::string& points, const s
 
 const std::string kMetres = "<Units><Metric linearUnit=\"meter\"/></Units>";
 const std::string kFour =
-    "<P id=\"1\">100 10 5</P><P id=\"2\">100 20 5</P>\n<P id=\"7\">130 20 6.5</P><P id=\"9\">130 10 6</P>";
+    "<P id=\"1\">100 10 5</P><P id=\"2\">100 20 5</P>\n<P id=\"7\">130 20 6.5</P><P id=\"9\">130 "
+    "10 6</P>";
 const std::string kFaces = "<F>1 2 7</F>\n<F i=\"1\">1 7 9</F>";
 
 struct Read {
@@ -65,7 +66,9 @@ TEST(LandXml, ComesInMetresWhateverItCountsIn) {
   };
   EXPECT_DOUBLE_EQ(easting("<Imperial linearUnit=\"foot\"/>"), 20 * 0.3048);
   EXPECT_DOUBLE_EQ(easting("<Imperial linearUnit=\"USSurveyFoot\"/>"), 20 * 1200.0 / 3937);
-  EXPECT_EQ(read(landxml("<Units><Imperial linearUnit=\"foot\"/></Units>", kFour, kFaces)).tin->metres, 0.3048);
+  EXPECT_EQ(
+      read(landxml("<Units><Imperial linearUnit=\"foot\"/></Units>", kFour, kFaces)).tin->metres,
+      0.3048);
   EXPECT_DOUBLE_EQ(easting("<Metric linearUnit=\"millimeter\"/>"), 0.02);
 }
 
@@ -76,14 +79,19 @@ TEST(LandXml, IsRefusedWithFileLineValueAndRemedy) {
       EXPECT_NE(out.faults.find(part), std::string::npos) << part << " in: " << out.faults;
   };
   expect(read(landxml("", kFour, kFaces)), {"pit.xml:2", "no unit", "linearUnit=\"meter\""});
-  expect(read(landxml("<Units><Metric/></Units>", kFour, kFaces)), {"pit.xml:3", "Metric", "no unit"});
-  expect(read(landxml("<Units><Imperial linearUnit=\"feet\"/></Units>", kFour, kFaces)), {"'feet'", "foot"});
-  expect(read(landxml(kMetres, kFour, "<F>1 2 8</F>")), {"pit.xml:11", "F", "'8'", "no point of this id"});
+  expect(read(landxml("<Units><Metric/></Units>", kFour, kFaces)),
+         {"pit.xml:3", "Metric", "no unit"});
+  expect(read(landxml("<Units><Imperial linearUnit=\"feet\"/></Units>", kFour, kFaces)),
+         {"'feet'", "foot"});
+  expect(read(landxml(kMetres, kFour, "<F>1 2 8</F>")),
+         {"pit.xml:11", "F", "'8'", "no point of this id"});
   expect(read(landxml(kMetres, kFour, "<F>1 2</F>")), {"'1 2'", "three points"});
   expect(read(landxml(kMetres, kFour, "<F i=\"1\">1 2 7</F>")), {"no visible face"});
-  expect(read(landxml(kMetres, kFour + "<P id=\"2\">1 2 3</P>", kFaces)), {"pit.xml:9", "'2'", "id of its own"});
+  expect(read(landxml(kMetres, kFour + "<P id=\"2\">1 2 3</P>", kFaces)),
+         {"pit.xml:9", "'2'", "id of its own"});
   expect(read(landxml(kMetres, kFour + "<P>1 2 3</P>", kFaces)), {"id of its own"});
-  expect(read(landxml(kMetres, kFour + "<P id=\"3\">1 2</P>", kFaces)), {"'1 2'", "northing easting elevation"});
+  expect(read(landxml(kMetres, kFour + "<P id=\"3\">1 2</P>", kFaces)),
+         {"'1 2'", "northing easting elevation"});
   expect(read(landxml(kMetres, kFour + "<P id=\"3\">1 nan 2</P>", kFaces)), {"'1 nan 2'"});
   expect(read(landxml(kMetres, kFour, kFaces, "grid")), {"'grid'", "no TIN"});
   expect(read(landxml(kMetres, kFour, kFaces), "pitt"), {"'pitt'", "pit"});
@@ -92,12 +100,14 @@ TEST(LandXml, IsRefusedWithFileLineValueAndRemedy) {
   expect(read(""), {"is empty"});
 }
 
-TEST(LandXml, TellsAFaultyPointOnceAndNotByItsFaces) {
+TEST(LandXml, ReportsAFaultyPointOnceAndNotByItsFaces) {
   const std::string face = "<F>1 2 3</F><F>1 2 4</F>";
   const auto faults = [&](const std::string& point, const std::string& faces) {
     return read(landxml(kMetres, kFour + point, faces)).faults;
   };
-  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const auto lines = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+  };
   // Of points 3 and 4 only the second is nowhere.
   const std::string bad = faults("<P id=\"3\">1 2</P>", face);
   EXPECT_EQ(lines(bad), 2) << bad;
@@ -113,10 +123,11 @@ TEST(Design, OfASceneIsReadFromLandXmlBesideIt) {
   const test::Folder folder;
   write_file_atomically(folder / "pit.xml", landxml(kMetres, kFour, kFaces));
   const auto load = [&](const std::string& design) {
-    write_file_atomically(folder / "s.sdf",
-                          "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
-                          "<navvy:ground><size_m>20 20</size_m></navvy:ground><navvy:design>" +
-                              design + "</navvy:design></world></sdf>");
+    write_file_atomically(
+        folder / "s.sdf",
+        "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
+        "<navvy:ground><size_m>20 20</size_m></navvy:ground><navvy:design>" +
+            design + "</navvy:design></world></sdf>");
     std::string resolved;
     const scene::Scene scene = load_scene(folder / "s.sdf", control::step_kinds(), {}, &resolved);
     // Written out, it is found from anywhere, and known by its hash.

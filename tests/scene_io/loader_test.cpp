@@ -18,10 +18,12 @@
 namespace navvy::scene_io {
 namespace {
 
-const std::string kScene = navvy::source_dir() + "/scenarios/mine.sdf";  // named only, never written
+// Named only, never written
+const std::string kScene = navvy::source_dir() + "/scenarios/mine.sdf";
 
 std::string world_text(const std::string& body) {
-  return "<sdf version=\"1.9\" xmlns:navvy=\"navvy\">\n<world name=\"w\">\n" + body + "\n</world>\n</sdf>\n";
+  return "<sdf version=\"1.9\" xmlns:navvy=\"navvy\">\n<world name=\"w\">\n" + body +
+         "\n</world>\n</sdf>\n";
 }
 
 const char* kBody = R"(<navvy:soil ref="loam"><cohesion_pa>7000</cohesion_pa></navvy:soil>
@@ -166,7 +168,8 @@ TEST(Loader, OrdersLinksBaseFirstAndJointsLikeTheLinksTheyMove) {
   EXPECT_EQ(machine.joints[1].upper, 2);
   EXPECT_EQ(machine.joints[1].effort, 50);
   EXPECT_EQ(machine.joints[0].effort, scene::Joint().effort);
-  // The arm lies at (1, 0, 2) turned left; its hinge is 3 m along it. 1e-9: rounding of the rotation.
+  // The arm lies at (1, 0, 2) turned left; its hinge is 3 m along it. 1e-9: rounding of the
+  // rotation.
   EXPECT_LT((machine.links[2].X_ML.translation() - Vec3(1, 3, 2)).norm(), 1e-9);
 }
 
@@ -217,12 +220,15 @@ scene::Machine robot_with(const std::string& drive) {
 }
 
 TEST(Loader, ADriveIsOfTheKindItsTypeNames) {
-  const scene::Machine car = robot_with("<navvy:drive><max_steer_deg>20</max_steer_deg></navvy:drive>");
+  const scene::Machine car =
+      robot_with("<navvy:drive><max_steer_deg>20</max_steer_deg></navvy:drive>");
   EXPECT_EQ(std::get<scene::AckermannDrive>(car.drive).max_steer, radians(20));
-  EXPECT_TRUE(std::holds_alternative<scene::AckermannDrive>(robot_with("<navvy:drive type='ackermann'/>").drive));
+  EXPECT_TRUE(std::holds_alternative<scene::AckermannDrive>(
+      robot_with("<navvy:drive type='ackermann'/>").drive));
   const scene::Machine robot = robot_with(
       "<navvy:drive "
-      "type='differential'><track_m>0.4</track_m><max_speed_m_per_s>1.2</max_speed_m_per_s></navvy:drive>");
+      "type='differential'><track_m>0.4</track_m><max_speed_m_per_s>1.2</max_speed_m_per_s></"
+      "navvy:drive>");
   ASSERT_TRUE(robot.has_drive);
   EXPECT_EQ(std::get<scene::DifferentialDrive>(robot.drive).track, 0.4);
   EXPECT_EQ(scene::powertrain(robot.drive).max_speed, 1.2);
@@ -235,7 +241,7 @@ TEST(Loader, ADriveMayHaveAnEngineWithGears) {
 <point><speed_rpm>1800</speed_rpm><torque_nm>350</torque_nm></point>
 <braking_torque_nm>40</braking_torque_nm><gear_ratios>4 2 1</gear_ratios><final_ratio>12</final_ratio>
 <efficiency>0.8</efficiency></engine></navvy:drive>)");
-  const scene::DriveEngine* engine = scene::drive_engine(car.drive);
+  const scene::CombustionEngine* engine = scene::drive_engine(car.drive);
   ASSERT_NE(engine, nullptr);
   ASSERT_EQ(engine->curve.size(), 2u);
   EXPECT_NEAR(engine->curve[1].speed, 60 * kPi, 1e-12);
@@ -246,7 +252,7 @@ TEST(Loader, ADriveMayHaveAnEngineWithGears) {
   EXPECT_EQ(scene::powertrain(car.drive).engine_power, 0) << "it shares nothing";
   const scene::Machine robot = robot_with(R"(<navvy:drive><engine><kind>speed_source</kind>
 <max_speed_rpm>3000</max_speed_rpm><max_torque_nm>2</max_torque_nm><gear_ratios>20</gear_ratios></engine></navvy:drive>)");
-  EXPECT_EQ(scene::drive_engine(robot.drive)->kind, scene::DriveEngine::Kind::kSpeedSource);
+  EXPECT_EQ(scene::drive_engine(robot.drive)->kind, scene::CombustionEngine::Kind::kSpeedSource);
   EXPECT_NEAR(scene::drive_engine(robot.drive)->max_speed, 100 * kPi, 1e-12);
   EXPECT_EQ(scene::drive_engine(robot_with("<navvy:drive/>").drive), nullptr);
 }
@@ -263,7 +269,8 @@ TEST(Loader, AnEngineIsAParameterAndNoEngineIsNone) {
   geared.engine.emplace();
   geared.engine->curve = {{100, 200}, {200, 300}};
   geared.engine->gears = {2, 1};
-  for (const auto& [path, value] : of(plain)) EXPECT_EQ(path.find("engine"), std::string::npos) << path;
+  for (const auto& [path, value] : of(plain))
+    EXPECT_EQ(path.find("engine"), std::string::npos) << path;
   scene::AckermannDrive other = geared;
   EXPECT_EQ(of(other), of(geared));
   other.engine->gears[1] = 1.1;
@@ -286,11 +293,13 @@ scene::Shell shell_of(const std::string& geometry) {
 }
 
 TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
-  // Quads, faces with texture and normal numbers, numbers from the end, comments and groups: what modellers export.
+  // Quads, faces with texture and normal numbers, numbers from the end, comments and groups: what
+  // modellers export.
   const test::Folder folder;
   const std::string path = folder / "shell.obj";
   const std::string obj =
-      "# a tray\no tray\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0.5\nv 1 0 0.5\nvt 0 0\nvn 0 0 1\ng floor\n"
+      "# a tray\no tray\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0.5\nv 1 0 0.5\nvt 0 0\nvn 0 0 "
+      "1\ng floor\n"
       "f 1/1/1 2/1/1 3/1/1 4/1/1\ng back\nf -2//1 -1//1 2//1\nf 5 2 1\n";
   write_file_atomically(path, obj);
   const scene::Shell mesh = shell_of("<mesh>" + path + "</mesh>");
@@ -298,12 +307,16 @@ TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
       "<vertices_m>0 0 0 1 0 0 1 1 0 0 1 0 0 0 0.5 1 0 0.5</vertices_m>"
       "<triangles>0 1 2 0 2 3 4 5 1 4 1 0</triangles>");
   ASSERT_EQ(mesh.triangles.size(), inline_shell.triangles.size());
-  ASSERT_EQ(mesh.vertices.size(), inline_shell.vertices.size()) << "corners that triangles share stay one";
-  // Which diagonal cuts a quad is the reader's choice: areas with their direction, above each level and in all.
+  ASSERT_EQ(mesh.vertices.size(), inline_shell.vertices.size())
+      << "corners that triangles share stay one";
+  // Which diagonal cuts a quad is the reader's choice: areas with their direction, above each level
+  // and in all.
   const auto area = [](const scene::Shell& shell, double above) {
     Vec3 sum = Vec3::Zero();
     for (const auto& triangle : shell.triangles) {
-      const auto corner = [&](std::size_t i) { return shell.vertices.at(static_cast<std::size_t>(triangle[i])); };
+      const auto corner = [&](std::size_t i) {
+        return shell.vertices.at(static_cast<std::size_t>(triangle[i]));
+      };
       if ((corner(0) + corner(1) + corner(2)).z() >= above)
         sum += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
     }
@@ -343,7 +356,8 @@ TEST(Overrides, APoseWithAQuaternionKeepsItsTurn) {
   const std::string old = "<pose degrees=\"true\">1 2 0.5 0 0 90</pose>";
   // Turned by 90 deg about z, then pitched by none: the same pose as before.
   body.replace(body.find(old), old.size(),
-               "<pose rotation_format=\"quat_xyzw\">1 2 0.5 0 0 0.7071067811865476 0.7071067811865476</pose>");
+               "<pose rotation_format=\"quat_xyzw\">1 2 0.5 0 0 0.7071067811865476 "
+               "0.7071067811865476</pose>");
   const Pose before = load(body).machines[0].X_WM;
   const Pose moved = load(body, set("machine[first].x_m=-3.25")).machines[0].X_WM;
   EXPECT_EQ(Vec3(moved.translation()), Vec3(-3.25, 2, 0.5));
@@ -360,15 +374,18 @@ TEST(Overrides, AMachineIsMeantByItsWholeName) {
   const std::string named = "<uri>model://test_bucket</uri><name>second</name>";
   body.replace(body.find(named), named.size(), "<uri>model://test_bucket</uri>");
   EXPECT_EQ(load(body, set("machine[test_bucket].x_m=1")).machines[1].X_WM.translation().x(), 1);
-  EXPECT_NE(failure(body, set("machine[test].x_m=1")).find("no 'machine[test]'"), std::string::npos);
-  EXPECT_NE(failure(body, set("machine[test_buck].x_m=1")).find("no 'machine[test_buck]'"), std::string::npos);
+  EXPECT_NE(failure(body, set("machine[test].x_m=1")).find("no 'machine[test]'"),
+            std::string::npos);
+  EXPECT_NE(failure(body, set("machine[test_buck].x_m=1")).find("no 'machine[test_buck]'"),
+            std::string::npos);
 }
 
-TEST(Loader, ADirectionsFaultIsToldOnce) {
+TEST(Loader, ADirectionsFaultIsReportedOnce) {
   for (const char* direction : {"0 0 0", "0 0 x", "0 0"}) {
-    const std::string told =
-        failure("<navvy:soil ref=\"loam\"/><navvy:ground/><light name=\"sun\" type=\"directional\"><direction>" +
-                std::string(direction) + "</direction></light>");
+    const std::string told = failure(
+        "<navvy:soil ref=\"loam\"/><navvy:ground/><light name=\"sun\" "
+        "type=\"directional\"><direction>" +
+        std::string(direction) + "</direction></light>");
     EXPECT_NE(told.find("direction"), std::string::npos) << told;
     EXPECT_EQ(told.find('\n'), std::string::npos) << told;
   }
@@ -395,16 +412,21 @@ TEST(Overrides, SeedDurationRenderTerrainAndSize) {
 
 TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {
   const std::string unknown = failure(kBody, set("soil.cohesion=8000"));
-  EXPECT_NE(unknown.find("command line: error: world/navvy:soil[loam]/cohesion"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("command line: error: world/navvy:soil[loam]/cohesion"), std::string::npos)
+      << unknown;
   EXPECT_NE(unknown.find("did you mean 'cohesion_pa'?"), std::string::npos) << unknown;
-  EXPECT_NE(failure(kBody, set("solver.cell_m=0")).find("'0': must be a number from 0.005"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("solver.cell_m=0")).find("'0': must be a number from 0.005"),
+            std::string::npos);
   EXPECT_NE(failure(kBody, set("sole.swell=1")).find("did you mean 'soil'?"), std::string::npos);
   EXPECT_NE(failure(kBody, set("soil[clay].swell=1")).find("no 'soil[clay]'"), std::string::npos);
-  EXPECT_NE(failure(kBody, set("machine[first].xm=1")).find("did you mean 'x_m'?"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].xm=1")).find("did you mean 'x_m'?"),
+            std::string::npos);
   EXPECT_NE(failure(kBody, set("soil=1")).find("object.element=value"), std::string::npos);
-  EXPECT_NE(failure(kBody, set("machine[first].x_m=900")).find("must stand on the site"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].x_m=900")).find("must stand on the site"),
+            std::string::npos);
   // It would stand in the scene that a run writes out, where no XML may hold it.
-  EXPECT_NE(failure(kBody, set("machine[first].z_m=1\v")).find("no control characters"), std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].z_m=1\v")).find("no control characters"),
+            std::string::npos);
   EXPECT_THROW(parse_setting("soil.swell"), InputError);
 }
 

@@ -36,9 +36,11 @@ void expect_equal(const scene::Machine& a, const scene::Machine& b) {
       EXPECT_EQ(a.links[i].visuals[v].geometry.mesh_file, b.links[i].visuals[v].geometry.mesh_file);
   }
   ASSERT_EQ(a.joints.size(), b.joints.size());
-  for (std::size_t i = 0; i < a.joints.size(); ++i) EXPECT_EQ(a.joints[i].initial, b.joints[i].initial);
+  for (std::size_t i = 0; i < a.joints.size(); ++i)
+    EXPECT_EQ(a.joints[i].initial, b.joints[i].initial);
   ASSERT_EQ(a.shells.size(), b.shells.size());
-  for (std::size_t i = 0; i < a.shells.size(); ++i) EXPECT_EQ(a.shells[i].vertices, b.shells[i].vertices);
+  for (std::size_t i = 0; i < a.shells.size(); ++i)
+    EXPECT_EQ(a.shells[i].vertices, b.shells[i].vertices);
   EXPECT_EQ(a.cylinders.size(), b.cylinders.size());
   EXPECT_EQ(a.wheels.size(), b.wheels.size());
   EXPECT_EQ(a.beds.size(), b.beds.size());
@@ -55,7 +57,8 @@ void expect_equal(const scene::Scene& a, const scene::Scene& b) {
     EXPECT_EQ(a.soils[i].source, b.soils[i].source);
     for (int c = 0; c < 3; ++c) EXPECT_EQ(a.soils[i].color[c], b.soils[i].color[c]);
     for (const scene::SoilValue& value : scene::soil_values())
-      EXPECT_EQ(a.soils[i].*value.value, b.soils[i].*value.value) << a.soils[i].name << " " << value.name;
+      EXPECT_EQ(a.soils[i].*value.value, b.soils[i].*value.value)
+          << a.soils[i].name << " " << value.name;
   }
   EXPECT_EQ(a.ground.size, b.ground.size);
   EXPECT_EQ(a.ground.origin, b.ground.origin);
@@ -89,26 +92,30 @@ TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
     SCOPED_TRACE(entry.path());
     std::string text, again;
     const scene::Scene world = load_scene(entry.path().string(), control::step_kinds(), {}, &text);
-    const scene::Scene resolved = load_scene_from_string(text, kElsewhere, control::step_kinds(), {}, &again);
+    const scene::Scene resolved =
+        load_scene_from_string(text, kElsewhere, control::step_kinds(), {}, &again);
     expect_equal(world, resolved);
     EXPECT_EQ(text, again) << "written out once more it is the same text";
     EXPECT_EQ(text.find("<include>"), std::string::npos);
     EXPECT_EQ(text.find(" ref=\""), std::string::npos);
-    EXPECT_EQ(text.find(navvy::source_dir() + "/vehicles"), std::string::npos) << "shipped files go by model://";
+    EXPECT_EQ(text.find(navvy::source_dir() + "/vehicles"), std::string::npos)
+        << "shipped files go by model://";
     ++scenes;
   }
   EXPECT_GT(scenes, 5);
 }
 
 TEST(Resolved, TextHoldsEveryOverride) {
-  Overrides overrides = with({"soil.cohesion_pa=3000", "solver.cell_m=0.2", "machine[excavator].x_m=-8.5",
-                              "machine[excavator].program.dig.depth_m=0.6"});
+  Overrides overrides =
+      with({"soil.cohesion_pa=3000", "solver.cell_m=0.2", "machine[excavator].x_m=-8.5",
+            "machine[excavator].program.dig.depth_m=0.6"});
   overrides.seed = 77;
   overrides.duration = 12.5;
   overrides.render = false;
   overrides.size = Vec2(26, 22);
   std::string text;
-  const scene::Scene world = load_scene(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
+  const scene::Scene world =
+      load_scene(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
   const scene::Scene resolved = load_scene_from_string(text, kElsewhere, control::step_kinds());
   expect_equal(world, resolved);
   EXPECT_EQ(resolved.seed, 77u);
@@ -142,25 +149,28 @@ TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
   Overrides overrides;
   overrides.terrain = std::filesystem::relative(folder / "map.asc").string();
   std::string text;
-  const scene::Scene world = load_scene(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
+  const scene::Scene world =
+      load_scene(kShipped + "/trench.sdf", control::step_kinds(), overrides, &text);
   const scene::Scene resolved = load_scene_from_string(text, kElsewhere, control::step_kinds());
   EXPECT_TRUE(std::filesystem::equivalent(world.ground.file, resolved.ground.file));
   EXPECT_TRUE(std::filesystem::path(resolved.ground.file).is_absolute());
 }
 
-TEST(Resolved, AFileThatChangedSinceIsTold) {
+TEST(Resolved, AFileThatChangedSinceIsReported) {
   const test::Folder folder;
   std::filesystem::copy(navvy::source_dir() + "/vehicles/test_bucket", folder.path() / "mine",
                         std::filesystem::copy_options::recursive);
   std::string text;
-  load_scene_from_string(R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
+  load_scene_from_string(
+      R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
       <navvy:ground><size_m>8 8</size_m></navvy:ground>
       <include><uri>mine</uri><navvy:on_ground>false</navvy:on_ground></include></world></sdf>)",
-                         folder / "scene.sdf", control::step_kinds(), {}, &text);
+      folder / "scene.sdf", control::step_kinds(), {}, &text);
   write_file_atomically(folder / "resolved.sdf", text);
   EXPECT_TRUE(check(folder / "resolved.sdf", control::step_kinds()).empty());
   const std::vector<char> mesh = read_file(folder / "mine/meshes/bucket.obj");
-  write_file_atomically(folder / "mine/meshes/bucket.obj", std::string(mesh.begin(), mesh.end()) + "# more\n");
+  write_file_atomically(folder / "mine/meshes/bucket.obj",
+                        std::string(mesh.begin(), mesh.end()) + "# more\n");
   const std::vector<Fault> faults = check(folder / "resolved.sdf", control::step_kinds());
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].severity, Fault::Severity::kWarning);
@@ -168,7 +178,8 @@ TEST(Resolved, AFileThatChangedSinceIsTold) {
 }
 
 TEST(Resolved, AFormatOfALaterVersionIsRefused) {
-  const std::string text = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
+  const std::string text =
+      R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
       <navvy:ground><size_m>8 8</size_m></navvy:ground><navvy:resolved format="2"/></world></sdf>)";
   try {
     load_scene_from_string(text, kElsewhere, control::step_kinds());

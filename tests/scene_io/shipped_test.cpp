@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 const fs::path kRoot = navvy::source_dir();
 
 void expect_clean(const fs::path& file) {
-  for (const Fault& fault : check(file.string(), control::step_kinds())) ADD_FAILURE() << fault.text();
+  for (const Fault& fault : check(file.string(), control::step_kinds()))
+    ADD_FAILURE() << fault.text();
 }
 
 TEST(ShippedFiles, EveryScenarioLoads) {
@@ -54,15 +55,18 @@ TEST(ShippedFiles, EverySoilLoadsUnderItsFileNameAndNamesItsSource) {
   }
 }
 
-// Bank and loose density [t/m3], swell [%]: the table of handbook values that the soils were made from.
+// Bank and loose density [t/m3], swell [%]: the table of handbook values that the soils were made
+// from.
 TEST(ShippedFiles, SoilsAgreeWithTheHandbook) {
   struct Row {
     double bank, loose, swell;
   };
   const std::map<std::string, Row> table = {
-      {"clay_dry", {1.84, 1.48, 24}}, {"clay_wet", {2.08, 1.66, 25}}, {"earth_wet", {2.02, 1.60, 26}},
-      {"loam", {1.54, 1.25, 23}},     {"gravel", {1.69, 1.51, 12}},   {"sand_dry", {1.60, 1.42, 13}},
-      {"sand_wet", {2.08, 1.84, 13}}, {"topsoil", {1.37, 0.95, 44}},  {"crushed_stone", {2.67, 1.60, 67}}};
+      {"clay_dry", {1.84, 1.48, 24}},     {"clay_wet", {2.08, 1.66, 25}},
+      {"earth_wet", {2.02, 1.60, 26}},    {"loam", {1.54, 1.25, 23}},
+      {"gravel", {1.69, 1.51, 12}},       {"sand_dry", {1.60, 1.42, 13}},
+      {"sand_wet", {2.08, 1.84, 13}},     {"topsoil", {1.37, 0.95, 44}},
+      {"crushed_stone", {2.67, 1.60, 67}}};
   std::size_t found = 0;
   for (const scene::Soil& soil : load_soils((kRoot / "terrain/soils").string())) {
     const auto row = table.find(soil.name);
@@ -71,7 +75,8 @@ TEST(ShippedFiles, SoilsAgreeWithTheHandbook) {
     EXPECT_DOUBLE_EQ(soil.bank_density, row->second.bank * 1000) << soil.name;
     EXPECT_NEAR((soil.swell - 1) * 100, row->second.swell, 1e-9) << soil.name;
     // 1 %: the handbook rounds its densities to 0.01 t/m3.
-    EXPECT_NEAR(soil.bank_density / soil.swell, row->second.loose * 1000, 0.01 * soil.bank_density) << soil.name;
+    EXPECT_NEAR(soil.bank_density / soil.swell, row->second.loose * 1000, 0.01 * soil.bank_density)
+        << soil.name;
     if (soil.name == "loam") {
       EXPECT_GE(soil.cohesion, 5000);
     }
@@ -83,14 +88,17 @@ TEST(ShippedFiles, TheTestBucketIsAConsistentlyWoundShell) {
   const scene::Machine machine = load_machine((kRoot / "vehicles/test_bucket/model.sdf").string());
   ASSERT_EQ(machine.shells.size(), 1u);
   const scene::Shell& shell = machine.shells[0];
-  // Each inner edge is used once in each direction; an edge used twice in one direction is wound wrongly.
+  // Each inner edge is used once in each direction; an edge used twice in one direction is wound
+  // wrongly.
   std::map<std::pair<int, int>, int> uses;
   for (const auto& t : shell.triangles)
-    for (int i = 0; i < 3; ++i) ++uses[{t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>((i + 1) % 3)]}];
+    for (int i = 0; i < 3; ++i)
+      ++uses[{t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>((i + 1) % 3)]}];
   for (const auto& [edge, count] : uses) EXPECT_EQ(count, 1) << edge.first << "-" << edge.second;
   // Normals point inside: towards the middle of the box that the shell fills.
   for (const auto& t : shell.triangles) {
-    const Vec3 a = shell.vertices[static_cast<std::size_t>(t[0])], b = shell.vertices[static_cast<std::size_t>(t[1])],
+    const Vec3 a = shell.vertices[static_cast<std::size_t>(t[0])],
+               b = shell.vertices[static_cast<std::size_t>(t[1])],
                c = shell.vertices[static_cast<std::size_t>(t[2])];
     EXPECT_GT((b - a).cross(c - a).dot(Vec3(0, 0, 0.05) - (a + b + c) / 3), 0);
   }
@@ -103,7 +111,8 @@ TEST(ShippedFiles, TheListingsOfTheTutorialLoad) {
   const std::string directory = navvy::build_dir() + "/tutorial";
   fs::create_directories(directory);
   int count = 0;
-  for (std::size_t at = text.find("```xml\n<sdf"); at != std::string::npos; at = text.find("```xml\n<sdf", at + 1)) {
+  for (std::size_t at = text.find("```xml\n<sdf"); at != std::string::npos;
+       at = text.find("```xml\n<sdf", at + 1)) {
     const std::size_t begin = at + 7, end = text.find("```", begin);
     const std::string file = directory + "/listing" + std::to_string(++count) + ".sdf";
     write_file_atomically(file, text.substr(begin, end - begin));

@@ -6,7 +6,7 @@
 namespace navvy::session {
 namespace {
 
-TEST(BucketGauge, TakesAForceApartByTheMotionOfTheLip) {
+TEST(BucketGauge, TakesAForceApartByTheMotionOfTheEdge) {
   // The link turns about its origin at 1 rad/s, the lip 1.5 m ahead of it: it moves straight down.
   vehicle::LinkState link;
   link.w_WL = Vec3(0, 1, 0);
@@ -22,7 +22,7 @@ TEST(BucketGauge, TakesAForceApartByTheMotionOfTheLip) {
   EXPECT_DOUBLE_EQ(carried.uplift, 0);
 }
 
-TEST(BucketGauge, GivesNoDraftToALipAtRest) {
+TEST(BucketGauge, GivesNoDraftToAnEdgeAtRest) {
   vehicle::LinkState link;
   link.v_WL = Vec3(0.04, 0, 0);
   const BucketLoad load = load_of(Vec3(-1000, 0, 0), link, Vec3(1.5, 0, 0));
@@ -30,7 +30,7 @@ TEST(BucketGauge, GivesNoDraftToALipAtRest) {
   EXPECT_DOUBLE_EQ(load.draft, 0);
 }
 
-TEST(BucketGauge, TurnsTheLipWithItsLink) {
+TEST(BucketGauge, TurnsTheEdgeWithItsLink) {
   // Upright link: its x axis points up, so that a turn about y moves the lip along W's x.
   vehicle::LinkState link;
   link.X_WL.linear() << 0, 0, -1, 0, 1, 0, 1, 0, 0;

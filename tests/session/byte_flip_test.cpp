@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real world saves nothing that its hash does not see: bytes of its snapshot are flipped one after the other, and
-// each time the load is refused, or the hash changes, or the byte belongs to a field that says why it is not hashed.
+// A real world saves nothing that its hash does not see: bytes of its snapshot are flipped one
+// after the other, and each time the load is refused, or the hash changes, or the byte belongs to a
+// field that says why it is not hashed.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -25,18 +26,24 @@ using Texts = std::set<std::string>;
 class ByteFlip : public testing::Test {
  protected:
   /// The scene with a sensor on its first machine, at `time` [s].
-  std::unique_ptr<Session> make(const std::string& scene, const std::vector<std::string>& settings, double time) {
+  std::unique_ptr<Session> make(const std::string& scene, const std::vector<std::string>& settings,
+                                double time) {
     scene_io::Overrides overrides;
     overrides.render = false;
-    for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-    auto session = std::make_unique<Session>(
-        scene_io::load_scene(navvy::source_dir() + "/scenarios/" + scene, control::step_kinds(), overrides), device_);
-    session->add(std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 3, 0.2, 20));
+    for (const std::string& setting : settings)
+      overrides.set.push_back(scene_io::parse_setting(setting));
+    auto session =
+        std::make_unique<Session>(scene_io::load_scene(navvy::source_dir() + "/scenarios/" + scene,
+                                                       control::step_kinds(), overrides),
+                                  device_);
+    session->add(
+        std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 3, 0.2, 20));
     while (session->world().time() < time) session->step();
     return session;
   }
 
-  /// What the fields that are saved and not hashed say for it; constants, which loading compares, do not count.
+  /// What the fields that are saved and not hashed say for it; constants, which loading compares,
+  /// do not count.
   static Texts reasons(const Session& session) {
     ByteMap map;
     saved(session, &map);
@@ -49,12 +56,14 @@ class ByteFlip : public testing::Test {
   device::Device device_;
 };
 
-/// Of runs of more than 256 bytes one byte in so many: a load takes a millisecond, so that every byte of these 540 kB
-/// would take ten minutes. A prime shares no factor with the size of any element, and so comes to all bytes of them.
+/// Of runs of more than 256 bytes one byte in so many: a load takes a millisecond, so that every
+/// byte of these 540 kB would take ten minutes. A prime shares no factor with the size of any
+/// element, and so comes to all bytes of them.
 constexpr std::size_t kStride = 401;
 
-/// Of shorter fields the first byte and every seventh after it: the lowest and the highest of a number of eight bytes.
-/// What is hashed is hashed whole; a field that was forgotten shows at its first byte.
+/// Of shorter fields the first byte and every seventh after it: the lowest and the highest of a
+/// number of eight bytes. What is hashed is hashed whole; a field that was forgotten shows at its
+/// first byte.
 constexpr std::size_t kShortStride = 7;
 
 /// Whoever adds a field to this list has thought about why a run does not depend on it.

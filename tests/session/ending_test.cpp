@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines with masses that do not get where their programs want them: told as what it is, and the others go on.
+// Machines with masses that do not get where their programs want them: told as what it is, and the
+// others go on.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -20,27 +21,34 @@ using control::StepState;
 
 scene::Scene load(const std::string& ground, const std::string& machines) {
   const std::string text =
-      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"ends\"><navvy:soil ref=\"loam\"/>\n<navvy:ground>" +
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"ends\"><navvy:soil "
+      "ref=\"loam\"/>\n<navvy:ground>" +
       ground + "</navvy:ground><navvy:solver><cell_m>0.2</cell_m></navvy:solver>\n" + machines +
-      "<navvy:recording><duration_s>20</duration_s><settle_s>0.1</settle_s><render>false</render></navvy:recording>" +
+      "<navvy:recording><duration_s>20</duration_s><settle_s>0.1</settle_s><render>false</render></"
+      "navvy:recording>" +
       "</world></sdf>";
-  return scene_io::load_scene_from_string(text, navvy::source_dir() + "/scenarios/ends.sdf", control::step_kinds());
+  return scene_io::load_scene_from_string(text, navvy::source_dir() + "/scenarios/ends.sdf",
+                                          control::step_kinds());
 }
 
 std::string machine(const std::string& model, const std::string& name, const std::string& pose,
                     const std::string& program) {
-  return "<include><uri>model://" + model + "</uri><name>" + name + "</name><pose>" + pose + "</pose>" +
-         (program.empty() ? "" : "<navvy:program>" + program + "</navvy:program>") + "</include>\n";
+  return "<include><uri>model://" + model + "</uri><name>" + name + "</name><pose>" + pose +
+         "</pose>" + (program.empty() ? "" : "<navvy:program>" + program + "</navvy:program>") +
+         "</include>\n";
 }
 
 TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
   device::Device device;
-  Session session(load("<size_m>30 12</size_m>",
-                       machine("ew180", "parked", "3 0 0 0 0 0", "") +
-                           machine("dumper", "truck", "-5 0 0 0 0 0",
-                                   "<drive_to><target_m>12 0</target_m><speed_m_per_s>1.5</speed_m_per_s></drive_to>"
-                                   "<tip><angle_deg>60</angle_deg></tip>")),
-                  device);
+  Session session(
+      load(
+          "<size_m>30 12</size_m>",
+          machine("ew180", "parked", "3 0 0 0 0 0", "") +
+              machine(
+                  "dumper", "truck", "-5 0 0 0 0 0",
+                  "<drive_to><target_m>12 0</target_m><speed_m_per_s>1.5</speed_m_per_s></drive_to>"
+                  "<tip><angle_deg>60</angle_deg></tip>")),
+      device);
   while (!session.done()) session.step();
   EXPECT_FALSE(session.complete());
   EXPECT_TRUE(session.fell_short());
@@ -49,7 +57,8 @@ TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
   EXPECT_EQ(report.steps, 2);
   ASSERT_EQ(report.list.size(), 1u) << "it does not tip its bed somewhere on the way";
   EXPECT_EQ(report.last().state, StepState::kBlocked);
-  EXPECT_NE(report.last().reason.find("something holds it"), std::string::npos) << report.last().reason;
+  EXPECT_NE(report.last().reason.find("something holds it"), std::string::npos)
+      << report.last().reason;
   // Where it stands, and 5 s after it came to a stand.
   EXPECT_LT(report.last().place.x(), 3);
   EXPECT_GT(report.last().place.x(), -5);
@@ -63,9 +72,11 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   device::Device device;
   const auto make = [&] {
     return std::make_unique<Session>(
-        load("<size_m>36 20</size_m><slope><angle_deg>30</angle_deg><yaw_deg>90</yaw_deg></slope>",
-             machine("ew180", "across", "-8 0 0 0 0 0", "<wait><duration_s>10</duration_s></wait>") +
-                 machine("ew180", "upwards", "8 -4 0 0 0 1.5707963", "<wait><duration_s>1</duration_s></wait>")),
+        load(
+            "<size_m>36 20</size_m><slope><angle_deg>30</angle_deg><yaw_deg>90</yaw_deg></slope>",
+            machine("ew180", "across", "-8 0 0 0 0 0", "<wait><duration_s>10</duration_s></wait>") +
+                machine("ew180", "upwards", "8 -4 0 0 0 1.5707963",
+                        "<wait><duration_s>1</duration_s></wait>")),
         device);
   };
   const auto session = make();
@@ -76,7 +87,8 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   const ProgramReport across = session->programs().at(0), upwards = session->programs().at(1);
   EXPECT_EQ(across.last().state, StepState::kTipped);
   EXPECT_LT(across.last().end, 2);
-  EXPECT_NE(across.last().reason.find("outside its feet"), std::string::npos) << across.last().reason;
+  EXPECT_NE(across.last().reason.find("outside its feet"), std::string::npos)
+      << across.last().reason;
   EXPECT_EQ(upwards.last().state, StepState::kDone) << upwards.last().reason;
   EXPECT_GT(upwards.last().end, across.last().end);
   // It was no false alarm: what was called tipped has gone on to lie on its side.
@@ -89,14 +101,16 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
-TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
-  // One was never driven, one is taken by inputs: both roll over across 30 deg, a third one stands by.
+TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
+  // One was never driven, one is taken by inputs: both roll over across 30 deg, a third one stands
+  // by.
   device::Device device;
   const auto make = [&] {
     return std::make_unique<Session>(
         load("<size_m>50 20</size_m><slope><angle_deg>30</angle_deg><yaw_deg>90</yaw_deg></slope>",
              machine("ew180", "parked", "-15 0 0 0 0 0", "") +
-                 machine("ew180", "taken", "0 0 0 0 0 0", "<wait><duration_s>10</duration_s></wait>") +
+                 machine("ew180", "taken", "0 0 0 0 0 0",
+                         "<wait><duration_s>10</duration_s></wait>") +
                  machine("ew180", "upwards", "15 -4 0 0 0 1.5707963", "")),
         device);
   };
@@ -114,7 +128,8 @@ TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
     EXPECT_EQ(report.last().step, 0);
     EXPECT_GT(report.last().end, 0);
     EXPECT_LT(report.last().end, 2.5);
-    EXPECT_NE(report.last().reason.find("outside its feet"), std::string::npos) << report.last().reason;
+    EXPECT_NE(report.last().reason.find("outside its feet"), std::string::npos)
+        << report.last().reason;
   }
   EXPECT_EQ(reports[0].machine, 0);
   EXPECT_EQ(reports[0].steps, 0);
@@ -139,7 +154,7 @@ TEST(SessionEnd, OfMachinesThatNoProgramDrivesTellsTheirFall) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
-TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
+TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   const LogLines log;
   const auto told = [&] {
     std::vector<std::string> out;
@@ -148,9 +163,10 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
     return out;
   };
   device::Device device;
-  Session session(load("<size_m>16 8</size_m>",
-                       machine("dumper", "truck", "2 0 0 0 0 0", "") + machine("dumper", "parked", "-4 0 0 0 0 0", "")),
-                  device);
+  Session session(
+      load("<size_m>16 8</size_m>", machine("dumper", "truck", "2 0 0 0 0 0", "") +
+                                        machine("dumper", "parked", "-4 0 0 0 0 0", "")),
+      device);
   session.set("truck/drive/speed", 2);
   const auto x = [&] { return session.world().machine(0).link(0).pose().translation().x(); };
   session.step();
@@ -164,8 +180,9 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsToldOnce) {
 
 TEST(SessionEnd, WithoutSettlingComesAfterTheProgramAndNotBeforeIt) {
   device::Device device;
-  scene::Scene scene = load("<size_m>16 8</size_m>",
-                            machine("dumper", "truck", "0 0 0 0 0 0", "<wait><duration_s>0.5</duration_s></wait>"));
+  scene::Scene scene =
+      load("<size_m>16 8</size_m>",
+           machine("dumper", "truck", "0 0 0 0 0 0", "<wait><duration_s>0.5</duration_s></wait>"));
   scene.recording.settle = 0;
   Session session(std::move(scene), device);
   while (!session.done()) session.step();

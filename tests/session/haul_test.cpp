@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loaded dumper drives, tips, draws away and lowers its bed: the small sibling of scenarios/load_truck.sdf.
+// A loaded dumper drives, tips, draws away and lowers its bed: the small sibling of
+// scenarios/load_truck.sdf.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,11 +21,12 @@ constexpr double kLoad = 2000;  // [kg]
 scene::Scene short_haul() {
   scene_io::Overrides overrides;
   overrides.render = false;
-  for (const char* setting :
-       {"solver.cell_m=0.2", "machine[dumper].load.mass_kg=2000", "machine[dumper].program.drive_to[1].target_m=-8 0",
-        "machine[dumper].program.drive_to[2].target_m=-4 0"})
+  for (const char* setting : {"solver.cell_m=0.2", "machine[dumper].load.mass_kg=2000",
+                              "machine[dumper].program.drive_to[1].target_m=-8 0",
+                              "machine[dumper].program.drive_to[2].target_m=-4 0"})
     overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_scene(navvy::source_dir() + "/scenarios/haul.sdf", control::step_kinds(), overrides);
+  return scene_io::load_scene(navvy::source_dir() + "/scenarios/haul.sdf", control::step_kinds(),
+                              overrides);
 }
 
 TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {

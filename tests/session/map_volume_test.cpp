@@ -11,7 +11,7 @@
 #include "record/earthwork.h"
 #include "session/session.h"
 #include "sim/scenes.h"
-#include "sim/terrain_view.h"
+#include "sim/world_terrain.h"
 #include "values.h"
 
 namespace navvy::session {
@@ -25,11 +25,11 @@ double kilograms_of(const std::vector<std::int64_t>& masses) {
 double column_volume_change(const sim::World& world) {
   const heightfield::Ground& ground = world.ground();
   double sum = 0;
-  std::vector<heightfield::Layer> layers;
+  std::vector<heightfield::SoilLayer> layers;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const auto add = [&](double sign) {
-        for (const heightfield::Layer& layer : layers)
+        for (const heightfield::SoilLayer& layer : layers)
           sum += sign * kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                  world.description().soils[layer.soil].bank_density;
       };
@@ -43,25 +43,30 @@ double column_volume_change(const sim::World& world) {
 
 struct MapVolume {
   double cut = 0, fill = 0;  ///< below and above the start [m3]
-  double awake_area = 0;     ///< [m2]
+  double active_area = 0;    ///< [m2]
 };
 
 MapVolume volume_of(const heightfield::Terrain& terrain) {
   const heightfield::MapView change = heightfield::map_view(terrain, "change");
-  const heightfield::MapView awake = heightfield::map_view(terrain, "awake");
+  const heightfield::MapView active = heightfield::map_view(terrain, "awake");
   const double area = terrain.cell() * terrain.cell();
   MapVolume out;
   for (std::size_t i = 0; i < change.values.size(); ++i) {
-    (change.values[i] < 0 ? out.cut : out.fill) += area * std::abs(static_cast<double>(change.values[i]));
-    out.awake_area += area * static_cast<double>(awake.values[i]);
+    (change.values[i] < 0 ? out.cut : out.fill) +=
+        area * std::abs(static_cast<double>(change.values[i]));
+    out.active_area += area * static_cast<double>(active.values[i]);
   }
   return out;
 }
 
 /// Heights of the map against those of columns and the mass of what lies on each.
-void expect_columns_and_what_lies(const heightfield::Terrain& map, const heightfield::Terrain& columns,
-                                  const std::vector<heightfield::LooseGrain>& grains, double bank_density) {
-  const auto place = [&](int ix, int iy) { return static_cast<std::size_t>(iy) * columns.nx() + ix; };
+void expect_columns_and_what_lies(const heightfield::Terrain& map,
+                                  const heightfield::Terrain& columns,
+                                  const std::vector<heightfield::LooseGrain>& grains,
+                                  double bank_density) {
+  const auto place = [&](int ix, int iy) {
+    return static_cast<std::size_t>(iy) * columns.nx() + ix;
+  };
   std::vector<double> lying(static_cast<std::size_t>(columns.nx()) * columns.ny());
   const double area = columns.cell() * columns.cell();
   for (const heightfield::LooseGrain& grain : grains)
@@ -85,32 +90,39 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
   const sim::World& world = session.world();
   const scene::Soil& loam = world.description().soils[0];
   double deepest_columns = 0;  // what a map of columns alone showed more than was dug [m3]
-  // On the ground, in it, dragging, curling, lifting, holding, over the heap, tipping, after it, at rest.
+  // On the ground, in it, dragging, curling, lifting, holding, over the heap, tipping, after it, at
+  // rest.
   for (const double stop : {0.6, 1.5, 2.5, 3.5, 4.5, 6.0, 8.0, 11.0, 11.4, 13.0}) {
     SCOPED_TRACE(stop);
     while (world.time() < stop) session.step();
     const sim::MassLedger ledger = world.mass_ledger();
-    const sim::AwakePlaces awake = sim::awake_places(world);
+    const sim::ActivePlaces active = sim::active_places(world);
     // Every unit of mass is in one of the books.
     EXPECT_EQ(ledger.error, 0);
     for (std::size_t i = 0; i < ledger.particles.size(); ++i)
-      EXPECT_EQ(awake.lies[i] + awake.held[i] + awake.elsewhere[i], ledger.particles[i]);
-    const double held = kilograms_of(awake.held), elsewhere = kilograms_of(awake.elsewhere),
-                 lies = kilograms_of(awake.lies);
+      EXPECT_EQ(active.lies[i] + active.held[i] + active.elsewhere[i], ledger.particles[i]);
+    const double held = kilograms_of(active.held), elsewhere = kilograms_of(active.elsewhere),
+                 lies = kilograms_of(active.lies);
     // The same question asked in another way.
     EXPECT_NEAR(held, world.machine(0).tool(0).payload(), 1e-9);
 
-    const heightfield::TerrainView map = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
+    const heightfield::TerrainView map =
+        sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
     const MapVolume shown = volume_of(map);
     double lying_volume = 0;
-    for (const heightfield::LooseGrain& grain : awake.lying.grains())
-      lying_volume += kilograms(grain.mass) * static_cast<double>(grain.specific_volume) / loam.bank_density;
+    for (const heightfield::LooseGrain& grain : active.lying.grains())
+      lying_volume +=
+          kilograms(grain.mass) * static_cast<double>(grain.specific_volume) / loam.bank_density;
     // Floats of the map round each of 4000 columns to 0.1 um: less than a litre's thousandth.
     EXPECT_NEAR(shown.fill - shown.cut, column_volume_change(world) + lying_volume, 1e-6);
-    // Column by column: the map stands over the columns by the soil that lies there, and by nothing that hangs over it.
-    expect_columns_and_what_lies(map, world.ground(), awake.lying.grains(), loam.bank_density);
-    // In mass: the columns lack what lies on them, what is carried and what flies, and nothing else.
-    EXPECT_NEAR(kilograms_of(ledger.columns) + lies + held + elsewhere + kilograms_of(ledger.left_site), 0, 1e-9);
+    // Column by column: the map stands over the columns by the soil that lies there, and by nothing
+    // that hangs over it.
+    expect_columns_and_what_lies(map, world.ground(), active.lying.grains(), loam.bank_density);
+    // In mass: the columns lack what lies on them, what is carried and what flies, and nothing
+    // else.
+    EXPECT_NEAR(
+        kilograms_of(ledger.columns) + lies + held + elsewhere + kilograms_of(ledger.left_site), 0,
+        1e-9);
     // Soil that lies is neither denser than pressed soil nor looser than swell allows.
     EXPECT_GE(lying_volume, 0.88 * lies / loam.bank_density);
     EXPECT_LE(lying_volume, 1.001 * loam.swell * lies / loam.bank_density);
@@ -118,16 +130,20 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     const record::Earthwork earth = record::measure_earthwork(world);
     EXPECT_GE(earth.loose_volume, 0);
     EXPECT_GE(earth.bank_volume, 0);
-    // A twentieth of a cell a column is left out of the sums of earthwork: at most so much of what moved.
+    // A twentieth of a cell a column is left out of the sums of earthwork: at most so much of what
+    // moved.
     const double moved = earth.soils[0].dug - earth.soils[0].spoil;
-    const double left_out = 0.05 * world.ground().cell() * shown.awake_area * loam.bank_density;
+    const double left_out = 0.05 * world.ground().cell() * shown.active_area * loam.bank_density;
     EXPECT_NEAR(moved, held + elsewhere, left_out + 1);
-    // The cut on the map is the soil that is gone from there, swollen at most; columns alone show a pit full of soil.
+    // The cut on the map is the soil that is gone from there, swollen at most; columns alone show a
+    // pit full of soil.
     EXPECT_LE(shown.cut, earth.bank_volume + left_out / loam.bank_density);
-    const MapVolume columns = volume_of(sim::terrain_view(world, heightfield::SurfaceKind::kColumns));
+    const MapVolume columns =
+        volume_of(sim::terrain_view(world, heightfield::SurfaceKind::kColumns));
     deepest_columns = std::max(deepest_columns, columns.cut - shown.cut);
     char text[160];
-    std::snprintf(text, sizeof text, "map %.4f, columns alone %.4f, dug %.4f; lies %.1f, held %.1f, elsewhere %.1f kg",
+    std::snprintf(text, sizeof text,
+                  "map %.4f, columns alone %.4f, dug %.4f; lies %.1f, held %.1f, elsewhere %.1f kg",
                   shown.cut, columns.cut, earth.bank_volume, lies, held, elsewhere);
     std::printf("[ VALUE    ] cut [m3] at %.1f s: %s\n", stop, text);
   }

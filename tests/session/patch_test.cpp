@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers and a patch of a third soil in one scene, dug through by one scoop: every soil keeps books of its own.
+// Layers and a patch of a third soil in one scene, dug through by one scoop: every soil keeps books
+// of its own.
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
@@ -20,7 +21,8 @@ void replace(std::string& text, const std::string& what, const std::string& with
   text.replace(at, what.size(), with);
 }
 
-/// bucket_path.sdf on topsoil over loam, with a patch of sand under the second half of the scoop and half its width.
+/// bucket_path.sdf on topsoil over loam, with a patch of sand under the second half of the scoop
+/// and half its width.
 scene::Scene patched_scene() {
   const std::string path = navvy::source_dir() + "/scenarios/bucket_path.sdf";
   const std::vector<char> file = read_file(path);
@@ -36,17 +38,18 @@ scene::Scene patched_scene() {
   return scene_io::load_scene_from_string(text, path, control::step_kinds(), overrides);
 }
 
-TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {
+TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnLedger) {
   device::Device device;
   Session session(patched_scene(), device);
   const sim::World& world = session.world();
-  std::vector<double> awake(3, 0.0);  // most at once [kg]
+  std::vector<double> active(3, 0.0);  // most at once [kg]
   while (!session.done()) {
     session.step();
     const sim::MassLedger ledger = world.mass_ledger();
     for (std::size_t i = 0; i < 3; ++i) {
-      ASSERT_EQ(ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i], 0);
-      awake[i] = std::max(awake[i], kilograms(ledger.particles[i]));
+      ASSERT_EQ(ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i],
+                0);
+      active[i] = std::max(active[i], kilograms(ledger.particles[i]));
     }
   }
   const record::Earthwork earth = record::measure_earthwork(world);
@@ -55,9 +58,10 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnBooks) {
     const double kept = earth.soils.at(i).spoil / earth.soils[i].dug;
     print_value(name + ": dug [kg]", earth.soils[i].dug, "> 50", "books per soil");
     print_value(name + ": spoil / dug", kept, "1 +-1 %", "books per soil");
-    EXPECT_GT(awake[i], 0) << name;
-    EXPECT_GT(earth.soils[i].dug, 50) << name;  // of about 700 kg in all: the scoop went through each
-    EXPECT_NEAR(kept, 1, 0.01) << name;         // crumbs that fell back into the cut are neither
+    EXPECT_GT(active[i], 0) << name;
+    // Of about 700 kg in all: the scoop went through each
+    EXPECT_GT(earth.soils[i].dug, 50) << name;
+    EXPECT_NEAR(kept, 1, 0.01) << name;  // crumbs that fell back into the cut are neither
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from soil.
+// Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from
+// soil.
 #include "session/session.h"
 #include "control/activities/dig/dig.h"
 #include "control/step_kinds.h"
@@ -25,8 +26,10 @@ namespace {
 scene::Scene load(const std::string& name, const std::vector<std::string>& settings = {}) {
   scene_io::Overrides overrides;
   overrides.render = false;
-  for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_scene(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(), overrides);
+  for (const std::string& setting : settings)
+    overrides.set.push_back(scene_io::parse_setting(setting));
+  return scene_io::load_scene(navvy::source_dir() + "/scenarios/" + name, control::step_kinds(),
+                              overrides);
 }
 
 /// The bucket of bucket_path.sdf goes into the ground within the first 1.2 s.
@@ -70,7 +73,7 @@ TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
-TEST_F(SessionTest, AnAwakeBudgetShrinksTheWakeAndNeitherDropsSoilNorStretchesTheStep) {
+TEST_F(SessionTest, AParticleBudgetShrinksActivationAndNeitherDropsSoilNorStretchesTheStep) {
   const auto run = [&](const std::string& budget) {
     auto session = make(load("bucket_path.sdf", {"solver.max_particles=" + budget}));
     run_to(*session, 2.2);
@@ -91,7 +94,7 @@ TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
   EXPECT_THROW(load_saved(bytes, *block), InputError);
 }
 
-TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
+TEST_F(SessionTest, ABlockThatStartsActiveCollapsesIntoAHeap) {
   const auto session = make(load("block_collapse.sdf"));
   const heightfield::Ground& ground = session->world().ground();
   const int top = static_cast<int>(session->world().soil_counts().particles);
@@ -101,7 +104,8 @@ TEST_F(SessionTest, ABlockThatStartsAwakeCollapsesIntoAHeap) {
   // 2 x 2 x 1 m of sand: the heap is wider than the block was and lower than its edge.
   double widest = 0;
   for (const soil::Particle& p : parts(session->world()).soil.particles())
-    widest = std::max(widest, ground.origin().x() + ground.cell() * (4 * p.block[0] + static_cast<double>(p.x[0])));
+    widest = std::max(widest, ground.origin().x() +
+                                  ground.cell() * (4 * p.block[0] + static_cast<double>(p.x[0])));
   EXPECT_GT(widest, 0.6 + 0.5);
   EXPECT_EQ(session->world().mass_ledger().error, 0);
 }
@@ -125,12 +129,16 @@ TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
   const std::string phase = session->phase(0);
   const double nan = std::nan("");
   const sim::MachineHandle machine = session->world().machine(0);
-  EXPECT_THROW(session->command(machine.joint(0), {vehicle::JointMode::kVelocity, nan}), InputError);
+  EXPECT_THROW(session->command(machine.joint(0), {vehicle::JointMode::kVelocity, nan}),
+               InputError);
   EXPECT_THROW(session->command(machine, {nan, 0, false}), InputError);
   EXPECT_THROW(session->command(sim::MachineHandle(), {0, 0, true}), InputError);
-  EXPECT_THROW(session->command(sim::JointHandle(), {vehicle::JointMode::kVelocity, 0}), InputError);
-  const int bucket = description.machines.at(0).machine.joint_index(description.machines.at(0).machine.arm.bucket);
-  EXPECT_THROW(session->brake(machine.joint(bucket), true), InputError) << "a joint without a brake";
+  EXPECT_THROW(session->command(sim::JointHandle(), {vehicle::JointMode::kVelocity, 0}),
+               InputError);
+  const int bucket =
+      description.machines.at(0).machine.joint_index(description.machines.at(0).machine.arm.bucket);
+  EXPECT_THROW(session->brake(machine.joint(bucket), true), InputError)
+      << "a joint without a brake";
   EXPECT_EQ(session->phase(0), phase);
 }
 
@@ -147,7 +155,8 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_NE(session->phase(1), "inputs");
   run_to(*session, 4);
   const Vec3 place = world.machine(0).link(0).pose().translation();
-  const int boom = description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
+  const int boom =
+      description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
   const double angle = world.machine(0).joint(boom).position();
   const std::vector<char> bytes = saved(*session);
   run_to(*session, 6);
@@ -180,7 +189,8 @@ TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
   const scene::Scene description = load("bucket_path.sdf");
   const auto with_grid = [&] {
     auto session = make(description);
-    session->add(std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 5, 0.2, 20));
+    session->add(
+        std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 5, 0.2, 20));
     return session;
   };
   const auto whole = with_grid();
@@ -267,7 +277,7 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
   }
 }
 
-TEST_F(SessionTest, AnUnreachableTrenchIsToldBeforeTheRun) {
+TEST_F(SessionTest, AnUnreachableTrenchIsReportedBeforeTheRun) {
   scene::Scene description = load("trench.sdf");
   for (scene::ProgramStep& step : description.machines[0].program.steps)
     if (const auto* dig = step.as<control::Dig>()) {
@@ -293,7 +303,8 @@ TEST_F(SessionTest, ChannelsAreNamedAndAWrongNameGetsTheNearest) {
     world.get("excavator/bom_joint/position");
     FAIL() << "an unknown output was accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("excavator/boom_joint/position"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("excavator/boom_joint/position"), std::string::npos)
+        << error.what();
   }
 }
 

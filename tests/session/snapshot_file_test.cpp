@@ -27,17 +27,22 @@ namespace {
 
 class SnapshotFile : public testing::Test {
  protected:
-  std::unique_ptr<Session> make(const std::string& scene, const std::vector<std::string>& settings, double time = 0) {
+  std::unique_ptr<Session> make(const std::string& scene, const std::vector<std::string>& settings,
+                                double time = 0) {
     scene_io::Overrides overrides;
     overrides.render = false;
-    for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-    auto session = std::make_unique<Session>(
-        scene_io::load_scene(navvy::source_dir() + "/scenarios/" + scene, control::step_kinds(), overrides), device_);
+    for (const std::string& setting : settings)
+      overrides.set.push_back(scene_io::parse_setting(setting));
+    auto session =
+        std::make_unique<Session>(scene_io::load_scene(navvy::source_dir() + "/scenarios/" + scene,
+                                                       control::step_kinds(), overrides),
+                                  device_);
     while (session->world().time() < time) session->step();
     return session;
   }
   void put(const std::vector<char>& bytes) const {
-    std::ofstream(path_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path_, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
   /// Why `session` does not take the file; empty when it does.
   std::string refusal(Session& session, bool anyway = false) const {
@@ -76,11 +81,12 @@ TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
     } else if (i % 5 == 4) {
       // Two runs of bytes change places.
       while (bytes == whole) {  // equal bytes in each other's place are no damage
-        const std::size_t size = 1 + any(64), from = any(bytes.size() - size), to = any(bytes.size() - size);
-        std::swap_ranges(
-            bytes.begin() + static_cast<std::ptrdiff_t>(std::min(from, to)),
-            bytes.begin() + static_cast<std::ptrdiff_t>(std::min(std::min(from, to) + size, std::max(from, to))),
-            bytes.begin() + static_cast<std::ptrdiff_t>(std::max(from, to)));
+        const std::size_t size = 1 + any(64), from = any(bytes.size() - size),
+                          to = any(bytes.size() - size);
+        std::swap_ranges(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(from, to)),
+                         bytes.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                             std::min(from, to) + size, std::max(from, to))),
+                         bytes.begin() + static_cast<std::ptrdiff_t>(std::max(from, to)));
       }
       ++swaps;
     } else {
@@ -88,10 +94,12 @@ TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
       ++flips;
     }
     put(bytes);
-    ASSERT_NE(refusal(*session), "") << "damage " << i << " of " << bytes.size() << " bytes was accepted";
+    ASSERT_NE(refusal(*session), "")
+        << "damage " << i << " of " << bytes.size() << " bytes was accepted";
   }
   EXPECT_EQ(flips + cuts + swaps, 10000);
-  std::printf("%zu bytes: %d flipped bits, %d cuts, %d swaps, all refused\n", whole.size(), flips, cuts, swaps);
+  std::printf("%zu bytes: %d flipped bits, %d cuts, %d swaps, all refused\n", whole.size(), flips,
+              cuts, swaps);
   // Refused before it touched anything: the run could go on.
   EXPECT_EQ(session->state_hash(), hash);
   put(whole);
@@ -122,15 +130,17 @@ TEST_F(SnapshotFile, HashesCoverTheWholeStartingGroundAndEveryParameter) {
       kCoarse, {kCoarse[0], "soil.cohesion_pa=8123"}, {kCoarse[0], "soil.bekker_n=0.71"}};
   std::vector<std::string> hashes;
   hashes.reserve(scenes.size());
-  for (const auto& settings : scenes) hashes.push_back(make("bucket_path.sdf", settings)->state_hash());
+  for (const auto& settings : scenes)
+    hashes.push_back(make("bucket_path.sdf", settings)->state_hash());
   std::sort(hashes.begin(), hashes.end());
-  EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end()) << "before the first step";
+  EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end())
+      << "before the first step";
   // Hills that nothing has touched yet.
   const auto hills = [&](std::uint64_t seed) {
     scene_io::Overrides overrides;
     overrides.set = {scene_io::parse_setting(kCoarse[0])};
-    scene::Scene scene =
-        scene_io::load_scene(navvy::source_dir() + "/scenarios/bucket_path.sdf", control::step_kinds(), overrides);
+    scene::Scene scene = scene_io::load_scene(navvy::source_dir() + "/scenarios/bucket_path.sdf",
+                                              control::step_kinds(), overrides);
     scene::GroundFeature feature;
     feature.kind = scene::GroundFeature::Kind::kHills;
     feature.height = 0.02;
@@ -155,16 +165,19 @@ std::vector<std::vector<char>> extremes(std::size_t size) {
   add(std::uint8_t{0x7f});
   add(std::uint8_t{0xff});
   for (const std::int32_t value : {-1, 1, 1000, 2147483647, -2147483647 - 1}) add(value);
-  for (const float value : {std::nanf(""), 1e30f, -1e30f, std::numeric_limits<float>::infinity()}) add(value);
-  for (const std::int64_t value :
-       {std::int64_t{-1}, std::int64_t{1}, std::int64_t{1} << 40, std::numeric_limits<std::int64_t>::max()})
+  for (const float value : {std::nanf(""), 1e30f, -1e30f, std::numeric_limits<float>::infinity()})
     add(value);
-  for (const double value : {std::nan(""), 1e300, -1e300, std::numeric_limits<double>::infinity()}) add(value);
+  for (const std::int64_t value : {std::int64_t{-1}, std::int64_t{1}, std::int64_t{1} << 40,
+                                   std::numeric_limits<std::int64_t>::max()})
+    add(value);
+  for (const double value : {std::nan(""), 1e300, -1e300, std::numeric_limits<double>::infinity()})
+    add(value);
   return out;
 }
 
-// Every field of a state in turn says something that no run ever wrote, with a checksum that fits: it is refused by its
-// name, or the run stops with a message, or goes on for three steps; the program survives.
+// Every field of a state in turn says something that no run ever wrote, with a checksum that fits:
+// it is refused by its name, or the run stops with a message, or goes on for three steps; the
+// program survives.
 TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
   int met = 0, tried = 0, refused = 0, stopped = 0;
   for (const char* name : {"bucket_path.sdf", "trench.sdf"}) {
@@ -176,7 +189,8 @@ TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
     const std::vector<char> bytes = saved(*session, &map);
     std::string last;
     for (const ByteMap::Field& field : map.fields) {
-      // Of lists of many alike the first few elements stand for all: names differ in their numbers only.
+      // Of lists of many alike the first few elements stand for all: names differ in their numbers
+      // only.
       std::string kind;
       for (const char c : field.path)
         if (c < '0' || c > '9') kind += c;
@@ -191,7 +205,8 @@ TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
             // All of them take half a minute; every third still reaches every kind of field.
             if (++met % 3 != 0) continue;
             std::vector<char> crafted = bytes;
-            std::copy(extreme.begin(), extreme.end(), crafted.begin() + static_cast<std::ptrdiff_t>(field.offset + at));
+            std::copy(extreme.begin(), extreme.end(),
+                      crafted.begin() + static_cast<std::ptrdiff_t>(field.offset + at));
             ++tried;
             try {
               load_saved(crafted, *target);
@@ -209,7 +224,8 @@ TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
     load_saved(bytes, *target);
     EXPECT_EQ(target->state_hash(), session->state_hash()) << name;
   }
-  std::printf("%d crafted values: %d refused, %d stopped the run with a message\n", tried, refused, stopped);
+  std::printf("%d crafted values: %d refused, %d stopped the run with a message\n", tried, refused,
+              stopped);
   EXPECT_GT(refused, 100);
 }
 

@@ -8,23 +8,24 @@
 
 namespace navvy::session::testing {
 
-/// Soil that came to the rectangle [low, high] of W since the start [kg]: gain of its columns and the particles over
-/// them.
+/// Soil that came to the rectangle [low, high] of W since the start [kg]: gain of its columns and
+/// the particles over them.
 inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& high) {
   const heightfield::Ground& ground = world.ground();
   const Vec2i from = ground.column_at(low.x(), low.y()), to = ground.column_at(high.x(), high.y());
   std::int64_t sum = 0;
-  std::vector<heightfield::Layer> now, start;
+  std::vector<heightfield::SoilLayer> now, start;
   for (int iy = from.y(); iy < to.y(); ++iy)
     for (int ix = from.x(); ix < to.x(); ++ix) {
       if (!ground.contains(ix, iy)) continue;
       ground.column(ix, iy, now);
       ground.start_column(ix, iy, start);
-      for (const heightfield::Layer& layer : now) sum += layer.mass;
-      for (const heightfield::Layer& layer : start) sum -= layer.mass;
+      for (const heightfield::SoilLayer& layer : now) sum += layer.mass;
+      for (const heightfield::SoilLayer& layer : start) sum -= layer.mass;
     }
-  for (const sim::LooseSoil& loose : world.loose_soil())
-    if (loose.ix >= from.x() && loose.iy >= from.y() && loose.ix < to.x() && loose.iy < to.y()) sum += loose.mass;
+  for (const sim::ActiveParticle& loose : world.loose_soil())
+    if (loose.ix >= from.x() && loose.iy >= from.y() && loose.ix < to.x() && loose.iy < to.y())
+      sum += loose.mass;
   return kilograms(sum);
 }
 

@@ -15,10 +15,13 @@ namespace {
 scene::Scene unhitch() {
   scene_io::Overrides overrides;
   overrides.render = false;
-  return scene_io::load_scene(navvy::source_dir() + "/scenarios/paper/unhitch.sdf", control::step_kinds(), overrides);
+  return scene_io::load_scene(navvy::source_dir() + "/scenarios/paper/unhitch.sdf",
+                              control::step_kinds(), overrides);
 }
 
-Vec3 place(const sim::World& world, const char* machine) { return world.machine(machine).link(0).pose().translation(); }
+Vec3 place(const sim::World& world, const char* machine) {
+  return world.machine(machine).link(0).pose().translation();
+}
 
 TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
   device::Device device;
@@ -33,7 +36,8 @@ TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
     apart = std::max(apart, world.get("trailer/hitch/apart"));
   }
   EXPECT_TRUE(session.complete());
-  // It was drawn to the place and rolled on by the length of its drawbar at most; the robot came back.
+  // It was drawn to the place and rolled on by the length of its drawbar at most; the robot came
+  // back.
   EXPECT_GT(left.x(), 0.5);
   EXPECT_LT((place(world, "trailer") - left).head<2>().norm(), 0.5);
   EXPECT_LT((place(world, "robot") - Vec3(-2.5, 2.5, 0)).head<2>().norm(), 0.3);

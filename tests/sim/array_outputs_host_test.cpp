@@ -70,7 +70,8 @@ TEST(ArrayOutputs, LoadOnlyWhatFitsThem) {
   channel = image();
   channel.name = "cam/depth";
   renamed.add(channel);
-  for (ArrayOutputs* other : {&larger, &renamed, &none}) EXPECT_THROW(load_saved(saved(outputs), *other), InputError);
+  for (ArrayOutputs* other : {&larger, &renamed, &none})
+    EXPECT_THROW(load_saved(saved(outputs), *other), InputError);
 }
 
 }  // namespace

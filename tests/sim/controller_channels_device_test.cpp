@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller reaches by name: the same for a robot moved by kinematics and by forces, and levers and links of an
-// excavator.
+// What a controller reaches by name: the same for a robot moved by kinematics and by forces, and
+// levers and links of an excavator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,9 +35,13 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
       rolling(testing::load("paper/diff_physics.sdf"), device_);
   EXPECT_TRUE(exact.description().machines[0].machine.kinematic);
   EXPECT_FALSE(rolling.description().machines[0].machine.kinematic);
-  // But for the six numbers, which forces do not take, and for what tells that a machine with masses tips over.
-  const auto without = [](std::vector<std::string> list, const std::string& part, std::size_t count) {
-    const auto holds = [&](const std::string& name) { return name.find(part) != std::string::npos; };
+  // But for the six numbers, which forces do not take, and for what tells that a machine with
+  // masses tips over.
+  const auto without = [](std::vector<std::string> list, const std::string& part,
+                          std::size_t count) {
+    const auto holds = [&](const std::string& name) {
+      return name.find(part) != std::string::npos;
+    };
     EXPECT_EQ(std::erase_if(list, holds), count);
     return list;
   };
@@ -58,9 +62,10 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
   EXPECT_THROW(exact.machine("robot").joint("spin_ball").counts(), InputError);
 }
 
-TEST_F(ControllerChannels, AKinematicMachineGoesWhereItIsToldAndPushesSoil) {
+TEST_F(ControllerChannels, AKinematicMachineFollowsItsCommandAndPushesSoil) {
   scene::Scene scene = testing::load("bucket_path.sdf");
-  // Let go of the world, its slides as they are: the whole machine comes down into the soil and goes ahead.
+  // Let go of the world, its slides as they are: the whole machine comes down into the soil and
+  // goes ahead.
   scene.machines[0].machine.fixed_base = false;
   World world(scene, device_);
   const double before = world.get("bucket/pose/z");
@@ -71,7 +76,8 @@ TEST_F(ControllerChannels, AKinematicMachineGoesWhereItIsToldAndPushesSoil) {
   world.set("bucket/pose/x", world.get("bucket/pose/x") + 0.2);
   while (world.time() < 0.9) world.step();
   EXPECT_NEAR(world.get("bucket/velocity/x"), 0.4, 1e-6);
-  print_value("soil on a bucket that is pushed along [N]", world.get("bucket/bucket/smooth_force_x"), "< 0", "");
+  print_value("soil on a bucket that is pushed along [N]",
+              world.get("bucket/bucket/smooth_force_x"), "< 0", "");
   EXPECT_LT(world.get("bucket/bucket/smooth_force_x"), -50);
   World forces(testing::load("paper/diff_physics.sdf"), device_);
   EXPECT_THROW(forces.command(forces.machine("robot"), vehicle::BaseInput{}), InputError);
@@ -83,16 +89,18 @@ TEST_F(ControllerChannels, AKinematicMachineGoesWhereItIsToldAndPushesSoil) {
 /// A block of 0.6 x 0.6 x 0.4 m by its visual alone.
 std::string block(const std::string& name, const std::string& x, const std::string& about) {
   return "<model name=\"" + name + "\"><pose>" + x + " 0 0.2 0 0 0</pose>" + about +
-         "<link name=\"block\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><visual name=\"v\"><geometry>"
+         "<link name=\"block\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><visual "
+         "name=\"v\"><geometry>"
          "<box><size>0.6 0.6 0.4</size></box></geometry></visual></link></model>";
 }
 
 TEST_F(ControllerChannels, AKinematicBodyPushesALooseOne) {
   const scene::Scene scene = scene_io::load_scene_from_string(
-      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/><navvy:ground>"
+      "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil "
+      "ref=\"loam\"/><navvy:ground>"
       "<size_m>12 8</size_m></navvy:ground>" +
-          block("pushed", "0.8", "") + block("pusher", "0", "<navvy:engine>kinematic</navvy:engine>") +
-          "</world></sdf>",
+          block("pushed", "0.8", "") +
+          block("pusher", "0", "<navvy:engine>kinematic</navvy:engine>") + "</world></sdf>",
       "w.sdf", control::step_kinds());
   World whole(scene, device_), resumed(scene, device_);
   whole.set("pusher/pose/duration", 2);
@@ -117,7 +125,8 @@ TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   whole.set("robot/spin_left/encoder_missed", 0.1);
   EXPECT_NE(whole.state_hash(), other.state_hash());
   const auto parts = whole.hash_parts();
-  EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.first == "encoders"; }));
+  EXPECT_TRUE(std::any_of(parts.begin(), parts.end(),
+                          [](const auto& part) { return part.first == "encoders"; }));
   load_saved(saved(whole), resumed);
   for (World* world : {&whole, &resumed, &other})
     for (int i = 0; i < 50; ++i) world->step();
@@ -128,7 +137,7 @@ TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   EXPECT_EQ(whole.get("robot/pose/x"), other.get("robot/pose/x"));
 }
 
-TEST_F(ControllerChannels, OfAPowerTrainTellItsShaftsAndTakeItsGears) {
+TEST_F(ControllerChannels, OfAPowerTrainReportShaftsAndAcceptGears) {
   World world(testing::load("paper/power_train.sdf"), device_);
   world.set("truck/drive/speed", 2);
   world.set("truck/drive/gear", 1);
@@ -137,13 +146,18 @@ TEST_F(ControllerChannels, OfAPowerTrainTellItsShaftsAndTakeItsGears) {
   EXPECT_EQ(get("engine/gear"), 1);
   EXPECT_GT(get("engine/speed"), 1000 * kPi / 30);
   EXPECT_NEAR(get("engine/speed"), 3.4 * 11.5 * get("axle_1/speed"), 0.02 * get("engine/speed"));
-  EXPECT_NEAR(get("engine/power"), get("engine/speed") * get("engine/torque"), 1e-6 * get("engine/power"));
-  EXPECT_NEAR(get("axle_1/speed"), 0.5 * (get("spin_rear_left/spin") + get("spin_rear_right/spin")), 1e-12);
-  EXPECT_NEAR(get("axle_1/torque"), get("spin_rear_left/shaft_torque") + get("spin_rear_right/shaft_torque"), 1e-9);
-  for (const double gear : {-1.0, 1.5, 4.0, 1e9}) EXPECT_THROW(world.set("truck/drive/gear", gear), InputError) << gear;
+  EXPECT_NEAR(get("engine/power"), get("engine/speed") * get("engine/torque"),
+              1e-6 * get("engine/power"));
+  EXPECT_NEAR(get("axle_1/speed"), 0.5 * (get("spin_rear_left/spin") + get("spin_rear_right/spin")),
+              1e-12);
+  EXPECT_NEAR(get("axle_1/torque"),
+              get("spin_rear_left/shaft_torque") + get("spin_rear_right/shaft_torque"), 1e-9);
+  for (const double gear : {-1.0, 1.5, 4.0, 1e9})
+    EXPECT_THROW(world.set("truck/drive/gear", gear), InputError) << gear;
   World other(testing::load("trench.sdf"), device_);
   EXPECT_THROW(other.get("excavator/engine/speed"), InputError);
-  EXPECT_THROW(other.command(other.machine("excavator"), vehicle::DriveInput{1, 0, false, 1}), InputError);
+  EXPECT_THROW(other.command(other.machine("excavator"), vehicle::DriveInput{1, 0, false, 1}),
+               InputError);
 }
 
 TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
@@ -152,7 +166,9 @@ TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
     scene::Scene scene = testing::load("trench.sdf");
     if (sae) scene.machines[0].machine.levers.pattern = scene::Levers::Pattern::kSae;
     World world(std::move(scene), device_);
-    const auto rate = [&](const char* joint) { return world.get(std::string("excavator/") + joint + "/velocity"); };
+    const auto rate = [&](const char* joint) {
+      return world.get(std::string("excavator/") + joint + "/velocity");
+    };
     world.set("excavator/levers/left_y", -1);     // towards the operator
     world.set("excavator/levers/right_y", 0.04);  // within the dead band
     world.set("excavator/levers/left_x", -1);     // to the left
@@ -233,8 +249,8 @@ TEST_F(ControllerChannels, AnyLinkIsWatchedByItsName) {
   // The tip moves as the bucket does.
   const double y = world.get("excavator/bucket/tip_y");
   world.step();
-  EXPECT_NEAR((world.get("excavator/bucket/tip_y") - y) / world.dt(), world.get("excavator/bucket/tip_velocity_y"),
-              0.02);
+  EXPECT_NEAR((world.get("excavator/bucket/tip_y") - y) / world.dt(),
+              world.get("excavator/bucket/tip_velocity_y"), 0.02);
   for (const char* name : {"excavator", "excavator/stik", "digger/stick"})
     EXPECT_THROW(world.watch(name), InputError) << name;
 }

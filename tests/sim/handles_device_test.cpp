@@ -45,7 +45,7 @@ std::string failure(Call&& call) {
   return "accepted";
 }
 
-TEST_F(Handles, TellWhatChannelsTell) {
+TEST_F(Handles, DescribeTheirChannels) {
   World world(testing::load("trench.sdf"), device_);
   const MachineHandle machine = world.machine("excavator");
   const JointHandle boom = machine.joint("boom_joint");
@@ -68,8 +68,8 @@ TEST_F(Handles, TellWhatChannelsTell) {
   EXPECT_EQ(machine.pump().flow, world.get("excavator/pump/flow"));
   // And what the engine itself says, of a link that is not the base.
   const LinkHandle stick = machine.link("stick");
-  const vehicle::LinkState state =
-      parts(world).coupling.engine(0).link(parts(world).coupling.index(0), machine.description().link_index("stick"));
+  const vehicle::LinkState state = parts(world).coupling.engine(0).link(
+      parts(world).coupling.index(0), machine.description().link_index("stick"));
   EXPECT_EQ(stick.pose().matrix(), state.X_WL.matrix());
   EXPECT_EQ(stick.angular_velocity(), state.w_WL);
   EXPECT_GT(machine.work(), 0);
@@ -77,14 +77,15 @@ TEST_F(Handles, TellWhatChannelsTell) {
   EXPECT_FALSE(bucket.is_bed());
 }
 
-TEST_F(Handles, OfAnUnknownNameTellTheNearest) {
+TEST_F(Handles, OfAnUnknownNameSuggestTheNearest) {
   const World world(testing::load("trench.sdf"), device_);
   const MachineHandle machine = world.machine(0);
   EXPECT_NE(failure([&] { world.machine("excavater"); }).find("'excavator'"), std::string::npos);
   EXPECT_NE(failure([&] { machine.link("bom"); }).find("'boom'"), std::string::npos);
   EXPECT_NE(failure([&] { machine.joint("boom_join"); }).find("'boom_joint'"), std::string::npos);
   EXPECT_NE(failure([&] { machine.tool("buckett"); }).find("'bucket'"), std::string::npos);
-  EXPECT_NE(failure([&] { world.machine(1); }).find("there are 1, counted from 0"), std::string::npos);
+  EXPECT_NE(failure([&] { world.machine(1); }).find("there are 1, counted from 0"),
+            std::string::npos);
   EXPECT_NE(failure([&] { machine.wheel(-1); }).find("no wheel of this index"), std::string::npos);
 }
 
@@ -97,9 +98,10 @@ TEST_F(Handles, ReadWithoutAllocating) {
   const ToolHandle tool = machine.tool("bucket");
   world.step();
   const std::uint64_t before = allocations;
-  double sum = link.pose().translation().z() + link.velocity().x() + joint.position() + joint.state().effort_limit +
-               wheel.state().slip + tool.force().x() + tool.momentum_balance().scale + machine.pump().pressure +
-               machine.work() + machine.drive().speed;
+  double sum = link.pose().translation().z() + link.velocity().x() + joint.position() +
+               joint.state().effort_limit + wheel.state().slip + tool.force().x() +
+               tool.momentum_balance().scale + machine.pump().pressure + machine.work() +
+               machine.drive().speed;
   sum += static_cast<double>(machine.name().size() + tool.name().size());
   EXPECT_EQ(allocations - before, 0u) << sum;
 }

@@ -99,7 +99,8 @@ TEST_F(SamplerTest, GoesOnFromASnapshotToTheSameState) {
   EXPECT_GT(resumed->arrays().view(0).sequence(), 1u);
   run_to(*resumed, 0.1);
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
-  EXPECT_EQ(resumed->get("excavator/height_grid/samples"), whole->get("excavator/height_grid/samples"));
+  EXPECT_EQ(resumed->get("excavator/height_grid/samples"),
+            whole->get("excavator/height_grid/samples"));
   const auto blind = rolling(false);
   EXPECT_THROW(load_saved(bytes, *blind), InputError);
 }
@@ -111,7 +112,8 @@ TEST_F(SamplerTest, NamesAreUniqueAndAWrongOneGetsTheNearest) {
     world->arrays().view("excavator/hight_grid");
     FAIL() << "an unknown array was accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("excavator/height_grid"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("excavator/height_grid"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(world->arrays().view(0).values<double>(), InputError);
   EXPECT_THROW(world->arrays().view(7), InputError);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be read of a snapshot on a machine without OpenCL: this program has the label host and asks for no device.
+// What can be read of a snapshot on a machine without OpenCL: this program has the label host and
+// asks for no device.
 #include "sim/snapshot.h"
 
 #include <gtest/gtest.h>
@@ -12,13 +13,14 @@
 #include "core/saved_state.h"
 #include "core/sealed.h"
 #include "folder.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "sim/scenes.h"
 
 namespace navvy::sim {
 namespace {
 
-/// A snapshot as a world writes it, up to and with its ground; `dug` has a hole. What follows is not to be read.
+/// A snapshot as a world writes it, up to and with its ground; `dug` has a hole. What follows is
+/// not to be read.
 struct Front {
   SnapshotStart start;
   SnapshotHead head;
@@ -34,14 +36,15 @@ struct Front {
 };
 
 void write(const std::string& path, const scene::Scene& scene, heightfield::Ground& dug) {
-  write_file_atomically(path, seal(saved(Front{{start_of(scene, dug), scene.name}, {scene.name, 0.001, 250}, dug})));
+  write_file_atomically(
+      path, seal(saved(Front{{start_of(scene, dug), scene.name}, {scene.name, 0.001, 250}, dug})));
 }
 
 TEST(Snapshot, GivesItsGroundWithoutADevice) {
   const test::Folder folder;
   const scene::Scene scene = testing::load("bucket_path.sdf");
   heightfield::Ground dug = heightfield::make_ground(scene);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   dug.take_above(20, 20, dug.height(20, 20) - 0.3, taken);
   write(folder / "dug.snapshot", scene, dug);
   SnapshotHead head;
@@ -62,7 +65,8 @@ TEST(Snapshot, OfAnotherSceneIsRefusedByItsName) {
     FAIL() << "a snapshot of another scene was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("bucket.snapshot"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("'block_collapse'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'block_collapse'"), std::string::npos)
+        << error.what();
   }
   EXPECT_THROW(load_ground(scene, folder / "none.snapshot"), FileError);
 }
@@ -90,9 +94,9 @@ TEST(Snapshot, OfAnotherMassCohesionOrPlaceIsRefusedByWhatDiffers) {
   scene::Scene aside = scene;
   aside.machines.at(0).X_WM.translation().x() += 0.001;
   const std::string link = heavier.machines[0].machine.links.back().name;
-  for (const auto& [here, told] :
-       {std::pair(&heavier, "link[" + link + "]/mass"), std::pair(&stronger, std::string("soil[loam]/cohesion")),
-        std::pair(&aside, std::string("machine[bucket]/pose/place"))}) {
+  for (const auto& [here, told] : {std::pair(&heavier, "link[" + link + "]/mass"),
+                                   std::pair(&stronger, std::string("soil[loam]/cohesion")),
+                                   std::pair(&aside, std::string("machine[bucket]/pose/place"))}) {
     const std::string said = refusal(*here);
     EXPECT_NE(said.find(told), std::string::npos) << told << ": " << said;
     EXPECT_NE(said.find("--resume-anyway"), std::string::npos) << said;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "heightfield/site.h"
-#include "sim/placing.h"
+#include "heightfield/make_ground.h"
 #include "sim/scenes.h"
+#include "sim/start_placing.h"
 
 namespace navvy::sim {
 namespace {
@@ -18,7 +18,8 @@ namespace {
 /// What is wrong with how these machines start on flat loam, its surface at 0.
 std::vector<Fault> faults_of(const std::string& machines) {
   return check_start(scene_io::load_scene_from_string(
-                         "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
+                         "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil "
+                         "ref=\"loam\"/>"
                          "<navvy:ground><size_m>24 20</size_m></navvy:ground>" +
                              machines + "</world></sdf>",
                          "w.sdf", control::step_kinds()))
@@ -26,8 +27,10 @@ std::vector<Fault> faults_of(const std::string& machines) {
 }
 
 std::string stone(const std::string& height, const std::string& about) {
-  return "<model name=\"stone\"><pose>1 2 " + height + " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground>" + about +
-         "<link name=\"rock\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><collision name=\"c\"><geometry>"
+  return "<model name=\"stone\"><pose>1 2 " + height +
+         " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground>" + about +
+         "<link name=\"rock\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><collision "
+         "name=\"c\"><geometry>"
          "<box><size>0.6 0.6 0.4</size></box></geometry></collision></link></model>";
 }
 
@@ -40,18 +43,21 @@ void expect_one(const std::vector<Fault>& faults, const std::vector<std::string>
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].severity, Fault::Severity::kError);
   for (const std::string& part : parts)
-    EXPECT_NE(faults[0].text().find(part), std::string::npos) << "'" << part << "' is not in: " << faults[0].text();
+    EXPECT_NE(faults[0].text().find(part), std::string::npos)
+        << "'" << part << "' is not in: " << faults[0].text();
 }
 
 TEST(StartCheck, NamesABodyThatStartsBelowTheGround) {
-  expect_one(faults_of(stone("-0.35", "")),
-             {"w.sdf:", "include[stone]", "0.35 m", "link 'rock' starts with its middle that far below the ground",
-              "raise it by its <pose>"});
+  expect_one(
+      faults_of(stone("-0.35", "")),
+      {"w.sdf:", "include[stone]", "0.35 m",
+       "link 'rock' starts with its middle that far below the ground", "raise it by its <pose>"});
 }
 
 TEST(StartCheck, NamesAWheelThatStartsBelowTheGround) {
   // The wheels' centres are 0.525 m up; the chassis stays above.
-  expect_one(faults_of(digger("-0.8")), {"w.sdf:", "include[digger]", "0.2", "wheel '", "navvy:on_ground"});
+  expect_one(faults_of(digger("-0.8")),
+             {"w.sdf:", "include[digger]", "0.2", "wheel '", "navvy:on_ground"});
 }
 
 TEST(StartCheck, LetsABodyLieInTheGroundToItsMiddleAndAMachineSink) {
@@ -66,7 +72,8 @@ TEST(StartCheck, LetsWhatStandsAndWhatIsMovedByItsScriptBeInTheGround) {
 
 TEST(StartCheck, NamesAnEyeThatNoHookReachesAndLetsHitchedOnesOverlap) {
   const auto train = [](const std::string& x, const std::string& closed) {
-    return "<include><uri>model://robot</uri><name>robot</name></include><include><uri>model://robot_trailer</uri>"
+    return "<include><uri>model://robot</uri><name>robot</name></include><include><uri>model://"
+           "robot_trailer</uri>"
            "<name>trailer</name><pose>" +
            x +
            " 0 0 0 0 0</pose></include><navvy:hitch name=\"tow\"><parent>robot::chassis</parent>"
@@ -82,11 +89,13 @@ TEST(StartCheck, NamesAnEyeThatNoHookReachesAndLetsHitchedOnesOverlap) {
 
 TEST(StartCheck, FindsNothingInTheGroundInWhatIsShipped) {
   int scenes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(navvy::source_dir() + "/scenarios")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(navvy::source_dir() + "/scenarios")) {
     if (entry.path().extension() != ".sdf") continue;
     const scene::Scene scene = testing::load(entry.path().filename().string());
     const heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
-    for (const Fault& fault : check_buried(scene, starting_poses(scene, ground), ground)) ADD_FAILURE() << fault.text();
+    for (const Fault& fault : check_buried(scene, starting_poses(scene, ground), ground))
+      ADD_FAILURE() << fault.text();
     ++scenes;
   }
   EXPECT_GE(scenes, 7);

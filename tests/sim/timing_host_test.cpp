@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base step divides the control period, and samples fall on the nearest step for as long as a run may last.
+// The base step divides the control period, and samples fall on the nearest step for as long as a
+// run may last.
 #include "sim/timing.h"
 
 #include <gtest/gtest.h>
@@ -27,21 +28,23 @@ TEST(Timing, TheBaseStepDividesTheControlPeriod) {
   EXPECT_EQ(base_step(kLongest, 0), kLongest);
 }
 
-TEST(Timing, AStepThatAlreadyDividesThePeriodIsKept) {
+TEST(Timing, AStepThatAlreadyDividesThePeriodIsUnchanged) {
   for (const int steps : {1, 3, 7, 12, 49, 93})
     EXPECT_NEAR(base_step(0.02 / steps, 0.02), 0.02 / steps, 1e-17) << steps;
 }
 
 TEST(Timing, SamplesOfADayAreNeverFartherThanHalfAStep) {
   for (const double rate : {50.0, 20.0, 7.0, 4.0, 500.0, 0.3}) {
-    // Looked at around many times of the day; walking through all of its 5e7 steps would prove nothing more.
+    // Looked at around many times of the day; walking through all of its 5e7 steps would prove
+    // nothing more.
     for (std::uint64_t n = 0; static_cast<double>(n) / rate < kDay; n = n * 3 / 2 + 1) {
       const double time = static_cast<double>(n) / rate;
       const auto step = static_cast<std::uint64_t>(std::llround(time / kLongest));
       EXPECT_TRUE(sample_due(step, kLongest, rate)) << rate << " Hz, sample " << n;
       EXPECT_LE(sample_number(step, kLongest, rate), n) << rate << " Hz";
       EXPECT_GT(samples_through(step, kLongest, rate), n) << rate << " Hz";
-      EXPECT_LE(std::abs(static_cast<double>(step) * kLongest - time), 0.5 * kLongest + 1e-9) << rate << " Hz";
+      EXPECT_LE(std::abs(static_cast<double>(step) * kLongest - time), 0.5 * kLongest + 1e-9)
+          << rate << " Hz";
     }
   }
 }
@@ -68,7 +71,8 @@ TEST(Timing, ControlStepsFallOnTheStepsThatDivideTheirPeriodForADay) {
       EXPECT_TRUE(sample_due(n * every, dt, rate)) << rate << " Hz, " << n;
       if (every > 1) EXPECT_FALSE(sample_due(n * every + 1, dt, rate)) << rate << " Hz, " << n;
       EXPECT_EQ(sample_number(n * every, dt, rate), n) << rate << " Hz";
-      EXPECT_NEAR(static_cast<double>(n * every) * dt, static_cast<double>(n) / rate, 1e-9) << rate << " Hz";
+      EXPECT_NEAR(static_cast<double>(n * every) * dt, static_cast<double>(n) / rate, 1e-9)
+          << rate << " Hz";
     }
   }
 }

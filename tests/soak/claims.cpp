@@ -29,7 +29,8 @@ Bytes growth(const std::vector<Phase>& phases, std::size_t cycles) {
   for (const auto& [process, rows] : processes) {
     if (rows.size() < std::max<std::size_t>(cycles, 4)) continue;
     any = true;
-    const Bytes before = most(rows, 0, rows.size() / 4), after = most(rows, rows.size() / 4, rows.size());
+    const Bytes before = most(rows, 0, rows.size() / 4),
+                after = most(rows, rows.size() / 4, rows.size());
     worst.heap = std::max(worst.heap, after.heap - before.heap);
     worst.resident = std::max(worst.resident, after.resident - before.resident);
     worst.device = std::max(worst.device, after.device - before.device);
@@ -37,21 +38,22 @@ Bytes growth(const std::vector<Phase>& phases, std::size_t cycles) {
   return any ? worst : Bytes{};
 }
 
-std::vector<std::string> broken_claims(const std::vector<Phase>& phases, const Allowance& allowance) {
+std::vector<std::string> broken_claims(const std::vector<Phase>& phases,
+                                       const Allowance& allowance) {
   std::vector<std::string> out;
   const Bytes grown = growth(phases, allowance.cycles);
   const auto judge = [&](const std::string& what, std::int64_t bytes, std::int64_t allowed) {
     if (bytes > allowed)
-      out.push_back(what + " grew by " + std::to_string(bytes) + " bytes after the first quarter, " +
-                    std::to_string(allowed) + " are allowed");
+      out.push_back(what + " grew by " + std::to_string(bytes) +
+                    " bytes after the first quarter, " + std::to_string(allowed) + " are allowed");
   };
   judge("memory given out by malloc", grown.heap, allowance.heap);
   judge("resident memory", grown.resident, allowance.resident);
   judge("memory of the device's buffers", grown.device, allowance.device);
   for (const Phase& phase : phases) {
     if (phase.ledger == 0) continue;
-    out.push_back("the mass ledger is off by " + std::to_string(phase.ledger) + " units after cycle " +
-                  std::to_string(phase.cycle));
+    out.push_back("the mass ledger is off by " + std::to_string(phase.ledger) +
+                  " units after cycle " + std::to_string(phase.cycle));
     break;
   }
   return out;

@@ -17,7 +17,8 @@ namespace navvy::soak {
 namespace {
 
 const char* const kHeader =
-    "cycle,simulated_s,wall_s,process,heap_bytes,resident_bytes,device_bytes,particles,ledger_units,state_hash";
+    "cycle,simulated_s,wall_s,process,heap_bytes,resident_bytes,device_bytes,particles,ledger_"
+    "units,state_hash";
 
 /// What stands behind the last `mark` of the C library's report, in size="...".
 std::int64_t size_after(const std::string& report, const std::string& mark) {
@@ -38,8 +39,9 @@ std::int64_t heap_in_use() {
   const std::string report(text, length);
   std::free(text);
   // The sums over all arenas come last; large blocks, which are mapped each by itself, are in none.
-  return size_after(report, "<system type=\"current\"") - size_after(report, "<total type=\"fast\"") -
-         size_after(report, "<total type=\"rest\"") + size_after(report, "<total type=\"mmap\"");
+  return size_after(report, "<system type=\"current\"") -
+         size_after(report, "<total type=\"fast\"") - size_after(report, "<total type=\"rest\"") +
+         size_after(report, "<total type=\"mmap\"");
 }
 
 std::int64_t resident() {
@@ -50,32 +52,36 @@ std::int64_t resident() {
 
 std::string row(const Phase& p) {
   char text[256];
-  std::snprintf(text, sizeof text, "%ld,%.3f,%.1f,%d,%lld,%lld,%lld,%d,%lld,", p.cycle, p.time, p.wall, p.process,
-                static_cast<long long>(p.bytes.heap), static_cast<long long>(p.bytes.resident),
-                static_cast<long long>(p.bytes.device), p.particles, static_cast<long long>(p.ledger));
+  std::snprintf(text, sizeof text, "%ld,%.3f,%.1f,%d,%lld,%lld,%lld,%d,%lld,", p.cycle, p.time,
+                p.wall, p.process, static_cast<long long>(p.bytes.heap),
+                static_cast<long long>(p.bytes.resident), static_cast<long long>(p.bytes.device),
+                p.particles, static_cast<long long>(p.ledger));
   return text + p.hash + "\n";
 }
 
 }  // namespace
 
-Bytes bytes_in_use(std::uint64_t device) { return {heap_in_use(), resident(), static_cast<std::int64_t>(device)}; }
+Bytes bytes_in_use(std::uint64_t device) {
+  return {heap_in_use(), resident(), static_cast<std::int64_t>(device)};
+}
 
 std::vector<Phase> read_phases(const std::string& path) {
   std::vector<Phase> out;
   if (!std::filesystem::exists(path)) return out;
   std::ifstream in(path);
   std::string line;
-  for (int number = 1; std::getline(in, line) && !in.eof(); ++number) {  // a last row without its end was cut short
+  // A last row without its end was cut short
+  for (int number = 1; std::getline(in, line) && !in.eof(); ++number) {
     if (number == 1) continue;
     for (char& c : line)
       if (c == ',') c = ' ';
     std::istringstream cells(line);
     Phase p;
-    cells >> p.cycle >> p.time >> p.wall >> p.process >> p.bytes.heap >> p.bytes.resident >> p.bytes.device >>
-        p.particles >> p.ledger >> p.hash;
+    cells >> p.cycle >> p.time >> p.wall >> p.process >> p.bytes.heap >> p.bytes.resident >>
+        p.bytes.device >> p.particles >> p.ledger >> p.hash;
     if (!cells)
-      throw InputError(Fault{Fault::Severity::kError, path, number, "row", line, "must be a row of a soak's table",
-                             "remove the folder to begin anew"});
+      throw InputError(Fault{Fault::Severity::kError, path, number, "row", line,
+                             "must be a row of a soak's table", "remove the folder to begin anew"});
     out.push_back(p);
   }
   return out;

@@ -10,7 +10,8 @@ namespace navvy::soak {
 
 /// Bytes that this process holds.
 struct Bytes {
-  std::int64_t heap = 0;      ///< given out by malloc, all arenas; what a thread keeps ready counts as given out
+  /// Given out by malloc, all arenas; what a thread keeps ready counts as given out.
+  std::int64_t heap = 0;
   std::int64_t resident = 0;  ///< of the process, in memory
   std::int64_t device = 0;    ///< of buffers on the device
 };
@@ -30,11 +31,13 @@ struct Phase {
   std::string hash;         ///< of the state
 };
 
-/// Rows of phases.csv, whole ones only; none when there is no such file. @throws FileError, InputError.
+/// Rows of phases.csv, whole ones only; none when there is no such file. @throws FileError,
+/// InputError.
 std::vector<Phase> read_phases(const std::string& path);
 /// Replaces the table by these rows, whole.
 void write_phases(const std::string& path, const std::vector<Phase>& phases);
-/// Adds a row. The rows stay in the file alone: kept in memory they would be the growth that is looked for.
+/// Adds a row. The rows stay in the file alone: kept in memory they would be the growth that is
+/// looked for.
 void append_phase(const std::string& path, const Phase& phase);
 
 }  // namespace navvy::soak

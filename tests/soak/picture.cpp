@@ -43,11 +43,13 @@ std::string strip(const std::vector<Phase>& phases, const Kind& kind, double top
                   bottom - (bottom - top) * static_cast<double>(p.bytes.*kind.bytes) / most);
     points += text;
   }
-  std::snprintf(text, sizeof text, "<path d=\"M%.0f %.0fV%.0fH%.0f\" stroke=\"#888\" fill=\"none\"/>\n", kLeft, top,
+  std::snprintf(text, sizeof text,
+                "<path d=\"M%.0f %.0fV%.0fH%.0f\" stroke=\"#888\" fill=\"none\"/>\n", kLeft, top,
                 bottom, kLeft + kWide);
-  return text + text_at(kLeft, top - 6, "start", kind.name) + text_at(kLeft - 6, top + 5, "end", mib(most)) +
-         text_at(kLeft - 6, bottom, "end", "0") + "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"" +
-         kind.color + "\" points=\"" + points + "\"/>\n";
+  return text + text_at(kLeft, top - 6, "start", kind.name) +
+         text_at(kLeft - 6, top + 5, "end", mib(most)) + text_at(kLeft - 6, bottom, "end", "0") +
+         "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"" + kind.color + "\" points=\"" +
+         points + "\"/>\n";
 }
 
 }  // namespace
@@ -56,7 +58,8 @@ std::string picture(const std::vector<Phase>& phases) {
   const double hours = phases.empty() ? 1 : std::max(phases.back().time / 3600, 1e-6);
   char text[256];
   std::snprintf(text, sizeof text,
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" "
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" "
+                "font-family=\"sans-serif\" "
                 "font-size=\"12\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
                 kLeft + kWide + 30, 3 * kHigh + 2 * kTop);
   std::string out = text;
@@ -67,11 +70,13 @@ std::string picture(const std::vector<Phase>& phases) {
   }
   // After the first quarter nothing may grow.
   const double quarter = kLeft + kWide / 4;
-  std::snprintf(text, sizeof text, "<path d=\"M%.1f %.0fV%.0f\" stroke=\"#888\" stroke-dasharray=\"4 4\"/>\n", quarter,
+  std::snprintf(text, sizeof text,
+                "<path d=\"M%.1f %.0fV%.0f\" stroke=\"#888\" stroke-dasharray=\"4 4\"/>\n", quarter,
                 kTop, top - kTop);
   out += text + text_at(quarter + 4, top - kTop - 4, "start", "first quarter");
   std::snprintf(text, sizeof text, "%.3f h simulated", hours);
-  return out + text_at(kLeft, top - 10, "start", "0") + text_at(kLeft + kWide, top - 10, "end", text) + "</svg>\n";
+  return out + text_at(kLeft, top - 10, "start", "0") +
+         text_at(kLeft + kWide, top - 10, "end", text) + "</svg>\n";
 }
 
 }  // namespace navvy::soak

@@ -18,23 +18,26 @@ namespace {
 struct Knot {
   double time, x, z, curl;
 };
-// High above, down to the sand, 0.25 m into it, dragged, curled, lifted, carried back over the cut, tipped, up and away
-// until most of the sand sleeps. What falls out fills the cut again, so that every cycle finds about the ground that
-// the one before found.
+// High above, down to the sand, 0.25 m into it, dragged, curled, lifted, carried back over the cut,
+// tipped, up and away until most of the sand sleeps. What falls out fills the cut again, so that
+// every cycle finds about the ground that the one before found.
 constexpr Knot kPath[] = {{0, -0.8, 1.4, -70},   {0.7, -0.8, 0.45, -70},  {1.3, -0.6, 0.15, -70},
                           {2.3, 0.3, 0.15, -62}, {2.8, 0.45, 0.45, 0},    {3.2, 0.45, 0.8, 0},
                           {3.6, -0.3, 0.8, 0},   {4.1, -0.3, 0.8, -150},  {4.5, -0.3, 0.8, -150},
                           {5, -0.8, 1.4, -70},   {kCycle, -0.8, 1.4, -70}};
 
-const char* const kJoints[] = {"bucket/slide_x/position", "bucket/slide_z/position", "bucket/curl/position"};
+const char* const kJoints[] = {"bucket/slide_x/position", "bucket/slide_z/position",
+                               "bucket/curl/position"};
 
 scene::Scene load(std::string& text) {
-  return scene_io::load_scene(navvy::source_dir() + "/tests/soak/scoops.sdf", control::step_kinds(), {}, &text);
+  return scene_io::load_scene(navvy::source_dir() + "/tests/soak/scoops.sdf", control::step_kinds(),
+                              {}, &text);
 }
 
 }  // namespace
 
-Scooping::Scooping(device::Device& device, const std::string& from, const std::string& record) : device_(device) {
+Scooping::Scooping(device::Device& device, const std::string& from, const std::string& record)
+    : device_(device) {
   record::Options options;
   options.directory = record;
   options.render = false;
@@ -43,7 +46,8 @@ Scooping::Scooping(device::Device& device, const std::string& from, const std::s
   const double dt = session_->world().dt();
   steps_in_cycle_ = static_cast<std::uint64_t>(std::llround(kCycle / dt));
   if (std::abs(static_cast<double>(steps_in_cycle_) * dt - kCycle) > 1e-9)
-    throw Error("the base step of " + std::to_string(dt) + " s does not divide a cycle of the soak");
+    throw Error("the base step of " + std::to_string(dt) +
+                " s does not divide a cycle of the soak");
   for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = session_->world().input(kJoints[i]);
   if (!record.empty()) recorder_ = std::make_unique<record::Recorder>(*session_, options);
 }
@@ -75,7 +79,9 @@ void Scooping::cycle() {
   } while (session_->world().steps() % steps_in_cycle_ != 0);
 }
 
-long Scooping::cycles() const { return static_cast<long>(session_->world().steps() / steps_in_cycle_); }
+long Scooping::cycles() const {
+  return static_cast<long>(session_->world().steps() / steps_in_cycle_);
+}
 
 Phase Scooping::phase() const {
   const sim::World& world = session_->world();

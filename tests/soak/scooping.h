@@ -16,12 +16,12 @@ namespace navvy::soak {
 
 constexpr double kCycle = 6;  ///< simulated [s]
 
-/// A session of scoops.sdf whose bucket follows one path again and again. What it is told depends on the step's number
-/// alone, so it goes on from a snapshot as if it had never stopped.
+/// A session of scoops.sdf whose bucket follows one path again and again. What it is told depends
+/// on the step's number alone, so it goes on from a snapshot as if it had never stopped.
 class Scooping {
  public:
-  /// From the start, or from the snapshot `from`; results of the run go to `record` as `navvy run` leaves them, unless
-  /// it is empty. @throws InputError, FileError, device::DeviceError.
+  /// From the start, or from the snapshot `from`; results of the run go to `record` as `navvy run`
+  /// leaves them, unless it is empty. @throws InputError, FileError, device::DeviceError.
   Scooping(device::Device& device, const std::string& from, const std::string& record);
   /// Closes the results.
   ~Scooping();

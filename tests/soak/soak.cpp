@@ -35,9 +35,9 @@ void run_on(device::Device& device, const Plan& plan, const Files& files) {
   if (!before.empty() && before.back().cycle >= plan.cycles && fs::exists(files.snapshot)) return;
   Scooping scooping(device, if_there(files.snapshot), files.run);
   // Cycles after the snapshot are run again.
-  before.erase(
-      std::remove_if(before.begin(), before.end(), [&](const Phase& phase) { return phase.cycle > scooping.cycles(); }),
-      before.end());
+  before.erase(std::remove_if(before.begin(), before.end(),
+                              [&](const Phase& phase) { return phase.cycle > scooping.cycles(); }),
+               before.end());
   const int process = before.empty() ? 1 : before.back().process + 1;
   write_phases(files.phases, before);
   before = {};
@@ -64,8 +64,10 @@ std::string hash_after(const std::vector<Phase>& phases, long cycle) {
   return "";
 }
 
-/// Four sessions one after the other, each from the snapshot that the one before left. Says what differs.
-long run_quarters(device::Device& device, const Plan& plan, const Files& files, std::vector<std::string>& broken) {
+/// Four sessions one after the other, each from the snapshot that the one before left. Says what
+/// differs.
+long run_quarters(device::Device& device, const Plan& plan, const Files& files,
+                  std::vector<std::string>& broken) {
   const std::vector<Phase> phases = read_phases(files.phases);
   const long quarter = plan.cycles / 4;
   long done = 0;
@@ -77,13 +79,15 @@ long run_quarters(device::Device& device, const Plan& plan, const Files& files, 
       continue;
     }
     done = scooping.cycles();
-    for (const long end = done + quarter; done < plan.cycles && done < end; done = scooping.cycles()) {
+    for (const long end = done + quarter; done < plan.cycles && done < end;
+         done = scooping.cycles()) {
       if (stopped(plan)) return done / quarter * quarter;
       scooping.cycle();
     }
     const Phase phase = scooping.phase();
     if (phase.hash != hash_after(phases, done)) {
-      broken.push_back("after cycle " + std::to_string(done) + " the resumed quarters have the hash " + phase.hash +
+      broken.push_back("after cycle " + std::to_string(done) +
+                       " the resumed quarters have the hash " + phase.hash +
                        ", the run in one piece " + hash_after(phases, done));
       // The next call tries all of it again.
       fs::remove(files.quarter);
@@ -124,20 +128,22 @@ std::string told(const Result& result, const Plan& plan) {
   const auto kib = [](std::int64_t bytes) { return static_cast<double>(bytes) / 1024; };
   char text[512];
   std::string out;
-  std::snprintf(text, sizeof text, "%.3f of %.3f simulated hours, %ld cycles of %g s, in %d process%s\n",
+  std::snprintf(text, sizeof text,
+                "%.3f of %.3f simulated hours, %ld cycles of %g s, in %d process%s\n",
                 hours(result.reached), hours(plan.cycles), result.reached, kCycle, result.processes,
                 result.processes == 1 ? "" : "es");
   out += text;
   const auto line = [&](const char* what, std::int64_t most, std::int64_t grown) {
-    std::snprintf(text, sizeof text, "  %-22s %10.1f KiB at most, %+.1f KiB after the first quarter\n", what, kib(most),
-                  kib(grown));
+    std::snprintf(text, sizeof text,
+                  "  %-22s %10.1f KiB at most, %+.1f KiB after the first quarter\n", what,
+                  kib(most), kib(grown));
     out += text;
   };
   line("given out by malloc", result.most.heap, result.grown.heap);
   line("resident", result.most.resident, result.grown.resident);
   line("buffers of the device", result.most.device, result.grown.device);
-  std::snprintf(text, sizeof text, "  state %s; resumed quarters equal up to %.3f h\n", result.hash.c_str(),
-                hours(result.compared));
+  std::snprintf(text, sizeof text, "  state %s; resumed quarters equal up to %.3f h\n",
+                result.hash.c_str(), hours(result.compared));
   out += text;
   for (const std::string& claim : result.broken) out += "  does not hold: " + claim + "\n";
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `./dev soak HOURS`. Status: 0 all claims hold, 1 one does not or the run failed, 2 usage, 130 stopped before the end.
+// `./dev soak HOURS`. Status: 0 all claims hold, 1 one does not or the run failed, 2 usage, 130
+// stopped before the end.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -38,7 +39,9 @@ int run(const char* folder, double hours) {
 int main(int argc, char** argv) {
   const double hours = argc == 3 ? std::atof(argv[2]) : 0;
   if (!(hours > 0 && hours <= 250)) {  // the scene's longest time is 1e6 s
-    std::printf("usage: navvy_soak FOLDER HOURS: simulated, up to 250; goes on with what is in the folder\n");
+    std::printf(
+        "usage: navvy_soak FOLDER HOURS: simulated, up to 250; goes on with what is in the "
+        "folder\n");
     return 2;
   }
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { asked = 1; });

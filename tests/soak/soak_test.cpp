@@ -36,21 +36,22 @@ TEST(SoakClaims, HoldForBytesThatGrowInTheFirstQuarterOnly) {
   EXPECT_EQ(growth(sound()).heap, 0);
 }
 
-TEST(SoakClaims, TellOfALeakOfSixteenKibibytesACycle) {
+TEST(SoakClaims, ReportOfALeakOfSixteenKibibytesACycle) {
   std::vector<Phase> rows = sound();
   for (Phase& row : rows) row.bytes.heap += 16384 * row.cycle;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
-  EXPECT_NE(broken_claims(rows)[0].find("malloc grew by 491520 bytes"), std::string::npos) << broken_claims(rows)[0];
+  EXPECT_NE(broken_claims(rows)[0].find("malloc grew by 491520 bytes"), std::string::npos)
+      << broken_claims(rows)[0];
 }
 
-TEST(SoakClaims, TellOfABufferOfTheDeviceMore) {
+TEST(SoakClaims, ReportOfABufferOfTheDeviceMore) {
   std::vector<Phase> rows = sound();
   rows.back().bytes.device += 4096;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
   EXPECT_NE(broken_claims(rows)[0].find("device"), std::string::npos);
 }
 
-TEST(SoakClaims, TellOfALedgerThatIsOffByOneUnit) {
+TEST(SoakClaims, ReportOfALedgerThatIsOffByOneUnit) {
   std::vector<Phase> rows = sound();
   rows[17].ledger = 1;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
@@ -81,8 +82,8 @@ TEST(SoakTable, LeavesOutARowThatAKillCutShort) {
   EXPECT_EQ(rows[39].hash, sound()[39].hash);
 }
 
-/// A few cycles. Bytes still grow by what the third scoop meets for the first time: 0.31 MiB on the heap and buffers of
-/// 0.26 MiB on the device, which is what an allowance is here.
+/// A few cycles. Bytes still grow by what the third scoop meets for the first time: 0.31 MiB on the
+/// heap and buffers of 0.26 MiB on the device, which is what an allowance is here.
 Plan few(const std::string& folder, long cycles) {
   Plan plan;
   plan.folder = folder;
@@ -118,7 +119,7 @@ TEST(Soak, FourCyclesStayFlatKeepTheirMassAndEndAsFourResumedQuartersDo) {
   EXPECT_EQ(parted.compared, 2);
 }
 
-TEST(Soak, GoesOnWhereItWasStoppedWhicheverPartThatWasAndTellsWhatACycleKeeps) {
+TEST(Soak, ResumesFromAnyPartAndReportsWhatACycleRetains) {
   const test::Folder folder;
   device::Device device;
   // Stopped after each cycle, in the long run and in the quarters.
@@ -128,7 +129,8 @@ TEST(Soak, GoesOnWhereItWasStoppedWhicheverPartThatWasAndTellsWhatACycleKeeps) {
   Result pieces;
   for (int i = 0; i < 40 && pieces.compared < 4; ++i) pieces = soak(device, plan);
   EXPECT_EQ(pieces.reached, 4);
-  EXPECT_EQ(pieces.compared, 4) << "as the run that went on from snapshots came to, four fresh ones do";
+  EXPECT_EQ(pieces.compared, 4)
+      << "as the run that went on from snapshots came to, four fresh ones do";
   EXPECT_EQ(pieces.processes, 4);
   EXPECT_TRUE(pieces.broken.empty()) << pieces.broken.front();
 
@@ -140,7 +142,8 @@ TEST(Soak, GoesOnWhereItWasStoppedWhicheverPartThatWasAndTellsWhatACycleKeeps) {
   const Result leaking = soak(device, plan);
   EXPECT_EQ(leaking.reached, 8);
   ASSERT_FALSE(leaking.broken.empty());
-  EXPECT_NE(leaking.broken[0].find("memory given out by malloc grew"), std::string::npos) << leaking.broken[0];
+  EXPECT_NE(leaking.broken[0].find("memory given out by malloc grew"), std::string::npos)
+      << leaking.broken[0];
 }
 
 }  // namespace

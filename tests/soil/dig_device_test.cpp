@@ -9,7 +9,8 @@
 namespace navvy::soil {
 namespace {
 
-/// One scoop with an open box on its side (mouth to -x), in machine-free coordinates relative to `shift`.
+/// One scoop with an open box on its side (mouth to -x), in machine-free coordinates relative to
+/// `shift`.
 class Scoop {
  public:
   explicit Scoop(const Vec2& shift = Vec2::Zero(), double cohesion = 5000, int cells = 300)
@@ -30,7 +31,7 @@ class Scoop {
       place();
       motion_.v_WT = Vec3(vx, 0, vz);
       motion_.w_WT = Vec3(0, w, 0);
-      solver_->step(dt_, std::span(&motion_, 1), std::span(&impulse_, 1), footings_);
+      solver_->step(dt_, std::span(&motion_, 1), std::span(&impulse_, 1), support_areas_);
       if (impulse_.scale > 0) worst_ = std::max(worst_, impulse_.residual.norm() / impulse_.scale);
       sum_ += impulse_.J_W / (steps * dt_);
       x_ += vx * dt_;
@@ -50,7 +51,9 @@ class Scoop {
     go(10.5, 0.25, -40, 0.6);
     go(10.4, 0.9, -5, 0.7);
   }
-  void place() { motion_.X_WT = make_pose(x_ + shift_.x(), 10.02 + shift_.y(), z_, 0, radians(pitch_), 0); }
+  void place() {
+    motion_.X_WT = make_pose(x_ + shift_.x(), 10.02 + shift_.y(), z_, 0, radians(pitch_), 0);
+  }
   double payload() const { return solver_->payload(0, motion_.X_WT); }
   std::uint64_t digest() const {
     StateHash hash = hash_of(*solver_);
@@ -67,11 +70,11 @@ class Scoop {
   double worst() const { return worst_; }
   /// A wheel that stands with its lowest point here, along x.
   void stand(const Vec3& p_W) {
-    Footing wheel;
+    SupportArea wheel;
     wheel.radius = 0.4;
     wheel.half_width = 0.15;
     wheel.p_W = p_W + Vec3(0, 0, wheel.radius);
-    footings_ = {wheel};
+    support_areas_ = {wheel};
   }
   void at(const Scoop& other) {
     x_ = other.x_;
@@ -100,12 +103,12 @@ class Scoop {
   std::unique_ptr<Solver> solver_;
   ToolMotion motion_;
   ToolImpulse impulse_;
-  std::vector<Footing> footings_;
+  std::vector<SupportArea> support_areas_;
   Vec3 sum_ = Vec3::Zero();
   double dt_ = 0, x_ = 11.8, z_ = 0.45, pitch_ = -70, worst_ = 0;
 };
 
-TEST(SoilDig, ScoopFillsKeepsItsLoadAndTheBooksStayClosed) {
+TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   Scoop scoop;
   scoop.cut();
   const Vec3 cut = scoop.force();
@@ -116,9 +119,10 @@ TEST(SoilDig, ScoopFillsKeepsItsLoadAndTheBooksStayClosed) {
   scoop.go(10.4, 0.9, -5, 0.3);
   const double held = scoop.payload();
   print_value("drag on the box in loam [N]", cut.x(), "> 0", "soil pushes against the cut");
-  print_value("payload after lift and after its stop [kg]", rested, std::to_string(lifted) + " -2 %",
-              "what the stop shakes off the brim");
-  print_value("payload after holding [kg]", held, std::to_string(rested) + " +-0.2 %", "a shell keeps its load");
+  print_value("payload after lift and after its stop [kg]", rested,
+              std::to_string(lifted) + " -2 %", "what the stop shakes off the brim");
+  print_value("payload after holding [kg]", held, std::to_string(rested) + " +-0.2 %",
+              "a shell keeps its load");
   print_value("held, F / (m g)", -scoop.force().z() / (held * kGravity), "1 +-3 %",
               "grains still fall on the ground only");
   EXPECT_GT(cut.x(), 300);
@@ -130,7 +134,8 @@ TEST(SoilDig, ScoopFillsKeepsItsLoadAndTheBooksStayClosed) {
   EXPECT_LT(scoop.worst(), 1e-5);
   EXPECT_EQ(scoop.solver().ledger().error(), 0);
   std::printf("[ VALUE    ] particles %d (peak %d), blocks %d, wakes %lu, deposits %lu\n",
-              scoop.solver().stats().particles, scoop.solver().stats().particles_peak, scoop.solver().stats().blocks,
+              scoop.solver().stats().particles, scoop.solver().stats().particles_peak,
+              scoop.solver().stats().blocks,
               static_cast<unsigned long>(scoop.solver().stats().wakes),
               static_cast<unsigned long>(scoop.solver().stats().deposits));
 }
@@ -147,12 +152,14 @@ TEST(SoilDig, GoesOnFromASnapshotInMidCut) {
 }
 
 TEST(SoilDig, IsTheSameAtTheOtherEndOfASquareKilometre) {
-  // The shift is a whole number of blocks; otherwise rounding differs and grains part ways after some seconds.
+  // The shift is a whole number of blocks; otherwise rounding differs and grains part ways after
+  // some seconds.
   Scoop near(Vec2::Zero(), 5000, 10000), far(Vec2(895.2, 694.8), 5000, 10000);
   near.cut();
   far.cut();
   const double drag = near.force().x();
-  print_value("drag at the far end / near end", far.force().x() / drag, "1 +-0.1 %", "issue: place");
+  print_value("drag at the far end / near end", far.force().x() / drag, "1 +-0.1 %",
+              "issue: place");
   EXPECT_NEAR(far.force().x(), drag, 1e-3 * drag);
   EXPECT_EQ(near.solver().stats().particles, far.solver().stats().particles);
   EXPECT_LT(far.ground().touched_tiles(), 20u);
@@ -181,11 +188,12 @@ TEST(SoilDig, ABucketGetsItsSoilBesideAWheelAndFromUnderIt) {
     const std::string name = names[where];
     print_value(name + ": payload [kg]", payload[where], std::to_string(payload[0]) + " +-10 %",
                 "[docs/exchange.md, footings]");
-    print_value(name + ": drag in the cut [N]", drag[where], std::to_string(drag[0]) + " +-15 %", "the same");
+    print_value(name + ": drag in the cut [N]", drag[where], std::to_string(drag[0]) + " +-15 %",
+                "the same");
     EXPECT_EQ(scoop.solver().ledger().error(), 0);
   }
-  // What bears the wheel stays a column until the tool is beside it: the soil before the tool gives way less, and a
-  // little more or less is torn off at the seam.
+  // What bears the wheel stays a column until the tool is beside it: the soil before the tool gives
+  // way less, and a little more or less is torn off at the seam.
   for (int where = 1; where < 3; ++where) {
     EXPECT_NEAR(payload[where], payload[0], 0.1 * payload[0]) << names[where];
     EXPECT_NEAR(drag[where], drag[0], 0.15 * drag[0]) << names[where];

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults: each stops the run with step and cause and leaves a state that a snapshot holds, or is bounded.
+// Faults: each stops the run with step and cause and leaves a state that a snapshot holds, or is
+// bounded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/rig.h"
 
 namespace navvy::soil {
@@ -89,7 +90,8 @@ TEST(SoilFaults, ANumberThatIsNotFiniteInMidRunIsNamedAndTheSnapshotShowsWhere) 
   load_saved(saved(rig.solver()), fresh.solver());
   const std::vector<Particle> saved = fresh.solver().particles();
   EXPECT_EQ(saved.size(), soil.size() + 1);
-  EXPECT_TRUE(std::any_of(saved.begin(), saved.end(), [](const Particle& p) { return !std::isfinite(p.v[2]); }));
+  EXPECT_TRUE(std::any_of(saved.begin(), saved.end(),
+                          [](const Particle& p) { return !std::isfinite(p.v[2]); }));
   EXPECT_GE(fresh.solver().ledger().error(), bad.mass) << "what is not finite counts as lost";
 }
 
@@ -149,7 +151,8 @@ TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
     all = rig.fill(big, true);
     wanted = all.size();
   }
-  // 120 bytes a particle, once for the state and once more for the first re-bin: the limit lies between.
+  // 120 bytes a particle, once for the state and once more for the first re-bin: the limit lies
+  // between.
   const std::size_t state = 120 * wanted;
   setenv("NAVVY_DEVICE_MEMORY_MIB", std::to_string((state * 7 / 4) >> 20).c_str(), 1);
   device::Device small;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that has no memory left, at every buffer that a dig asks for: books stay closed, and the state goes on.
+// A device that has no memory left, at every buffer that a dig asks for: books stay closed, and the
+// state goes on.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "device/error.h"
+#include "device/device_error.h"
 #include "soil/rig.h"
 
 namespace {
@@ -19,7 +20,8 @@ bool refused = false;
 
 }  // namespace
 
-/// Stands before the loader's function of this name, which every buffer of this program comes through.
+/// Stands before the loader's function of this name, which every buffer of this program comes
+/// through.
 extern "C" void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t size, void* host,
                                 std::int32_t* result) {
   using Function = void* (*)(void*, std::uint64_t, std::size_t, void*, std::int32_t*);
@@ -33,12 +35,13 @@ extern "C" void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t 
 namespace navvy::soil {
 namespace {
 
-/// A blade that digs its way through two metres of sand and pushes what it has before it over the site's edge: soil
-/// wakes, is sorted anew, leaves, and the lists near the blade grow.
+/// A blade that digs its way through two metres of sand and pushes what it has before it over the
+/// site's edge: soil wakes, is sorted anew, leaves, and the lists near the blade grow.
 class Dig {
  public:
   Dig()
-      : site_(rig::Rig::device(), {rig::sand()}, 0.2, options()), tool_(site_.add_tool(rig::blade(0.6, 0.5), start())) {
+      : site_(rig::Rig::device(), {rig::sand()}, 0.2, options()),
+        tool_(site_.add_tool(rig::blade(0.6, 0.5), start())) {
     site_.tool(tool_).motion.v_WT = Vec3(2, 0, 0);
   }
   void run() { site_.run(0.8); }
@@ -58,7 +61,7 @@ class Dig {
   int tool_;
 };
 
-TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesClosedBooksAndAStateThatGoesOn) {
+TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesABalancedLedgerAndAUsableState) {
   made = refuse = 0;
   {
     Dig whole;
@@ -90,8 +93,10 @@ TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesClosedBooksAndAStateThatGoes
     // As a snapshot holds it: every particle, on a device with room.
     refuse = 0;
     load_saved(saved(dig->solver()), larger.solver());
-    ASSERT_EQ(larger.solver().particles().size(), dig->solver().particles().size()) << n << ": " << said;
-    ASSERT_EQ(hash_of(larger.solver()).digest(), hash_of(dig->solver()).digest()) << n << ": " << said;
+    ASSERT_EQ(larger.solver().particles().size(), dig->solver().particles().size())
+        << n << ": " << said;
+    ASSERT_EQ(hash_of(larger.solver()).digest(), hash_of(dig->solver()).digest())
+        << n << ": " << said;
   }
   std::printf("%ld buffers, %d of the solver itself, %d in its steps\n", all, of_solver, of_steps);
   EXPECT_GT(of_steps, 30);

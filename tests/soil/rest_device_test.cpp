@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil that comes to rest: stress of level ground, collapse, swell. Coarse and small; finer ones run in ./dev validate.
+// Soil that comes to rest: stress of level ground, collapse, swell. Coarse and small; finer ones
+// run in ./dev validate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,9 +31,12 @@ TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
     for (std::size_t i = 0; i < end.size(); ++i) {
       const Vec3 at = rig.position(end[i]);
       farthest = std::max(farthest, (at - rig.position(start[i])).norm());
-      if (std::abs(at.x() - 10) > 0.5 || std::abs(at.y() - 10) > 0.5 || at.z() < -0.7 || at.z() > -0.1) continue;
+      if (std::abs(at.x() - 10) > 0.5 || std::abs(at.y() - 10) > 0.5 || at.z() < -0.7 ||
+          at.z() > -0.1)
+        continue;
       const Particle& p = end[i];
-      const double pressure = law_constants(soil, rig.cell()).bulk * std::max(0.0, 1.0 - p.j / p.j0);
+      const double pressure =
+          law_constants(soil, rig.cell()).bulk * std::max(0.0, 1.0 - p.j / p.j0);
       const double expected = soil.bank_density * kGravity * at.z(), got = p.s[2] - pressure;
       zz += expected * expected;
       zs += expected * got;
@@ -46,7 +50,8 @@ TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
     print_value("rms of sigma_z", rms, "< 4 %", "[docs/validation.md, Rest and stress]");
     print_value("sigma_x / sigma_z", ratio / weight, std::to_string(k0) + " +-3 %",
                 "[docs/validation.md, Rest and stress]");
-    print_value("farthest motion in 1 s [mm]", farthest * 1000, "< 1", "[docs/validation.md, Rest and stress]");
+    print_value("farthest motion in 1 s [mm]", farthest * 1000, "< 1",
+                "[docs/validation.md, Rest and stress]");
     EXPECT_NEAR(slope, 1, 0.01);
     EXPECT_LT(rms, 0.04);
     EXPECT_NEAR(ratio / weight, k0, 0.03 * k0);
@@ -56,7 +61,8 @@ TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
 }
 
 TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
-  // Between two smooth plates 0.5 m apart, against a third one; a = 1, L0 = 20 cells (the gate's own run has 30).
+  // Between two smooth plates 0.5 m apart, against a third one; a = 1, L0 = 20 cells (the gate's
+  // own run has 30).
   scene::Soil soil = rig::sand(33);
   soil.tool_friction_angle = 0;
   Rig rig({soil});
@@ -71,7 +77,8 @@ TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
   ToolMotion motion;
   motion.tool = rig.solver().add_tool(channel);
   motion.X_WT = make_pose(x0, y0, 0, 0, 0, 0);
-  rig.solver().insert(rig.fill({Vec3(x0 + 0.025, y0 + 0.025, 0), Vec3(x0 + length, y0 + gap - 0.025, height)}, true));
+  rig.solver().insert(rig.fill(
+      {Vec3(x0 + 0.025, y0 + 0.025, 0), Vec3(x0 + length, y0 + gap - 0.025, height)}, true));
   ToolImpulse impulse;
   const double dt = rig.solver().step_limit(0);
   const double seconds = 3.2 * std::sqrt(height / kGravity);
@@ -90,9 +97,9 @@ TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
 }
 
-/// Mean volume ratio of a load of bank soil that was tipped from 1.2 m and has come to rest. Single grains that lie
-/// about (cells with fewer than 4 particles, where 8 is the bank's number) remember the volume they flew through and
-/// are no heap: they are left out.
+/// Mean volume ratio of a load of bank soil that was tipped from 1.2 m and has come to rest. Single
+/// grains that lie about (cells with fewer than 4 particles, where 8 is the bank's number) remember
+/// the volume they flew through and are no heap: they are left out.
 double tipped(const scene::Soil& soil, double& speed) {
   Rig rig({soil});
   const Pose X = make_pose(10.03, 10.02, 1.2, 0, 0, 0);
@@ -103,14 +110,16 @@ double tipped(const scene::Soil& soil, double& speed) {
   std::vector<Particle> load;
   for (double z = 0.04; z < 0.45; z += 0.05)
     for (double y = -0.36; y < 0.37; y += 0.05)
-      for (double x = -0.46; x < 0.47; x += 0.05) load.push_back(rig.particle(X * Vec3(x, y, z), 1.25e-4));
+      for (double x = -0.46; x < 0.47; x += 0.05)
+        load.push_back(rig.particle(X * Vec3(x, y, z), 1.25e-4));
   rig.solver().insert(load);
   const double dt = rig.solver().step_limit(1.5);
   const auto run = [&](double seconds) {
     for (double t = 0; t < seconds; t += dt) {
       rig.solver().step(dt, std::span(&motion, 1), std::span(&impulse, 1));
       const double angle = motion.w_WT.norm() * dt;
-      if (angle > 0) motion.X_WT.linear() = Eigen::AngleAxisd(angle, Vec3::UnitY()) * motion.X_WT.linear();
+      if (angle > 0)
+        motion.X_WT.linear() = Eigen::AngleAxisd(angle, Vec3::UnitY()) * motion.X_WT.linear();
       motion.X_WT.translation() += motion.v_WT * dt;
     }
   };
@@ -124,7 +133,8 @@ double tipped(const scene::Soil& soil, double& speed) {
   speed = 0;
   const auto cell_of = [&](const Particle& p) {
     const Vec3 at = rig.position(p) / rig.cell();
-    return std::array<int, 3>{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())),
+    return std::array<int, 3>{static_cast<int>(std::floor(at.x())),
+                              static_cast<int>(std::floor(at.y())),
                               static_cast<int>(std::floor(at.z()))};
   };
   std::map<std::array<int, 3>, int> neighbours;
@@ -149,14 +159,15 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
     double speed = 0;
     const double ratio = tipped(soil, speed);
     print_value("volume of the tipped load / bank, c " + std::to_string(soil.cohesion), ratio,
-                std::to_string(soil.swell) + " +-5 %", "[docs/validation.md, Swell, pouring and heaps]");
+                std::to_string(soil.swell) + " +-5 %",
+                "[docs/validation.md, Swell, pouring and heaps]");
     EXPECT_NEAR(ratio, soil.swell, 0.05 * soil.swell);
     EXPECT_LT(speed, 0.05);
   }
 }
 
-/// Density / bank [-] in the middle of a heap of twice the particles that the bank has, after it fell apart for 2 s.
-/// Each is sure (J = 1) of having its full volume: J alone cannot tell.
+/// Density / bank [-] in the middle of a heap of twice the particles that the bank has, after it
+/// fell apart for 2 s. Each is sure (J = 1) of having its full volume: J alone cannot tell.
 double crowded_density(bool crowding) {
   Rig rig({rig::sand(35)});
   rig.solver().set_crowding(crowding);
@@ -184,12 +195,14 @@ double crowded_density(bool crowding) {
   return mass / (75 * std::pow(rig.cell(), 3)) / rig.world().soils[0].bank_density;
 }
 
-// The heap shears where it slides apart, and there it makes room; its core, which rests, is left alone
-// [docs/soil.md, crowding].
-TEST(SoilRest, CrowdedSoilMakesRoomWhereItShears) {
+// The heap shears where it slides apart, and there it makes room; its core, which rests, is left
+// alone [docs/soil.md, crowding].
+TEST(SoilRest, CrowdedSoilSpreadsWhereItShears) {
   const double with = crowded_density(true), without = crowded_density(false);
-  print_value("crowded soil after 2 s, density / bank", with, "2 at the start", "[docs/soil.md, crowding]");
-  print_value("the same without moving particles apart", without, "2 at the start", "[docs/soil.md, crowding]");
+  print_value("crowded soil after 2 s, density / bank", with, "2 at the start",
+              "[docs/soil.md, crowding]");
+  print_value("the same without moving particles apart", without, "2 at the start",
+              "[docs/soil.md, crowding]");
   EXPECT_LT(with, without - 0.1);
   EXPECT_GT(with, 1);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small set-ups shared by the tests of the soil: the laboratory's site, soil and shells as these tests want them.
+// Small set-ups shared by the tests of the soil: the laboratory's site, soil and shells as these
+// tests want them.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 #include "core/saved_state.h"
 #include "device/device.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/soils.h"
 #include "soil/particles/soil_table.h"
 #include "values.h"
@@ -17,17 +18,17 @@
 namespace navvy::soil::rig {
 
 using lab::blade;
-using lab::Box;
 using lab::open_box;
+using lab::SiteBox;
 
 inline scene::Soil sand(double friction_degrees = 33) { return lab::clean_sand(friction_degrees); }
 
-/// One flat site (surface at z = 0, bedrock 4 m below, corner at `origin`) with an optional pit that particles will
-/// fill.
+/// One flat site (surface at z = 0, bedrock 4 m below, corner at `origin`) with an optional pit
+/// that particles will fill.
 class Rig : public lab::Site {
  public:
-  explicit Rig(const std::vector<scene::Soil>& soils, const Box& pit = {}, double cell = 0.1, int cells = 200,
-               const Vec2& origin = Vec2::Zero())
+  explicit Rig(const std::vector<scene::Soil>& soils, const Box& pit = {}, double cell = 0.1,
+               int cells = 200, const Vec2& origin = Vec2::Zero())
       : Site(device(), soils, cell, options(pit, cell * cells, origin)) {}
 
   /// One device for all tests of a program: kernels build once.
@@ -36,7 +37,8 @@ class Rig : public lab::Site {
     return shared;
   }
   double datum() const { return ground().datum(); }
-  /// Particles on a lattice of half a cell; `depth_stress`: with the stress of resting ground whose top is the box's.
+  /// Particles on a lattice of half a cell; `depth_stress`: with the stress of resting ground whose
+  /// top is the box's.
   std::vector<Particle> fill(const Box& box, bool depth_stress = false, int soil = 0) const {
     std::vector<Particle> out = Site::fill(box, {}, soil);
     if (depth_stress) rest(out, box.high.z());

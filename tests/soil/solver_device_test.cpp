@@ -24,7 +24,8 @@ std::vector<Particle> strewn(const Rig& rig, int count, std::uint64_t seed, cons
   Random random(seed);
   std::vector<Particle> out;
   for (int i = 0; i < count; ++i) {
-    const Vec3 at = low + Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(Vec3(0.9, 0.7, 0.8));
+    const Vec3 at = low + Vec3(random.uniform(), random.uniform(), random.uniform())
+                              .cwiseProduct(Vec3(0.9, 0.7, 0.8));
     Particle p = rig.particle(at, 1.25e-4, static_cast<int>(i % rig.world().soils.size()));
     for (float& v : p.v) v = static_cast<float>(random.uniform(-1, 1));
     for (float& c : p.c) c = static_cast<float>(random.uniform(-3, 3));
@@ -50,7 +51,8 @@ void expect_agreement(const std::vector<scene::Soil>& soils, int count) {
   Rig rig(soils);
   const auto start = strewn(rig, count, 7, Vec3(10.03, 10.05, 0.07));
   rig.solver().insert(start);
-  reference::ReferenceSolver twin(rig.world().soils, rig.cell(), rig.world().gravity, [](int, int) { return 40.0; });
+  reference::ReferenceSolver twin(rig.world().soils, rig.cell(), rig.world().gravity,
+                                  [](int, int) { return 40.0; });
   for (const Particle& p : start) twin.points.push_back(reference::from_particle(p));
   for (int i = 0; i < 6; ++i) {
     rig.solver().step(1.5e-3, {}, {});
@@ -63,12 +65,14 @@ void expect_agreement(const std::vector<scene::Soil>& soils, int count) {
     const reference::Point p = reference::from_particle(got[i]);
     worst_x = std::max(worst_x, (p.x - twin.points[i].x).cwiseAbs().maxCoeff());
     worst_v = std::max(worst_v, (p.v - twin.points[i].v).cwiseAbs().maxCoeff());
-    for (std::size_t k = 0; k < 6; ++k) worst_s = std::max(worst_s, std::abs(p.s[k] - twin.points[i].s[k]));
+    for (std::size_t k = 0; k < 6; ++k)
+      worst_s = std::max(worst_s, std::abs(p.s[k] - twin.points[i].s[k]));
   }
   print_value("float against double after 6 steps, positions [cells]", worst_x, "< 2e-5",
               "float ulp of 4 cells x steps");
-  // Positions: a few ulp (4.8e-7) of an offset of up to 5.5 cells. Velocities: stress rounding (J to 6e-8 times
-  // K = 1e6 Pa is 0.06 Pa) over six steps, and the yield decision may fall the other way for a particle on the edge.
+  // Positions: a few ulp (4.8e-7) of an offset of up to 5.5 cells. Velocities: stress rounding (J
+  // to 6e-8 times K = 1e6 Pa is 0.06 Pa) over six steps, and the yield decision may fall the other
+  // way for a particle on the edge.
   EXPECT_LT(worst_x, 2e-5);
   EXPECT_LT(worst_v, 2e-3);
   EXPECT_LT(worst_s, 20);
@@ -92,7 +96,7 @@ TEST_P(TwinTest, AgreesWithTheDoubleTwinWhenSoilsDilateAndFeelRates) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, TwinTest, testing::Values(1, 2, 15, 16, 17, 333, 1000));
 
-TEST(SoilSolver, WithoutParticlesDoesNothingAndKeepsItsBooks) {
+TEST(SoilSolver, WithoutParticlesChangesNothing) {
   Rig rig({rig::sand()});
   rig.run(0.01);
   EXPECT_EQ(rig.solver().particles().size(), 0u);
@@ -117,7 +121,8 @@ TEST(SoilSolver, FallsAndFliesLikeABody) {
     x += rig.position(p) / static_cast<double>(soil.size());
   }
   const Vec3 v_expected(2, 0.5, 1 - kGravity * t);
-  print_value("vertical speed after 0.4 s of free flight [m/s]", v.z(), std::to_string(v_expected.z()) + " +-1e-4 rel.",
+  print_value("vertical speed after 0.4 s of free flight [m/s]", v.z(),
+              std::to_string(v_expected.z()) + " +-1e-4 rel.",
               "[docs/validation.md, Element and law]");
   for (int a = 0; a < 3; ++a) EXPECT_NEAR(v[a], v_expected[a], 1e-4 * v_expected.norm());
   // Symplectic Euler is half a step behind the parabola; the rest is float rounding of positions.
@@ -184,7 +189,8 @@ TEST(SoilSolver, EverySavedByteIsHashedOrRefused) {
   motion.X_WT = make_pose(4.9, 5.1, 0.1);
   rig.solver().insert(rig.fill(box));
   ToolImpulse impulse;
-  for (int i = 0; i < 5; ++i) rig.solver().step(1e-3, std::span(&motion, 1), std::span(&impulse, 1));
+  for (int i = 0; i < 5; ++i)
+    rig.solver().step(1e-3, std::span(&motion, 1), std::span(&impulse, 1));
   EXPECT_EQ(test::flip_every_byte(rig.solver(), target.solver()), "");
 }
 
@@ -195,9 +201,10 @@ TEST(SoilSolver, RefusesSoilThatNoSceneHas) {
   const std::vector<char> state = saved(rig.solver(), &map);
   // The first field of that name with another number at its beginning is refused by its name.
   const auto refused = [&](const std::string& name, std::int32_t value) {
-    const auto field = std::find_if(map.fields.begin(), map.fields.end(), [&](const ByteMap::Field& f) {
-      return f.path.ends_with(name) && f.size > sizeof(std::uint64_t);  // not a length
-    });
+    const auto field =
+        std::find_if(map.fields.begin(), map.fields.end(), [&](const ByteMap::Field& f) {
+          return f.path.ends_with(name) && f.size > sizeof(std::uint64_t);  // not a length
+        });
     std::vector<char> bytes = state;
     std::memcpy(bytes.data() + field->offset, &value, sizeof value);
     try {
@@ -210,14 +217,16 @@ TEST(SoilSolver, RefusesSoilThatNoSceneHas) {
   const std::string tag = "[" + std::to_string(FIELD_TAG) + "]/words";
   EXPECT_FALSE(refused(tag, 0)) << "soil 0 is there";
   EXPECT_TRUE(refused(tag, 1)) << "there is one soil";
-  EXPECT_TRUE(refused("block", std::numeric_limits<std::int32_t>::max())) << "its neighbours have no number";
+  EXPECT_TRUE(refused("block", std::numeric_limits<std::int32_t>::max()))
+      << "its neighbours have no number";
   // A tool that one has and the other lacks.
   target.solver().add_tool(rig::blade(0.2, 0.2));
   EXPECT_THROW(load_saved(state, target.solver()), InputError);
 }
 
 TEST(SoilSolver, IsTheSameEverywhereOnTheSite) {
-  // Same soil at block (13, 13) and (2250, 1750) of a 1 km site: every number of the particles is equal.
+  // Same soil at block (13, 13) and (2250, 1750) of a 1 km site: every number of the particles is
+  // equal.
   std::vector<std::vector<Particle>> got;
   for (const Vec3i& shift : {Vec3i(13, 13, 10), Vec3i(2250, 1750, 10)}) {
     Rig rig({rig::sand()}, {Vec3::Zero(), Vec3::Zero()}, 0.1, 10000);
@@ -240,7 +249,7 @@ TEST(SoilSolver, IsTheSameEverywhereOnTheSite) {
   }
 }
 
-TEST(SoilSolver, BooksWhatLeavesTheSite) {
+TEST(SoilSolver, RecordsMassThatLeavesTheSite) {
   Rig rig({rig::sand()}, {Vec3::Zero(), Vec3::Zero()}, 0.1, 40);
   auto soil = rig.fill({Vec3(3.7, 2, 0.5), Vec3(3.9, 2.2, 0.7)});
   for (Particle& p : soil) p.v[0] = 3;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transfers of a fixed length: what they damp, what half a step changes, and a run that goes on in the middle of one.
+// Transfers of a fixed length: what they damp, what half a step changes, and a run that goes on in
+// the middle of one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +28,8 @@ double amplitude(const Rig& rig, double from, double wave) {
   return sum / count;
 }
 
-// Opened soil without weight carries no stress: what the wave loses, transfers take. Half the step has as many of them.
+// Opened soil without weight carries no stress: what the wave loses, transfers take. Half the step
+// has as many of them.
 TEST(SoilTransfer, DampsAWaveOfEightCellsOncePerTransferWhateverTheStep) {
   const double wave = 0.8;
   for (const int parts : {1, 2}) {
@@ -49,7 +51,8 @@ TEST(SoilTransfer, DampsAWaveOfEightCellsOncePerTransferWhateverTheStep) {
     const double before = amplitude(rig, 8 + 2 * wave, wave);
     transfers(4);
     const double kept = std::pow(amplitude(rig, 8 + 2 * wave, wave) / before, 1 / 4.0);
-    print_value("wave of 8 cells kept by a transfer", kept, "0.9917 +-0.0005", "[docs/soil.md, transfer]");
+    print_value("wave of 8 cells kept by a transfer", kept, "0.9917 +-0.0005",
+                "[docs/soil.md, transfer]");
     // 1 - 0.025 (k h)^4 is 0.9905; the next order gives 0.9917, as a sum over the weights does.
     EXPECT_NEAR(kept, 0.9917, 5e-4) << parts;
   }
@@ -98,7 +101,7 @@ TEST(SoilTransfer, GoesOnFromASnapshotInTheMiddleAsIfNothingHappened) {
   }
 }
 
-TEST(SoilTransfer, TellsTheImpulseOfAWholeTransferOverItsLength) {
+TEST(SoilTransfer, ReportsTheMeanForceOverAWholeTransfer) {
   Drag drag;
   drag.motion.inverse_mass.setZero();
   drag.motion.v_WT = Vec3(-0.1, 0, 0);
@@ -113,7 +116,8 @@ TEST(SoilTransfer, TellsTheImpulseOfAWholeTransferOverItsLength) {
       sum += drag.impulse.J_W;
       // Told is the transfer before; over the first there is none, so its own steps.
       const Vec3 expected = transfer > 0 ? before : Vec3(sum / ((i + 1) * dt));
-      EXPECT_LT((drag.impulse.force_W - expected).norm(), 1e-9 * (1 + expected.norm())) << transfer << ", step " << i;
+      EXPECT_LT((drag.impulse.force_W - expected).norm(), 1e-9 * (1 + expected.norm()))
+          << transfer << ", step " << i;
     }
     before = sum / (4 * dt);
   }

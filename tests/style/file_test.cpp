@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shape of files: licence line, length, what libraries must not do, kernel rules (kernels/README.md).
+// Shape of files: licence line, length, what libraries must not do, kernel rules
+// (kernels/README.md).
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -25,7 +26,8 @@ TEST(Files, BeginWithTheLicenceLine) {
   std::vector<std::string> found;
   for (const SourceFile& file : all_sources()) {
     const bool cmake = file.ends_with(".cmake") || file.ends_with("CMakeLists.txt");
-    const std::string line = std::string(cmake ? "# " : "// ") + "SPDX-License-Identifier: Apache-2.0\n";
+    const std::string line =
+        std::string(cmake ? "# " : "// ") + "SPDX-License-Identifier: Apache-2.0\n";
     if (file.text.compare(0, line.size(), line) != 0) found.push_back(file.path);
   }
   EXPECT_EQ(report(found), "");
@@ -37,7 +39,8 @@ TEST(Files, StayWithinTheirLength) {
     const int most = file.extension() == ".cl" ? 200 : 600;
     const int lines = count_lines(file.text);
     if (lines > most)
-      found.push_back(file.path + ": " + std::to_string(lines) + " lines, at most " + std::to_string(most));
+      found.push_back(file.path + ": " + std::to_string(lines) + " lines, at most " +
+                      std::to_string(most));
   }
   EXPECT_EQ(report(found), "");
 }
@@ -50,9 +53,12 @@ TEST(Files, HaveNoLineThatDoesNotFitAScreen) {
       std::istringstream lines(file.text);
       std::string line;
       for (int number = 1; std::getline(lines, line); ++number) {
-        // An #include cannot be broken; a text that users see, or a scene in a raw string, may stand in one piece.
-        if (line.size() <= kWidest || line.find('"') != std::string::npos || line.front() == '<') continue;
-        found.push_back(file.path + ":" + std::to_string(number) + ": " + std::to_string(line.size()) + " characters");
+        // An #include cannot be broken; a text that users see, or a scene in a raw string, may
+        // stand in one piece.
+        if (line.size() <= kWidest || line.find('"') != std::string::npos || line.front() == '<')
+          continue;
+        found.push_back(file.path + ":" + std::to_string(number) + ": " +
+                        std::to_string(line.size()) + " characters");
       }
     }
   }
@@ -102,13 +108,17 @@ TEST(Libraries, NeitherPrintNorExitNorGuess) {
 
 TEST(Libraries, BansAreSeenInCodeAndNotInComments) {
   const std::vector<Ban> bans = {{"exit(", "no"}, {"double", "no"}};
-  EXPECT_EQ(banned(SourceFile{"a", "// exit(1)\n\"exit(2)\"; /* exit(3)\n */ my_exit(4); double_x;\n"}, bans).size(),
-            0u);
+  EXPECT_EQ(
+      banned(SourceFile{"a", "// exit(1)\n\"exit(2)\"; /* exit(3)\n */ my_exit(4); double_x;\n"},
+             bans)
+          .size(),
+      0u);
   EXPECT_EQ(report(banned(SourceFile{"a", "int x;\n  std::exit(1); double y;\n"}, bans)),
             "a:2: exit(: no\na:2: double: no\n");
 }
 
-/// Whether the first include of `name`, or of the file it includes first, and so on, is common/portable.h.
+/// Whether the first include of `name`, or of the file it includes first, and so on, is
+/// common/portable.h.
 bool begins_portable(const std::string& name) {
   if (name == "common/portable.h") return true;
   for (const SourceFile& file : sources("kernels", {".h"})) {
@@ -144,15 +154,21 @@ std::vector<std::string> check_kernel(const SourceFile& file) {
     const std::string where = file.path + ":" + std::to_string(include.line) + ": ";
     const bool header = file.extension() == ".h";
     if (!header && first && !begins_portable(include.name)) {
-      found.push_back(where + "the first include is not, or does not begin with, common/portable.h");
+      found.push_back(where +
+                      "the first include is not, or does not begin with, common/portable.h");
     }
-    if (!include.angle && !exists("kernels/" + include.name)) found.push_back(where + "no kernels/" + include.name);
-    // A header's own guard is the one conditional allowed around an include; <...> is for the host, behind another.
-    if (!include.angle && include.depth > (header ? 1 : 0)) found.push_back(where + "include inside a conditional");
-    if (include.angle && (!header || include.depth < 2)) found.push_back(where + "<...> is for the host only");
+    if (!include.angle && !exists("kernels/" + include.name))
+      found.push_back(where + "no kernels/" + include.name);
+    // A header's own guard is the one conditional allowed around an include; <...> is for the host,
+    // behind another.
+    if (!include.angle && include.depth > (header ? 1 : 0))
+      found.push_back(where + "include inside a conditional");
+    if (include.angle && (!header || include.depth < 2))
+      found.push_back(where + "<...> is for the host only");
     first = false;
   }
-  if (file.extension() == ".cl" && first) found.push_back(file.path + ": does not include common/portable.h");
+  if (file.extension() == ".cl" && first)
+    found.push_back(file.path + ": does not include common/portable.h");
   return found;
 }
 
@@ -173,11 +189,15 @@ TEST(Kernels, ThatBreakARuleAreFound) {
     return check_kernel(SourceFile{path, text}).size();
   };
   const std::string first = "#include \"common/portable.h\"\n";
-  EXPECT_EQ(violations("kernels/soil/a.cl", first + "kernel void f(global float* x) { x[0] = 1; }\n"), 0u);
+  EXPECT_EQ(
+      violations("kernels/soil/a.cl", first + "kernel void f(global float* x) { x[0] = 1; }\n"),
+      0u);
   EXPECT_EQ(violations("kernels/soil/a.cl", "kernel void f(global float* x) { x[0] = 1; }\n"), 1u);
   EXPECT_EQ(violations("kernels/soil/a.cl", first + "#include \"common/absent.h\"\n"), 1u);
   EXPECT_EQ(violations("kernels/soil/a.cl", first + "double x;\n"), 1u);
-  EXPECT_EQ(violations("kernels/soil/a.cl", first + "#if X\n#include \"common/portable.h\"\n#endif\n"), 1u);
+  EXPECT_EQ(
+      violations("kernels/soil/a.cl", first + "#if X\n#include \"common/portable.h\"\n#endif\n"),
+      1u);
   EXPECT_GE(violations("kernels/soil/a.cl", first + "x = native_sqrt(y);\n"), 1u);
 }
 

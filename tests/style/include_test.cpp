@@ -101,11 +101,12 @@ bool starts_with(const std::string& text, const std::string& prefix) {
 }
 
 bool is_system(const std::string& name) {
-  // Standard C++ headers have neither folder nor suffix; of POSIX what files, time and signals need.
+  // Standard C++ headers have neither folder nor suffix; of POSIX what files, time and signals
+  // need.
   static const Names posix = {"fcntl.h",    "unistd.h", "signal.h",  "dlfcn.h",
                               "execinfo.h", "poll.h",   "pthread.h", "termios.h"};
-  return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 || starts_with(name, "sys/") ||
-         starts_with(name, "netinet/") || starts_with(name, "arpa/");
+  return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 ||
+         starts_with(name, "sys/") || starts_with(name, "netinet/") || starts_with(name, "arpa/");
 }
 
 std::string module_of(const std::string& path) {
@@ -120,21 +121,27 @@ std::vector<std::string> check(const SourceFile& file) {
   Names allowed = reachable(module);
   for (const auto& [folder, more] : wings())
     if (file.under(folder)) allowed.insert(more.begin(), more.end());
-  if (arrows().count(module) == 0) return {file.path + ": module " + module + " is not in the table"};
+  if (arrows().count(module) == 0)
+    return {file.path + ": module " + module + " is not in the table"};
   for (const Include& include : includes(file.text)) {
     const std::string where = file.path + ":" + std::to_string(include.line) + ": ";
     const auto says = [&](const std::string& text) { found.push_back(where + text); };
-    const auto library = std::find_if(libraries().begin(), libraries().end(), [&](const Library& l) {
-      return std::any_of(l.prefixes.begin(), l.prefixes.end(),
-                         [&](const std::string& prefix) { return starts_with(include.name, prefix); });
-    });
+    const auto library =
+        std::find_if(libraries().begin(), libraries().end(), [&](const Library& l) {
+          return std::any_of(l.prefixes.begin(), l.prefixes.end(), [&](const std::string& prefix) {
+            return starts_with(include.name, prefix);
+          });
+        });
     if (include.angle && is_system(include.name)) continue;
     if (include.angle || (library != libraries().end() && !exists("src/" + include.name))) {
       const bool right_place =
-          library != libraries().end() && std::any_of(library->folders.begin(), library->folders.end(),
-                                                      [&](const std::string& folder) { return file.under(folder); });
-      if (library == libraries().end()) says("<" + include.name + "> belongs to no library of the table");
-      if (library != libraries().end() && !right_place) says(library->name + " is not allowed here: " + include.name);
+          library != libraries().end() &&
+          std::any_of(library->folders.begin(), library->folders.end(),
+                      [&](const std::string& folder) { return file.under(folder); });
+      if (library == libraries().end())
+        says("<" + include.name + "> belongs to no library of the table");
+      if (library != libraries().end() && !right_place)
+        says(library->name + " is not allowed here: " + include.name);
       continue;
     }
     if (exists("src/" + include.name)) {
@@ -145,7 +152,8 @@ std::vector<std::string> check(const SourceFile& file) {
       }
     } else if (exists("kernels/" + include.name)) {
       static const Names sharing = {"device", "heightfield", "soil", "lab"};
-      if (sharing.count(module) == 0) says("kernel header outside device, heightfield, soil, lab: " + include.name);
+      if (sharing.count(module) == 0)
+        says("kernel header outside device, heightfield, soil, lab: " + include.name);
     } else {
       says("\"" + include.name + "\" is neither below src/ nor below kernels/");
     }
@@ -155,15 +163,21 @@ std::vector<std::string> check(const SourceFile& file) {
 
 /// Clients of a world: they see it through handles, channels and samplers.
 const Names& clients() {
-  static const Names table = {"src/record",  "src/session", "src/control", "src/cli", "src/sensor",
-                              "src/planner", "src/run",     "src/python", "src/link", "examples"};
+  static const Names table = {"src/record",  "src/session", "src/control", "src/cli",  "src/sensor",
+                              "src/planner", "src/run",     "src/python",  "src/link", "examples"};
   return table;
 }
 
-/// What clients may not see, also not through another header: the parts of a world and those who solve it.
+/// What clients may not see, also not through another header: the parts of a world and those who
+/// solve it.
 const Names& inner() {
-  static const Names table = {
-      "coupling/", "soil/", "lab/", "vehicle/engine.h", "vehicle/bullet/", "vehicle/kinematic/", "sim/world_parts.h"};
+  static const Names table = {"coupling/",
+                              "soil/",
+                              "lab/",
+                              "vehicle/physics_engine.h",
+                              "vehicle/bullet/",
+                              "vehicle/kinematic/",
+                              "sim/world_parts.h"};
   return table;
 }
 
@@ -177,9 +191,10 @@ const std::map<std::string, std::string>& insiders() {
   return table;
 }
 
-/// How `file` reaches an inner header, "a -> b -> c"; empty when it does not. `read` gives a header's text by its name
-/// below src/.
-std::string way_inside(const SourceFile& file, const std::function<std::string(const std::string&)>& read) {
+/// How `file` reaches an inner header, "a -> b -> c"; empty when it does not. `read` gives a
+/// header's text by its name below src/.
+std::string way_inside(const SourceFile& file,
+                       const std::function<std::string(const std::string&)>& read) {
   Names seen;
   std::vector<std::pair<std::string, std::string>> open;  // name below src/, the way to it
   const auto follow = [&](const std::string& text, const std::string& way) {
@@ -228,9 +243,10 @@ TEST(Includes, OfClientsNeverReachSoilExchangeOrEngines) {
 }
 
 TEST(Includes, OfAWrongKindAreFoundThroughOtherHeaders) {
-  const std::map<std::string, std::string> headers = {{"sim/open.h", "#include \"sim/inside.h\"\n"},
-                                                      {"sim/inside.h", "#include \"soil/solver.h\"\n"},
-                                                      {"sim/closed.h", "#include \"scene/scene.h\"\n"}};
+  const std::map<std::string, std::string> headers = {
+      {"sim/open.h", "#include \"sim/inside.h\"\n"},
+      {"sim/inside.h", "#include \"soil/solver.h\"\n"},
+      {"sim/closed.h", "#include \"scene/scene.h\"\n"}};
   const auto read = [&](const std::string& name) {
     const auto it = headers.find(name);
     return it == headers.end() ? std::string() : it->second;
@@ -244,7 +260,8 @@ TEST(Includes, OfAWrongKindAreFoundThroughOtherHeaders) {
   EXPECT_NE(way("sim/world_parts.h"), "");
 }
 
-/// Rooms and their direct arrows as the table "Module map" of src/README.md has them. Notes in brackets do not count.
+/// Rooms and their direct arrows as the table "Module map" of src/README.md has them. Notes in
+/// brackets do not count.
 std::map<std::string, Names> map_of_readme(const std::string& page) {
   std::map<std::string, Names> out;
   static const std::regex row(R"(\n\| (\w+) \|[^\n|]*\| ([^\n|]*) \|)");
@@ -257,7 +274,7 @@ std::map<std::string, Names> map_of_readme(const std::string& page) {
   return out;
 }
 
-TEST(Includes, ArrowsAreThoseThatTheMapTells) {
+TEST(Includes, ArrowsAreThoseOfTheModuleMap) {
   const std::string page = read_source("src/README.md").text;
   const std::size_t begin = page.find("## Module map"), end = page.find("\n## ", begin + 1);
   ASSERT_NE(end, std::string::npos);
@@ -291,7 +308,9 @@ TEST(Includes, OfAWrongKindAreFound) {
   const auto violations = [](const std::string& path, const std::string& text) {
     return check(SourceFile{path, text}).size();
   };
-  EXPECT_EQ(violations("src/soil/a.cpp", "#include \"soil/solver.h\"\n#include <vector>\n#include <Eigen/Core>\n"), 0u);
+  EXPECT_EQ(violations("src/soil/a.cpp",
+                       "#include \"soil/solver.h\"\n#include <vector>\n#include <Eigen/Core>\n"),
+            0u);
   EXPECT_EQ(violations("src/core/a.cpp", "#include \"soil/solver.h\"\n"), 1u);
   EXPECT_EQ(violations("src/render/a.cpp", "#include \"soil/solver.h\"\n"), 1u);
   EXPECT_EQ(violations("src/soil/a.cpp", "#include <CL/cl.h>\n"), 1u);
@@ -316,8 +335,10 @@ TEST(Includes, OfSlowLibrariesStayOutOfHeaders) {
     if (file.ends_with("_private.h")) continue;
     for (const Include& include : includes(file.text)) {
       // 14 s to compile the three of them; sdformat 3 s.
-      for (const char* slow : {"CLI/", "nlohmann/json.hpp", "spdlog/", "sdf/", "gdal", "Inventor/"}) {
-        if (starts_with(include.name, slow)) found.push_back(file.path + " includes " + include.name);
+      for (const char* slow :
+           {"CLI/", "nlohmann/json.hpp", "spdlog/", "sdf/", "gdal", "Inventor/"}) {
+        if (starts_with(include.name, slow))
+          found.push_back(file.path + " includes " + include.name);
       }
     }
   }

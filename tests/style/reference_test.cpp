@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// References lead somewhere: [docs/FILE.md, HEADING] to a heading, [Name YEAR] to an entry of docs/bibliography.md.
-// Nothing leads to a document that is not in the repository.
+// References lead somewhere: [docs/FILE.md, HEADING] to a heading, [Name YEAR] to an entry of
+// docs/bibliography.md. Nothing leads to a document that is not in the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,14 +20,16 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// What references may lead to: headings of each page of docs/ in lower case, and the keys of the bibliography.
+/// What references may lead to: headings of each page of docs/ in lower case, and the keys of the
+/// bibliography.
 struct Book {
   std::map<std::string, Names> headings;
   Names entries;
 };
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return text;
 }
 
@@ -42,7 +44,8 @@ void read_page(const SourceFile& page, Book& book) {
     if (line.compare(0, 3, "```") == 0) code = !code;
     std::smatch match;
     if (!code && std::regex_match(line, match, heading)) headings.insert(lower(match[1]));
-    if (page.path == "docs/bibliography.md" && std::regex_match(line, match, entry)) book.entries.insert(match[1]);
+    if (page.path == "docs/bibliography.md" && std::regex_match(line, match, entry))
+      book.entries.insert(match[1]);
   }
 }
 
@@ -55,7 +58,8 @@ const Book& book() {
   return shared;
 }
 
-/// Documents that only their writers had, as they used to be called; some count only when a number follows.
+/// Documents that only their writers had, as they used to be called; some count only when a number
+/// follows.
 struct Absent {
   const char* name;
   bool numbered;
@@ -77,9 +81,11 @@ constexpr Absent kAbsent[] = {{"SOIL_SOLVER", false},
 /// The first of them that `line` names; null when none.
 const char* absent_in(const std::string& line) {
   for (const Absent& absent : kAbsent)
-    for (std::size_t at = line.find(absent.name); at != std::string::npos; at = line.find(absent.name, at + 1)) {
+    for (std::size_t at = line.find(absent.name); at != std::string::npos;
+         at = line.find(absent.name, at + 1)) {
       const std::size_t end = at + std::strlen(absent.name);
-      const bool number = end + 1 < line.size() && line[end] == ' ' && std::isdigit(line[end + 1]) != 0;
+      const bool number =
+          end + 1 < line.size() && line[end] == ' ' && std::isdigit(line[end + 1]) != 0;
       if (number || !absent.numbered) return absent.name;
     }
   return nullptr;
@@ -87,12 +93,14 @@ const char* absent_in(const std::string& line) {
 
 /// Wrong references of one line. A reference stands on one line.
 std::vector<std::string> wrong_references(const std::string& line, const Book& book) {
-  // A page with what follows the comma up to the bracket; without one the reference goes on beyond the line.
+  // A page with what follows the comma up to the bracket; without one the reference goes on beyond
+  // the line.
   static const std::regex page(R"re(\[(docs/[\w./-]+\.md)(?:, *([^\]]*))?(\]|$))re");
   static const std::regex literature(
       R"re(\[([A-Z][\w'-]+(?: (?:and|&) [A-Z][\w'-]+)*),? ((?:17|18|19|20)\d\d)[,:;\]])re");
   std::vector<std::string> found;
-  if (const char* absent = absent_in(line)) found.push_back(std::string(absent) + " leads out of the repository");
+  if (const char* absent = absent_in(line))
+    found.push_back(std::string(absent) + " leads out of the repository");
   if (line.find('[') == std::string::npos)
     return found;  // the expressions are slow and most lines hold nothing for them
   for (std::sregex_iterator it(line.begin(), line.end(), page), end; it != end; ++it) {
@@ -106,7 +114,8 @@ std::vector<std::string> wrong_references(const std::string& line, const Book& b
       found.push_back(name + " has no heading '" + heading + "'");
   }
   // The first name and the year are the key; "et al." would hide an entry that is not there.
-  if (line.find(" et al.") != std::string::npos) found.push_back("a reference is [Name YEAR], without et al.");
+  if (line.find(" et al.") != std::string::npos)
+    found.push_back("a reference is [Name YEAR], without et al.");
   for (std::sregex_iterator it(line.begin(), line.end(), literature), end; it != end; ++it) {
     const std::string key = (*it)[1].str() + " " + (*it)[2].str();
     if (book.entries.count(key) == 0) found.push_back("docs/bibliography.md has no [" + key + "]");
@@ -127,10 +136,10 @@ std::vector<std::string> check(const SourceFile& file) {
 TEST(References, LeadToAHeadingOrAnEntryOfTheBibliography) {
   ASSERT_FALSE(book().entries.empty()) << "docs/bibliography.md was not found";
   std::vector<std::string> found;
-  for (const char* folder :
-       {"src", "kernels", "tests", "bench", "docs", "terrain", "vehicles", "scenarios", "examples", "cmake"})
-    for (const SourceFile& file :
-         sources(folder, {".h", ".cpp", ".cl", ".cmake", "CMakeLists.txt", ".md", ".py", ".sdf", ".csv"})) {
+  for (const char* folder : {"src", "kernels", "tests", "bench", "docs", "terrain", "vehicles",
+                             "scenarios", "examples", "cmake"})
+    for (const SourceFile& file : sources(folder, {".h", ".cpp", ".cl", ".cmake", "CMakeLists.txt",
+                                                   ".md", ".py", ".sdf", ".csv"})) {
       // Names what must not be named.
       if (file.path == "tests/style/reference_test.cpp") continue;
       const std::vector<std::string> more = check(file);
@@ -148,17 +157,21 @@ TEST(References, ThatLeadNowhereAreFound) {
   read_page({"docs/soil.md", "# Soil\n\n## Swell, and heaps\n```\n# no heading\n```\n"}, small);
   read_page({"docs/bibliography.md", "- **[Klar 2016]** G. Klar.\n"}, small);
   const auto wrong = [&](const std::string& line) { return wrong_references(line, small).size(); };
-  EXPECT_EQ(wrong("x = 1;  // [docs/soil.md, soil] and [Klar 2016], [Klar 2016, section 3], a[Index 4], [1 2016]"), 0u);
-  EXPECT_EQ(wrong("[docs/soil.md, swell, and Heaps]; see [the page](docs/soil.md) or [docs/soil.md]"), 0u);
+  EXPECT_EQ(wrong("x = 1;  // [docs/soil.md, soil] and [Klar 2016], [Klar 2016, section 3], "
+                  "a[Index 4], [1 2016]"),
+            0u);
+  EXPECT_EQ(
+      wrong("[docs/soil.md, swell, and Heaps]; see [the page](docs/soil.md) or [docs/soil.md]"),
+      0u);
   EXPECT_EQ(wrong("[docs/soil.md, yield]"), 1u);
   EXPECT_EQ(wrong("[docs/soil.md, no heading]"), 1u);
   EXPECT_EQ(wrong("[docs/rock.md, soil]"), 1u);
   EXPECT_EQ(wrong("// [docs/soil.md, swell,"), 1u);
   EXPECT_EQ(wrong("[Klar 2017] [Hu and Fang 2018] [Jiang 2015: APIC]"), 3u);
   EXPECT_EQ(wrong("[Klar et al. 2016]"), 1u);
-  for (const char* absent :
-       {"SOIL_SOLVER 3", "[VALIDATION 1]", "MACHINES_AND_SENSORS", "thin-tools.md", "evidence/forces",
-        "[evidence, section 4]", "columns-and-particles", "issue 2", "see issues 3"})
+  for (const char* absent : {"SOIL_SOLVER 3", "[VALIDATION 1]", "MACHINES_AND_SENSORS",
+                             "thin-tools.md", "evidence/forces", "[evidence, section 4]",
+                             "columns-and-particles", "issue 2", "see issues 3"})
     EXPECT_EQ(wrong(absent), 1u) << absent;
   EXPECT_EQ(wrong("there is no evidence of an issue here, nor of validation"), 0u);
 }
@@ -168,13 +181,15 @@ Names test_cases() {
   static const std::regex declared(R"re(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))re");
   Names out;
   for (const SourceFile& file : sources("tests", {".cpp"}))
-    for (std::sregex_iterator it(file.text.begin(), file.text.end(), declared), end; it != end; ++it)
+    for (std::sregex_iterator it(file.text.begin(), file.text.end(), declared), end; it != end;
+         ++it)
       out.insert((*it)[1].str() + "." + (*it)[2].str());
   return out;
 }
 
 TEST(References, OfTunedConstantsNameATestThatIsThere) {
-  // "tuned: Suite.Case"; other words after the colon tell in a sentence what a constant was chosen by.
+  // "tuned: Suite.Case"; other words after the colon tell in a sentence what a constant was chosen
+  // by.
   static const std::regex tuned(R"re(tuned: ([A-Z]\w*\.[A-Z]\w*))re");
   const Names known = test_cases();
   ASSERT_GT(known.size(), 100u);

@@ -13,7 +13,8 @@ namespace navvy::style {
 namespace fs = std::filesystem;
 
 bool SourceFile::ends_with(const std::string& suffix) const {
-  return path.size() >= suffix.size() && path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0;
+  return path.size() >= suffix.size() &&
+         path.compare(path.size() - suffix.size(), suffix.size(), suffix) == 0;
 }
 
 bool SourceFile::under(const std::string& folder) const {
@@ -22,7 +23,8 @@ bool SourceFile::under(const std::string& folder) const {
 
 std::string SourceFile::extension() const { return fs::path(path).extension(); }
 
-std::vector<SourceFile> sources(const std::string& folder, const std::vector<std::string>& endings) {
+std::vector<SourceFile> sources(const std::string& folder,
+                                const std::vector<std::string>& endings) {
   std::vector<SourceFile> files;
   const fs::path root(navvy::source_dir());
   if (!fs::exists(root / folder)) return files;
@@ -36,7 +38,8 @@ std::vector<SourceFile> sources(const std::string& folder, const std::vector<std
     file.text.assign(std::istreambuf_iterator<char>(stream), {});
     files.push_back(std::move(file));
   }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  std::sort(files.begin(), files.end(),
+            [](const auto& a, const auto& b) { return a.path < b.path; });
   return files;
 }
 
@@ -59,7 +62,8 @@ std::vector<Include> includes(const std::string& text) {
     std::smatch match;
     if (std::regex_match(line, opening)) ++depth;
     if (std::regex_match(line, closing)) --depth;
-    if (std::regex_match(line, match, include)) found.push_back({match[2], match[1] == "<", number, depth});
+    if (std::regex_match(line, match, include))
+      found.push_back({match[2], match[1] == "<", number, depth});
   }
   return found;
 }
@@ -71,7 +75,8 @@ std::string code_only(const std::string& text) {
     const char c = text[i];
     const char next = i + 1 < text.size() ? text[i + 1] : '\0';
     const bool was_code = in == In::kCode;
-    const bool digit_separator = i > 0 && std::isalnum(static_cast<unsigned char>(text[i - 1])) != 0;
+    const bool digit_separator =
+        i > 0 && std::isalnum(static_cast<unsigned char>(text[i - 1])) != 0;
     if (was_code) {
       if (c == '/' && next == '/') in = In::kLine;
       if (c == '/' && next == '*') in = In::kBlock;
@@ -94,17 +99,21 @@ std::string code_only(const std::string& text) {
 }
 
 int count_lines(const std::string& text) {
-  return static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (!text.empty() && text.back() != '\n');
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n')) +
+         (!text.empty() && text.back() != '\n');
 }
 
 std::vector<int> lines_with_word(const std::string& code, const std::string& word) {
-  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const auto is_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
   std::vector<int> lines;
   for (std::size_t at = code.find(word); at != std::string::npos; at = code.find(word, at + 1)) {
     if (at > 0 && is_word(code[at - 1])) continue;
-    if (at + word.size() < code.size() && is_word(word.back()) && is_word(code[at + word.size()])) continue;
-    lines.push_back(1 +
-                    static_cast<int>(std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(at), '\n')));
+    if (at + word.size() < code.size() && is_word(word.back()) && is_word(code[at + word.size()]))
+      continue;
+    lines.push_back(1 + static_cast<int>(std::count(
+                            code.begin(), code.begin() + static_cast<std::ptrdiff_t>(at), '\n')));
   }
   return lines;
 }

@@ -15,14 +15,15 @@ struct SourceFile {
   std::string extension() const;                ///< ".h"; empty when there is none
 };
 
-/// Every file below `folder` (relative to the repository) with one of these extensions or names, sorted by path.
+/// Every file below `folder` (relative to the repository) with one of these extensions or names,
+/// sorted by path.
 std::vector<SourceFile> sources(const std::string& folder, const std::vector<std::string>& endings);
 /// One file, `path` relative to the repository; its text is empty when it is not there.
 SourceFile read_source(const std::string& path);
 bool exists(const std::string& path);
 
-/// One `#include`: the name, whether it stands in angle brackets, line number, and depth of enclosing conditionals
-/// (an include guard counts).
+/// One `#include`: the name, whether it stands in angle brackets, line number, and depth of
+/// enclosing conditionals (an include guard counts).
 struct Include {
   std::string name;
   bool angle = false;

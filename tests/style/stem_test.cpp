@@ -22,7 +22,8 @@ std::string stem_of(const std::string& path) {
 /// Stems of the kernels of a schedule.
 std::vector<std::string> stages(const std::string& schedule) {
   std::vector<std::string> out;
-  for (const SourceFile& file : sources("kernels/soil/" + schedule, {".cl"})) out.push_back(stem_of(file.path));
+  for (const SourceFile& file : sources("kernels/soil/" + schedule, {".cl"}))
+    out.push_back(stem_of(file.path));
   return out;
 }
 
@@ -39,8 +40,10 @@ TEST(Stems, OfKernelsAreThoseOfHostAndTest) {
   const std::vector<std::string> all = stages("lanes");
   ASSERT_FALSE(all.empty());
   for (const std::string& stem : all) {
-    if (!has_file("src/soil", stem + ".h", ".h")) found.push_back(stem + ": no src/soil/**/" + stem + ".h");
-    if (!has_file("src/soil", stem + ".cpp", ".cpp")) found.push_back(stem + ": no src/soil/**/" + stem + ".cpp");
+    if (!has_file("src/soil", stem + ".h", ".h"))
+      found.push_back(stem + ": no src/soil/**/" + stem + ".h");
+    if (!has_file("src/soil", stem + ".cpp", ".cpp"))
+      found.push_back(stem + ": no src/soil/**/" + stem + ".cpp");
     if (!has_file("tests/soil", stem + "_", "_test.cpp"))
       found.push_back(stem + ": no tests/soil/**/" + stem + "_*_test.cpp");
   }
@@ -50,8 +53,8 @@ TEST(Stems, OfKernelsAreThoseOfHostAndTest) {
 TEST(Stems, OfBothSchedulesAreTheSame) { EXPECT_EQ(stages("lanes"), stages("groups")); }
 
 TEST(Stems, OfKernelsHaveARowInABench) {
-  // Kernels are timed inside whole steps, where memory and neighbours are as in a run: `soil_bench --profile` prints a
-  // row for each. The case of soil_bench in which a stage costs most:
+  // Kernels are timed inside whole steps, where memory and neighbours are as in a run: `soil_bench
+  // --profile` prints a row for each. The case of soil_bench in which a stage costs most:
   const std::map<std::string, std::string> cases = {{"particle_to_grid", "collapse_64k"},
                                                     {"grid_update", "collapse_64k"},
                                                     {"grid_to_particle", "collapse_64k"},

@@ -37,7 +37,7 @@ TEST(Bearing, FactorsAreTerzaghis) {
   }
 }
 
-TEST(Bearing, OfClayWithoutFrictionIsItsCohesionAndWhatLiesBeside) {
+TEST(Bearing, OfFrictionlessClayIsItsCohesionAndTheSurcharge) {
   scene::Soil clay;
   clay.friction_angle = 0;
   clay.cohesion = 12e3, clay.residual_cohesion = 4e3, clay.loose_cohesion = 3e3;
@@ -48,7 +48,7 @@ TEST(Bearing, OfClayWithoutFrictionIsItsCohesionAndWhatLiesBeside) {
   EXPECT_EQ(bearing_capacity({}, 0.5, 0.2), 0);
 }
 
-TEST(Bearing, SoilFlowsOnlyBeyondWhatItBears) {
+TEST(Bearing, SoilFlowsOnlyBeyondItsBearingCapacity) {
   const scene::Soil soil = sand();
   const SoilState bank{&soil, 1}, loose{&soil, soil.swell};
   const double b = 0.28;
@@ -85,13 +85,15 @@ TEST(Bulldozing, IsBekkersPassiveResistance) {
   clay.friction_angle = 0;
   clay.cohesion = clay.residual_cohesion = 9e3;
   const double weight = clay.bank_density * kGravity;
-  EXPECT_NEAR(passive_resistance({&clay, 1}, 0.3, 0.1), 0.3 * (6e3 * 0.1 * 5.712 + 0.5 * weight * 0.01 * 9), 0.5);
+  EXPECT_NEAR(passive_resistance({&clay, 1}, 0.3, 0.1),
+              0.3 * (6e3 * 0.1 * 5.712 + 0.5 * weight * 0.01 * 9), 0.5);
   // tan phi' = tan 20 deg: Nc 17.69, Ngamma 4.41 by the closed form, cos^2 0.883.
   scene::Soil loam;
   loam.friction_angle = std::atan(1.5 * std::tan(radians(20)));
   loam.cohesion = loam.residual_cohesion = 6e3;
   const double k_c = (17.69 - 0.364) * 0.883, k_gamma = (2 * 4.41 / 0.364 + 1) * 0.883;
-  const double expected = 0.28 * (4e3 * 0.05 * k_c + 0.5 * loam.bank_density * kGravity * 0.0025 * k_gamma);
+  const double expected =
+      0.28 * (4e3 * 0.05 * k_c + 0.5 * loam.bank_density * kGravity * 0.0025 * k_gamma);
   EXPECT_NEAR(passive_resistance({&loam, 1}, 0.28, 0.05), expected, 0.005 * expected);
   EXPECT_EQ(passive_resistance({&loam, 1}, 0.28, 0), 0);
   EXPECT_EQ(passive_resistance({}, 0.28, 0.1), 0);
@@ -102,7 +104,8 @@ TEST(Bulldozing, IsMobilisedByHowFarTheRimPushesAhead) {
   const SoilState bank{&soil, 1};
   const double r = 0.5, z = 0.1, full = passive_resistance(bank, 0.3, z);
   const auto share = [&](double advance) { return bulldozing(bank, 0.3, r, z, advance) / full; };
-  // Rolling without slip, in cohesionless soil: the integral of 2 x (1 - exp(-j / K)) over x = d / z.
+  // Rolling without slip, in cohesionless soil: the integral of 2 x (1 - exp(-j / K)) over x = d /
+  // z.
   double expected = 0;
   for (int i = 0; i < 1000; ++i) {
     const double x = (i + 0.5) / 1000, theta = std::acos(1 - z * (1 - x) / r);

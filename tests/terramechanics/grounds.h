@@ -10,8 +10,8 @@
 
 namespace navvy::terramechanics {
 
-/// A surface over x and y [m]; the normal by differences over 0.1 m. A firm floor until told its soil. Bodies meet it
-/// by triangles between nodes `spacing` [m] apart.
+/// A surface over x and y [m]; the normal by differences over 0.1 m. A firm floor until told its
+/// soil. Bodies meet it by triangles between nodes `spacing` [m] apart.
 class FunctionGround final : public GroundQuery {
  public:
   explicit FunctionGround(std::function<double(double, double)> height, double spacing = 0.2)

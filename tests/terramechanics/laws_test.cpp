@@ -25,7 +25,8 @@ TEST(Plate, SinkageInvertsPressure) {
   const scene::Soil soil;
   for (const double width : {0.06, 0.28, 1.0})
     for (const double z : {1e-4, 0.05, 0.4})
-      EXPECT_NEAR(plate_sinkage(soil, plate_pressure(soil, z, width), width), z, 1e-12);  // rounding only
+      // Rounding only
+      EXPECT_NEAR(plate_sinkage(soil, plate_pressure(soil, z, width), width), z, 1e-12);
 }
 
 TEST(Plate, WithoutPressureOrConstantsDoesNotSink) {
@@ -76,7 +77,8 @@ TEST(TyrePatch, CarriesTheLoadAtTheSinkageOfItsPressure) {
     const double length = chord_length(tyre.radius, patch.deflection + 0.5 * patch.sinkage);
     // Eight rounds that halve the error each leave 1 %.
     EXPECT_NEAR(patch.pressure * length * tyre.width, load, 0.01 * load);
-    EXPECT_NEAR(plate_sinkage(loam, patch.pressure, tyre.width), patch.sinkage, 0.01 * patch.sinkage);
+    EXPECT_NEAR(plate_sinkage(loam, patch.pressure, tyre.width), patch.sinkage,
+                0.01 * patch.sinkage);
     EXPECT_EQ(patch.tread_depth(0), patch.sinkage);
     EXPECT_NEAR(patch.tread_depth(patch.half_length), 0, 1e-12);
     EXPECT_EQ(patch.tread_depth(1.1 * patch.half_length), 0);

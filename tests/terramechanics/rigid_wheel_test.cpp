@@ -33,23 +33,28 @@ TEST(RigidWheel, SmoothWheelSinksByBekkersClosedForm) {
   EXPECT_NEAR(force.sinkage, z, 0.02 * z);
   EXPECT_NEAR(force.torque, 0, 1e-12);
   // Towed with the work of compacting the rut: b k z^2 / 2 per metre.
-  EXPECT_NEAR(-force.drawbar, 0.5 * 1e6 * 0.2 * force.sinkage * force.sinkage, 0.01 * -force.drawbar);
+  EXPECT_NEAR(-force.drawbar, 0.5 * 1e6 * 0.2 * force.sinkage * force.sinkage,
+              0.01 * -force.drawbar);
 }
 
 TEST(RigidWheel, SinksByBekkersClosedFormInMeasuredSand) {
-  // z = (3 W / ((3 - n) b k sqrt(D)))^(2 / (2 n + 1)) [Bekker 1956], for small entry angles: 26.0 mm.
+  // z = (3 W / ((3 - n) b k sqrt(D)))^(2 / (2 n + 1)) [Bekker 1956], for small entry angles: 26.0
+  // mm.
   scene::Soil sand = plain();
   sand.tool_friction_angle = 0;
   sand.bekker_kphi = 1734000, sand.bekker_n = 1.34;
-  EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);  // entry angle 53 degrees
+  // Entry angle 53 degrees
+  EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);
 }
 
-TEST(RigidWheel, SpinningWheelBearsTheRimsFriction) {
+TEST(RigidWheel, SpinningWheelFeelsTheRimsFriction) {
   scene::Soil soil = plain();
   soil.janosi_k = 1e-5;  // fully mobilised
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, 0.9}, soil);
-  // The rim's forces stand within the entry angle of upright, so the torque is r tan delta load, a few percent less.
-  EXPECT_NEAR(force.torque, 0.5 * std::tan(radians(20)) * 300, 0.05 * 0.5 * std::tan(radians(20)) * 300);
+  // The rim's forces stand within the entry angle of upright, so the torque is r tan delta load, a
+  // few percent less.
+  EXPECT_NEAR(force.torque, 0.5 * std::tan(radians(20)) * 300,
+              0.05 * 0.5 * std::tan(radians(20)) * 300);
   EXPECT_GT(force.drawbar, 0);
 }
 
@@ -68,11 +73,13 @@ TEST(RigidWheel, PushesSoilAheadUnlessItSlips) {
     EXPECT_GT(force.bulldozing, before) << slip;
     before = force.bulldozing;
   }
-  // Locked, all of it: without cohesion b gamma z^2 Kgamma / 2 with tan phi' = 2/3 tan 30 deg, Nq' 8.31, Ngamma' 5.13.
+  // Locked, all of it: without cohesion b gamma z^2 Kgamma / 2 with tan phi' = 2/3 tan 30 deg, Nq'
+  // 8.31, Ngamma' 5.13.
   const WheelForce locked = rigid_wheel({0.5, 0.2, 300, -1}, soil);
   const double tan_phi = 2.0 / 3 * std::tan(radians(30));
   const double k_gamma = (2 * 5.13 / tan_phi + 1) / (1 + tan_phi * tan_phi);
-  const double expected = 0.2 * 0.5 * soil.bank_density * kGravity * locked.sinkage * locked.sinkage * k_gamma;
+  const double expected =
+      0.2 * 0.5 * soil.bank_density * kGravity * locked.sinkage * locked.sinkage * k_gamma;
   EXPECT_NEAR(locked.bulldozing, expected, 0.01 * expected);
 }
 
@@ -95,7 +102,8 @@ TEST(RigidWheel, SinksDeeperBySlipAsLyaskoSays) {
     EXPECT_EQ(rigid_wheel(wheel, soil).sinkage, rolling);
     wheel.slip_sinkage = 1;
     // 2 %: Bekker's power is that of small entry angles.
-    EXPECT_NEAR(rigid_wheel(wheel, soil).sinkage, deeper * rolling, 0.02 * deeper * rolling) << slip;
+    EXPECT_NEAR(rigid_wheel(wheel, soil).sinkage, deeper * rolling, 0.02 * deeper * rolling)
+        << slip;
   }
 }
 
@@ -120,7 +128,8 @@ TEST(RigidWheel, GrousersShearSoilOnSoil) {
   WheelCase wheel{0.5, 0.2, 300, 0.3};
   const double smooth = rigid_wheel(wheel, plain()).drawbar;
   wheel.grouser = 0.02;
-  EXPECT_GT(rigid_wheel(wheel, plain()).drawbar, smooth + 0.5 * (std::tan(radians(30)) - std::tan(radians(20))) * 300);
+  EXPECT_GT(rigid_wheel(wheel, plain()).drawbar,
+            smooth + 0.5 * (std::tan(radians(30)) - std::tan(radians(20))) * 300);
 }
 
 TEST(RigidWheel, DrawbarHasItsPeakWhereSlipSinksIt) {

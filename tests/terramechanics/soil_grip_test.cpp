@@ -9,7 +9,7 @@
 #include "terramechanics/shear.h"
 #include "terramechanics/tyre.h"
 #include "terramechanics/tyre_patch.h"
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::terramechanics {
 namespace {
@@ -44,15 +44,16 @@ TyreForce steady(const GroundQuery& ground, const Vec2& carrier, double rim, dou
   return out;
 }
 
-/// A rut that this tyre presses into level ground: it has sunk by `z` [m], and from `from` [m] on, either way, nobody
-/// has been. What pressing takes is told as so little that it does not count.
+/// A rut that this tyre presses into level ground: it has sunk by `z` [m], and from `from` [m] on,
+/// either way, nobody has been. What pressing takes is told as so little that it does not count.
 class FreshRut final : public GroundQuery {
  public:
-  FreshRut(const scene::Soil& soil, double z, double from = 0.47) : soil_(soil), z_(z), from_(from) {}
+  FreshRut(const scene::Soil& soil, double z, double from = 0.47)
+      : soil_(soil), z_(z), from_(from) {}
   double height(double x, double) const override { return std::abs(x) < from_ ? 0.0 : z_; }
   Vec3 normal(double, double) const override { return Vec3::UnitZ(); }
   SoilState soil(double, double) const override { return {&soil_, 1}; }
-  Sinking sinking(double, double) const override { return {1e-9, z_}; }
+  Sinkage sinking(double, double) const override { return {1e-9, z_}; }
   GroundLattice lattice() const override { return {Vec2::Zero(), 0.1}; }
 
  private:
@@ -97,11 +98,13 @@ TEST(TyreOnSoil, SlipIsThatOfCarcassAndSoilInSeries) {
 TEST(TyreOnSoil, SideForceAndPullShareOneLimit) {
   const scene::Soil loam;
   const FunctionGround ground = level(loam);
-  const TyreForce straight = steady(ground, Vec2(0.5, 0), 1), askew = steady(ground, Vec2(0.5, 0.5), 1);
+  const TyreForce straight = steady(ground, Vec2(0.5, 0), 1),
+                  askew = steady(ground, Vec2(0.5, 0.5), 1);
   const double limit = limit_of(loam, straight.force_W.z());
   EXPECT_NEAR(straight.force_W.head<2>().norm(), limit, 0.01 * limit);
   EXPECT_NEAR(askew.force_W.head<2>().norm(), limit, 0.01 * limit);
-  EXPECT_NEAR(-askew.force_W.y() / askew.force_W.x(), 1, 0.01);  // against the slip, which is at 45 deg
+  // Against the slip, which is at 45 deg
+  EXPECT_NEAR(-askew.force_W.y() / askew.force_W.x(), 1, 0.01);
 }
 
 TEST(TyreOnSoil, SideForceGrowsWithTheSlipAngle) {
@@ -119,7 +122,8 @@ TEST(TyreOnSoil, WithoutKAndStrongerThanRubberIsAFirmFloor) {
   rock.cohesion = rock.residual_cohesion = 1e9;
   rock.janosi_k = 1e-9;
   for (const Vec2& carrier : {Vec2(0.98, 0), Vec2(0.9, 0.05), Vec2(0.2, 0.3)}) {
-    const Vec3 soft = steady(level(rock), carrier, 1).force_W, firm = steady(flat(), carrier, 1).force_W;
+    const Vec3 soft = steady(level(rock), carrier, 1).force_W,
+               firm = steady(flat(), carrier, 1).force_W;
     EXPECT_LT((soft - firm).norm(), 1e-6 * firm.norm());
   }
 }
@@ -132,7 +136,8 @@ TEST(TyreOnSoil, StandingItHoldsWhatItBoreWithoutCreep) {
   motion.spin_inertia = 60;
   TyreState state;
   motion.v_W.x() = 0.02;
-  for (int i = 0; i < 300; ++i) tyre_force(twin(), motion, ground, kStep, state);  // dragged by 10 mm
+  // Dragged by 10 mm
+  for (int i = 0; i < 300; ++i) tyre_force(twin(), motion, ground, kStep, state);
   motion.v_W.x() = 0;
   const TyreForce first = tyre_force(twin(), motion, ground, kStep, state);
   TyreForce last;
@@ -148,9 +153,11 @@ TEST(TyreOnSoil, ForceIsTheMobilisedShareOfTheLimit) {
   Vec2 bristle = Vec2::Zero();
   double sheared = 0;
   for (int i = 0; i < 200; ++i) {
-    const Vec2 f = shear_force(tyre, 0.5, Vec2(0.1, 0), 0, soil, 60 / 0.25, kStep, bristle, sheared);
+    const Vec2 f =
+        shear_force(tyre, 0.5, Vec2(0.1, 0), 0, soil, 60 / 0.25, kStep, bristle, sheared);
     // What Newton's steps leave open.
-    EXPECT_NEAR(-f.x(), soil.limit * mobilised_share(sheared, soil.janosi_k), 1e-4 * soil.limit) << i;
+    EXPECT_NEAR(-f.x(), soil.limit * mobilised_share(sheared, soil.janosi_k), 1e-4 * soil.limit)
+        << i;
   }
 }
 
@@ -166,7 +173,8 @@ TEST(TyreOnSoil, InTheAirForgets) {
 
 /// How much less it pulls [N] than on the same ground where it has not sunk.
 double held_back(const GroundQuery& rut, const scene::Soil& soil, double speed, double rim) {
-  return steady(level(soil), Vec2(speed, 0), rim).force_W.x() - steady(rut, Vec2(speed, 0), rim).force_W.x();
+  return steady(level(soil), Vec2(speed, 0), rim).force_W.x() -
+         steady(rut, Vec2(speed, 0), rim).force_W.x();
 }
 
 TEST(TyreOnSoil, IsHeldBackByWhatItPushesAhead) {
@@ -174,10 +182,13 @@ TEST(TyreOnSoil, IsHeldBackByWhatItPushesAhead) {
   const scene::Wheel tyre = twin();
   const double z = 0.08;
   const FreshRut rut(loam, z);
-  const auto pushes = [&](double advance) { return 2 * bulldozing({&loam, 1}, tyre.width, tyre.radius, z, advance); };
+  const auto pushes = [&](double advance) {
+    return 2 * bulldozing({&loam, 1}, tyre.width, tyre.radius, z, advance);
+  };
   const double all = 2 * passive_resistance({&loam, 1}, tyre.width, z);
-  // 1e-6: the tanh through rest is 1 at this speed up to rounding, forces are differences of larger ones.
-  EXPECT_NEAR(held_back(rut, loam, 1, 1), pushes(1), 1e-6 * all);  // free rolling: a fifth to a quarter
+  // 1e-6: the tanh through rest is 1 at this speed up to rounding, forces are differences of larger
+  // ones. Free rolling: a fifth to a quarter
+  EXPECT_NEAR(held_back(rut, loam, 1, 1), pushes(1), 1e-6 * all);
   EXPECT_GT(pushes(1), 0.15 * all);
   EXPECT_LT(pushes(1), 0.3 * all);
   EXPECT_NEAR(held_back(rut, loam, 1, 0), all, 1e-6 * all);  // locked: all

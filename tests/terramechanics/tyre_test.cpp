@@ -33,7 +33,8 @@ TEST(TyreForce, CarriesByItsDeflectionOnAnyPlane) {
     const FunctionGround ground = slope(radians(angle));
     const double away = tyre.radius - 0.03;  // of the centre from the plane
     TyreState state;
-    const TyreForce out = tyre_force(tyre, at(away / std::cos(radians(angle))), ground, kStep, state);
+    const TyreForce out =
+        tyre_force(tyre, at(away / std::cos(radians(angle))), ground, kStep, state);
     const Vec3 normal(-std::sin(radians(angle)), 0, std::cos(radians(angle)));
     EXPECT_NEAR(out.deflection, 0.03, 1e-9) << angle;
     EXPECT_TRUE(out.force_W.isApprox(tyre.stiffness * 0.03 * normal, 1e-6)) << angle;
@@ -74,7 +75,8 @@ TEST(TyreForce, StretchedBristleHoldsWithoutCreep) {
 }
 
 TEST(TyreForce, RollingWheelSlipsInProportionToItsForce) {
-  // Steady slip kappa gives F = k sigma kappa: bristles of stiffness k renewed over the relaxation length sigma.
+  // Steady slip kappa gives F = k sigma kappa: bristles of stiffness k renewed over the relaxation
+  // length sigma.
   const scene::Wheel tyre = twin();
   TyreMotion motion = at(0.49);
   motion.v_W = Vec3(2, 0, 0);
@@ -108,7 +110,8 @@ TEST(TyreFriction, IsTheWeakerOfRubberAndSoil) {
   EXPECT_NEAR(tyre_friction(tyre, {&clay, 1.1}, 1e5), std::tan(radians(20)) + 0.125, 1e-12);
   EXPECT_NEAR(tyre_friction(tyre, {&clay, 1.2}, 1e5), std::tan(radians(20)) + 0.05, 1e-12);
   EXPECT_NEAR(tyre_friction(tyre, {&clay, 0.9}, 1e5), std::tan(radians(20)) + 0.2, 1e-12);
-  EXPECT_EQ(tyre_friction(tyre, {&clay, 1}, 2e4), 0.7);  // cohesion holds a light wheel better than its rubber
+  // Cohesion holds a light wheel better than its rubber
+  EXPECT_EQ(tyre_friction(tyre, {&clay, 1}, 2e4), 0.7);
 }
 
 TEST(TyreForce, AsksForTheSoilUnderEachTrackThatTouches) {

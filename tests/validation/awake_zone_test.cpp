@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil that sleeps must not be felt: a bucket on a prescribed path, with the soil that it wakes as far as usual and
-// twice as far around and below.
+// Soil that sleeps must not be felt: a bucket on a prescribed path, with the soil that it wakes as
+// far as usual and twice as far around and below.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct Drag {
 };
 
 Drag drag(const std::string& zone) {
-  session::Session session(load_scene("bucket_path.sdf", {"solver.awake_zone=" + zone}), shared_device());
+  session::Session session(load_scene("bucket_path.sdf", {"solver.awake_zone=" + zone}),
+                           shared_device());
   const sim::World& world = session.world();
   const sim::ToolHandle tool = world.tools().at(0);
   Drag out;
@@ -39,15 +40,18 @@ Drag drag(const std::string& zone) {
   return out;
 }
 
-TEST(AwakeZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
+TEST(ActiveZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
-  const char* source = "the awake zone does not show [docs/validation.md, Buckets and carried loads]";
+  const char* source =
+      "the awake zone does not show [docs/validation.md, Buckets and carried loads]";
   print_value("mean draft of the drag [N]", usual.force, "not gated", source);
-  expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98, 1.02, source);
-  expect_between("load, zone twice as large / as usual", twice.payload / usual.payload, 0.98, 1.02, source);
+  expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98,
+                 1.02, source);
+  expect_between("load, zone twice as large / as usual", twice.payload / usual.payload, 0.98, 1.02,
+                 source);
   print_value("particle-steps, zone twice as large / as usual",
-              static_cast<double>(twice.particle_steps) / static_cast<double>(usual.particle_steps), "the cost",
-              source);
+              static_cast<double>(twice.particle_steps) / static_cast<double>(usual.particle_steps),
+              "the cost", source);
 }
 
 }  // namespace

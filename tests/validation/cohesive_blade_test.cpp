@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A blade in cohesive soil: its strength must be felt at any cohesion, speed and cell, and be felt still when the blade
-// has gone on. Soil that does not soften, 200 times as stiff as its cohesion.
+// A blade in cohesive soil: its strength must be felt at any cohesion, speed and cell, and be felt
+// still when the blade has gone on. Soil that does not soften, 200 times as stiff as its cohesion.
 #include <algorithm>
 #include <string>
 
@@ -22,7 +22,8 @@ struct Push {
 
 lab::Report push(const Push& of, double from, double travel) {
   lab::Report report = lab::run_rig(
-      "blade", {{"speed", of.speed}, {"from", from}, {"travel", travel}, {"gate-percent", 0}}, [&](lab::Setup& s) {
+      "blade", {{"speed", of.speed}, {"from", from}, {"travel", travel}, {"gate-percent", 0}},
+      [&](lab::Setup& s) {
         s.cell = of.cell;
         s.soil.bank_density = 1540, s.soil.friction_angle = radians(30);
         s.soil.cohesion = s.soil.residual_cohesion = of.cohesion;
@@ -33,10 +34,13 @@ lab::Report push(const Push& of, double from, double travel) {
   return report;
 }
 
-/// Largest low-passed force over the expected one, until half the depth has been gone: then a pile adds its weight.
+/// Largest low-passed force over the expected one, until half the depth has been gone: then a pile
+/// adds its weight.
 double peak_of(const Push& of) { return lab::measured(push(of, 0.1, 0.15), "peak over expected"); }
 /// Mean over 0.20 .. 0.25 m of travel over the expected force.
-double late_of(const Push& of) { return lab::measured(push(of, 0.2, 0.25), "horizontal over expected"); }
+double late_of(const Push& of) {
+  return lab::measured(push(of, 0.2, 0.25), "horizontal over expected");
+}
 
 std::string kilopascals(double cohesion) { return lab::short_text(cohesion / 1000) + " kPa"; }
 
@@ -47,28 +51,31 @@ TEST(CohesiveBlade, FeelsTheWholeStrengthAtAnyCohesion) {
     expect_between("smooth blade, peak / Reece, c " + kilopascals(cohesion), peak, 0.85, 1.10,
                    std::string("[Reece 1964] ") + kSource, 1);
     // What yields must not open and lose its cohesion as it rebounds.
-    expect_between("smooth blade, force after 0.2 m / peak, c " + kilopascals(cohesion), late_of({cohesion}) / peak,
-                   0.8, kNoLimit, kSource);
+    expect_between("smooth blade, force after 0.2 m / peak, c " + kilopascals(cohesion),
+                   late_of({cohesion}) / peak, 0.8, kNoLimit, kSource);
     least = std::min(least, peak), most = std::max(most, peak), sum += peak;
   }
-  expect_between("smooth blade, spread of the four over their mean", (most - least) / (sum / 4), -kNoLimit, 0.12,
-                 kSource, 0);
+  expect_between("smooth blade, spread of the four over their mean", (most - least) / (sum / 4),
+                 -kNoLimit, 0.12, kSource, 0);
 }
 
 TEST(CohesiveBlade, WithToolFrictionIsTheSlipLines) {
   for (const double cohesion : {6e3, 20e3, 50e3})
-    expect_between("delta 20 deg, peak / slip lines, c " + kilopascals(cohesion), peak_of({cohesion, 20}), 0.80, 1.05,
+    expect_between("delta 20 deg, peak / slip lines, c " + kilopascals(cohesion),
+                   peak_of({cohesion, 20}), 0.80, 1.05,
                    std::string("[Sokolovskii 1965] ") + kSource, 1);
 }
 
 TEST(CohesiveBlade, FeelsAdhesion) {
-  expect_between("adhesion 10 kPa, c 20 kPa, peak / slip lines", peak_of({20e3, 0, 0.15, 0.1, 10e3}), 0.85, 1.10,
+  expect_between("adhesion 10 kPa, c 20 kPa, peak / slip lines",
+                 peak_of({20e3, 0, 0.15, 0.1, 10e3}), 0.85, 1.10,
                  std::string("[Sokolovskii 1965] ") + kSource, 1);
 }
 
 TEST(CohesiveBlade, FeelsNoSpeedAndNoCell) {
   const double slow = peak_of({50e3, 0, 0.05}), fast = peak_of({50e3, 0, 0.5});
-  expect_between("peak at 0.05 m/s / peak at 0.5 m/s, c 50 kPa", slow / fast, 0.9, kNoLimit, kSource, 1);
+  expect_between("peak at 0.05 m/s / peak at 0.5 m/s, c 50 kPa", slow / fast, 0.9, kNoLimit,
+                 kSource, 1);
   const double whole = peak_of({20e3}), half = peak_of({20e3, 0, 0.15, 0.05});
   expect_between("peak at half the cell / peak, c 20 kPa", half / whole, 0.95, 1.05, kSource, 1);
 }

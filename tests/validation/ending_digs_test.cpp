@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Digs in ground that makes it hard, in scenes of their own (digs/): they end by themselves, at the depth asked for.
+// Digs in ground that makes it hard, in scenes of their own (digs/): they end by themselves, at the
+// depth asked for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,8 @@ class ScoopWatch {
     // Of the base's x axis over the horizontal: these digs lie ahead of the machine.
     const double pitch = std::asin(R(2, 0)), time = session.world().time();
     if (phase == "penetrate" && last_ != phase) start_ = pitch;
-    if (phase == "penetrate" || phase == "drag" || phase == "curl") rise_ = std::max(rise_, pitch - start_);
+    if (phase == "penetrate" || phase == "drag" || phase == "curl")
+      rise_ = std::max(rise_, pitch - start_);
     if (phase == "curl" && last_ != phase) curl_start_ = time;
     if (phase == "curl") longest_curl_ = std::max(longest_curl_, time - curl_start_);
     last_ = phase;
@@ -42,7 +44,7 @@ class ScoopWatch {
 
 /// A figure of a step's account; not a number when it is not there, which no bound holds.
 double figure(const control::StepReport& step, const std::string& name) {
-  for (const control::Figure& one : step.figures)
+  for (const control::Measurement& one : step.figures)
     if (one.name == name) return one.value;
   return std::nan("");
 }
@@ -68,44 +70,52 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
   }
   const control::Dig dig = dig_step(description);
   const TrenchMeasure trench = measure(session.world().ground(), dig);
-  expect_between("the program's end [s]", session.world().time(), 10, description.recording.duration - 1, kSource);
+  expect_between("the program's end [s]", session.world().time(), 10,
+                 description.recording.duration - 1, kSource);
   expect_between("cycles", static_cast<double>(session.cycles().size()), 3, c.most_cycles, kSource);
-  expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85, 1.0,
-                 "the trench [docs/validation.md, Whole digs]");
-  // What the run tells of it agrees: "finished" is said of a dig that came to its depth and of no other.
+  expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85,
+                 1.0, "the trench [docs/validation.md, Whole digs]");
+  // What the run tells of it agrees: "finished" is said of a dig that came to its depth and of no
+  // other.
   const session::ProgramReport program = session.programs().at(0);
-  const auto told_dig = std::find_if(program.list.begin(), program.list.end(),
-                                     [](const control::StepReport& step) { return step.element == "dig"; });
-  ASSERT_NE(told_dig, program.list.end());
-  EXPECT_EQ(told_dig->state, control::StepState::kDone) << told(program, "the machine");
+  const auto reported_dig =
+      std::find_if(program.list.begin(), program.list.end(),
+                   [](const control::StepReport& step) { return step.element == "dig"; });
+  ASSERT_NE(reported_dig, program.list.end());
+  EXPECT_EQ(reported_dig->state, control::StepState::kDone) << told(program, "the machine");
   EXPECT_TRUE(session.complete()) << told(program, "the machine");
   EXPECT_FALSE(session.fell_short());
-  EXPECT_NEAR(figure(*told_dig, "depth_m"), dig.depth, 1e-12);
+  EXPECT_NEAR(figure(*reported_dig, "depth_m"), dig.depth, 1e-12);
   // Half the depth was once called finished; half of the length is at least so deep.
-  EXPECT_GT(figure(*told_dig, "depth_reached_m"), 0.75 * dig.depth);
-  EXPECT_LT(figure(*told_dig, "volume_left_m3"), 0.15 * figure(*told_dig, "design_volume_m3"));
+  EXPECT_GT(figure(*reported_dig, "depth_reached_m"), 0.75 * dig.depth);
+  EXPECT_LT(figure(*reported_dig, "volume_left_m3"),
+            0.15 * figure(*reported_dig, "design_volume_m3"));
   expect_between("nose's rise in a scoop [deg]", watch.rise(), 0, 3, kSource);
   expect_between("longest curl [s]", watch.longest_curl(), 1, 6, kSource);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, kSource);
-  expect_between("shell crossings", static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, kSource);
+  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
+                 0, 0, kSource);
+  expect_between("shell crossings",
+                 static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, kSource);
 }
 
-INSTANTIATE_TEST_SUITE_P(Digs, EndingDigs,
-                         testing::Values(DigCase{"SoftFront", "soft_front.sdf", {}, 20},
-                                         DigCase{"DrySand", "dry_sand.sdf", {}, 40},
-                                         DigCase{"Uphill", "slope.sdf", {}, 20},
-                                         DigCase{"Downhill", "slope.sdf", {"ground.slope.angle_deg=-12"}, 20},
-                                         DigCase{"Clay", "clay.sdf", {}, 25}, DigCase{"Deep", "deep.sdf", {}, 40}),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Digs, EndingDigs,
+    testing::Values(DigCase{"SoftFront", "soft_front.sdf", {}, 20},
+                    DigCase{"DrySand", "dry_sand.sdf", {}, 40},
+                    DigCase{"Uphill", "slope.sdf", {}, 20},
+                    DigCase{"Downhill", "slope.sdf", {"ground.slope.angle_deg=-12"}, 20},
+                    DigCase{"Clay", "clay.sdf", {}, 25}, DigCase{"Deep", "deep.sdf", {}, 40}),
+    [](const auto& tested) { return tested.param.name; });
 
-TEST(DrySand, BearsAnIdleMachineAndLetsItDriveAway) {
+TEST(DrySand, SupportsAnIdleMachineAndLetsItDriveAway) {
   const char* source = "a machine on dry sand [docs/machines.md, ruts]";
   session::Session session(load_scene("sand_drive.sdf", {}, kFolder), shared_device());
   const heightfield::Ground& ground = session.world().ground();
   const auto lowest = [&] {
     double out = 0;
     for (int iy = 0; iy < ground.ny(); ++iy)
-      for (int ix = 0; ix < ground.nx(); ++ix) out = std::max(out, ground.start_height(ix, iy) - ground.height(ix, iy));
+      for (int ix = 0; ix < ground.nx(); ++ix)
+        out = std::max(out, ground.start_height(ix, iy) - ground.height(ix, iy));
     return out;
   };
   run_to(session, 3);
@@ -113,13 +123,15 @@ TEST(DrySand, BearsAnIdleMachineAndLetsItDriveAway) {
   run_to(session, 29.9);
   expect_between("lowest rut, idle for 30 s [m]", lowest(), 0.10, 0.16, source);
   expect_between("sinks from 3 s to 30 s [m]", lowest() - early, 0, 0.001, source);
-  expect_between("earth moved by an idle machine [m3]", record::measure_earthwork(session.world()).bank_volume, 0, 0.02,
-                 source);
+  expect_between("earth moved by an idle machine [m3]",
+                 record::measure_earthwork(session.world()).bank_volume, 0, 0.02, source);
   while (!session.done()) session.step();
   const auto& recording = session.world().description().recording;
   // 30 s at rest, 1 s after the end.
-  expect_between("12 m of dry sand take [s]", session.world().time() - 30 - recording.settle, 10, 20, source);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, source);
+  expect_between("12 m of dry sand take [s]", session.world().time() - 30 - recording.settle, 10,
+                 20, source);
+  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
+                 0, 0, source);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces come from the soil: the scoop of bucket_path.sdf against the wedge, with other soils, and without any.
+// Forces come from the soil: the scoop of bucket_path.sdf against the wedge, with other soils, and
+// without any.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +44,8 @@ Scooped scoop(const std::vector<std::string>& settings, double until) {
   return out;
 }
 
-/// Resistance along the way of a blade like the bucket's floor: 70 to 62 degrees of curl lay it at 17 to 25 degrees.
+/// Resistance along the way of a blade like the bucket's floor: 70 to 62 degrees of curl lay it at
+/// 17 to 25 degrees.
 double wedge(const scene::Scene& world) {
   const scene::Soil& soil = world.soils.at(0);
   lab::BladeCase blade;
@@ -60,12 +62,15 @@ double wedge(const scene::Scene& world) {
 TEST(ScoopForce, IsThatOfTheWedgeWithinAFactorOfTwo) {
   const Scooped loam = scoop({}, kLifted);
   const double expected = wedge(load_scene("bucket_path.sdf"));
-  std::printf("drag %.0f N, McKyes and Ali %.0f N, payload %.1f kg\n", loam.drag, expected, loam.payload);
+  std::printf("drag %.0f N, McKyes and Ali %.0f N, payload %.1f kg\n", loam.drag, expected,
+              loam.payload);
   expect_between("drag / McKyes and Ali", loam.drag / expected, 0.5, 2,
                  "[McKyes 1977] [docs/validation.md, Whole digs]");
-  // Half the bank density, all else equal. Its cohesion then holds twice the height, so it heaps higher.
+  // Half the bank density, all else equal. Its cohesion then holds twice the height, so it heaps
+  // higher.
   const Scooped light = scoop({kHalfDensity}, kLifted);
-  expect_between("payload at half the density / payload, loam", light.payload / loam.payload, 0.45, 0.55, kSource);
+  expect_between("payload at half the density / payload, loam", light.payload / loam.payload, 0.45,
+                 0.55, kSource);
 }
 
 TEST(ScoopForce, OfSandLoadsTheBucketInProportionToItsDensity) {
@@ -78,8 +83,10 @@ TEST(ScoopForce, OfSandLoadsTheBucketInProportionToItsDensity) {
 
 TEST(ScoopForce, GrowsWithTheCohesion) {
   const Scooped weak = scoop({}, kDragEnd);
-  const Scooped strong = scoop({"soil.cohesion_pa=24000", "soil.residual_cohesion_pa=6000"}, kDragEnd);
-  // The wedge's cohesive part alone is 2/3 of the force: 4 x c makes it 3 x. Softening and the load take from that.
+  const Scooped strong =
+      scoop({"soil.cohesion_pa=24000", "soil.residual_cohesion_pa=6000"}, kDragEnd);
+  // The wedge's cohesive part alone is 2/3 of the force: 4 x c makes it 3 x. Softening and the load
+  // take from that.
   expect_between("drag at 4 c / drag", strong.drag / weak.drag, 1.2, 4, kSource);
 }
 
@@ -102,10 +109,12 @@ double borne(session::Session& session, double until) {
 }
 
 TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
-  session::Session session(load_scene("pressed_bucket.sdf", {}, "tests/validation/digs"), shared_device());
+  session::Session session(load_scene("pressed_bucket.sdf", {}, "tests/validation/digs"),
+                           shared_device());
   // It stops at 0.9 s; what pressing fast adds is gone soon after.
   const double stopped = borne(session, 1.4), later = borne(session, 4.9);
-  print_value("pressed bucket: what bears it up half a second after it stopped [N]", stopped, "no gate", kSource);
+  print_value("pressed bucket: what bears it up half a second after it stopped [N]", stopped,
+              "no gate", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1.4 t of soil in the excavator's bucket of 0.7 t, free to move on a servo, at the default step and half of it.
+// 1.4 t of soil in the excavator's bucket of 0.7 t, free to move on a servo, at the default step
+// and half of it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,8 @@
 namespace navvy::validation {
 namespace {
 
-constexpr const char* kSource = "1.4 t in the 0.7 t bucket [docs/validation.md, Buckets and carried loads]";
+constexpr const char* kSource =
+    "1.4 t in the 0.7 t bucket [docs/validation.md, Buckets and carried loads]";
 constexpr double kLoad = 1400;  ///< [kg]
 
 /// The bucket as a free body on a servo that holds its place and attitude.
@@ -73,16 +75,19 @@ class HangingBucket {
 
  private:
   void step() {
-    // A stiff servo, as an arm on closed valves: 4 Hz for bucket and load together, their weight carried.
+    // A stiff servo, as an arm on closed valves: 4 Hz for bucket and load together, their weight
+    // carried.
     const double omega = 2 * kPi * 4, total = link_.mass + kLoad;
-    const double stiffness = total * omega * omega, damping = 2 * 0.7 * total * omega, gyration2 = 0.4;
+    const double stiffness = total * omega * omega, damping = 2 * 0.7 * total * omega,
+                 gyration2 = 0.4;
     const Mat3 R = motion_.X_WT.linear();
     const Vec3 arm = R * link_.p_LCom;
     const Eigen::AngleAxisd turn(R * home_.linear().transpose());
     const Vec3 force = -stiffness * (motion_.X_WT.translation() - home_.translation() - target_) -
                        damping * motion_.v_WT + Vec3(0, 0, kLoad * kGravity);
-    const Vec3 torque = -gyration2 * (stiffness * turn.angle() * turn.axis() + damping * motion_.w_WT) +
-                        kLoad * kGravity * arm.cross(Vec3::UnitZ());
+    const Vec3 torque =
+        -gyration2 * (stiffness * turn.angle() * turn.axis() + damping * motion_.w_WT) +
+        kLoad * kGravity * arm.cross(Vec3::UnitZ());
     // Inertia about the link's origin; the body turns slowly, gyroscopic terms are left out.
     Mat3 cross;
     cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
@@ -132,12 +137,14 @@ TEST_P(HeavyBucket, CarriesTwiceItsMassWithoutChatter) {
   const auto again = bucket.run(0.5);
   // Explicit exchange of impulses rings at 15 to 29 m/s2.
   expect_between("rms acceleration at rest [m/s2]", rest.rms, 0, 1.5, kSource);
-  expect_between("force of the load / weight", rest.mean_force / (kLoad * kGravity), 0.98, 1.02, kSource);
+  expect_between("force of the load / weight", rest.mean_force / (kLoad * kGravity), 0.98, 1.02,
+                 kSource);
   expect_between("fastest while its servo moves at 0.94 m/s", swing.most_speed, 0.8, 1.5, kSource);
   expect_between("rms acceleration at rest again [m/s2]", again.rms, 0, 1.5, kSource);
   expect_between("off its servo's target [m]", again.sag, 0, 0.05, kSource);
   expect_between("payload / load", bucket.payload() / kLoad, 0.95, 1.001, kSource);
-  expect_between("shell crossings", static_cast<double>(bucket.solver().stats().shell_crossings), 0, 0, kSource);
+  expect_between("shell crossings", static_cast<double>(bucket.solver().stats().shell_crossings), 0,
+                 0, kSource);
   expect_between("nodal solve: residual / scale", bucket.worst(), 0, 1e-5, kSource);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scenarios/load_truck.sdf from start to end: the bed holds what the buckets brought, the heap what the bed held.
+// scenarios/load_truck.sdf from start to end: the bed holds what the buckets brought, the heap what
+// the bed held.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,13 +46,17 @@ TEST(LoadTruck, TheBedHoldsFivePayloadsAndTheHeapHoldsTheBed) {
   expect_between("way of the truck [m]", to - from, 50, 51, kSource);
   expect_between("bed mass after the way / before", before_tip / loaded, 0.99, 1.01, kSource);
   expect_between("heap / bed mass", heap / before_tip, 0.99, 1.01, kSource);
-  expect_between("left in the bed [kg]", session::testing::carried(world, truck, "bed"), 0, 0.01 * before_tip, kSource);
-  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0, kSource);
-  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0, kSource);
+  expect_between("left in the bed [kg]", session::testing::carried(world, truck, "bed"), 0,
+                 0.01 * before_tip, kSource);
+  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0,
+                 kSource);
+  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0,
+                 kSource);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, kSource);
   expect_between("truck's vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
-  std::printf("%.0f s simulated, at most %d particles\n", world.time(), world.soil_counts().particles_peak);
+  std::printf("%.0f s simulated, at most %d particles\n", world.time(),
+              world.soil_counts().particles_peak);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Momentum while digging, closed from both sides of the bucket: the machine with its weight, tyres and the soil's
-// impulses; the soil in a box that is itself a tool, so that what its floor and walls give is measured too.
+// Momentum while digging, closed from both sides of the bucket: the machine with its weight, tyres
+// and the soil's impulses; the soil in a box that is itself a tool, so that what its floor and
+// walls give is measured too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +23,11 @@ constexpr const char* kSource = "conservation of momentum [docs/validation.md, W
 scene::Scene standing_at_the_trench() {
   scene::Scene world = load_scene("trench.sdf", {"machine.x_m=-4"});
   scene::Program& program = world.machines.at(0).program;
-  const auto drives = [](const scene::ProgramStep& step) { return step.as<control::DriveTo>() != nullptr; };
-  program.steps.erase(std::remove_if(program.steps.begin(), program.steps.end(), drives), program.steps.end());
+  const auto drives = [](const scene::ProgramStep& step) {
+    return step.as<control::DriveTo>() != nullptr;
+  };
+  program.steps.erase(std::remove_if(program.steps.begin(), program.steps.end(), drives),
+                      program.steps.end());
   program.lines.clear();
   return world;
 }
@@ -36,7 +40,7 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
   const sim::World& world = session.world();
   const auto& tool = parts(world).coupling.tools().at(0);
   while (!session.done() && tool.smooth_W.norm() < 5000) session.step();
-  const vehicle::Engine& engine = parts(world).coupling.engine(0);
+  const vehicle::PhysicsEngine& engine = parts(world).coupling.engine(0);
   const int m = parts(world).coupling.index(0);
   const Vec3 start = engine.momentum(m);
   const double t0 = world.time();
@@ -47,16 +51,20 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
     bucket += tool.impulse.J_W;
     bucket_size += tool.impulse.J_W.norm();
     ground += engine.ground_impulse(m);
-    if (tool.impulse.scale > 0) residual = std::max(residual, tool.impulse.residual.norm() / tool.impulse.scale);
+    if (tool.impulse.scale > 0)
+      residual = std::max(residual, tool.impulse.residual.norm() / tool.impulse.scale);
   }
   const Vec3 weight = mass * description.gravity * (world.time() - t0);
   const Vec3 open = engine.momentum(m) - start - weight - ground - bucket;
   std::printf(
-      "t %.2f s: bucket (%.0f, %.0f, %.0f) N s, tyres (%.0f, %.0f, %.0f), weight %.0f, change (%.0f, %.0f, %.0f)\n", t0,
-      bucket.x(), bucket.y(), bucket.z(), ground.x(), ground.y(), ground.z(), weight.z(),
-      (engine.momentum(m) - start).x(), (engine.momentum(m) - start).y(), (engine.momentum(m) - start).z());
+      "t %.2f s: bucket (%.0f, %.0f, %.0f) N s, tyres (%.0f, %.0f, %.0f), weight %.0f, change "
+      "(%.0f, %.0f, %.0f)\n",
+      t0, bucket.x(), bucket.y(), bucket.z(), ground.x(), ground.y(), ground.z(), weight.z(),
+      (engine.momentum(m) - start).x(), (engine.momentum(m) - start).y(),
+      (engine.momentum(m) - start).z());
   expect_between("bucket impulse of 1 s [N s]", bucket_size, 1000, 1e6, "a dig, not a touch");
-  expect_between("machine: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3, kSource);
+  expect_between("machine: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3,
+                 kSource);
   expect_between("nodal solve: residual / scale", residual, 0, 1e-5, kSource);
 }
 
@@ -68,7 +76,8 @@ Vec3 momentum(const std::vector<soil::Particle>& particles) {
 }
 
 TEST(Momentum, OfTheSoilClosesOverASecondOfDiggingInABox) {
-  // 0.5 m of cohesive soil in a box held 1 m over the ground; a small bucket is drawn through it for a second.
+  // 0.5 m of cohesive soil in a box held 1 m over the ground; a small bucket is drawn through it
+  // for a second.
   scene::Soil soil = soil::rig::sand(33);
   soil.cohesion = soil.residual_cohesion = 2000;
   soil::rig::Rig rig({soil});
@@ -106,11 +115,14 @@ TEST(Momentum, OfTheSoilClosesOverASecondOfDiggingInABox) {
   });
   const Vec3 weight = kilograms(units) * rig.world().gravity * time;
   const Vec3 open = momentum(solver.particles()) - momentum(before) - weight + box + bucket;
-  std::printf("soil %.0f kg: bucket (%.1f, %.1f, %.1f) N s, box (%.1f, %.1f, %.1f), weight %.1f\n", kilograms(units),
-              bucket.x(), bucket.y(), bucket.z(), box.x(), box.y(), box.z(), weight.z());
+  std::printf("soil %.0f kg: bucket (%.1f, %.1f, %.1f) N s, box (%.1f, %.1f, %.1f), weight %.1f\n",
+              kilograms(units), bucket.x(), bucket.y(), bucket.z(), box.x(), box.y(), box.z(),
+              weight.z());
   expect_between("bucket impulse of 1 s [N s]", bucket_size, 100, 1e6, "a dig, not a touch");
-  expect_between("soil: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3, kSource);
-  expect_between("ledger error [units]", static_cast<double>(solver.ledger().error()), 0, 0, kSource);
+  expect_between("soil: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3,
+                 kSource);
+  expect_between("ledger error [units]", static_cast<double>(solver.ledger().error()), 0, 0,
+                 kSource);
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ struct SoilChange {
   double bank_density = lab::kNone;  ///< [kg/m3]
 
   void apply(scene::Soil& soil) const {
-    const auto set = [](double& value, double wanted) { value = std::isnan(wanted) ? value : wanted; };
+    const auto set = [](double& value, double wanted) {
+      value = std::isnan(wanted) ? value : wanted;
+    };
     set(soil.friction_angle, radians(phi_degrees));
     set(soil.cohesion, cohesion);
     set(soil.residual_cohesion, cohesion);
@@ -40,11 +42,13 @@ struct RigCase {
 };
 
 inline void PrintTo(const RigCase& c, std::ostream* out) { *out << c.rig; }
-inline std::string case_name(const testing::TestParamInfo<RigCase>& tested) { return tested.param.name; }
+inline std::string case_name(const testing::TestParamInfo<RigCase>& tested) {
+  return tested.param.name;
+}
 
 /// Runs the rig and holds it against its gates.
-inline void expect_gates(const RigCase& c) {
-  expect_gates(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
+inline void expect_tolerances(const RigCase& c) {
+  expect_tolerances(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
     if (!std::isnan(c.cell)) setup.cell = c.cell;
     c.soil.apply(setup.soil);
   }));

@@ -13,13 +13,17 @@
 
 namespace navvy::validation {
 
-/// A shipped scene without pictures, or one of another folder of the tree; `settings` as with `navvy run --set`.
-inline scene::Scene load_scene(const std::string& name, const std::vector<std::string>& settings = {},
+/// A shipped scene without pictures, or one of another folder of the tree; `settings` as with
+/// `navvy run --set`.
+inline scene::Scene load_scene(const std::string& name,
+                               const std::vector<std::string>& settings = {},
                                const std::string& folder = "scenarios") {
   scene_io::Overrides overrides;
   overrides.render = false;
-  for (const std::string& setting : settings) overrides.set.push_back(scene_io::parse_setting(setting));
-  return scene_io::load_scene(navvy::source_dir() + "/" + folder + "/" + name, control::step_kinds(), overrides);
+  for (const std::string& setting : settings)
+    overrides.set.push_back(scene_io::parse_setting(setting));
+  return scene_io::load_scene(navvy::source_dir() + "/" + folder + "/" + name,
+                              control::step_kinds(), overrides);
 }
 
 /// Kernels build once.

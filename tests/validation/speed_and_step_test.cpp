@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces at several speeds and two steps each: one that depends on either has no value. A miss fails unless it is in
-// gates/known_misses.md.
+// Forces at several speeds and two steps each: one that depends on either has no value. A miss
+// fails unless it is in tolerances/known_deviations.md.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,8 +16,9 @@ const char* const kSource = "[Rankine 1857] [docs/validation.md, Blades and eart
 const char* const kStep = "the step [docs/validation.md, speed and step]";
 
 double blade(double cell, double speed, double courant) {
-  const lab::Report report = lab::run_rig("blade", {{"speed", speed}, {"courant", courant}, {"gate-percent", 0}},
-                                          [&](lab::Setup& s) { s.cell = cell; });
+  const lab::Report report =
+      lab::run_rig("blade", {{"speed", speed}, {"courant", courant}, {"gate-percent", 0}},
+                   [&](lab::Setup& s) { s.cell = cell; });
   EXPECT_EQ(report.ledger_error, 0);
   return lab::measured(report, "horizontal over expected");
 }
@@ -39,16 +40,18 @@ TEST(ToolSpread, OfASmoothBladeOverSpeedsAndSteps) {
     mean += force / 3;
     worst = std::max(worst, std::abs(blade(0.05, speed, 0.25) / force - 1));
   }
-  expect_between("smooth blade, cells of 0.05 m, 0.05 .. 0.3 m/s: spread / mean", spread(whole), 0, 0.05, kSource);
+  expect_between("smooth blade, cells of 0.05 m, 0.05 .. 0.3 m/s: spread / mean", spread(whole), 0,
+                 0.05, kSource);
   expect_between("smooth blade, cells of 0.05 m: mean force / Rankine", mean, 0.93, 1.07, kSource);
-  expect_between("smooth blade, cells of 0.05 m: largest change at half the step", worst, 0, 0.01, kStep);
+  expect_between("smooth blade, cells of 0.05 m: largest change at half the step", worst, 0, 0.01,
+                 kStep);
 }
 
 // Four times slower than the slowest of the others: nothing of the contact goes by time.
 TEST(ToolSpread, OfABladeThatCreeps) {
   const double creeping = blade(0.05, 0.0125, 0.5);
-  expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s", creeping / blade(0.05, 0.05, 0.5),
-                 0.95, 1.05, kSource);
+  expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s",
+                 creeping / blade(0.05, 0.05, 0.5), 0.95, 1.05, kSource);
   // Three cells deep: what so few cannot resolve.
   print_value("smooth blade, cells of 0.1 m, force at 0.0125 m/s / at 0.05 m/s",
               blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no gate", kSource);
@@ -61,9 +64,12 @@ TEST(ToolSpread, OfASmoothBladeInCoarseCells) {
     whole.push_back(blade(0.1, speed, 0.5));
     worst = std::max(worst, std::abs(blade(0.1, speed, 0.25) / whole.back() - 1));
   }
-  expect_between("smooth blade, cells of 0.1 m, 0.05 .. 0.3 m/s: spread / mean", spread(whole), 0, 0.13, kSource);
-  expect_between("smooth blade, cells of 0.1 m: largest change at half the step", worst, 0, 0.01, kStep);
-  // Soil that a fast blade sets moving adds rho v^2 d w to Rankine's 2606 N: 1600 kg/m3, 0.3 m, 1 m.
+  expect_between("smooth blade, cells of 0.1 m, 0.05 .. 0.3 m/s: spread / mean", spread(whole), 0,
+                 0.13, kSource);
+  expect_between("smooth blade, cells of 0.1 m: largest change at half the step", worst, 0, 0.01,
+                 kStep);
+  // Soil that a fast blade sets moving adds rho v^2 d w to Rankine's 2606 N: 1600 kg/m3, 0.3 m, 1
+  // m.
   const double inertia = 1600 * 0.6 * 0.6 * 0.3 / 2606.4;
   expect_between("smooth blade, cells of 0.1 m, 0.6 m/s: force less rho v^2 d w / Rankine",
                  blade(0.1, 0.6, 0.5) - inertia, 0.95, 1.05, kSource);
@@ -103,11 +109,12 @@ Judged rough_blade(double cell, double speed) {
 }
 
 /// Speeds against each other, and their mean against what it may be.
-void expect_one_force(const std::string& name, const std::vector<Judged>& runs, double most_spread, double low,
-                      double high) {
+void expect_one_force(const std::string& name, const std::vector<Judged>& runs, double most_spread,
+                      double low, double high) {
   std::vector<double> forces;
   double mean = 0;
-  for (const Judged& run : runs) forces.push_back(run.force), mean += run.force / static_cast<double>(runs.size());
+  for (const Judged& run : runs)
+    forces.push_back(run.force), mean += run.force / static_cast<double>(runs.size());
   expect_between(name + ": spread over speeds / mean", spread(forces), 0, most_spread, kSource);
   expect_between(name + ": mean force / expected", mean / runs[0].expected, low / runs[0].expected,
                  high / runs[0].expected, kSource, 1);
@@ -116,24 +123,27 @@ void expect_one_force(const std::string& name, const std::vector<Judged>& runs, 
 TEST(ToolSpread, OfASmoothWallOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {wall(cell, 0.05, 0), wall(cell, 0.2, 0)};
-    expect_one_force("smooth wall, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s", runs, 0.04,
-                     0.93 * runs[0].expected, 1.07 * runs[0].expected);
+    expect_one_force("smooth wall, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s",
+                     runs, 0.04, 0.93 * runs[0].expected, 1.07 * runs[0].expected);
   }
 }
 
 TEST(ToolSpread, OfARoughWallOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {wall(cell, 0.05, 20), wall(cell, 0.2, 20)};
-    expect_one_force("wall, delta 20 deg, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s", runs, 0.04,
-                     runs[0].low, runs[0].high);
+    expect_one_force(
+        "wall, delta 20 deg, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s", runs,
+        0.04, runs[0].low, runs[0].high);
   }
 }
 
 TEST(ToolSpread, OfARoughBladeOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
-    const std::vector<Judged> runs = {rough_blade(cell, 0.05), rough_blade(cell, 0.15), rough_blade(cell, 0.3)};
-    expect_one_force("blade, delta 20 deg, cells of " + lab::short_text(cell) + " m, 0.05 .. 0.3 m/s", runs,
-                     cell > 0.07 ? 0.13 : 0.05, runs[0].low, runs[0].high);
+    const std::vector<Judged> runs = {rough_blade(cell, 0.05), rough_blade(cell, 0.15),
+                                      rough_blade(cell, 0.3)};
+    expect_one_force(
+        "blade, delta 20 deg, cells of " + lab::short_text(cell) + " m, 0.05 .. 0.3 m/s", runs,
+        cell > 0.07 ? 0.13 : 0.05, runs[0].low, runs[0].high);
   }
 }
 
@@ -175,8 +185,8 @@ TEST(ToolSpread, OfARakedBladeOverSteps) {
     return lab::measured(report, "horizontal force");
   };
   const double whole = force(0.5);
-  expect_between("raked blade in sand, 60 deg: force at half the step / at the step", force(0.25) / whole, 0.97, 1.03,
-                 kStep);
+  expect_between("raked blade in sand, 60 deg: force at half the step / at the step",
+                 force(0.25) / whole, 0.97, 1.03, kStep);
 }
 
 TEST(ToolSpread, OfABucketsDragOverSteps) {
@@ -185,7 +195,8 @@ TEST(ToolSpread, OfABucketsDragOverSteps) {
     return lab::measured(report, "mean horizontal force of the drag");
   };
   const double force = drag(0.5);
-  expect_between("bucket's drag in sand: force at half the step / at the step", drag(0.25) / force, 0.97, 1.03, kStep);
+  expect_between("bucket's drag in sand: force at half the step / at the step", drag(0.25) / force,
+                 0.97, 1.03, kStep);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a machine feels of stronger soil and of the step: the shipped trench in clay, its first scoop from loam to clay
-// that no bucket of its size cuts at full slices, and its forces at three steps.
+// What a machine feels of stronger soil and of the step: the shipped trench in clay, its first
+// scoop from loam to clay that no bucket of its size cuts at full slices, and its forces at three
+// steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +17,8 @@ namespace {
 
 constexpr const char* kSource = "[docs/validation.md, Digs in strong soil]";
 
-/// The trench's soil with another cohesion, which remoulding takes to a quarter as that of loam, and 200 times as
-/// stiff.
+/// The trench's soil with another cohesion, which remoulding takes to a quarter as that of loam,
+/// and 200 times as stiff.
 std::vector<std::string> with_cohesion(double pascals) {
   const auto set = [](const char* name, double value) {
     return std::string("soil.") + name + "=" + std::to_string(value);
@@ -29,28 +30,33 @@ std::vector<std::string> with_cohesion(double pascals) {
 /// The first scoops of the trench.
 struct Scoops {
   int count = 0;
-  double payload = 0;    ///< mean, when the bucket is out [kg]
-  double draft = 0;      ///< mean of the scoops' largest forces against the lip [N]
-  double force = 0;      ///< mean of the soil's force on the bucket, in contact [N]
-  double cycle = 0;      ///< from the start of one to the start of the next, mean; of one: until its end [s]
-  double held = 0;       ///< time in which soil held a joint of the arm, its bucket in the ground [s]
+  double payload = 0;  ///< mean, when the bucket is out [kg]
+  double draft = 0;    ///< mean of the scoops' largest forces against the lip [N]
+  double force = 0;    ///< mean of the soil's force on the bucket, in contact [N]
+  /// From the start of one to the start of the next, mean; of one: until its end [s].
+  double cycle = 0;
+  /// Time in which soil held a joint of the arm, its bucket in the ground [s].
+  double held = 0;
   bool finished = true;  ///< not given up before
 };
 
 Scoops dig(const std::vector<std::string>& settings, int scoops) {
   session::Session session(load_scene("trench.sdf", settings), shared_device());
   const sim::MachineHandle machine = session.world().machine(0);
-  const std::vector<sim::JointHandle> arm = {machine.joint("boom_joint"), machine.joint("arm_joint"),
-                                             machine.joint("bucket_joint")};
+  const std::vector<sim::JointHandle> arm = {
+      machine.joint("boom_joint"), machine.joint("arm_joint"), machine.joint("bucket_joint")};
   Scoops out;
   double last = 0;
-  const auto over = [&] { return static_cast<int>(session.cycles().size()) >= scoops && session.phase(0) == "return"; };
+  const auto over = [&] {
+    return static_cast<int>(session.cycles().size()) >= scoops && session.phase(0) == "return";
+  };
   while (!session.done() && !over()) {
     session.step();
     const double time = session.world().time();
     const std::string phase = session.phase(0);
     const bool in_ground = phase == "penetrate" || phase == "drag" || phase == "curl";
-    if (in_ground && std::any_of(arm.begin(), arm.end(), [](const auto& joint) { return joint.state().stalled; }))
+    if (in_ground && std::any_of(arm.begin(), arm.end(),
+                                 [](const auto& joint) { return joint.state().stalled; }))
       out.held += time - last;
     last = time;
   }
@@ -73,17 +79,19 @@ TEST(StrongSoil, IsFeltByTheFirstScoop) {
   double first = 0, last = 0;
   for (const double kilopascals : {6.0, 50.0, 150.0}) {
     const Scoops scoop = dig(with_cohesion(1000 * kilopascals), 1);
-    const std::string name = "first scoop, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
+    const std::string name =
+        "first scoop, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
     print_value(name + "largest draft [N]", scoop.draft, "rises with c", kSource);
     print_value(name + "payload [kg]", scoop.payload, "not gated", kSource);
     print_value(name + "held by the soil [s]", scoop.held, "the last one is held", kSource);
     if (first == 0) first = scoop.draft;
     last = scoop.draft;
     if (kilopascals == 150)
-      expect_between("first scoop, c 150 kPa: time in which the soil holds the arm [s]", scoop.held, 0.5, kNoLimit,
-                     kSource);
+      expect_between("first scoop, c 150 kPa: time in which the soil holds the arm [s]", scoop.held,
+                     0.5, kNoLimit, kSource);
   }
-  expect_between("first scoop, largest draft at 150 kPa / at 6 kPa", last / first, 10, kNoLimit, kSource);
+  expect_between("first scoop, largest draft at 150 kPa / at 6 kPa", last / first, 10, kNoLimit,
+                 kSource);
 }
 
 TEST(StrongSoil, FillsNoMoreAndTakesLonger) {
@@ -92,14 +100,17 @@ TEST(StrongSoil, FillsNoMoreAndTakesLonger) {
   Scoops before = loam;
   for (const double kilopascals : {20.0, 50.0}) {
     const Scoops clay = dig(with_cohesion(1000 * kilopascals), kScoops);
-    const std::string name = "four scoops, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
+    const std::string name =
+        "four scoops, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
     // A dig that ends before says why (session::ProgramReport); it has no four scoops to compare.
     print_value(name + "scoops", clay.count, "4, or the dig says why not", kSource);
-    expect_between(name + "payload / payload in loam", clay.payload / loam.payload, 0, 1.03, kSource);
-    expect_between(name + "largest draft / that of the weaker soil", clay.draft / before.draft, 1, kNoLimit, kSource);
+    expect_between(name + "payload / payload in loam", clay.payload / loam.payload, 0, 1.03,
+                   kSource);
+    expect_between(name + "largest draft / that of the weaker soil", clay.draft / before.draft, 1,
+                   kNoLimit, kSource);
     if (clay.finished)
-      expect_between(name + "time of a cycle / that of the weaker soil", clay.cycle / before.cycle, 1, kNoLimit,
-                     kSource);
+      expect_between(name + "time of a cycle / that of the weaker soil", clay.cycle / before.cycle,
+                     1, kNoLimit, kSource);
     before = clay;
   }
 }
@@ -109,8 +120,9 @@ TEST(StrongSoil, FeelsNoStep) {
   double least = 1e9, most = 0, sum = 0;
   for (const char* courant : {"0.25", "0.5", "0.8"}) {
     const double force = dig({std::string("solver.courant=") + courant}, kScoops).force;
-    print_value(std::string("four scoops of the trench, Courant ") + courant + ": mean force on the bucket [N]", force,
-                "one value", "the step [docs/validation.md, speed and step]");
+    print_value(std::string("four scoops of the trench, Courant ") + courant +
+                    ": mean force on the bucket [N]",
+                force, "one value", "the step [docs/validation.md, speed and step]");
     least = std::min(least, force), most = std::max(most, force), sum += force / 3;
   }
   expect_between("four scoops of the trench, Courant 0.25 .. 0.8: spread of the mean force / mean",

@@ -21,8 +21,12 @@ struct OnLine {
 /// Frame of the dig's line.
 struct Line {
   explicit Line(const control::Dig& dig)
-      : from(dig.from), along((dig.to - dig.from).normalized()), length((dig.to - dig.from).norm()) {}
-  OnLine at(const Vec2& p) const { return {(p - from).dot(along), (p - from).dot(Vec2(-along.y(), along.x()))}; }
+      : from(dig.from),
+        along((dig.to - dig.from).normalized()),
+        length((dig.to - dig.from).norm()) {}
+  OnLine at(const Vec2& p) const {
+    return {(p - from).dot(along), (p - from).dot(Vec2(-along.y(), along.x()))};
+  }
 
   Vec2 from, along;
   double length;
@@ -70,9 +74,11 @@ TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig
       const double drop = ground.start_height(ix, iy) - ground.height(ix, iy);
       const OnLine q = line.at(middle_of(ground, ix, iy));
       if (!belongs_to_dig(q, length, dig.width)) continue;
-      const double s = q.s, t = q.t, inside = covered(middle_of(ground, ix, iy), line, cell, dig.width);
+      const double s = q.s, t = q.t,
+                   inside = covered(middle_of(ground, ix, iy), line, cell, dig.width);
       out.inside_volume += area * inside * std::clamp(drop, 0.0, dig.depth);
-      out.overdug += area * (inside * std::max(drop - dig.depth, 0.0) + (1 - inside) * std::max(drop, 0.0));
+      out.overdug +=
+          area * (inside * std::max(drop - dig.depth, 0.0) + (1 - inside) * std::max(drop, 0.0));
       if (s < 0 || s >= cell * static_cast<double>(slices.size())) continue;
       Slice& slice = slices[static_cast<std::size_t>(s / cell)];
       if (drop > 0.5 * cell) slice.moment += drop * t, slice.removed += drop;
@@ -94,7 +100,8 @@ TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig
 }
 
 WheelTracks::WheelTracks(const heightfield::Ground& ground)
-    : ground_(ground), marked_(static_cast<std::size_t>(ground.nx()) * static_cast<std::size_t>(ground.ny())) {}
+    : ground_(ground),
+      marked_(static_cast<std::size_t>(ground.nx()) * static_cast<std::size_t>(ground.ny())) {}
 
 void WheelTracks::mark(const sim::World& world) {
   const auto& wheels = world.description().machines.at(0).machine.wheels;
@@ -120,7 +127,8 @@ double spoil_radius(double loose_volume, double repose, double width) {
   return std::cbrt(3 * loose_volume / (kPi * std::tan(repose))) + 0.5 * width;
 }
 
-std::vector<double> heap_slopes(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius) {
+std::vector<double> heap_slopes(const heightfield::Ground& ground, const control::Dig& dig,
+                                double spoil_radius) {
   constexpr double kOver = 0.6, kRisen = 0.35;
   const int straight = static_cast<int>(std::lround(kOver / ground.cell()));
   const int across = static_cast<int>(std::lround(kOver / std::sqrt(2.0) / ground.cell()));
@@ -136,7 +144,8 @@ std::vector<double> heap_slopes(const heightfield::Ground& ground, const control
           if (dx == 0 && dy == 0) continue;
           const int steps = dx != 0 && dy != 0 ? across : straight;
           const double distance = ground.cell() * steps * std::hypot(dx, dy);
-          steepest = std::max(steepest, (height - ground.height(ix + steps * dx, iy + steps * dy)) / distance);
+          steepest = std::max(
+              steepest, (height - ground.height(ix + steps * dx, iy + steps * dy)) / distance);
         }
       out.push_back(degrees(std::atan(steepest)));
     }
@@ -144,15 +153,15 @@ std::vector<double> heap_slopes(const heightfield::Ground& ground, const control
   return out;
 }
 
-double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius,
-                        const WheelTracks& tracks) {
+double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
+                        double spoil_radius, const WheelTracks& tracks) {
   const Line line(dig);
   double most = 0;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = middle_of(ground, ix, iy);
-      if (belongs_to_dig(line.at(p), line.length, dig.width) || (p - dig.dump_at).norm() < spoil_radius ||
-          tracks.hold(ix, iy))
+      if (belongs_to_dig(line.at(p), line.length, dig.width) ||
+          (p - dig.dump_at).norm() < spoil_radius || tracks.hold(ix, iy))
         continue;
       most = std::max(most, std::abs(ground.height(ix, iy) - ground.start_height(ix, iy)));
     }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "control/activities/dig/dig.h"
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "sim/world.h"
 
@@ -18,9 +18,11 @@ control::Dig dig_step(const scene::Scene& world);
 struct TrenchMeasure {
   double inside_volume = 0;  ///< removed within the design's outline [m3]
   double design_volume = 0;  ///< outline x depth [m3]
-  double overdug = 0;        ///< removed below the design floor or beside the outline by the bucket [m3]
-  double floor_share = 0;    ///< share of the length whose floor is within 0.10 m of the design
-  double center_offset = 0;  ///< largest over the length of |centre of removed area - design line| [m]
+  /// Removed below the design floor or beside the outline by the bucket [m3].
+  double overdug = 0;
+  double floor_share = 0;  ///< share of the length whose floor is within 0.10 m of the design
+  /// Largest over the length of |centre of removed area - design line| [m].
+  double center_offset = 0;
 };
 
 TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig);
@@ -38,16 +40,19 @@ class WheelTracks {
   std::vector<char> marked_;
 };
 
-/// Radius [m] around the dump point that belongs to the spoil: foot of a cone of `loose_volume` [m3] at the angle
-/// `repose` [rad], and half the cut's width, over which the bucket empties.
+/// Radius [m] around the dump point that belongs to the spoil: foot of a cone of `loose_volume`
+/// [m3] at the angle `repose` [rad], and half the cut's width, over which the bucket empties.
 double spoil_radius(double loose_volume, double repose, double width);
 
-/// Slopes of the spoil [deg], least first: steepest fall over 0.6 m in eight directions from each column within
-/// `spoil_radius` [m] of the dump that has risen by 0.35 m at least; lower ones would see the ground beside the heap.
-std::vector<double> heap_slopes(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius);
+/// Slopes of the spoil [deg], least first: steepest fall over 0.6 m in eight directions from each
+/// column within `spoil_radius` [m] of the dump that has risen by 0.35 m at least; lower ones would
+/// see the ground beside the heap.
+std::vector<double> heap_slopes(const heightfield::Ground& ground, const control::Dig& dig,
+                                double spoil_radius);
 
-/// Largest |change of height| [m] away from the trench (and half a metre around it), the spoil and the tracks.
-double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig, double spoil_radius,
-                        const WheelTracks& tracks);
+/// Largest |change of height| [m] away from the trench (and half a metre around it), the spoil and
+/// the tracks.
+double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
+                        double spoil_radius, const WheelTracks& tracks);
 
 }  // namespace navvy::validation

@@ -32,7 +32,8 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   while (!session.done()) {
     session.step();
     tracks.mark(session.world());
-    fastest_rise = std::max(fastest_rise, std::abs(session.world().machine(0).link(0).velocity().z()));
+    fastest_rise =
+        std::max(fastest_rise, std::abs(session.world().machine(0).link(0).velocity().z()));
   }
   const double real_time_factor = session.world().time() / watch.seconds();
   const heightfield::Ground& ground = session.world().ground();
@@ -43,27 +44,36 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   expect_between("design depth [m]", dig.depth, 0.8, 5, source);
   expect_between("centre line offset [m]", trench.center_offset, 0, 0.15, source);
   expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0, source);
-  expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85, 1.0, source);
-  expect_between("over-dug, share of design volume", trench.overdug / trench.design_volume, 0, 0.10, source);
+  expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85,
+                 1.0, source);
+  expect_between("over-dug, share of design volume", trench.overdug / trench.design_volume, 0, 0.10,
+                 source);
   expect_between("bank volume [m3]", earth.bank_volume, 2.0, 20, source);
   expect_between("cycles", static_cast<double>(session.cycles().size()), 3, 60, source);
-  expect_between("loose / bank / swell", earth.loose_volume / earth.bank_volume / description.soils[0].swell, 0.95,
-                 1.05, source);
-  const double spoil = spoil_radius(earth.loose_volume, description.soils[0].friction_angle, dig.width);
-  expect_between("change off trench, spoil and tracks [m]", change_elsewhere(ground, dig, spoil, tracks), 0,
-                 ground.cell(), source);
+  expect_between("loose / bank / swell",
+                 earth.loose_volume / earth.bank_volume / description.soils[0].swell, 0.95, 1.05,
+                 source);
+  const double spoil =
+      spoil_radius(earth.loose_volume, description.soils[0].friction_angle, dig.width);
+  expect_between("change off trench, spoil and tracks [m]",
+                 change_elsewhere(ground, dig, spoil, tracks), 0, ground.cell(), source);
   const std::vector<double> slopes = heap_slopes(ground, dig, spoil);
   ASSERT_FALSE(slopes.empty());
   const char* const heap = "spoil lies at 34 .. 45 deg [docs/validation.md, Whole digs]";
-  expect_between("slope of the heap over 0.6 m, median [deg]", slopes[slopes.size() / 2], 33, 45, heap);
-  expect_between("slope of the heap over 0.6 m, steepest [deg]", slopes.back(), -kNoLimit, 50, heap);
+  expect_between("slope of the heap over 0.6 m, median [deg]", slopes[slopes.size() / 2], 33, 45,
+                 heap);
+  expect_between("slope of the heap over 0.6 m, steepest [deg]", slopes.back(), -kNoLimit, 50,
+                 heap);
   expect_between("real-time factor without pictures", real_time_factor, 0.2, kNoLimit, source);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error), 0, 0, source);
-  expect_between("shell crossings", static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, source);
+  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
+                 0, 0, source);
+  expect_between("shell crossings",
+                 static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, source);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
   expect_between("machine's vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
-  print_value("mean cycle [s]", mean_cycle_time(session.cycles()), "13 .. 18 at 60 .. 90 deg of swing, not gated",
+  print_value("mean cycle [s]", mean_cycle_time(session.cycles()),
+              "13 .. 18 at 60 .. 90 deg of swing, not gated",
               "plausibility [docs/validation.md, Whole digs]");
   double worst_loss = 0;
   for (const session::Cycle& cycle : session.cycles())

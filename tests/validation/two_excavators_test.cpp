@@ -33,13 +33,16 @@ TEST(TwoExcavators, DigSideBySideToTheEnd) {
   expect_between("cycles of the first", cycles[0], 3, 60, source);
   expect_between("cycles of the second", cycles[1], 3, 60, source);
   expect_between("bank volume [m3]", record::measure_earthwork(world).bank_volume, 2, 20, source);
-  expect_between("simulated [s]", world.time(), 1, world.description().recording.duration - 1, "ends by itself");
+  expect_between("simulated [s]", world.time(), 1, world.description().recording.duration - 1,
+                 "ends by itself");
   expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01,
                  "the shell holds its load [docs/validation.md, Buckets and carried loads]");
   expect_between("machines' vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
-  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0, source);
-  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0, source);
+  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0,
+                 source);
+  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0,
+                 source);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
 }
 

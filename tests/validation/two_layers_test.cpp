@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scenarios/two_layers.sdf from start to end: the trench goes through topsoil into loam, each booked by itself.
+// scenarios/two_layers.sdf from start to end: the trench goes through topsoil into loam, each
+// booked by itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ double cut_above(const heightfield::Ground& ground, double cap) {
   return sum * ground.cell() * ground.cell();
 }
 
-TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
+TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
   session::Session session(load_scene("two_layers.sdf"), shared_device());
   const sim::World& world = session.world();
   const scene::Scene& description = world.description();
@@ -42,20 +43,25 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnBooks) {
     const record::SoilMoved& moved = earth.soils.at(i);
     swelled += moved.dug / soil.bank_density * soil.swell;
     expect_between(soil.name + ": spoil / dug mass", moved.spoil / moved.dug, 0.99, 1.01, kSource);
-    const std::int64_t error = ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i];
+    const std::int64_t error =
+        ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i];
     expect_between(soil.name + ": ledger error [units]", static_cast<double>(error), 0, 0, kSource);
   }
-  // Below the border crumbs of both soils lie on the floor, so that the cut's shape no longer tells what was dug.
-  expect_between("topsoil dug / cut above the border, by mass",
-                 earth.soils[0].dug / (cut_above(world.ground(), cap) * description.soils[0].bank_density), 0.95, 1.05,
-                 kSource);
-  expect_between("spoil volume / dug volume with each soil's swell", earth.loose_volume / swelled, 0.95, 1.05, kSource);
+  // Below the border crumbs of both soils lie on the floor, so that the cut's shape no longer tells
+  // what was dug.
+  expect_between(
+      "topsoil dug / cut above the border, by mass",
+      earth.soils[0].dug / (cut_above(world.ground(), cap) * description.soils[0].bank_density),
+      0.95, 1.05, kSource);
+  expect_between("spoil volume / dug volume with each soil's swell", earth.loose_volume / swelled,
+                 0.95, 1.05, kSource);
   expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0,
                  "the trench [docs/validation.md, Whole digs]");
-  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0, kSource);
+  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0,
+                 kSource);
   std::printf("%zu cycles, %.0f s simulated, %.2f m3 bank, %.2f m3 loose, %.0f and %.0f kg dug\n",
-              session.cycles().size(), world.time(), earth.bank_volume, earth.loose_volume, earth.soils[0].dug,
-              earth.soils[1].dug);
+              session.cycles().size(), world.time(), earth.bank_volume, earth.loose_volume,
+              earth.soils[0].dug, earth.soils[1].dug);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wheel law beside measured smooth wheels: its stiffness and one coefficient of slip sinkage are fitted to two
-// slips, the others are predicted.
+// The wheel law beside measured smooth wheels: its stiffness and one coefficient of slip sinkage
+// are fitted to two slips, the others are predicted.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -50,29 +50,31 @@ void fit(Experiment& e) {
     e.wheel.slip_sinkage = a;
     return 1000 * at(e, e.slipping).sinkage > e.slipping.sinkage;
   });
-  std::printf("[ VALUE    ] k %.3g N/m^(n+2), slip sinkage %.3g\n", e.soil.bekker_kphi, e.wheel.slip_sinkage);
+  std::printf("[ VALUE    ] k %.3g N/m^(n+2), slip sinkage %.3g\n", e.soil.bekker_kphi,
+              e.wheel.slip_sinkage);
 }
 
 /// Sinkage within 30 %, pull within 30 % of the range measured.
 void predict(const Experiment& e) {
-  const auto [least, most] =
-      std::minmax_element(e.rows.begin(), e.rows.end(), [](const Row& a, const Row& b) { return a.pull < b.pull; });
+  const auto [least, most] = std::minmax_element(
+      e.rows.begin(), e.rows.end(), [](const Row& a, const Row& b) { return a.pull < b.pull; });
   const double range = std::max({most->pull, e.rolling.pull, e.slipping.pull}) -
                        std::min({least->pull, e.rolling.pull, e.slipping.pull});
   for (const Row& row : e.rows) {
     const WheelForce law = at(e, row);
     char slip[16];
     std::snprintf(slip, sizeof slip, "%g", row.slip);
-    validation::expect_between(std::string("slip ") + slip + ", sinkage [mm]", 1000 * law.sinkage, 0.7 * row.sinkage,
-                               1.3 * row.sinkage, e.source, row.sinkage);
-    validation::expect_between(std::string("slip ") + slip + ", pull [N]", law.drawbar, row.pull - 0.3 * range,
-                               row.pull + 0.3 * range, e.source, row.pull);
+    validation::expect_between(std::string("slip ") + slip + ", sinkage [mm]", 1000 * law.sinkage,
+                               0.7 * row.sinkage, 1.3 * row.sinkage, e.source, row.sinkage);
+    validation::expect_between(std::string("slip ") + slip + ", pull [N]", law.drawbar,
+                               row.pull - 0.3 * range, row.pull + 0.3 * range, e.source, row.pull);
   }
 }
 
 scene::Soil sand(double phi_degrees, double exponent, double janosi_k) {
   scene::Soil soil;
-  soil.friction_angle = soil.tool_friction_angle = radians(phi_degrees);  // of the rim nothing is told
+  // Of the rim nothing is told
+  soil.friction_angle = soil.tool_friction_angle = radians(phi_degrees);
   soil.cohesion = soil.residual_cohesion = soil.adhesion = 0;
   soil.bekker_kc = 0, soil.bekker_n = exponent, soil.janosi_k = janosi_k;
   return soil;
@@ -99,7 +101,8 @@ TEST(WheelLaw, PredictsASmoothWheelInLunarSimulant) {
   e.soil = sand(31.9, 1.1, 0.0114);  // K: middle of 9.7 to 13.1 mm
   e.soil.cohesion = e.soil.residual_cohesion = 250;
   e.rolling = {0, 80, -6.5, 5.0}, e.slipping = {0.3, 80, 15.0, 10.0};
-  e.rows = {{0.1, 80, 11.0, 5.5}, {0.2, 80, 14.5, 7.5}, {0.4, 80, 15.0, 12.5}, {0.6, 80, 15.0, 17.5}};
+  e.rows = {
+      {0.1, 80, 11.0, 5.5}, {0.2, 80, 14.5, 7.5}, {0.4, 80, 15.0, 12.5}, {0.6, 80, 15.0, 17.5}};
   e.source = "[Ding 2011]";
   fit(e);
   predict(e);

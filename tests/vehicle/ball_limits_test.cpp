@@ -13,13 +13,14 @@ namespace {
 
 constexpr double kStep = 1.0 / 600;
 
-/// A post in the ground and 100 kg, as heavy about every axis, 1 m along x of a ball joint. Frames are turned
-/// against each other, so that no axis stands for another one.
+/// A post in the ground and 100 kg, as heavy about every axis, 1 m along x of a ball joint. Frames
+/// are turned against each other, so that no axis stands for another one.
 scene::Machine hitch(double cone, double twist) {
   scene::Machine m;
   m.name = "hitch";
   m.fixed_base = true;
-  m.links.push_back(testing::box_link("post", make_pose(0, 0, 5, 0.3, 0.2, 0.1), 100, Vec3::Zero(), Vec3(1, 2, 3)));
+  m.links.push_back(testing::box_link("post", make_pose(0, 0, 5, 0.3, 0.2, 0.1), 100, Vec3::Zero(),
+                                      Vec3(1, 2, 3)));
   const Pose X_MJ = make_pose(0, 0, 5, 0, 0, 0.4), X_ML = X_MJ * make_pose(0, 0, 0, 0.5, -0.2, 0.7);
   const Pose X_LJ = X_ML.inverse() * X_MJ;
   m.links.push_back(testing::box_link("bar", X_ML, 100, X_LJ * Vec3(1, 0, 0), Vec3::Constant(0.5)));
@@ -32,15 +33,17 @@ scene::Machine hitch(double cone, double twist) {
   return m;
 }
 
-/// Of the bar now against the start: how far its x axis leans and how far it has turned about it [deg].
+/// Of the bar now against the start: how far its x axis leans and how far it has turned about it
+/// [deg].
 struct Bend {
   double lean, turn;
 };
-Bend bend(const Engine& engine, const scene::Machine& m) {
+Bend bend(const PhysicsEngine& engine, const scene::Machine& m) {
   const Mat3 R_WJ0 = (m.links[1].X_ML * m.joints[0].X_LcJ).linear();
   const Mat3 R = R_WJ0.transpose() * (engine.link(0, 1).X_WL * m.joints[0].X_LcJ).linear();
   const Eigen::Quaterniond q(R);
-  return {degrees(std::atan2(std::hypot(R(1, 0), R(2, 0)), R(0, 0))), degrees(2 * std::atan2(q.x(), q.w()))};
+  return {degrees(std::atan2(std::hypot(R(1, 0), R(2, 0)), R(0, 0))),
+          degrees(2 * std::atan2(q.x(), q.w()))};
 }
 
 TEST(BallLimits, HoldABarThatFalls) {
@@ -49,7 +52,8 @@ TEST(BallLimits, HoldABarThatFalls) {
     const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
     engine->add_machine(m, Pose::Identity());
     double worst = 0;
-    testing::run(*engine, testing::flat(), 3, kStep, [&](double) { worst = std::max(worst, bend(*engine, m).lean); });
+    testing::run(*engine, testing::flat(), 3, kStep,
+                 [&](double) { worst = std::max(worst, bend(*engine, m).lean); });
     // 0.1 deg: a step's turn at the moment of the stop.
     EXPECT_NEAR(bend(*engine, m).lean, cone, 0.1);
     EXPECT_LT(worst, cone + 0.2);
@@ -78,14 +82,16 @@ TEST(BallLimits, OfAFreeBallAreNone) {
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(m, Pose::Identity());
   double worst = 0;
-  testing::run(*engine, testing::flat(), 2, kStep, [&](double) { worst = std::max(worst, bend(*engine, m).lean); });
+  testing::run(*engine, testing::flat(), 2, kStep,
+               [&](double) { worst = std::max(worst, bend(*engine, m).lean); });
   // A pendulum that starts level swings to the other side.
   EXPECT_GT(worst, 170);
 }
 
-TEST(BallLimits, ResumeToTheBit) {
+TEST(BallLimits, ResumeBitIdentical) {
   const scene::Machine m = hitch(radians(20), radians(10));
-  const auto first = make_bullet_engine(Vec3(0, 0, -kGravity)), second = make_bullet_engine(Vec3(0, 0, -kGravity));
+  const auto first = make_bullet_engine(Vec3(0, 0, -kGravity)),
+             second = make_bullet_engine(Vec3(0, 0, -kGravity));
   first->add_machine(m, Pose::Identity());
   second->add_machine(m, Pose::Identity());
   testing::run(*first, testing::flat(), 1, kStep);

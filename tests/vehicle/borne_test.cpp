@@ -18,7 +18,8 @@ constexpr double kHigh = 50;                  // [m] over the ground, which noth
 scene::Machine block(double mass) {
   scene::Machine m;
   m.name = "block";
-  m.links.push_back(testing::box_link("block", Pose::Identity(), mass, Vec3::Zero(), Vec3(0.6, 0.6, 0.5)));
+  m.links.push_back(
+      testing::box_link("block", Pose::Identity(), mass, Vec3::Zero(), Vec3(0.6, 0.6, 0.5)));
   scene::Collision collision;
   collision.name = "shape";
   collision.geometry.size = Vec3(0.6, 0.6, 0.5);
@@ -26,7 +27,7 @@ scene::Machine block(double mass) {
   return m;
 }
 
-std::unique_ptr<Engine> pair() {
+std::unique_ptr<PhysicsEngine> pair() {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(block(kLower), make_pose(0, 0, kHigh));
   engine->add_machine(block(kUpper), make_pose(0, 0, kHigh + 0.5));
@@ -34,7 +35,7 @@ std::unique_ptr<Engine> pair() {
 }
 
 /// Firm soil under the lower block: after all else it gives what stops it. The impulse [N s].
-Vec3 bear(Engine& engine, double dt) {
+Vec3 bear(PhysicsEngine& engine, double dt) {
   const LinkState link = engine.link(0, 0);
   Vec6 twist;
   twist << link.w_WL, link.v_WL;
@@ -43,9 +44,11 @@ Vec3 bear(Engine& engine, double dt) {
   return J.tail<3>();
 }
 
-double height(const Engine& engine, int machine) { return engine.link(machine, 0).X_WL.translation().z(); }
+double height(const PhysicsEngine& engine, int machine) {
+  return engine.link(machine, 0).X_WL.translation().z();
+}
 
-TEST(Borne, WhatRestsOnABodyThatSoilBearsDoesNotSink) {
+TEST(Borne, ABodyOnABodySupportedBySoilDoesNotSink) {
   for (const double dt : {1.0 / 150, 1.0 / 600}) {
     const auto engine = pair();
     const auto ground = testing::flat();
@@ -62,10 +65,11 @@ TEST(Borne, WhatRestsOnABodyThatSoilBearsDoesNotSink) {
     run(6);
     const double lower = height(*engine, 0), upper = height(*engine, 1);
     const double share = run(10).z() / (10 * (kLower + kUpper) * kGravity);
-    print_value("upper block of two on firm soil, sinking in 10 s [mm]", 1000 * (upper - height(*engine, 1)), "<= 0.2",
-                "statics");
-    // Contacts go on pressing out the last tenths of a millimetre. Without what the solver expects the upper block
-    // falls with the lower one in every step, by 9 and 2 mm until pressing out keeps up with it.
+    print_value("upper block of two on firm soil, sinking in 10 s [mm]",
+                1000 * (upper - height(*engine, 1)), "<= 0.2", "statics");
+    // Contacts go on pressing out the last tenths of a millimetre. Without what the solver expects
+    // the upper block falls with the lower one in every step, by 9 and 2 mm until pressing out
+    // keeps up with it.
     EXPECT_NEAR(height(*engine, 0), lower, 2e-4) << dt;
     EXPECT_NEAR(height(*engine, 1), upper, 2e-4) << dt;
     EXPECT_NEAR(share, 1, 1e-5) << dt;
@@ -84,7 +88,8 @@ TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
     EXPECT_LT((engine->momentum(0) - momentum).norm(), 1e-9) << "what soil is told, step " << i;
     // Pushes that come and go, with gaps, so that what is expected is wrong nearly always.
     if (i % 7 < 4) {
-      const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)), L(0, 0, 0.1 * std::sin(i));
+      const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)),
+          L(0, 0, 0.1 * std::sin(i));
       engine->apply_impulse_of_step(0, 0, J, L, engine->link(0, 0).X_WL.translation(), dt);
       momentum += J;
       spin += L;
@@ -100,7 +105,7 @@ TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
 TEST(Borne, ASnapshotKnowsWhatTheNextStepExpects) {
   const double dt = 1.0 / 600;
   const auto ground = testing::flat();
-  const auto go_on = [&](Engine& engine, int steps) {
+  const auto go_on = [&](PhysicsEngine& engine, int steps) {
     for (int i = 0; i < steps; ++i) {
       engine.step(dt, ground);
       bear(engine, dt);

@@ -23,7 +23,8 @@ const Vec3 kDown(0, 0, -kGravity);
 
 TEST(BulletContact, BoxRestsOnTheGroundWithItsWeight) {
   // High up and with an asymmetric relief elsewhere: the ground is neither shifted nor mirrored.
-  const FunctionGround ground([](double x, double y) { return 1000 + (x > 2 && y < -1 ? 1.0 : 0.0); });
+  const FunctionGround ground(
+      [](double x, double y) { return 1000 + (x > 2 && y < -1 ? 1.0 : 0.0); });
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(box(), make_pose(0.3, 0.4, 1000.8));
   engine->add_machine(box(), make_pose(3, -2.5, 1001.8));
@@ -33,7 +34,8 @@ TEST(BulletContact, BoxRestsOnTheGroundWithItsWeight) {
   // 1 cm: the contact is a stiff spring (1000 kg on 4 x 2e7 N/m is 0.1 mm) plus Bullet's margins.
   EXPECT_NEAR(engine->link(0, 0).X_WL.translation().z(), 1000.5, 0.01);
   EXPECT_NEAR(engine->link(1, 0).X_WL.translation().z(), 1001.5, 0.01);
-  // Contacts are found afresh in every step, so a resting box trembles, by less than a centimetre a second.
+  // Contacts are found afresh in every step, so a resting box trembles, by less than a centimetre a
+  // second.
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 0.02);
   EXPECT_NEAR(impulse.z(), 1000 * kGravity * 2, 0.005 * 1000 * kGravity * 2);
 }
@@ -41,8 +43,9 @@ TEST(BulletContact, BoxRestsOnTheGroundWithItsWeight) {
 TEST(BulletContact, FrictionHoldsBelowAndSlidesAboveItsAngle) {
   for (const double angle : {20.0, 35.0}) {  // the box has mu 0.5, 26.6 degrees
     auto engine = make_bullet_engine(kDown);
-    engine->add_machine(box(), make_pose(2, 0, 2 * std::tan(radians(angle)) + 0.5 / std::cos(radians(angle)) + 0.01, 0,
-                                         -radians(angle)));
+    engine->add_machine(
+        box(), make_pose(2, 0, 2 * std::tan(radians(angle)) + 0.5 / std::cos(radians(angle)) + 0.01,
+                         0, -radians(angle)));
     const auto ground = testing::slope(radians(angle));
     run(*engine, ground, 1, kStep);
     const double v = engine->link(0, 0).v_WL.norm();
@@ -53,7 +56,8 @@ TEST(BulletContact, FrictionHoldsBelowAndSlidesAboveItsAngle) {
       run(*engine, ground, 1, kStep, [&](double) { impulse += engine->ground_impulse(0); });
       EXPECT_LT((impulse + 1000 * kDown).norm(), 0.01 * 1000 * kGravity);
     } else {
-      const double expected = kGravity * (std::sin(radians(angle)) - 0.5 * std::cos(radians(angle)));
+      const double expected =
+          kGravity * (std::sin(radians(angle)) - 0.5 * std::cos(radians(angle)));
       EXPECT_NEAR(v, expected, 0.1 * expected);  // 10 %: the fall of the first centimetre
     }
   }
@@ -64,7 +68,8 @@ TEST(BulletContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane) {
   const double angle = radians(35);
   const auto after_a_second = [&](double spacing, double yaw) {
     const Vec2 up(std::cos(yaw), std::sin(yaw));
-    const FunctionGround ground([&](double x, double y) { return std::tan(angle) * up.dot(Vec2(x, y)); }, spacing);
+    const FunctionGround ground(
+        [&](double x, double y) { return std::tan(angle) * up.dot(Vec2(x, y)); }, spacing);
     const Vec2 start = 2 * up + Vec2(0.03, 0.02);
     auto engine = make_bullet_engine(kDown);
     const double z = ground.height(start.x(), start.y()) + 0.5 / std::cos(angle) + 0.002;
@@ -76,8 +81,10 @@ TEST(BulletContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane) {
   for (const double yaw : {0.0, radians(20.0), radians(45.0)}) {
     // Two triangles as large as the slope have no sides to hook onto.
     const Vec3 plane = after_a_second(40, yaw);
-    // 15 %: across its two directions Bullet's friction is that much too small; along them it is right to 1 %.
-    EXPECT_NEAR(plane.norm(), expected, (yaw > 0 ? 0.15 : 0.01) * expected) << degrees(yaw) << " deg";
+    // 15 %: across its two directions Bullet's friction is that much too small; along them it is
+    // right to 1 %.
+    EXPECT_NEAR(plane.norm(), expected, (yaw > 0 ? 0.15 : 0.01) * expected)
+        << degrees(yaw) << " deg";
     for (const double spacing : {0.05, 0.1, 0.2})
       EXPECT_LT((after_a_second(spacing, yaw) - plane).norm(), 0.1 * expected)
           << spacing << " m, " << degrees(yaw) << " deg";
@@ -85,7 +92,8 @@ TEST(BulletContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane) {
 }
 
 TEST(BulletContact, ABodyOnAnEdgeOfTheGroundStandsOnItsTop) {
-  // A terrace 1 m high, its wall one cell wide: a box that juts out over it by a third is held, not pushed off.
+  // A terrace 1 m high, its wall one cell wide: a box that juts out over it by a third is held, not
+  // pushed off.
   const FunctionGround ground([](double x, double) { return x < 0.01 ? 1.0 : 0.0; }, 0.1);
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(box(), make_pose(-0.17, 0.03, 1.5));
@@ -113,7 +121,8 @@ TEST(BulletContact, RaisedGroundDoesNotLaunchABody) {
   run(*engine, flat(), 1, kStep);
   const FunctionGround raised([](double, double) { return 0.3; });
   double fastest = 0;
-  run(*engine, raised, 3, kStep, [&](double) { fastest = std::max(fastest, engine->link(0, 0).v_WL.z()); });
+  run(*engine, raised, 3, kStep,
+      [&](double) { fastest = std::max(fastest, engine->link(0, 0).v_WL.z()); });
   EXPECT_LT(fastest, 1.0);
   EXPECT_NEAR(engine->link(0, 0).X_WL.translation().z(), 0.8, 0.02);
 }
@@ -127,7 +136,7 @@ TEST(BulletContact, LoweredGroundLetsABodyFall) {
   EXPECT_NEAR(engine->link(0, 0).v_WL.z(), -kGravity * 0.2, 0.02 * kGravity * 0.2);
 }
 
-TEST(BulletContact, MachinesPushEachOtherAndMomentumIsKept) {
+TEST(BulletContact, MachinesPushEachOtherAndMomentumIsConserved) {
   auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(box(), Pose::Identity());
   engine->add_machine(box(), make_pose(1.5, 0.1, 0.05));
@@ -140,8 +149,10 @@ TEST(BulletContact, MachinesPushEachOtherAndMomentumIsKept) {
 }
 
 TEST(BulletContact, EachBodyMeetsTheGroundInFullWhereverTheOtherIs) {
-  // A ridge one cell wide under one of two boxes that are a kilometre apart: it is not sampled away.
-  const FunctionGround ground([](double x, double) { return std::abs(x - 1000) < 0.05 ? 0.2 : 0.0; });
+  // A ridge one cell wide under one of two boxes that are a kilometre apart: it is not sampled
+  // away.
+  const FunctionGround ground(
+      [](double x, double) { return std::abs(x - 1000) < 0.05 ? 0.2 : 0.0; });
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(box(), make_pose(0, 0, 0.5));
   engine->add_machine(box(), make_pose(1000, 0, 0.72));
@@ -160,13 +171,15 @@ TEST(BulletContact, WhatFallsThroughTheGroundIsNamed) {
     run(*engine, flat(), 5, kStep);
     FAIL() << "it falls for ever";
   } catch (const SimulationError& error) {
-    EXPECT_NE(std::string(error.what()).find("'ghost' has fallen through the ground at x 3"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("'ghost' has fallen through the ground at x 3"),
+              std::string::npos)
         << error.what();
   }
 }
 
 TEST(BulletContact, TwoHundredBodiesOfWhichTwoTouchCostNoSearchOfAllPairs) {
-  // What touches is found whatever else is there: the pair in the crowd moves as the pair alone, to the bit.
+  // What touches is found whatever else is there: the pair in the crowd moves as the pair alone, to
+  // the bit.
   const auto end = [&](int others) {
     auto engine = make_bullet_engine(Vec3::Zero());
     engine->add_machine(box(), make_pose(0, 0, 50));
@@ -177,7 +190,8 @@ TEST(BulletContact, TwoHundredBodiesOfWhichTwoTouchCostNoSearchOfAllPairs) {
     }
     engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), Vec3(0, 0, 50));
     run(*engine, flat(), 0.5, kStep);
-    return std::array<Vec3, 2>{engine->link(0, 0).X_WL.translation(), engine->link(1, 0).X_WL.translation()};
+    return std::array<Vec3, 2>{engine->link(0, 0).X_WL.translation(),
+                               engine->link(1, 0).X_WL.translation()};
   };
   EXPECT_EQ(end(0), end(200));
 }

@@ -22,7 +22,8 @@ const Vec3 kDown(0, 0, -kGravity);
 /// Radius of the circle through three points in the plane.
 double circle_radius(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double area2 = std::abs((b - a).head<2>().x() * (c - a).y() - (b - a).y() * (c - a).x());
-  return (b - a).head<2>().norm() * (c - b).head<2>().norm() * (a - c).head<2>().norm() / (2 * area2);
+  return (b - a).head<2>().norm() * (c - b).head<2>().norm() * (a - c).head<2>().norm() /
+         (2 * area2);
 }
 
 TEST(BulletDrive, StandsStillOnItsTyres) {
@@ -38,7 +39,8 @@ TEST(BulletDrive, StandsStillOnItsTyres) {
   double load = 0;
   for (int w = 0; w < 4; ++w) load += engine->wheel(0, w).force_W.z();
   EXPECT_NEAR(load, 18000 * kGravity, 1e-3 * 18000 * kGravity);
-  EXPECT_NEAR(engine->ground_impulse(0).z(), 18000 * kGravity * kStep, 1e-3 * 18000 * kGravity * kStep);
+  EXPECT_NEAR(engine->ground_impulse(0).z(), 18000 * kGravity * kStep,
+              1e-3 * 18000 * kGravity * kStep);
 }
 
 TEST(BulletDrive, TurnsOnTheAckermannRadiusAtWalkingSpeed) {
@@ -46,7 +48,8 @@ TEST(BulletDrive, TurnsOnTheAckermannRadiusAtWalkingSpeed) {
     const scene::Machine m = ew180();
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(m, Pose::Identity());
-    engine->set_drive(0, {1.2, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
+    engine->set_drive(
+        0, {1.2, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
     const auto ground = flat();
     run(*engine, ground, 4, kStep);
     Vec3 p[3];
@@ -72,7 +75,8 @@ TEST(BulletDrive, KeepsTheAskedSpeed) {
     engine->set_drive(0, {1.0, 0, false});
     const auto ground = testing::slope(radians(angle));
     double fastest = 0;
-    run(*engine, ground, 6, kStep, [&](double) { fastest = std::max(fastest, engine->link(0, 0).v_WL.norm()); });
+    run(*engine, ground, 6, kStep,
+        [&](double) { fastest = std::max(fastest, engine->link(0, 0).v_WL.norm()); });
     // 4 %: the governor keeps the wheels' speed; pulling 25 kN uphill two twins slip by 2 %.
     EXPECT_NEAR(engine->link(0, 0).v_WL.norm(), 1.0, 0.04) << angle;
     EXPECT_LT(fastest, 1.2) << angle;
@@ -114,7 +118,8 @@ TEST(BulletDrive, PushAtTheEdgeSlidesTheMachineOnMu03) {
     const auto ground = flat();
     run(*engine, ground, 2, kStep);
     const auto push = [&](double part) {
-      engine->add_force(0, 0, Vec3(-part * share * hold, 0, 0), engine->link(0, 0).X_WL * Vec3(3.5, 0, 0.5));
+      engine->add_force(0, 0, Vec3(-part * share * hold, 0, 0),
+                        engine->link(0, 0).X_WL * Vec3(3.5, 0, 0.5));
     };
     const Vec3 before = engine->link(0, 0).X_WL.translation();
     // Applied slowly, so that the stretching bristles do not swing.
@@ -177,7 +182,8 @@ TEST(BulletDrive, HeapLiftsAWheelWithoutLaunchingIt) {
 
 TEST(BulletDrive, GroundRaisedUnderAWheelLiftsItSlowly) {
   double heap = 0;
-  const FunctionGround ground([&](double x, double y) { return std::hypot(x - 2.8, y - 1) < 0.7 ? heap : 0.0; });
+  const FunctionGround ground(
+      [&](double x, double y) { return std::hypot(x - 2.8, y - 1) < 0.7 ? heap : 0.0; });
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(ew180(), Pose::Identity());
   run(*engine, ground, 1, kStep);
@@ -198,7 +204,8 @@ TEST(BulletDrive, TrailerWheelsTurnFreelyAndMotorsObeySetJoint) {
   engine->add_machine(m, Pose::Identity());
   const auto ground = flat();
   run(*engine, ground, 0.5, kStep);
-  engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), engine->link(0, 0).X_WL * Vec3(1.4, 0, 0.6));
+  engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(),
+                        engine->link(0, 0).X_WL * Vec3(1.4, 0, 0.6));
   run(*engine, ground, 0.5, kStep);
   const double rolling = engine->link(0, 0).v_WL.x();
   EXPECT_GT(rolling, 0.5);

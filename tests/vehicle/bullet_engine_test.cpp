@@ -32,8 +32,8 @@ TEST(BulletEngine, LinkPosesAgreeWithForwardKinematicsWhileTheMachineMoves) {
   const auto ground = flat();
   Pose before = engine->link(0, 2).X_WL;
   run(*engine, ground, 0.5, kStep, [&](double) {
-    const auto poses =
-        forward_kinematics(m, Pose::Identity(), {engine->joint(0, 0).position, engine->joint(0, 1).position});
+    const auto poses = forward_kinematics(
+        m, Pose::Identity(), {engine->joint(0, 0).position, engine->joint(0, 1).position});
     const LinkState link = engine->link(0, 2);
     EXPECT_TRUE(link.X_WL.isApprox(poses[2], 1e-9));
     // 1e-3 m/s: the difference over one step is of first order in it.
@@ -79,7 +79,7 @@ TEST(BulletEngine, ServoStopsWithinItsLimitsWithoutOvershoot) {
   EXPECT_NEAR(engine->joint(0, 0).position, 0.8, 1e-4);
 }
 
-TEST(BulletEngine, OverloadedJointGivesWayAndSaysItStalls) {
+TEST(BulletEngine, OverloadedJointYieldsAndReportsTheStall) {
   auto engine = make_bullet_engine(kDown);
   scene::Machine m = arm();
   m.joints[0].effort = 30e3;  // needs about 70 kN m
@@ -170,14 +170,15 @@ TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
     engine->add_machine(testing::box(), make_pose(5, 0, 2, 0.3, 0.2, 0.1));
     return engine;
   };
-  const auto drive = [&](Engine& engine, double from, double to) {
+  const auto drive = [&](PhysicsEngine& engine, double from, double to) {
     const int steps = static_cast<int>(std::lround((to - from) / kStep));
     for (int i = 0; i < steps; ++i) {
       const double t = from + i * kStep;
       engine.set_drive(0, {1.0, 0.3 * std::sin(t), false});
       engine.set_joint(1, 7, {JointMode::kPosition, t});
       if (i % 16 == 0)
-        engine.apply_impulse(0, 11, Vec3(10, 20, 30), Vec3::Zero(), engine.link(0, 11).X_WL.translation());
+        engine.apply_impulse(0, 11, Vec3(10, 20, 30), Vec3::Zero(),
+                             engine.link(0, 11).X_WL.translation());
       engine.step(kStep, ground);
     }
   };

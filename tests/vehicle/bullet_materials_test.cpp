@@ -18,7 +18,8 @@ constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
 /// Steel on earth and on stone alike.
-scene::Materials table(double at_rest, double sliding, double restitution = 0, double softness = 0) {
+scene::Materials table(double at_rest, double sliding, double restitution = 0,
+                       double softness = 0) {
   scene::Materials out;
   out.ground = "earth";
   out.pairs.push_back({{"steel", "earth"}, at_rest, sliding, restitution, softness});
@@ -45,7 +46,8 @@ struct Slid {
 Slid slid(const scene::Materials& materials, double angle, double speed, double time) {
   auto engine = make_bullet_engine(kDown, materials);
   const Vec3 place(2, 0, 2 * std::tan(angle) + 0.5 / std::cos(angle));
-  engine->add_machine(of("steel", testing::box()), make_pose(place.x(), place.y(), place.z(), 0, -angle));
+  engine->add_machine(of("steel", testing::box()),
+                      make_pose(place.x(), place.y(), place.z(), 0, -angle));
   const Vec3 down(-std::cos(angle), 0, -std::sin(angle));
   engine->apply_impulse(0, 0, 1000 * speed * down, Vec3::Zero(), place);
   run(*engine, slope(angle), time, kStep);
@@ -109,12 +111,14 @@ TEST(BulletMaterials, ABlockReboundsFlatAndComesToRest) {
 }
 
 TEST(BulletMaterials, SoftnessGivesItsSinkage) {
-  // 1000 kg by 2e-6 m/N are 19.6 mm, on the ground (four points, or a ball's one) and on a body that stands.
+  // 1000 kg by 2e-6 m/N are 19.6 mm, on the ground (four points, or a ball's one) and on a body
+  // that stands.
   const double expected = 2e-6 * 1000 * kGravity;
   const scene::Materials materials = table(0.5, 0.5, 0, 2e-6);
   for (const bool round : {false, true}) {
     auto engine = make_bullet_engine(kDown, materials);
-    engine->add_machine(of("steel", round ? ball(0.5) : testing::box()), make_pose(0.03, 0.02, 0.5));
+    engine->add_machine(of("steel", round ? ball(0.5) : testing::box()),
+                        make_pose(0.03, 0.02, 0.5));
     run(*engine, flat(), 2, kStep);
     EXPECT_NEAR(0.5 - engine->link(0, 0).X_WL.translation().z(), expected, 0.1 * expected) << round;
   }
@@ -139,7 +143,7 @@ TEST(BulletMaterials, ATableLeavesLinksWithoutAMaterialAlone) {
   EXPECT_NE(end({}, ""), end(table(0.9, 0.1, 0.5, 1e-6), "steel"));
 }
 
-TEST(BulletMaterials, MomentumIsKeptInABlow) {
+TEST(BulletMaterials, MomentumIsConservedInABlow) {
   auto engine = make_bullet_engine(Vec3::Zero(), table(0.5, 0.4, 0.7));
   engine->add_machine(of("steel", testing::box()), make_pose(0, 0, 50));
   engine->add_machine(of("stone", testing::box()), make_pose(1.5, 0.1, 50.05));

@@ -37,13 +37,14 @@ struct OverRock {
   }
   double lowest() const {
     double z = 1e9;
-    for (const Vec3& v : machine.shells.at(0).vertices) z = std::min(z, (engine->link(0, bucket).X_WL * v).z());
+    for (const Vec3& v : machine.shells.at(0).vertices)
+      z = std::min(z, (engine->link(0, bucket).X_WL * v).z());
     return z;
   }
   Vec3 rock_force() const { return engine->rock_impulse(0, 0) / kStep; }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
   int bucket = -1;
 };
 
@@ -74,7 +75,8 @@ TEST(BulletRock, ABoomThatPressesStallsWithTheForceOfItsCylinder) {
   for (const char* name : {"boom", "stick", "bucket"}) {
     const int link = dig.machine.link_index(name);
     const scene::Link& about = dig.machine.links[static_cast<std::size_t>(link)];
-    weight += about.mass * kGravity * ((dig.engine->link(0, link).X_WL * about.p_LCom).x() - foot.x());
+    weight +=
+        about.mass * kGravity * ((dig.engine->link(0, link).X_WL * about.p_LCom).x() - foot.x());
   }
   double nearest = 1e9, farthest = 0;  // corners that touch; how they share the force is open
   for (const Vec3& v : dig.machine.shells.at(0).vertices) {
@@ -127,7 +129,8 @@ TEST(BulletRock, SteelSlidesOnItWithFriction) {
     up += dig.rock_force().z();
     lowest = std::min(lowest, dig.lowest());
   });
-  EXPECT_LT(dig.engine->link(0, dig.bucket).X_WL.translation().x(), before - 0.02) << "the stick draws it along";
+  EXPECT_LT(dig.engine->link(0, dig.bucket).X_WL.translation().x(), before - 0.02)
+      << "the stick draws it along";
   EXPECT_GT(lowest, kRock - 2e-3);
   EXPECT_NEAR(along / up, 0.5, 0.02) << "against the motion";
 }

@@ -26,7 +26,8 @@ const Vec3 kDown(0, 0, -kGravity);
 scene::Machine body(double mass, const scene::Geometry& geometry) {
   scene::Machine m;
   m.name = "stone";
-  m.links.push_back(testing::box_link("stone", Pose::Identity(), mass, Vec3::Zero(), Vec3(0.58, 0.58, 0.58)));
+  m.links.push_back(
+      testing::box_link("stone", Pose::Identity(), mass, Vec3::Zero(), Vec3(0.58, 0.58, 0.58)));
   scene::Collision collision;
   collision.name = "shape";
   collision.geometry = geometry;
@@ -47,7 +48,8 @@ scene::Machine stone_ball(double radius, double mass) {
   return body(mass, geometry);
 }
 
-/// A boulder of 80 faces, the corners of an icosahedron and the middles of its edges on a ball, as an OBJ file.
+/// A boulder of 80 faces, the corners of an icosahedron and the middles of its edges on a ball, as
+/// an OBJ file.
 std::string boulder_mesh(const test::Folder& folder, double radius) {
   const double g = 0.5 * (1 + std::sqrt(5.0));
   std::vector<Vec3> corners;
@@ -61,7 +63,8 @@ std::string boulder_mesh(const test::Folder& folder, double radius) {
   const std::size_t count = corners.size();
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j)
-      if ((corners[i] - corners[j]).norm() < 2.1) corners.push_back(0.5 * (corners[i] + corners[j]));
+      if ((corners[i] - corners[j]).norm() < 2.1)
+        corners.push_back(0.5 * (corners[i] + corners[j]));
   std::ofstream file(folder / "boulder.obj");
   for (const Vec3& p : corners) {
     const Vec3 on = radius * p.normalized();
@@ -71,13 +74,14 @@ std::string boulder_mesh(const test::Folder& folder, double radius) {
   return folder / "boulder.obj";
 }
 
-TEST(BulletSteel, MomentumOfTwoMachinesThatTouchIsKept) {
+TEST(BulletSteel, MomentumOfTwoTouchingMachinesIsConserved) {
   const scene::Machine digger = testing::ew180();
   auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(digger, make_pose(0, 0, 50));
   const geometry::Box box = geometry::bounds(digger.shells.at(0));
   const Vec3 side = engine->link(0, digger.link_index("bucket")).X_WL *
-                    Vec3(0.5 * (box.low.x() + box.high.x()), box.high.y() + 0.5, 0.5 * (box.low.z() + box.high.z()));
+                    Vec3(0.5 * (box.low.x() + box.high.x()), box.high.y() + 0.5,
+                         0.5 * (box.low.z() + box.high.z()));
   engine->add_machine(stone_ball(0.3, 500), make_pose(side.x(), side.y(), side.z()));
   const Vec3 thrown(0, -1500, 0);
   engine->apply_impulse(1, 0, thrown, Vec3::Zero(), side);
@@ -98,8 +102,11 @@ TEST(BulletSteel, AMovingBedHoldsAStone) {
   const geometry::Box box = geometry::bounds(truck.shells.at(0));
   const Pose X_WL = engine->link(0, bed).X_WL;
   const Vec3 start = X_WL * Vec3(0.5 * (box.low.x() + box.high.x()), 0, box.low.z() + 0.36);
-  engine->add_machine(block(Vec3(0.58, 0.58, 0.58), 500), make_pose(start.x(), start.y(), start.z()));
-  const auto in_bed = [&] { return Vec3(engine->link(0, bed).X_WL.inverse() * engine->link(1, 0).X_WL.translation()); };
+  engine->add_machine(block(Vec3(0.58, 0.58, 0.58), 500),
+                      make_pose(start.x(), start.y(), start.z()));
+  const auto in_bed = [&] {
+    return Vec3(engine->link(0, bed).X_WL.inverse() * engine->link(1, 0).X_WL.translation());
+  };
   run(*engine, flat(), 1, kStep);
   const Vec3 before = in_bed();
   EXPECT_NEAR(before.z() - box.low.z(), 0.29 + truck.shells[0].half_thickness, 0.03);
@@ -113,19 +120,22 @@ TEST(BulletSteel, AMovingBedHoldsAStone) {
   EXPECT_GT((engine->link(0, bed).X_WL.translation() - X_WL.translation()).norm(), 8);
   engine->set_drive(0, {0, 0, false});
   run(*engine, flat(), 3, kStep, look);
-  print_value("a stone in a bed that drives and brakes, way in it", farthest, "<= 0.1 m", "friction 0.48");
+  print_value("a stone in a bed that drives and brakes, way in it", farthest, "<= 0.1 m",
+              "friction 0.48");
   EXPECT_LT(farthest, 0.1);
 }
 
-/// The test bucket, 1.4 times as large, on a column that swings: what its joints are told is where it is.
+/// The test bucket, 1.4 times as large, on a column that swings: what its joints are told is where
+/// it is.
 struct Crane {
-  explicit Crane(Engine& in) : engine(in) {
+  explicit Crane(PhysicsEngine& in) : engine(in) {
     machine = scene_io::load_machine(scene_io::find_data("vehicles/test_bucket/model.sdf"));
     machine.kinematic = false;
     for (Vec3& v : machine.shells.at(0).vertices) v *= 1.4;
     // Between base and carriage.
-    machine.links.insert(machine.links.begin() + 1,
-                         testing::box_link("column", Pose::Identity(), 1000, Vec3::Zero(), Vec3(1, 1, 1)));
+    machine.links.insert(
+        machine.links.begin() + 1,
+        testing::box_link("column", Pose::Identity(), 1000, Vec3::Zero(), Vec3(1, 1, 1)));
     for (scene::Joint& joint : machine.joints) {
       if (joint.parent > 0) ++joint.parent;
       ++joint.child;
@@ -149,7 +159,7 @@ struct Crane {
       }
     });
   }
-  Engine& engine;
+  PhysicsEngine& engine;
   scene::Machine machine;
   std::array<double, 4> now{};
 };
@@ -169,7 +179,8 @@ TEST(BulletSteel, ABucketTakesUpAStoneCarriesItAndSetsItDown) {
   const auto stone = [&] { return Vec3(engine->link(1, 0).X_WL.translation()); };
   const auto in_bucket = [&] { return Vec3(engine->link(0, 4).X_WL.inverse() * stone()); };
   const double flat_curl = radians(-56);
-  // The lip 0.756 m before the hinge and 0.31 m below it: down on the ground, under the stone, curled, up.
+  // The lip 0.756 m before the hinge and 0.31 m below it: down on the ground, under the stone,
+  // curled, up.
   crane.go({0, 1.6, 0.345, flat_curl}, 1);
   crane.go({0, 2.3, 0.345, flat_curl}, 3);
   crane.go({0, 2.3, 0.5, radians(-20)}, 2);
@@ -184,7 +195,8 @@ TEST(BulletSteel, ABucketTakesUpAStoneCarriesItAndSetsItDown) {
   crane.go({radians(90), 2.0, 0.75, radians(-95)}, 3);
   crane.go({radians(90), 1.2, 0.9, radians(-95)}, 3);
   run(*engine, flat(), 8, kStep);
-  print_value("a stone that was set down: height of its middle", stone().z(), "0.3 .. 0.37 m", "on the ground");
+  print_value("a stone that was set down: height of its middle", stone().z(), "0.3 .. 0.37 m",
+              "on the ground");
   EXPECT_NEAR(stone().z(), 0.34, 0.04);
   EXPECT_LT(engine->link(1, 0).v_WL.norm(), 0.05);
   EXPECT_NEAR(bearing(stone()), radians(90), radians(20));

@@ -22,7 +22,7 @@ using testing::run;
 
 constexpr double kStep = 1.0 / 600;
 
-std::unique_ptr<Engine> engine_of(const std::string& name) {
+std::unique_ptr<PhysicsEngine> engine_of(const std::string& name) {
   return name == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
 }
 
@@ -56,15 +56,19 @@ class ControllerContract : public ::testing::TestWithParam<std::string> {
   }
   /// Wheel speeds [rad/s], as motors of their own are told.
   void turn_wheels(double left, double right) {
-    engine->set_joint(0, machine.joint_index(machine.wheels[0].joint), {JointMode::kVelocity, left});
-    engine->set_joint(0, machine.joint_index(machine.wheels[1].joint), {JointMode::kVelocity, right});
+    engine->set_joint(0, machine.joint_index(machine.wheels[0].joint),
+                      {JointMode::kVelocity, left});
+    engine->set_joint(0, machine.joint_index(machine.wheels[1].joint),
+                      {JointMode::kVelocity, right});
   }
   LinkState base() const { return engine->link(0, 0); }
   double forward_speed() const { return base().X_WL.linear().col(0).dot(base().v_WL); }
-  double joint_of(const std::string& name) const { return engine->joint(0, machine.joint_index(name)).position; }
+  double joint_of(const std::string& name) const {
+    return engine->joint(0, machine.joint_index(name)).position;
+  }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
   std::unique_ptr<Encoders> encoders;
 };
 
@@ -79,8 +83,8 @@ TEST_P(ControllerContract, WheelSpeedsDriveTheRobotOnTheirArc) {
   EXPECT_NEAR(engine->wheel(0, 1).spin, 3, 0.01 * 5);
   print_value("speed of the robot [m/s]", forward_speed(), "0.4", "mean of the rims");
   print_value("its yaw rate [rad/s]", base().w_WL.z(), "-0.5", "difference of the rims / track");
-  // 8 %: a tyre under load is 4 mm smaller than 100 and slips, and the ball is drawn sideways; the other engine misses
-  // by a step's chord.
+  // 8 %: a tyre under load is 4 mm smaller than 100 and slips, and the ball is drawn sideways; the
+  // other engine misses by a step's chord.
   const double share = GetParam() == "Bullet" ? 0.08 : 1e-6;
   EXPECT_NEAR(forward_speed(), 0.4, share * 0.4);
   EXPECT_NEAR(base().w_WL.z(), -0.5, share * 0.5);
@@ -103,7 +107,8 @@ TEST_P(ControllerContract, ADriveCommandTakesTheWheelsBack) {
   go(2);
   engine->set_drive(0, {-0.3, 0, false});
   go(4);
-  EXPECT_NEAR(forward_speed(), -0.3, 0.04 * 0.3);  // the governor keeps the wheels' speed, the tyres slip
+  // The governor keeps the wheels' speed, the tyres slip
+  EXPECT_NEAR(forward_speed(), -0.3, 0.04 * 0.3);
   engine->set_drive(0, {0, 0, true});
   go(3);
   EXPECT_NEAR(forward_speed(), 0, 1e-4);
@@ -121,12 +126,15 @@ TEST_P(ControllerContract, AckermannRollsByItsWheelSpeedsAndSteeringAngles) {
     if (!wheel.steer_joint.empty())
       engine->set_joint(0, machine.joint_index(wheel.steer_joint), {JointMode::kPosition, angle});
     // The inner wheel of a turn to the left goes the shorter way.
-    const double share = w % 2 == 0 ? 1 - 0.5 * drive.track / radius : 1 + 0.5 * drive.track / radius;
+    const double share =
+        w % 2 == 0 ? 1 - 0.5 * drive.track / radius : 1 + 0.5 * drive.track / radius;
     if (wheel.driven)
-      engine->set_joint(0, machine.joint_index(wheel.joint), {JointMode::kVelocity, share / wheel.radius});
+      engine->set_joint(0, machine.joint_index(wheel.joint),
+                        {JointMode::kVelocity, share / wheel.radius});
   }
   go(8);
-  print_value("radius of the turn [m]", forward_speed() / base().w_WL.z(), "7", "L / tan of the bicycle's angle");
+  print_value("radius of the turn [m]", forward_speed() / base().w_WL.z(), "7",
+              "L / tan of the bicycle's angle");
   // 3 % of a radius is the gate of Ackermann drives [docs/validation.md]; speed as above.
   EXPECT_NEAR(forward_speed() / base().w_WL.z(), radius, 0.03 * radius);
   EXPECT_NEAR(forward_speed(), 1, 0.05);
@@ -146,10 +154,12 @@ TEST_P(ControllerContract, CountsAreTheJointsTurnsAndWrap) {
   EXPECT_LT((*encoders)[1].counts(), 0x8000u);
   turn_wheels(10, 10);
   go(3);
-  // Four turns and more: the register has wrapped. One count: sums of steps round otherwise than one product.
+  // Four turns and more: the register has wrapped. One count: sums of steps round otherwise than
+  // one product.
   EXPECT_GT(joint_of(machine.wheels[0].joint), 4 * 2 * kPi);
   for (std::size_t w = 0; w < 2; ++w)
-    EXPECT_NEAR(static_cast<double>((*encoders)[w].counts()), static_cast<double>(expected(w)), 1) << w;
+    EXPECT_NEAR(static_cast<double>((*encoders)[w].counts()), static_cast<double>(expected(w)), 1)
+        << w;
 }
 
 TEST_P(ControllerContract, InjectedFaultsFalsifyTheCountsAndNothingElse) {
@@ -185,7 +195,8 @@ TEST_P(ControllerContract, LeversOpenValves) {
   engine->set_joint(0, boom, {JointMode::kOpening, 0.3});
   go(1);
   // A motor without a cylinder: half of its speed.
-  EXPECT_NEAR(engine->joint(0, swing).velocity, 0.5 * m.joints[static_cast<std::size_t>(swing)].velocity, 0.01);
+  EXPECT_NEAR(engine->joint(0, swing).velocity,
+              0.5 * m.joints[static_cast<std::size_t>(swing)].velocity, 0.01);
   EXPECT_GT(engine->joint(0, boom).position, before + 0.02);
   // Closed: it stands within the valve's time, and stays.
   engine->set_joint(0, boom, {JointMode::kOpening, 0});
@@ -208,7 +219,8 @@ TEST_P(ControllerContract, LinksTellPoseAndTwistThatBelongTogether) {
   const Eigen::AngleAxisd turned(Mat3(after.X_WL.linear() * before.X_WL.linear().transpose()));
   // First order in the step: accelerations of some 5 m/s2 and 5 rad/s2 over 1/600 s.
   EXPECT_LT((moved - 0.5 * (before.v_WL + after.v_WL)).norm(), 0.02);
-  EXPECT_LT((turned.angle() / kStep * turned.axis() - 0.5 * (before.w_WL + after.w_WL)).norm(), 0.02);
+  EXPECT_LT((turned.angle() / kStep * turned.axis() - 0.5 * (before.w_WL + after.w_WL)).norm(),
+            0.02);
   EXPECT_GT(after.w_WL.norm(), 0.1);
 }
 

@@ -37,7 +37,7 @@ class Crawlers : public ::testing::TestWithParam<std::string> {
  protected:
   Crawlers() : machine(shipped(GetParam())), engine(build()) {}
 
-  std::unique_ptr<Engine> build(const Pose& X_WM = Pose::Identity()) const {
+  std::unique_ptr<PhysicsEngine> build(const Pose& X_WM = Pose::Identity()) const {
     auto built = make_bullet_engine(kDown);
     built->add_machine(machine, X_WM);
     return built;
@@ -50,12 +50,12 @@ class Crawlers : public ::testing::TestWithParam<std::string> {
     return base.X_WL.linear().col(0).dot(base.v_WL);
   }
   /// Speed of a belt over its rollers, 0 left, 1 right.
-  double belt(int side) const {
+  double running_track(int side) const {
     return engine->wheel(0, side).spin * machine.wheels[static_cast<std::size_t>(side)].radius;
   }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
 };
 
 TEST_P(Crawlers, StandOnTheirRollersWithTheirWeight) {
@@ -67,12 +67,13 @@ TEST_P(Crawlers, StandOnTheirRollersWithTheirWeight) {
   EXPECT_GT(stability(machine, *engine, 0).margin, 0.1 * gauge());
   for (int w = 0; w < 2; ++w) {
     double pressed = 0;
-    for (const terramechanics::BeltPatch& patch : engine->belt_patches(0, w)) pressed += patch.load;
+    for (const terramechanics::TrackPatch& patch : engine->track_patches(0, w))
+      pressed += patch.load;
     EXPECT_NEAR(pressed, engine->wheel(0, w).force_W.z(), 0.01 * pressed);
   }
 }
 
-TEST_P(Crawlers, GoStraightAtTheSpeedAskedBothWays) {
+TEST_P(Crawlers, GoStraightAtTheCommandedSpeedInBothDirections) {
   for (const double share : {0.6, -0.4}) {
     const double speed = share * top_speed();
     engine->set_drive(0, {speed, 0, false});
@@ -91,9 +92,10 @@ TEST_P(Crawlers, TurnLessThanTheirTracksWouldWithoutSlip) {
   double turned = 0, bound = 0;
   run(*engine, flat(), 5, kStep, [&](double) {
     turned += kStep * engine->link(0, 0).w_WL.z();
-    bound += kStep * (belt(1) - belt(0)) / gauge();
+    bound += kStep * (running_track(1) - running_track(0)) / gauge();
   });
-  print_value("turn of a crawler [deg]", degrees(turned), "below " + std::to_string(degrees(bound)), "(v_r - v_l) / B");
+  print_value("turn of a crawler [deg]", degrees(turned), "below " + std::to_string(degrees(bound)),
+              "(v_r - v_l) / B");
   EXPECT_LT(turned, bound);
   EXPECT_GT(turned, 0.4 * bound);
   // The same by kinematics is the bound itself.
@@ -112,17 +114,18 @@ TEST_P(Crawlers, PivotOnTheSpotAgainstTheMomentOfTheirTracks) {
   double bound = 0, turned = 0;
   run(*engine, flat(), 6, kStep, [&](double) {
     turned += kStep * engine->link(0, 0).w_WL.z();
-    bound += kStep * (belt(1) - belt(0)) / gauge();
+    bound += kStep * (running_track(1) - running_track(0)) / gauge();
   });
-  EXPECT_LT(belt(0), 0);
-  EXPECT_GT(belt(1), 0);
+  EXPECT_LT(running_track(0), 0);
+  EXPECT_GT(running_track(1), 0);
   EXPECT_GT(turned, 0.3 * bound);
   EXPECT_LT(turned, bound);
-  print_value("pivot turn [deg]", degrees(turned), "below " + std::to_string(degrees(bound)), "(v_r - v_l) / B");
+  print_value("pivot turn [deg]", degrees(turned), "below " + std::to_string(degrees(bound)),
+              "(v_r - v_l) / B");
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - before).head<2>().norm(), 0.25 * gauge());
 }
 
-TEST_P(Crawlers, PullOnAFloorWithWhatTheirBeltsGrip) {
+TEST_P(Crawlers, PullOnAFloorWithWhatTheirTracksGrip) {
   run(*engine, flat(), 2, kStep);
   engine->set_drive(0, {0.5 * top_speed(), 0, false});
   const double weight = mass_of(machine) * kGravity;
@@ -134,8 +137,10 @@ TEST_P(Crawlers, PullOnAFloorWithWhatTheirBeltsGrip) {
     pull = std::max(0.0, 2 * weight * p.x() + 0.5 * weight * base.v_WL.x());
     engine->add_force(0, 0, Vec3(-pull, 0, 0), p);
   });
-  const double most = std::min(friction() * weight, scene::powertrain(machine.drive).tractive_force);
-  print_value("pull on a firm floor / weight [-]", pull / weight, std::to_string(most / weight) + " +-3 %", "Coulomb");
+  const double most =
+      std::min(friction() * weight, scene::powertrain(machine.drive).tractive_force);
+  print_value("pull on a firm floor / weight [-]", pull / weight,
+              std::to_string(most / weight) + " +-3 %", "Coulomb");
   // 3 %: the belts' own resistance is taken from what the motors give, not from what grips.
   EXPECT_NEAR(pull, most, (most < friction() * weight ? 0.06 : 0.03) * most);
 }
@@ -165,7 +170,7 @@ TEST_P(Crawlers, PullOnSoilByItsCohesionAndFriction) {
   });
   double area = 0, length = 0;
   for (int w = 0; w < 2; ++w)
-    for (const terramechanics::BeltPatch& patch : engine->belt_patches(0, w)) {
+    for (const terramechanics::TrackPatch& patch : engine->track_patches(0, w)) {
       area += patch.length * patch.width;
       length += 0.5 * patch.length;
     }
@@ -187,12 +192,14 @@ TEST_P(Crawlers, StandOnASlopeUpToTheirFriction) {
     const auto built = make_bullet_engine(kDown);
     built->add_machine(strong, make_pose(0, 0, 0, 0, -angle, 0));
     const auto hill = testing::slope(angle);
-    // It is put down and slides until it has weight on its rollers, and rocks until its rollers have settled.
+    // It is put down and slides until it has weight on its rollers, and rocks until its rollers
+    // have settled.
     run(*built, hill, 20, kStep);
     const Vec3 before = built->link(0, 0).X_WL.translation();
     run(*built, hill, 2, kStep);
     const double slid = (built->link(0, 0).X_WL.translation() - before).norm();
-    print_value("slid in 2 s [m]", slid, beside < 0 ? "below 1 mm" : "more than 0.1 m", "atan of its friction");
+    print_value("slid in 2 s [m]", slid, beside < 0 ? "below 1 mm" : "more than 0.1 m",
+                "atan of its friction");
     if (beside < 0)
       EXPECT_LT(slid, 1e-3);
     else
@@ -212,7 +219,9 @@ TEST_P(Crawlers, ResumeEqualInTheMiddleOfATurn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, Crawlers, ::testing::Values("ex180_tracked", "tracked_robot"),
-                         [](const ::testing::TestParamInfo<std::string>& about) { return about.param; });
+                         [](const ::testing::TestParamInfo<std::string>& about) {
+                           return about.param;
+                         });
 
 }  // namespace
 }  // namespace navvy::vehicle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Differentials: what they do to the speeds and torques of their shafts, by the textbook's identities.
+// Differentials: what they do to the speeds and torques of their shafts, by the textbook's
+// identities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,8 +64,10 @@ TEST(DifferentialLock, AnOpenOneGivesBothSidesWhatTheWorseOneTakes) {
   // 2000 kg on 4 deg ask for 1370 N; the rear wheel on ice takes some 250.
   const Climb open = climb(on_ice({}), radians(4));
   EXPECT_LT(open.speed, 0);
-  // Torques are equal; what the road does not take of it turns the wheel faster: 100 kg, 0.8 m x 0.8 m.
-  const double inertia = 100 * (0.8 * 0.8 + 0.8 * 0.8) / 12, radius = testing::cart().wheels[3].radius;
+  // Torques are equal; what the road does not take of it turns the wheel faster: 100 kg, 0.8 m x
+  // 0.8 m.
+  const double inertia = 100 * (0.8 * 0.8 + 0.8 * 0.8) / 12,
+               radius = testing::cart().wheels[3].radius;
   const double left = open.left * radius + inertia * open.gain_left;
   EXPECT_NEAR(open.right * radius + inertia * open.gain_right, left, 0.05 * left);
   EXPECT_GT(open.spin_left, open.spin_right + 2);
@@ -84,7 +87,8 @@ TEST(DifferentialLock, OneWithLimitedSlipGivesTheSlowerSideItsLockingTorqueMore)
   const Climb open = climb(on_ice({}), radians(4)), limited = climb(cart, radians(4));
   EXPECT_GT(limited.spin_left, limited.spin_right + 1) << "it slips here";
   const double radius = cart.wheels[3].radius;
-  EXPECT_NEAR((limited.right - limited.left) - (open.right - open.left), 300 / radius, 0.1 * 300 / radius);
+  EXPECT_NEAR((limited.right - limited.left) - (open.right - open.left), 300 / radius,
+              0.1 * 300 / radius);
   // A bias that asks for more than the road can take from it does not slip at all.
   const Climb strong = climb(on_ice({Kind::kLimitedSlip, 5000, 0}), radians(4));
   EXPECT_NEAR(strong.spin_left, strong.spin_right, 1e-3 * strong.spin_right);

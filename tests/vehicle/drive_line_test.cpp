@@ -44,13 +44,15 @@ TEST(Differential, BeyondItsSpeedGoesSlowerOnTheSameArc) {
   const SideSpeeds sides = side_speeds(drive, {2, 4, false});
   EXPECT_NEAR(sides.right, 1, 1e-12);
   // R = v / w = 0.5 m.
-  EXPECT_NEAR(0.5 * (sides.left + sides.right) / ((sides.right - sides.left) / drive.track), 0.5, 1e-12);
+  EXPECT_NEAR(0.5 * (sides.left + sides.right) / ((sides.right - sides.left) / drive.track), 0.5,
+              1e-12);
 }
 
 TEST(DriveLine, EveryKindFollowsTheArcOfItsEquivalentBicycle) {
   scene::DifferentialDrive differential;
   differential.track = 0.4;
-  for (const scene::Drive& drive : {scene::Drive(scene::AckermannDrive()), scene::Drive(differential)}) {
+  for (const scene::Drive& drive :
+       {scene::Drive(scene::AckermannDrive()), scene::Drive(differential)}) {
     SCOPED_TRACE(scene::drive_name(drive));
     scene::Machine machine;
     machine.drive = drive;
@@ -79,7 +81,8 @@ TEST(DriveLine, KnowsTheSideOfEachWheel) {
 TEST(DriveLine, BrakedGivesNoTorqueAndForgetsWhatItAsked) {
   const scene::Machine machine = testing::robot();
   const auto line = make_drive_line(machine);
-  const std::vector<WheelTurn> turns = {{true, 0, 0.1, 0.02}, {true, 0, 0.1, 0.02}, {false, 0, 0.05, 0.01}};
+  const std::vector<WheelTurn> turns = {
+      {true, 0, 0.1, 0.02}, {true, 0, 0.1, 0.02}, {false, 0, 0.05, 0.01}};
   std::vector<double> torque;
   const std::uint64_t fresh = hash_of(*line).digest();
   for (int i = 0; i < 100; ++i) line->torques({0, 2, false}, turns, 46, kStep, torque);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive command promises, the same for every engine and every kind of drive: one set of tests over all of them.
+// What a drive command promises, the same for every engine and every kind of drive: one set of
+// tests over all of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,20 +23,26 @@ constexpr double kStep = 1.0 / 600;
 
 struct Case {
   std::string engine, drive;
-  /// Share by which a turn may miss: tyres of the dynamic engine slip. The other one rolls exactly, but its velocity is
-  /// a step's chord, seen along the heading at the step's end: 1 - cos(w dt / 2).
+  /// Share by which a turn may miss: tyres of the dynamic engine slip. The other one rolls exactly,
+  /// but its velocity is a step's chord, seen along the heading at the step's end: 1 - cos(w dt /
+  /// 2).
   double tolerance;
 };
 
-std::string name_of(const ::testing::TestParamInfo<Case>& info) { return info.param.engine + info.param.drive; }
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
+  return info.param.engine + info.param.drive;
+}
 
 class Drives : public ::testing::TestWithParam<Case> {
  protected:
-  Drives() : machine(GetParam().drive == "Ackermann" ? testing::cart() : testing::robot()), engine(build()) {}
+  Drives()
+      : machine(GetParam().drive == "Ackermann" ? testing::cart() : testing::robot()),
+        engine(build()) {}
 
-  std::unique_ptr<Engine> build() const {
-    std::unique_ptr<Engine> built =
-        GetParam().engine == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
+  std::unique_ptr<PhysicsEngine> build() const {
+    std::unique_ptr<PhysicsEngine> built = GetParam().engine == "Bullet"
+                                               ? make_bullet_engine(Vec3(0, 0, -kGravity))
+                                               : make_kinematic_engine();
     built->add_machine(machine, Pose::Identity());
     return built;
   }
@@ -47,10 +54,10 @@ class Drives : public ::testing::TestWithParam<Case> {
   double forward_speed() const { return base().X_WL.linear().col(0).dot(base().v_WL); }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
 };
 
-TEST_P(Drives, GoStraightAtTheSpeedAskedBothWays) {
+TEST_P(Drives, GoStraightAtTheCommandedSpeedInBothDirections) {
   for (const double speed : {1.0, -0.6}) {
     engine->set_drive(0, command(speed));
     run(*engine, flat(), 5, kStep);
@@ -65,7 +72,7 @@ TEST_P(Drives, GoStraightAtTheSpeedAskedBothWays) {
   EXPECT_NEAR(base().X_WL.translation().y(), 0, 0.01);
 }
 
-TEST_P(Drives, TurnOnTheArcOfTheBicycleBothWays) {
+TEST_P(Drives, TurnOnTheArcOfTheBicycleModelInBothDirections) {
   const double wheelbase = equivalent_bicycle(machine.drive).wheelbase;
   for (const double angle : {0.3, -0.3}) {
     engine->set_drive(0, command(0.8, angle));
@@ -110,7 +117,8 @@ TEST_P(Drives, ResumeEqualInTheMiddleOfATurn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllEngines, Drives,
-                         ::testing::Values(Case{"Bullet", "Ackermann", 0.03}, Case{"Kinematic", "Ackermann", 1e-6},
+                         ::testing::Values(Case{"Bullet", "Ackermann", 0.03},
+                                           Case{"Kinematic", "Ackermann", 1e-6},
                                            Case{"Bullet", "Differential", 0.03},
                                            Case{"Kinematic", "Differential", 1e-6}),
                          name_of);
@@ -119,13 +127,14 @@ class DifferentialDrives : public ::testing::TestWithParam<Case> {};
 
 TEST_P(DifferentialDrives, TurnOnTheSpot) {
   const scene::Machine machine = testing::robot();
-  auto engine = GetParam().engine == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
+  auto engine = GetParam().engine == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity))
+                                              : make_kinematic_engine();
   engine->add_machine(machine, Pose::Identity());
   engine->set_drive(0, {0, 1.5, false});
   run(*engine, flat(), 10, kStep);
   EXPECT_NEAR(engine->link(0, 0).w_WL.z(), 1.5, 0.03 * 1.5);
-  // The middle between the wheels stays; the ball swings round it. 5 cm: at the start the sides, each with a governor
-  // of its own, share the centripetal force unequally until they settle.
+  // The middle between the wheels stays; the ball swings round it. 5 cm: at the start the sides,
+  // each with a governor of its own, share the centripetal force unequally until they settle.
   EXPECT_LT(engine->link(0, 0).X_WL.translation().head<2>().norm(), 0.05);
   // 5 %: the loaded radius is 4 mm less than 100.
   EXPECT_NEAR(engine->wheel(0, 0).spin, -1.5 * 0.2 / 0.1, 0.05 * 3);  // left, backwards
@@ -133,7 +142,8 @@ TEST_P(DifferentialDrives, TurnOnTheSpot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllEngines, DifferentialDrives,
-                         ::testing::Values(Case{"Bullet", "", 0}, Case{"Kinematic", "", 0}), name_of);
+                         ::testing::Values(Case{"Bullet", "", 0}, Case{"Kinematic", "", 0}),
+                         name_of);
 
 }  // namespace
 }  // namespace navvy::vehicle

@@ -16,7 +16,8 @@ using testing::run;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-/// Time the ram takes to lift the bed to its stop with a load [kg] that hangs 1.7 m before the hinge.
+/// Time the ram takes to lift the bed to its stop with a load [kg] that hangs 1.7 m before the
+/// hinge.
 double lift_time(double load) {
   const scene::Machine m = dumper();
   auto engine = make_bullet_engine(kDown);
@@ -38,7 +39,8 @@ double lift_time(double load) {
 }
 
 TEST(Dumper, LiftsItsBedInTwelveSecondsEmptyAndWithSixTonnes) {
-  // Oil alone sets the pace while the pressure suffices: 0.89 m of stroke at 0.075 m/s, slower near the stop.
+  // Oil alone sets the pace while the pressure suffices: 0.89 m of stroke at 0.075 m/s, slower near
+  // the stop.
   EXPECT_NEAR(lift_time(0), 12, 1.2);
   EXPECT_NEAR(lift_time(6000), 12, 1.2);
 }

@@ -57,7 +57,7 @@ TEST(JointEncoder, RegistersOfAnyWidthWrap) {
   }
 }
 
-TEST(JointEncoder, MissesTheShareItIsToldInEitherDirection) {
+TEST(JointEncoder, LosesTheConfiguredShareInEitherDirection) {
   scene::Encoder about = encoder(1000, 32);
   about.missed = 0.02;
   JointEncoder counter(about, 0, 5);

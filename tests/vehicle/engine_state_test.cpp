@@ -23,14 +23,14 @@ using testing::run;
 
 constexpr double kStep = 1.0 / 600;
 
-std::unique_ptr<Engine> engine_of(const std::string& name) {
+std::unique_ptr<PhysicsEngine> engine_of(const std::string& name) {
   return name == "Bullet" ? make_bullet_engine(Vec3(0, 0, -kGravity)) : make_kinematic_engine();
 }
 
-class EngineState : public ::testing::TestWithParam<std::string> {
+class CombustionEngineState : public ::testing::TestWithParam<std::string> {
  protected:
   /// The shipped excavator beside a robot: cylinders, pump, shells and both kinds of drive.
-  std::unique_ptr<Engine> build() const {
+  std::unique_ptr<PhysicsEngine> build() const {
     auto engine = engine_of(GetParam());
     engine->add_machine(testing::ew180(), Pose::Identity());
     engine->add_machine(testing::robot(), make_pose(0, 6, 0));
@@ -39,7 +39,7 @@ class EngineState : public ::testing::TestWithParam<std::string> {
   }
 };
 
-TEST_P(EngineState, HashesEveryByteItSavesAndRefusesEveryByteOfAnotherScene) {
+TEST_P(CombustionEngineState, HashesEveryByteItSavesAndRefusesEveryByteOfAnotherScene) {
   const auto engine = build(), target = build();
   engine->set_drive(0, {0.8, 0.2, false});
   engine->set_joint(0, testing::ew180().joint_index("boom_joint"), {JointMode::kVelocity, -0.2});
@@ -48,7 +48,7 @@ TEST_P(EngineState, HashesEveryByteItSavesAndRefusesEveryByteOfAnotherScene) {
   EXPECT_EQ(test::flip_every_byte(*engine, *target), "");
 }
 
-TEST_P(EngineState, HoldsAForceThatActsInTheNextStepOnly) {
+TEST_P(CombustionEngineState, HoldsAForceThatActsInTheNextStepOnly) {
   const auto engine = build(), resumed = build();
   run(*engine, flat(), 0.1, kStep);
   const std::uint64_t before = digest(*engine);
@@ -56,11 +56,11 @@ TEST_P(EngineState, HoldsAForceThatActsInTheNextStepOnly) {
   // An engine without forces swallows it.
   EXPECT_EQ(digest(*engine) == before, GetParam() == "Kinematic");
   load_saved(saved(*engine), *resumed);
-  for (Engine* each : {engine.get(), resumed.get()}) each->step(kStep, flat());
+  for (PhysicsEngine* each : {engine.get(), resumed.get()}) each->step(kStep, flat());
   EXPECT_EQ(digest(*resumed), digest(*engine));
 }
 
-TEST_P(EngineState, IsRefusedByOtherMachines) {
+TEST_P(CombustionEngineState, IsRefusedByOtherMachines) {
   const std::vector<char> bytes = saved(*build());
   auto fewer = engine_of(GetParam());
   fewer->add_machine(testing::ew180(), Pose::Identity());
@@ -71,32 +71,35 @@ TEST_P(EngineState, IsRefusedByOtherMachines) {
   EXPECT_THROW(load_saved(bytes, *other), InputError);
 }
 
-TEST_P(EngineState, WithoutAFinitePlaceIsRefusedByName) {
+TEST_P(CombustionEngineState, WithoutAFinitePlaceIsRefusedByName) {
   const auto engine = build();
   for (const double place : {std::numeric_limits<double>::quiet_NaN(), 1e8}) {
     ByteMap map;
     std::vector<char> bytes = saved(*engine, &map);
     // The base's place: the first numbers of the one engine, the last of a pose in the other.
     for (const ByteMap::Field& field : map.fields) {
-      const bool tree = field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
+      const bool tree =
+          field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
       if (!tree && field.path != "kinematic[1]/X_WB") continue;
-      std::memcpy(bytes.data() + field.offset + (tree ? 0 : field.size - sizeof place), &place, sizeof place);
+      std::memcpy(bytes.data() + field.offset + (tree ? 0 : field.size - sizeof place), &place,
+                  sizeof place);
     }
     try {
       load_saved(bytes, *engine);
       FAIL() << "a machine was loaded at " << place;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("[1]"), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("no finite place"), std::string::npos)
+          << error.what();
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, EngineState, ::testing::Values("Bullet", "Kinematic"),
+INSTANTIATE_TEST_SUITE_P(Engines, CombustionEngineState, ::testing::Values("Bullet", "Kinematic"),
                          [](const auto& each) { return each.param; });
 
-/// The drive brakes a wheel whose servo a command had used before: on a slope that servo counts how long it is stuck,
-/// by the limits it had then.
+/// The drive brakes a wheel whose servo a command had used before: on a slope that servo counts how
+/// long it is stuck, by the limits it had then.
 TEST(BulletState, GoesOnEqualWhereTheDriveTookAWheelBack) {
   scene::Machine cart = testing::cart();
   const int rear = cart.joint_index(cart.wheels[2].joint);
@@ -109,13 +112,14 @@ TEST(BulletState, GoesOnEqualWhereTheDriveTookAWheelBack) {
   for (const double direction : {1.0, -1.0}) {
     const auto whole = build(), resumed = build();
     const auto ground = testing::slope(radians(6));
-    // Less than 0.02 rad/s, so that it depends on the joint's fastest whether this is asking at all.
+    // Less than 0.02 rad/s, so that it depends on the joint's fastest whether this is asking at
+    // all.
     whole->set_joint(0, rear, {JointMode::kVelocity, 0.015 * direction});
     run(*whole, ground, 0.5, kStep);
     whole->set_drive(0, {0, 0, true});
     run(*whole, ground, 0.1, kStep);
     load_saved(saved(*whole), *resumed);
-    for (Engine* engine : {whole.get(), resumed.get()}) run(*engine, ground, 0.2, kStep);
+    for (PhysicsEngine* engine : {whole.get(), resumed.get()}) run(*engine, ground, 0.2, kStep);
     EXPECT_EQ(digest(*resumed), digest(*whole)) << direction;
   }
 }
@@ -132,7 +136,8 @@ TEST(JointServo, HashesEveryByteItSaves) {
 }
 
 TEST(DriveLine, IsRefusedByAnotherKindOfDrive) {
-  const auto ackermann = make_drive_line(testing::cart()), differential = make_drive_line(testing::robot());
+  const auto ackermann = make_drive_line(testing::cart()),
+             differential = make_drive_line(testing::robot());
   const auto same = make_drive_line(testing::robot());
   EXPECT_EQ(test::flip_every_byte(*differential, *same), "");
   EXPECT_THROW(load_saved(saved(*ackermann), *differential), InputError);

@@ -18,8 +18,9 @@ using testing::run;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-/// ISO 6015: the tooth tip is held by a strong spring, one cylinder works, all others hold; tip force across the radius
-/// from the working joint [N]. Weightless, as the standard takes the cylinder's force alone; the base is fixed.
+/// ISO 6015: the tooth tip is held by a strong spring, one cylinder works, all others hold; tip
+/// force across the radius from the working joint [N]. Weightless, as the standard takes the
+/// cylinder's force alone; the base is fixed.
 double locked_tip_force(double stick, double bucket, const std::string& role, double direction) {
   scene::Machine m = ew180(0.3, stick, bucket);
   m.fixed_base = true;
@@ -33,25 +34,29 @@ double locked_tip_force(double stick, double bucket, const std::string& role, do
   engine->set_joint(0, joint, {JointMode::kVelocity, direction * 0.05});
   run(*engine, ground, 3, kStep, [&](double) {
     const LinkState state = engine->link(0, link);
-    const Vec3 p = state.X_WL * tip, v = state.v_WL + state.w_WL.cross(p - state.X_WL.translation());
+    const Vec3 p = state.X_WL * tip,
+               v = state.v_WL + state.w_WL.cross(p - state.X_WL.translation());
     force = -5e6 * (p - anchor) - 4e4 * v;
     engine->add_force(0, link, force, p);
   });
   EXPECT_TRUE(engine->joint(0, joint).stalled);
-  const Vec3 pivot = engine->link(0, m.joints[static_cast<std::size_t>(joint)].child).X_WL.translation();
+  const Vec3 pivot =
+      engine->link(0, m.joints[static_cast<std::size_t>(joint)].child).X_WL.translation();
   const Vec3 arm = (engine->link(0, link).X_WL * tip - pivot).normalized();
   return (force - force.dot(arm) * arm).norm();
 }
 
 TEST(Ew180, BreakoutForceIs120kN) {
   const double measured = locked_tip_force(-1.5, -0.723, "bucket_joint", -1);
-  print_value("breakout force, tip locked [N]", measured, "120e3 +-5 %", "ISO 6015; vehicles/ew180/SOURCE.md");
+  print_value("breakout force, tip locked [N]", measured, "120e3 +-5 %",
+              "ISO 6015; vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(measured, 120e3, 0.05 * 120e3);
 }
 
 TEST(Ew180, TearOutForceIs90kN) {
   const double measured = locked_tip_force(-1.415, -0.723, "arm_joint", -1);
-  print_value("tear-out force, tip locked [N]", measured, "90e3 +-5 %", "ISO 6015; vehicles/ew180/SOURCE.md");
+  print_value("tear-out force, tip locked [N]", measured, "90e3 +-5 %",
+              "ISO 6015; vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(measured, 90e3, 0.05 * 90e3);
 }
 
@@ -67,13 +72,15 @@ TEST(Ew180, SwingTorqueIs48kNm) {
   double moment = 0;
   run(*engine, ground, 3, kStep, [&](double) {
     const LinkState state = engine->link(0, upper);
-    const Vec3 p = state.X_WL * Vec3(2, 0, 0.5), v = state.v_WL + state.w_WL.cross(p - state.X_WL.translation());
+    const Vec3 p = state.X_WL * Vec3(2, 0, 0.5),
+               v = state.v_WL + state.w_WL.cross(p - state.X_WL.translation());
     Vec3 force = -3e5 * (p - anchor) - 1e5 * v;
     force.x() = force.z() = 0;
     engine->add_force(0, upper, force, p);
     moment = (p - state.X_WL.translation()).cross(force).z();
   });
-  print_value("swing torque [N m]", std::abs(moment), "48e3 +-5 %, gated at 2 %", "vehicles/ew180/SOURCE.md");
+  print_value("swing torque [N m]", std::abs(moment), "48e3 +-5 %, gated at 2 %",
+              "vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(std::abs(moment), 48e3, 0.02 * 48e3);
   EXPECT_TRUE(engine->joint(0, swing).stalled);
 }
@@ -98,7 +105,8 @@ TEST(Ew180, SwingsAQuarterTurnInThreeToFiveSecondsWithoutOvershoot) {
 }
 
 /// Mass moment about the tipping edge, of everything but the load [kg m].
-double righting_moment(const scene::Machine& m, double swing, double boom, double stick, double bucket, double edge) {
+double righting_moment(const scene::Machine& m, double swing, double boom, double stick,
+                       double bucket, double edge) {
   std::vector<double> q;
   for (const scene::Joint& joint : m.joints) q.push_back(joint.initial);
   q[static_cast<std::size_t>(m.joint_index("swing_joint"))] = swing;
@@ -107,7 +115,8 @@ double righting_moment(const scene::Machine& m, double swing, double boom, doubl
   q[static_cast<std::size_t>(m.joint_index("bucket_joint"))] = bucket;
   const auto poses = forward_kinematics(m, Pose::Identity(), q);
   double sum = 0;
-  for (std::size_t i = 0; i < m.links.size(); ++i) sum += m.links[i].mass * (edge - (poses[i] * m.links[i].p_LCom).y());
+  for (std::size_t i = 0; i < m.links.size(); ++i)
+    sum += m.links[i].mass * (edge - (poses[i] * m.links[i].p_LCom).y());
   return sum;
 }
 
@@ -116,7 +125,9 @@ TEST(Ew180, TippingLoadAt7mOverTheSideIsTheMomentBalance) {
   const double swing = radians(90), boom = 0.55, bucket = -1.6;
   double stick = -0.6;
   const scene::Machine probe = ew180(boom, stick, bucket, swing);
-  const auto reach = [&](double s) { return 0.25 + 5.1 * std::cos(boom) + 2.45 * std::cos(boom + s); };
+  const auto reach = [&](double s) {
+    return 0.25 + 5.1 * std::cos(boom) + 2.45 * std::cos(boom + s);
+  };
   for (int i = 0; i < 60 && reach(stick) > 7; ++i) stick -= 0.01;
   const double lever = reach(stick);
   ASSERT_NEAR(lever, 7, 0.1);
@@ -125,8 +136,9 @@ TEST(Ew180, TippingLoadAt7mOverTheSideIsTheMomentBalance) {
   engine->add_machine(m, Pose::Identity());
   const auto ground = flat();
   run(*engine, ground, 2, kStep);
-  // The edge is the middle of the twin pair: when the far wheels lift, both tyres of the pair still carry, and their
-  // stiffness against rolling (0.16^2 k, 120 kN m/rad for both pairs) is less than the machine's weight times height.
+  // The edge is the middle of the twin pair: when the far wheels lift, both tyres of the pair still
+  // carry, and their stiffness against rolling (0.16^2 k, 120 kN m/rad for both pairs) is less than
+  // the machine's weight times height.
   const double edge = 0.97;
   const double expected = righting_moment(m, swing, boom, stick, bucket, edge) / (lever - edge);
   double load = 0, tipped_at = 0;
@@ -136,11 +148,12 @@ TEST(Ew180, TippingLoadAt7mOverTheSideIsTheMomentBalance) {
     if (tipped_at > 0) return;
     load += 100 * 2 * kStep;
     engine->add_force(0, link, load * kDown, engine->link(0, link).X_WL.translation());
-    if (engine->wheel(0, 1).force_W.z() <= 0 && engine->wheel(0, 3).force_W.z() <= 0) tipped_at = load;
+    if (engine->wheel(0, 1).force_W.z() <= 0 && engine->wheel(0, 3).force_W.z() <= 0)
+      tipped_at = load;
   });
   ASSERT_GT(tipped_at, 0);
-  print_value("tipping load at 7 m over the side [kg]", tipped_at, std::to_string(expected) + " +-5 %",
-              "moment balance");
+  print_value("tipping load at 7 m over the side [kg]", tipped_at,
+              std::to_string(expected) + " +-5 %", "moment balance");
   // 5 %: the balance is that of rigid tyres, the machine leans on its own by a degree.
   EXPECT_NEAR(tipped_at, expected, 0.05 * expected);
   EXPECT_GT(expected, 1600);  // the class lifts about 2 t there
@@ -157,8 +170,9 @@ TEST(Ew180, Weighs18TonsAndItsCylindersLiftAFullBucketAtFullReach) {
   const auto ground = flat();
   const int boom = m.joint_index("boom_joint"), link = m.link_index("bucket");
   engine->set_joint(0, boom, {JointMode::kPosition, 0.5});
-  run(*engine, ground, 4, kStep,
-      [&](double) { engine->add_force(0, link, 1400 * kDown, engine->link(0, link).X_WL * Vec3(0.7, 0, 0.2)); });
+  run(*engine, ground, 4, kStep, [&](double) {
+    engine->add_force(0, link, 1400 * kDown, engine->link(0, link).X_WL * Vec3(0.7, 0, 0.2));
+  });
   EXPECT_NEAR(engine->joint(0, boom).position, 0.5, 0.01);
 }
 
@@ -212,7 +226,8 @@ TEST(Ew180, BucketShellIsWoundInwardAndHoldsItsVolume) {
   const Vec3 inside(0.65, 0, 0.25);
   double volume = 0;
   for (const auto& t : shell.triangles) {
-    const Vec3 a = shell.vertices[static_cast<std::size_t>(t[0])], b = shell.vertices[static_cast<std::size_t>(t[1])],
+    const Vec3 a = shell.vertices[static_cast<std::size_t>(t[0])],
+               b = shell.vertices[static_cast<std::size_t>(t[1])],
                c = shell.vertices[static_cast<std::size_t>(t[2])];
     EXPECT_GT((b - a).cross(c - a).dot(inside - a), 0);
     volume += (b - a).cross(c - a).dot(inside - a) / 6;
@@ -242,17 +257,21 @@ TEST(Ew180, ReachesToTheDataSheet) {
   for (int i = 0; i <= 40; ++i)
     for (int k = 0; k <= 40; ++k) {
       const scene::Joint &boom = joint("boom_joint"), &stick = joint("arm_joint");
-      q[static_cast<std::size_t>(m.joint_index("boom_joint"))] = boom.lower + (boom.upper - boom.lower) * i / 40;
-      q[static_cast<std::size_t>(m.joint_index("arm_joint"))] = stick.lower + (stick.upper - stick.lower) * k / 40;
+      q[static_cast<std::size_t>(m.joint_index("boom_joint"))] =
+          boom.lower + (boom.upper - boom.lower) * i / 40;
+      q[static_cast<std::size_t>(m.joint_index("arm_joint"))] =
+          stick.lower + (stick.upper - stick.lower) * k / 40;
       for (const double b : {-1.2, -0.8, -0.4, 0.0, 0.4}) {
         q[static_cast<std::size_t>(m.joint_index("bucket_joint"))] = b;
         const auto poses = forward_kinematics(m, Pose::Identity(), q);
-        const Vec3 tip = poses[static_cast<std::size_t>(m.link_index("bucket"))] * m.buckets[0].p_tip;
+        const Vec3 tip =
+            poses[static_cast<std::size_t>(m.link_index("bucket"))] * m.buckets[0].p_tip;
         depth = std::min(depth, tip.z());
         if (std::abs(tip.z()) < 0.2) reach = std::max(reach, tip.x() - 1.25);
       }
     }
-  // Data sheet: 5.7 m and 9.3 m from the swing axis; 5 %, its boom is bent and its ranges are unverified.
+  // Data sheet: 5.7 m and 9.3 m from the swing axis; 5 %, its boom is bent and its ranges are
+  // unverified.
   EXPECT_NEAR(-depth, 5.7, 0.05 * 5.7);
   EXPECT_NEAR(reach, 9.3, 0.10 * 9.3);
 }

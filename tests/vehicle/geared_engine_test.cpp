@@ -13,8 +13,8 @@ namespace {
 constexpr double kStep = 1.0 / 600;
 
 /// 400 N m at idle, 100 rad/s; 500 at 200; 350 at the governed 300.
-scene::DriveEngine diesel() {
-  scene::DriveEngine engine;
+scene::CombustionEngine diesel() {
+  scene::CombustionEngine engine;
   engine.curve = {{100, 400}, {200, 500}, {300, 350}};
   engine.braking_torque = 60;
   engine.gears = {4, 2, 1};
@@ -34,12 +34,12 @@ GearedEngine in_gear(int gear, bool drives_pump = false) {
 
 TEST(GearedEngine, IsStrongestWithinALineOfItsCurve) {
   // T = 800 - 1.5 w: T w is largest at 800 / 3.
-  const scene::DriveEngine::Point rated = scene::rated_point(diesel());
+  const scene::CombustionEngine::Point rated = scene::rated_point(diesel());
   EXPECT_NEAR(rated.speed, 800.0 / 3, 1e-9);
   EXPECT_NEAR(rated.torque, 400, 1e-9);
 }
 
-TEST(GearedEngine, TurnsTheCageAsFastAsItIsGoverned) {
+TEST(GearedEngine, TurnsTheDifferentialCarrierAtTheGovernedSpeed) {
   const GearedEngine engine = in_gear(1);
   EXPECT_DOUBLE_EQ(engine.fastest(1), 300.0 / 40);
   EXPECT_DOUBLE_EQ(engine.fastest(2), 300.0 / 20);
@@ -51,17 +51,18 @@ TEST(GearedEngine, GivesItsCurveTimesRatioTimesEfficiency) {
   const GearedEngine engine = in_gear(1);
   EXPECT_NEAR(engine.bounds(5, 0).high, 40 * 0.9 * 500, 1e-9);
   EXPECT_NEAR(engine.bounds(3.75, 0).high, 40 * 0.9 * 450, 1e-9) << "halfway between two points";
-  EXPECT_NEAR(engine.bounds(7.6, 0).high, 40 * 0.9 * 350 * 2 / 3, 1e-9) << "a third of the governor's droop";
+  EXPECT_NEAR(engine.bounds(7.6, 0).high, 40 * 0.9 * 350 * 2 / 3, 1e-9)
+      << "a third of the governor's droop";
   EXPECT_EQ(engine.bounds(7.9, 0).high, 0) << "nothing above it";
   EXPECT_NEAR(in_gear(3).bounds(20, 0).high, 10 * 0.9 * 500, 1e-9);
 }
 
 TEST(GearedEngine, IsNeverSlowerThanAtIdle) {
   const GearedEngine engine = in_gear(2);
-  for (const double cage : {-3.0, 0.0, 2.0}) {
-    EXPECT_NEAR(engine.bounds(cage, 0).high, 20 * 0.9 * 400, 1e-9) << cage;
-    EXPECT_EQ(engine.bounds(cage, 0).low, 0) << cage;
-    EXPECT_EQ(engine.state(cage, 1000, 0).speed, 100) << cage;
+  for (const double carrier : {-3.0, 0.0, 2.0}) {
+    EXPECT_NEAR(engine.bounds(carrier, 0).high, 20 * 0.9 * 400, 1e-9) << carrier;
+    EXPECT_EQ(engine.bounds(carrier, 0).low, 0) << carrier;
+    EXPECT_EQ(engine.state(carrier, 1000, 0).speed, 100) << carrier;
   }
 }
 
@@ -80,12 +81,14 @@ TEST(GearedEngine, GivesThePumpItsPowerFirst) {
   // It turns where its power is largest, the clutch slips.
   const double high = engine.bounds(0, 50e3).high;
   EXPECT_NEAR(high, 40 * 0.9 * (400 - 50e3 / (800.0 / 3)), 1e-6);
-  const EngineState state = engine.state(0, high, 50e3);
+  const CombustionEngineState state = engine.state(0, high, 50e3);
   EXPECT_NEAR(state.speed, 800.0 / 3, 1e-9);
   EXPECT_NEAR(state.power, rated, 1e-6);
   EXPECT_EQ(engine.bounds(0, 1.1 * rated).high, 0);
-  for (double cage = 0; cage < 7.5; cage += 0.1)
-    EXPECT_LE(engine.state(cage, engine.bounds(cage, 30e3).high, 30e3).power, rated * (1 + 1e-12)) << cage;
+  for (double carrier = 0; carrier < 7.5; carrier += 0.1)
+    EXPECT_LE(engine.state(carrier, engine.bounds(carrier, 30e3).high, 30e3).power,
+              rated * (1 + 1e-12))
+        << carrier;
 }
 
 TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
@@ -109,7 +112,8 @@ TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
 
 TEST(GearedEngine, AtItsGovernedSpeedChangesUpIfTheNextGearKeepsIt) {
   GearedEngine engine(diesel(), false);
-  // Much more is asked for than any gear has. On a climb the first gives 8400 N m at 304 rad/s and the second has 8136.
+  // Much more is asked for than any gear has. On a climb the first gives 8400 N m at 304 rad/s and
+  // the second has 8136.
   engine.shift(0, 7.6, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 1);
   // On the level the engine comes to 310 rad/s, where it gives 2100.
@@ -131,7 +135,7 @@ TEST(GearedEngine, ChoosesAGearThatHoldsBack) {
   EXPECT_NEAR(engine.bounds(14, 0).low, -20 / 0.9 * 60, 1e-9);
 }
 
-TEST(GearedEngine, TakesTheGearItIsTold) {
+TEST(GearedEngine, TakesTheCommandedGear) {
   GearedEngine engine(diesel(), false);
   for (const int gear : {3, 1, 2}) {
     engine.shift(gear, 20, 1e5, kStep);
@@ -142,8 +146,8 @@ TEST(GearedEngine, TakesTheGearItIsTold) {
 }
 
 TEST(GearedEngine, ThatIsASourceOfSpeedKnowsOnlyItsLimits) {
-  scene::DriveEngine motor;
-  motor.kind = scene::DriveEngine::Kind::kSpeedSource;
+  scene::CombustionEngine motor;
+  motor.kind = scene::CombustionEngine::Kind::kSpeedSource;
   motor.max_speed = 200, motor.max_torque = 5;
   motor.gears = {20};
   motor.efficiency = 0.8;
@@ -167,7 +171,7 @@ TEST(GearedEngine, IsTheSameAfterASnapshot) {
 }
 
 TEST(GearedEngine, WithoutGearsOrACurveIsRefused) {
-  scene::DriveEngine engine = diesel();
+  scene::CombustionEngine engine = diesel();
   engine.gears.clear();
   EXPECT_THROW(GearedEngine(engine, false), InputError);
   engine = diesel();

@@ -21,7 +21,8 @@ using testing::flat;
 using testing::run;
 
 constexpr double kStep = 1.0 / 600;
-constexpr double kHook = 0.4, kDrawbar = 0.6;  // [m] behind the robot's axle, ahead of the trailer's
+// [m] behind the robot's axle, ahead of the trailer's
+constexpr double kHook = 0.4, kDrawbar = 0.6;
 
 scene::Machine shipped(const std::string& name) {
   return scene_io::load_machine(navvy::source_dir() + "/vehicles/" + name + "/model.sdf");
@@ -38,7 +39,7 @@ scene::Hitch drawbar() {
 }
 
 /// Robot and trailer, hitched.
-std::unique_ptr<Engine> train() {
+std::unique_ptr<PhysicsEngine> train() {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(shipped("robot"), Pose::Identity());
   engine->add_machine(shipped("robot_trailer"), make_pose(-kHook - kDrawbar, 0, 0));
@@ -51,34 +52,39 @@ TEST(Hitch, DrawsAsAJointInTheMachineDoes) {
   const scene::Machine robot = shipped("robot"), whole = shipped("robot_with_trailer");
   joined->add_machine(whole, Pose::Identity());
   double apart = 0, way = 0;
-  // By the wheels' joints, as a governor reckons with the mass of its own machine; its brake, which would hold the
-  // trailer's wheels, too, where they are its own, is off.
-  for (Engine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
-  for (const std::array<double, 2>& spin : {std::array{3.0, 6.0}, std::array{6.0, 4.0}, std::array{0.0, 0.0}}) {
+  // By the wheels' joints, as a governor reckons with the mass of its own machine; its brake, which
+  // would hold the trailer's wheels, too, where they are its own, is off.
+  for (PhysicsEngine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
+  for (const std::array<double, 2>& spin :
+       {std::array{3.0, 6.0}, std::array{6.0, 4.0}, std::array{0.0, 0.0}}) {
     for (std::size_t side = 0; side < 2; ++side) {
       const char* joint = side == 0 ? "spin_left" : "spin_right";
       engine->set_joint(0, robot.joint_index(joint), {JointMode::kVelocity, spin[side]});
-      joined->set_joint(0, whole.joint_index(std::string("robot::") + joint), {JointMode::kVelocity, spin[side]});
+      joined->set_joint(0, whole.joint_index(std::string("robot::") + joint),
+                        {JointMode::kVelocity, spin[side]});
     }
     for (int i = 0; i < 1800; ++i) {
       engine->step(kStep, flat());
       joined->step(kStep, flat());
       apart = std::max(apart, engine->hitch(0).apart);
       const Vec3 here = engine->link(1, 0).X_WL.translation();
-      const Vec3 there = joined->link(0, whole.link_index("robot_trailer::chassis")).X_WL.translation();
+      const Vec3 there =
+          joined->link(0, whole.link_index("robot_trailer::chassis")).X_WL.translation();
       way = std::max(way, (here - there).norm());
     }
   }
   print_value("eye from the hook [m]", apart, "below 0.01 mm", "[docs/machines.md, hitches]");
-  print_value("trailer from that of one tree [m]", way, "below 1 mm in 9 s", "[docs/machines.md, hitches]");
+  print_value("trailer from that of one tree [m]", way, "below 1 mm in 9 s",
+              "[docs/machines.md, hitches]");
   EXPECT_LT(apart, 1e-5);
   EXPECT_LT(way, 1e-3);
 }
 
-TEST(Hitch, BearsWhatLeansOnItAndDrawsWhatRolls) {
+TEST(Hitch, CarriesVerticalLoadAndDrawsARollingTrailer) {
   const auto engine = train();
   run(*engine, flat(), 2, kStep);
-  // The tub's centre is 0.05 m ahead of the axle: 20 kg lean on the eye by 0.05 / 0.6 of their weight.
+  // The tub's centre is 0.05 m ahead of the axle: 20 kg lean on the eye by 0.05 / 0.6 of their
+  // weight.
   EXPECT_NEAR(engine->hitch(0).force.z(), -20 * kGravity * 0.05 / kDrawbar, 0.3);
   engine->set_drive(0, {0.5, 0, false});
   run(*engine, flat(), 3, kStep);
@@ -123,14 +129,16 @@ TEST(Hitch, LetsGoAndTakesUpAgain) {
   run(*engine, flat(), 4, kStep);
   // It stays, its drawbar on the ground, and draws nothing.
   EXPECT_LT((engine->link(1, 0).X_WL.translation() - left).head<2>().norm(), 0.1);
-  EXPECT_NEAR(-std::asin(engine->link(1, 0).X_WL.linear()(2, 0)), std::asin((0.15 - 0.015) / kDrawbar), radians(3));
+  EXPECT_NEAR(-std::asin(engine->link(1, 0).X_WL.linear()(2, 0)),
+              std::asin((0.15 - 0.015) / kDrawbar), radians(3));
   EXPECT_EQ(engine->hitch(0).force.norm(), 0);
   EXPECT_GT(engine->hitch(0).apart, 1.5);
   try {
     engine->set_hitch(0, true);
     FAIL() << "an eye out of reach was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("farther from the hook"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("farther from the hook"), std::string::npos)
+        << error.what();
   }
   EXPECT_FALSE(engine->hitch(0).closed);
 }
@@ -145,7 +153,8 @@ TEST(Hitch, TakesAnEyeWithinReachGently) {
   engine->step(kStep, flat());
   engine->set_hitch(0, true);
   double fastest = 0;
-  run(*engine, flat(), 1, kStep, [&](double) { fastest = std::max(fastest, engine->link(1, 0).v_WL.norm()); });
+  run(*engine, flat(), 1, kStep,
+      [&](double) { fastest = std::max(fastest, engine->link(1, 0).v_WL.norm()); });
   EXPECT_LT(engine->hitch(0).apart, 1e-3);
   EXPECT_LT(fastest, 0.8);
 }
@@ -155,7 +164,8 @@ TEST(Hitch, IsPushedStraightOnlySoFar) {
   engine->set_drive(0, {-0.3, 0.15, false});
   double most = 0;
   run(*engine, flat(), 12, kStep, [&](double) {
-    const Vec3 robot = engine->link(0, 0).X_WL.linear().col(0), drawn = engine->link(1, 0).X_WL.linear().col(0);
+    const Vec3 robot = engine->link(0, 0).X_WL.linear().col(0),
+               drawn = engine->link(1, 0).X_WL.linear().col(0);
     most = std::max(most, std::acos(std::clamp(robot.dot(drawn), -1.0, 1.0)));
   });
   EXPECT_GT(degrees(most), 70);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brakes of joints: the excavator's swing brake and the lock of its oscillating axle, as commands of their own.
+// Brakes of joints: the excavator's swing brake and the lock of its oscillating axle, as commands
+// of their own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +23,8 @@ constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
 struct Rig {
-  explicit Rig(scene::Machine about) : machine(std::move(about)), engine(make_bullet_engine(kDown)) {
+  explicit Rig(scene::Machine about)
+      : machine(std::move(about)), engine(make_bullet_engine(kDown)) {
     engine->add_machine(machine, Pose::Identity());
     swing = machine.joint_index("swing_joint");
     axle = machine.joint_index("front_axle_oscillation");
@@ -30,12 +32,13 @@ struct Rig {
   double angle(int joint) const { return engine->joint(0, joint).position; }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
   int swing = -1, axle = -1;
 };
 
 TEST(JointBrake, OfTheSwingHoldsUpToItsTorqueAndSlipsBeyond) {
-  // A couple on the upper structure, against the brake alone: its own motor turns nothing meanwhile.
+  // A couple on the upper structure, against the brake alone: its own motor turns nothing
+  // meanwhile.
   for (const double share : {0.95, 1.05}) {
     Rig rig(ew180());
     rig.machine.fixed_base = true;
@@ -51,7 +54,8 @@ TEST(JointBrake, OfTheSwingHoldsUpToItsTorqueAndSlipsBeyond) {
       rig.engine->add_force(0, upper, 0.5 * torque * left, X * Vec3(1, 0, 0));
       rig.engine->add_force(0, upper, -0.5 * torque * left, X * Vec3(-1, 0, 0));
     });
-    print_value("swing under the brake [deg]", degrees(rig.angle(rig.swing)), share < 1 ? "held" : "slips", "70 kN m");
+    print_value("swing under the brake [deg]", degrees(rig.angle(rig.swing)),
+                share < 1 ? "held" : "slips", "70 kN m");
     if (share < 1)
       EXPECT_LT(std::abs(rig.angle(rig.swing)), radians(0.1));
     else
@@ -59,7 +63,7 @@ TEST(JointBrake, OfTheSwingHoldsUpToItsTorqueAndSlipsBeyond) {
   }
 }
 
-TEST(JointBrake, HoldsWhateverTheJointIsTold) {
+TEST(JointBrake, HoldsWhateverTheJointCommand) {
   Rig rig(ew180());
   rig.engine->set_brake(0, rig.swing, true);
   rig.engine->set_joint(0, rig.swing, {JointMode::kVelocity, 0.5});
@@ -89,7 +93,8 @@ TEST(JointBrake, LocksTheOscillatingAxleWhileTheMachineDrives) {
     run(*rig.engine, bump, 1, kStep);
     rig.engine->set_brake(0, rig.axle, locked);
     rig.engine->set_drive(0, {0.8, 0, false});
-    // It stops with the front pair on the bump and the rear one before it; each command leaves the lock alone.
+    // It stops with the front pair on the bump and the rear one before it; each command leaves the
+    // lock alone.
     run(*rig.engine, bump, 2.6, kStep);
     rig.engine->set_drive(0, {0, 0, false});
     run(*rig.engine, bump, 1.5, kStep);
@@ -99,8 +104,10 @@ TEST(JointBrake, LocksTheOscillatingAxleWhileTheMachineDrives) {
     roll[locked] = degrees(std::asin(base.X_WL.linear()(2, 1)));
     turned[locked] = degrees(std::abs(rig.angle(rig.axle)));
   }
-  print_value("roll with the axle free, locked [deg]", roll[0], std::to_string(roll[1]), "bump of 0.12 m on 1.94 m");
-  // Free: the axle turns by asin(0.12 / 1.94) = 3.5 deg and the chassis stays; locked: it leans with the front axle.
+  print_value("roll with the axle free, locked [deg]", roll[0], std::to_string(roll[1]),
+              "bump of 0.12 m on 1.94 m");
+  // Free: the axle turns by asin(0.12 / 1.94) = 3.5 deg and the chassis stays; locked: it leans
+  // with the front axle.
   EXPECT_LT(std::abs(roll[0]), 0.5);
   EXPECT_GT(turned[0], 1.5);
   EXPECT_GT(roll[1], 0.8);

@@ -41,7 +41,8 @@ TEST(KinematicEngine, DrivesTheExactArc) {
   const scene::Machine m = cart();
   engine->add_machine(m, Pose::Identity());
   const double radius = 7;
-  engine->set_drive(0, {1.0, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
+  engine->set_drive(
+      0, {1.0, std::atan(std::get<scene::AckermannDrive>(m.drive).wheelbase / radius), false});
   const auto ground = testing::slope(radians(5));
   run(*engine, ground, radius * kPi / 2, kStep);
   const Pose X = engine->link(0, 0).X_WL;
@@ -64,7 +65,8 @@ TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
   EXPECT_NEAR(half.v_WL.x(), 2, 1e-9);
   // The short way round: 4 rad are 2.28 to the right.
   EXPECT_NEAR(half.w_WL.z(), (4 - 2 * kPi) / 0.5, 1e-9);
-  EXPECT_NEAR(std::atan2(half.X_WL.linear()(1, 0), half.X_WL.linear()(0, 0)), 0.5 * (4 - 2 * kPi), 1e-12);
+  EXPECT_NEAR(std::atan2(half.X_WL.linear()(1, 0), half.X_WL.linear()(0, 0)), 0.5 * (4 - 2 * kPi),
+              1e-12);
   run(*engine, flat(), 0.5, kStep);
   const LinkState there = engine->link(0, 0);
   EXPECT_EQ(there.X_WL.matrix(), make_pose(2, 2, 0.5, 0, 0, 4).matrix());
@@ -87,7 +89,7 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
   whole->set_base(0, {Vec3(0, 3, 1), Vec3(0, 0, 0), 1});
   run(*whole, flat(), 0.5, kStep);
   load_saved(saved(*whole), *resumed);
-  for (Engine* engine : {whole.get(), resumed.get()}) run(*engine, flat(), 1, kStep);
+  for (PhysicsEngine* engine : {whole.get(), resumed.get()}) run(*engine, flat(), 1, kStep);
   EXPECT_EQ(digest(*resumed), digest(*whole));
   EXPECT_EQ(whole->link(0, 0).X_WL.translation(), Vec3(0, 3, 1));
   whole->set_drive(0, {1, 0, false});
@@ -96,7 +98,7 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
   EXPECT_LT((whole->link(0, 0).X_WL.translation() - Vec3(1, 3, 0)).norm(), 1e-9);
 }
 
-TEST(KinematicEngine, AloneMovesABaseAsTold) {
+TEST(KinematicEngine, AloneMovesABaseAsCommanded) {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(testing::box(), make_pose(0, 0, 1));
   EXPECT_THROW(engine->set_base(0, {}), InputError);

@@ -43,7 +43,8 @@ scene::Cylinder linked() {
 
 scene::Machine arm_with_bucket() {
   scene::Machine m = arm();
-  m.links.push_back(box_link("bucket", make_pose(7.45, 0, 2), 700, Vec3(0.7, 0, 0.2), Vec3(1.4, 1, 0.6)));
+  m.links.push_back(
+      box_link("bucket", make_pose(7.45, 0, 2), 700, Vec3(0.7, 0, 0.2), Vec3(1.4, 1, 0.6)));
   scene::Joint joint = testing::revolute("bucket_joint", 2, 3, -Vec3::UnitY());
   joint.has_limits = true;
   joint.lower = -2.6;
@@ -74,7 +75,8 @@ TEST(CylinderGeometry, LeverIsTheDerivativeOfTheLength) {
   for (const scene::Cylinder& c : {direct(), linked()})
     for (double q = -0.8; q <= 0.35; q += 0.05) {
       const double h = 1e-6;
-      const double slope = (cylinder_geometry(m, c, q + h).length - cylinder_geometry(m, c, q - h).length) / (2 * h);
+      const double slope =
+          (cylinder_geometry(m, c, q + h).length - cylinder_geometry(m, c, q - h).length) / (2 * h);
       // 1e-8: truncation h^2 and rounding 1e-16 / h of the difference.
       EXPECT_NEAR(cylinder_geometry(m, c, q).lever, slope, 1e-8) << c.name << " at " << q;
     }
@@ -86,14 +88,16 @@ TEST(CylinderGeometry, FourBarAgreesWithASearchOverTheRockersAngle) {
   const scene::Cylinder c = linked();
   for (double q = -2.6; q <= 0.4; q += 0.1) {
     const Vec3 bucket_pin(2.45, 0, 0);
-    const Vec3 coupler_pin = bucket_pin + Eigen::AngleAxisd(q, -Vec3::UnitY()).toRotationMatrix() * c.p_coupler;
+    const Vec3 coupler_pin =
+        bucket_pin + Eigen::AngleAxisd(q, -Vec3::UnitY()).toRotationMatrix() * c.p_coupler;
     double best = 1e9, length = 0;
     constexpr int kAngles = 200000;
     for (int i = 0; i < kAngles; ++i) {
       const double a = 2 * kPi * i / kAngles;
       const Vec3 direction(std::cos(a), 0, std::sin(a));
       const Vec3 pin = c.p_rocker + c.rocker_coupler * direction;
-      // The outer assembly: beyond the line from rocker pivot to coupler pin, seen from the bucket's pin.
+      // The outer assembly: beyond the line from rocker pivot to coupler pin, seen from the
+      // bucket's pin.
       const Vec3 line = coupler_pin - c.p_rocker;
       const double side = line.cross(pin - c.p_rocker).y();
       const double error = std::abs((pin - coupler_pin).norm() - c.coupler);
@@ -102,7 +106,8 @@ TEST(CylinderGeometry, FourBarAgreesWithASearchOverTheRockersAngle) {
         length = (c.p_rocker + c.rocker_rod * direction - c.p_base).norm();
       }
     }
-    // 1e-4: the step of the search is 3e-5 rad on a 0.72 m rocker, more where the coupler turns flat.
+    // 1e-4: the step of the search is 3e-5 rad on a 0.72 m rocker, more where the coupler turns
+    // flat.
     EXPECT_NEAR(cylinder_geometry(m, c, q).length, length, 1e-4) << q;
   }
 }
@@ -111,7 +116,8 @@ TEST(CylinderLimits, ExtensionFillsTheHeadSide) {
   const scene::Machine m = arm_with_bucket();
   scene::Cylinder c = direct();
   c.count = 2;
-  const double head = 2 * kPi / 4 * c.bore * c.bore, rod = 2 * kPi / 4 * (c.bore * c.bore - c.rod * c.rod);
+  const double head = 2 * kPi / 4 * c.bore * c.bore,
+               rod = 2 * kPi / 4 * (c.bore * c.bore - c.rod * c.rod);
   const double lever = cylinder_geometry(m, c, 0.2).lever;
   ASSERT_GT(lever, 0);
   const CylinderLimits lift = cylinder_limits(m, c, 0.2);

@@ -28,7 +28,8 @@ scene::LinkageDrive trapezoid(bool ahead = false) {
 double rod(const scene::LinkageDrive& drive, const SteerAngles& angles) {
   const Vec2 arm = scene::steering_arm(drive);
   const Vec2 left = Vec2(0, 0.5 * drive.track) + Eigen::Rotation2Dd(angles.left) * arm;
-  const Vec2 right = Vec2(0, -0.5 * drive.track) + Eigen::Rotation2Dd(angles.right) * Vec2(arm.x(), -arm.y());
+  const Vec2 right =
+      Vec2(0, -0.5 * drive.track) + Eigen::Rotation2Dd(angles.right) * Vec2(arm.x(), -arm.y());
   return (left - right).norm();
 }
 
@@ -39,7 +40,8 @@ TEST(Linkage, ClosesAtEveryPositionOfItsMotor) {
     const MotorRange range = motor_range(drive);
     double last = -10;
     for (double share = 0; share <= 1; share += 0.01) {
-      const SteerAngles angles = linkage_angles(drive, range.right + share * (range.left - range.right));
+      const SteerAngles angles =
+          linkage_angles(drive, range.right + share * (range.left - range.right));
       EXPECT_NEAR(rod(drive, angles), drive.tie_rod, 1e-12) << share;
       EXPECT_GT(angles.right, last) << "the right wheel follows the left one";
       EXPECT_LE(std::max(std::abs(angles.left), std::abs(angles.right)), drive.max_steer + 1e-12);
@@ -66,7 +68,8 @@ TEST(Linkage, OfAParallelogramTurnsBothAlike) {
   EXPECT_NEAR(ackermann_error(drive, angles), radians(25) - ideal, 1e-12);
 }
 
-// The closed form's series: outer = inner - k inner^2 + ..., of the trapezoid k = tan b W / t, of Ackermann W / L.
+// The closed form's series: outer = inner - k inner^2 + ..., of the trapezoid k = tan b W / t, of
+// Ackermann W / L.
 TEST(Linkage, LeansToSecondOrderAsItsSeriesSays) {
   const double small = radians(0.5);
   for (const double tie_rod : {1.94, 1.86, 1.77, 1.72}) {
@@ -76,7 +79,9 @@ TEST(Linkage, LeansToSecondOrderAsItsSeriesSays) {
     const double k = arm.y() / arm.x() * drive.track / tie_rod;
     const SteerAngles angles = linkage_angles(drive, small);
     EXPECT_NEAR((angles.left - angles.right) / (small * small), k, 0.01) << tie_rod;
-    EXPECT_NEAR(ackermann_error(drive, angles) / (small * small), drive.track / drive.wheelbase - k, 0.01) << tie_rod;
+    EXPECT_NEAR(ackermann_error(drive, angles) / (small * small), drive.track / drive.wheelbase - k,
+                0.01)
+        << tie_rod;
   }
 }
 
@@ -112,8 +117,9 @@ TEST(Linkage, ThatLocksOrDoesNotReachIsKnown) {
   scene::LinkageDrive drive = trapezoid();
   drive.tie_rod = drive.track - 2.1 * drive.arm;
   EXPECT_FALSE(scene::turns_freely(drive));
-  // A trapezoid turned round, arms that lean in by 30 deg ahead of the axle: by the law of cosines the right one is in
-  // line with the tie rod, together as long as the track, when the left one has turned by 30 deg - asin(a / 2 W).
+  // A trapezoid turned round, arms that lean in by 30 deg ahead of the axle: by the law of cosines
+  // the right one is in line with the tie rod, together as long as the track, when the left one has
+  // turned by 30 deg - asin(a / 2 W).
   drive = trapezoid();
   drive.ahead = true;
   drive.tie_rod = drive.track - drive.arm;
@@ -137,7 +143,8 @@ TEST(Linkage, SteersACartOnTheArcOfItsAngles) {
   testing::run(*engine, testing::flat(), 12, 1.0 / 600, [&](double t) {
     if (t > 6) turned += engine->link(0, 0).w_WL.z() / 600, time += 1.0 / 600;
   });
-  EXPECT_NEAR(turned / time, std::tan(0.25) / linkage.wheelbase, 0.03 * std::tan(0.25) / linkage.wheelbase);
+  EXPECT_NEAR(turned / time, std::tan(0.25) / linkage.wheelbase,
+              0.03 * std::tan(0.25) / linkage.wheelbase);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 
 namespace navvy::vehicle::testing {
 
-scene::Link box_link(const std::string& name, const Pose& X_ML, double mass, const Vec3& center, const Vec3& edges) {
+scene::Link box_link(const std::string& name, const Pose& X_ML, double mass, const Vec3& center,
+                     const Vec3& edges) {
   scene::Link link;
   link.name = name;
   link.X_ML = X_ML;
@@ -33,16 +34,19 @@ scene::Joint revolute(const std::string& name, int parent, int child, const Vec3
 scene::Machine cart() {
   scene::Machine m;
   m.name = "cart";
-  m.links.push_back(box_link("chassis", Pose::Identity(), 1600, Vec3(1.4, 0, 0.8), Vec3(3, 1.5, 0.5)));
+  m.links.push_back(
+      box_link("chassis", Pose::Identity(), 1600, Vec3(1.4, 0, 0.8), Vec3(3, 1.5, 0.5)));
   m.has_drive = true;
   scene::AckermannDrive drive;
   drive.tractive_force = 15e3;
   drive.power = 30e3;
   drive.brake_force = 25e3;
   m.drive = drive;
-  const auto add = [&](const Pose& X, double mass, const std::string& name, int parent, const Vec3& axis) {
+  const auto add = [&](const Pose& X, double mass, const std::string& name, int parent,
+                       const Vec3& axis) {
     m.links.push_back(box_link(name, X, mass, Vec3::Zero(), Vec3(0.8, 0.3, 0.8)));
-    m.joints.push_back(revolute(name + "_joint", parent, static_cast<int>(m.links.size()) - 1, axis));
+    m.joints.push_back(
+        revolute(name + "_joint", parent, static_cast<int>(m.links.size()) - 1, axis));
   };
   for (const bool front : {true, false})
     for (const bool left : {true, false}) {
@@ -71,7 +75,8 @@ scene::Machine arm() {
   m.name = "arm";
   m.fixed_base = true;
   m.links.push_back(box_link("base", Pose::Identity(), 1000, Vec3::Zero(), Vec3(1, 1, 1)));
-  m.links.push_back(box_link("boom", make_pose(0, 0, 2), 1200, Vec3(2.5, 0, 0.3), Vec3(5, 0.4, 0.6)));
+  m.links.push_back(
+      box_link("boom", make_pose(0, 0, 2), 1200, Vec3(2.5, 0, 0.3), Vec3(5, 0.4, 0.6)));
   m.links.push_back(box_link("stick", make_pose(5, 0, 2), 600, Vec3(1.2, 0, 0), Vec3(3, 0.3, 0.4)));
   m.joints.push_back(revolute("boom_joint", 0, 1, -Vec3::UnitY()));
   m.joints.push_back(revolute("stick_joint", 1, 2, -Vec3::UnitY()));
@@ -93,7 +98,9 @@ scene::Machine box() {
   return m;
 }
 
-scene::Machine dumper() { return scene_io::load_machine(scene_io::find_data("vehicles/dumper/model.sdf")); }
+scene::Machine dumper() {
+  return scene_io::load_machine(scene_io::find_data("vehicles/dumper/model.sdf"));
+}
 
 scene::Machine ew180(double boom, double stick, double bucket, double swing) {
   scene::Machine m = scene_io::load_machine(scene_io::find_data("vehicles/ew180/model.sdf"));
@@ -115,7 +122,8 @@ scene::Machine with_grip(scene::Machine machine, double friction) {
 scene::Machine robot(double caster) {
   scene::Machine m;
   m.name = "robot";
-  m.links.push_back(box_link("chassis", Pose::Identity(), 40, Vec3(-0.08, 0, 0.16), Vec3(0.5, 0.3, 0.12)));
+  m.links.push_back(
+      box_link("chassis", Pose::Identity(), 40, Vec3(-0.08, 0, 0.16), Vec3(0.5, 0.3, 0.12)));
   m.has_drive = true;
   scene::DifferentialDrive drive;
   drive.max_speed = 1.5;
@@ -125,8 +133,10 @@ scene::Machine robot(double caster) {
   drive.track = 0.4;
   m.drive = drive;
   const auto add = [&](const std::string& name, const Vec3& p, double radius, bool driven) {
-    m.links.push_back(box_link(name, make_pose(p.x(), p.y(), p.z()), 2, Vec3::Zero(), Vec3(radius, 0.05, radius)));
-    m.joints.push_back(revolute(name + "_joint", 0, static_cast<int>(m.links.size()) - 1, Vec3::UnitY()));
+    m.links.push_back(box_link(name, make_pose(p.x(), p.y(), p.z()), 2, Vec3::Zero(),
+                               Vec3(radius, 0.05, radius)));
+    m.joints.push_back(
+        revolute(name + "_joint", 0, static_cast<int>(m.links.size()) - 1, Vec3::UnitY()));
     scene::Wheel wheel;
     wheel.joint = m.joints.back().name;
     wheel.driven = driven;
@@ -143,7 +153,7 @@ scene::Machine robot(double caster) {
   return m;
 }
 
-void run(Engine& engine, const GroundQuery& ground, double duration, double dt,
+void run(PhysicsEngine& engine, const GroundQuery& ground, double duration, double dt,
          const std::function<void(double)>& each) {
   const int steps = static_cast<int>(std::lround(duration / dt));
   for (int i = 1; i <= steps; ++i) {
@@ -152,6 +162,6 @@ void run(Engine& engine, const GroundQuery& ground, double duration, double dt,
   }
 }
 
-std::uint64_t digest(const Engine& engine) { return hash_of(engine).digest(); }
+std::uint64_t digest(const PhysicsEngine& engine) { return hash_of(engine).digest(); }
 
 }  // namespace navvy::vehicle::testing

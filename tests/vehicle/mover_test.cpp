@@ -18,7 +18,8 @@ using testing::run;
 
 constexpr double kStep = 1.0 / 600;
 
-/// A kinematic engine with one machine beside a Bullet engine that meets it, stepped as the coupling does.
+/// A kinematic engine with one machine beside a Bullet engine that meets it, stepped as the
+/// coupling does.
 struct BothEngines {
   explicit BothEngines(scene::Machine told, const Pose& X_WM) {
     told.kinematic = true;
@@ -29,18 +30,22 @@ struct BothEngines {
   void go(double duration, const GroundQuery& ground = flat()) {
     for (int i = 0; i < std::lround(duration / kStep); ++i) {
       std::vector<LinkState> states;
-      for (std::size_t l = 0; l < links; ++l) states.push_back(kinematic->link(0, static_cast<int>(l)));
+      for (std::size_t l = 0; l < links; ++l)
+        states.push_back(kinematic->link(0, static_cast<int>(l)));
       bullet->move(mover, states);
       bullet->step(kStep, ground);
       kinematic->step(kStep, ground);
     }
   }
   /// To x in so many seconds.
-  void send(const Vec3& p_W, double seconds) { kinematic->set_base(0, {p_W, Vec3::Zero(), seconds}); }
+  void send(const Vec3& p_W, double seconds) {
+    kinematic->set_base(0, {p_W, Vec3::Zero(), seconds});
+  }
   Vec3 place(int machine) const { return bullet->link(machine, 0).X_WL.translation(); }
   Vec3 speed(int machine) const { return bullet->link(machine, 0).v_WL; }
 
-  std::unique_ptr<Engine> bullet = make_bullet_engine(Vec3(0, 0, -kGravity)), kinematic = make_kinematic_engine();
+  std::unique_ptr<PhysicsEngine> bullet = make_bullet_engine(Vec3(0, 0, -kGravity)),
+                                 kinematic = make_kinematic_engine();
   std::size_t links = 0;
   int mover = 0;
 };
@@ -75,7 +80,7 @@ TEST(Mover, CarriesWhatStandsOnIt) {
   EXPECT_NEAR(lift.place(0).z(), 2.5, 0.01);
 }
 
-TEST(Mover, WakesWhatSleepsOnlyWhenItMoves) {
+TEST(Mover, WakesSleepingBodiesOnlyWhenItMoves) {
   BothEngines both(box(), make_pose(0, 0, 0.5));
   both.bullet->add_machine(box(), make_pose(1.02, 0, 0.5));
   both.go(2);
@@ -91,7 +96,8 @@ TEST(Mover, WakesWhatSleepsOnlyWhenItMoves) {
 TEST(Mover, PushesByTheSteelOfItsShells) {
   // A blade that stands across its way: no collision shape, one plate.
   scene::Machine blade;
-  blade.links.push_back(testing::box_link("blade", Pose::Identity(), 1, Vec3::Zero(), Vec3(0.1, 2, 1)));
+  blade.links.push_back(
+      testing::box_link("blade", Pose::Identity(), 1, Vec3::Zero(), Vec3(0.1, 2, 1)));
   scene::Shell shell;
   shell.name = "plate";
   shell.link = "blade";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine, gears and differentials on a cart of 2 t in the Bullet engine, against the closed forms of docs/machines.md.
+// Engine, gears and differentials on a cart of 2 t in the Bullet engine, against the closed forms
+// of docs/machines.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ using testing::slope;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-scene::DriveEngine diesel() {
-  scene::DriveEngine engine;
+scene::CombustionEngine diesel() {
+  scene::CombustionEngine engine;
   engine.curve = {{100, 150}, {200, 180}, {300, 150}};
   engine.braking_torque = 40;
   engine.gears = {4, 2};
@@ -34,15 +35,16 @@ scene::DriveEngine diesel() {
   return engine;
 }
 
-scene::DriveEngine source() {
-  scene::DriveEngine engine;
-  engine.kind = scene::DriveEngine::Kind::kSpeedSource;
+scene::CombustionEngine source() {
+  scene::CombustionEngine engine;
+  engine.kind = scene::CombustionEngine::Kind::kSpeedSource;
   engine.max_speed = 300, engine.max_torque = 150;
   engine.gears = {20};
   return engine;
 }
 
-scene::Machine cart_with(const scene::DriveEngine& engine, const scene::Differential& axles = {}) {
+scene::Machine cart_with(const scene::CombustionEngine& engine,
+                         const scene::Differential& axles = {}) {
   scene::Machine cart = testing::cart();
   auto& drive = std::get<scene::AckermannDrive>(cart.drive);
   drive.max_speed = 20;
@@ -53,12 +55,17 @@ scene::Machine cart_with(const scene::DriveEngine& engine, const scene::Differen
 }
 
 struct Rig {
-  explicit Rig(scene::Machine of, double angle = 0) : machine(std::move(of)), engine(make_bullet_engine(kDown)) {
+  explicit Rig(scene::Machine of, double angle = 0)
+      : machine(std::move(of)), engine(make_bullet_engine(kDown)) {
     engine->add_machine(machine, make_pose(0, 0, 0.02, 0, -angle));
   }
-  double speed() const { return engine->link(0, 0).X_WL.linear().col(0).dot(engine->link(0, 0).v_WL); }
-  double cage() const { return 0.5 * (engine->wheel(0, 2).spin + engine->wheel(0, 3).spin); }
-  double torque() const { return engine->wheel(0, 2).shaft_torque + engine->wheel(0, 3).shaft_torque; }
+  double speed() const {
+    return engine->link(0, 0).X_WL.linear().col(0).dot(engine->link(0, 0).v_WL);
+  }
+  double carrier() const { return 0.5 * (engine->wheel(0, 2).spin + engine->wheel(0, 3).spin); }
+  double torque() const {
+    return engine->wheel(0, 2).shaft_torque + engine->wheel(0, 3).shaft_torque;
+  }
   /// Holds the chassis back by a spring and a damper; answers their force [N].
   double tie() {
     const LinkState at = engine->link(0, 0);
@@ -67,7 +74,7 @@ struct Rig {
     return -force;
   }
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
 };
 
 TEST(PowerTrain, GoesInEachGearAsFastAsTheEngineIsGoverned) {
@@ -76,8 +83,8 @@ TEST(PowerTrain, GoesInEachGearAsFastAsTheEngineIsGoverned) {
     rig.engine->set_drive(0, {50, 0, false, gear});
     run(*rig.engine, flat(), 10, kStep);
     const double expected = 300 * 0.525 / (10 * (gear == 1 ? 4 : 2));
-    print_value("top speed in gear " + std::to_string(gear) + " [m/s]", rig.speed(), std::to_string(expected),
-                "w r / (i g)");
+    print_value("top speed in gear " + std::to_string(gear) + " [m/s]", rig.speed(),
+                std::to_string(expected), "w r / (i g)");
     // 3 %: the loaded radius is 12 mm less than 525, the tyres slip a little.
     EXPECT_NEAR(rig.speed(), expected, 0.03 * expected);
     EXPECT_NEAR(rig.engine->drive_engine(0).speed, 300, 0.01 * 300);
@@ -94,7 +101,8 @@ TEST(PowerTrain, PullsWithTorqueTimesRatioTimesEfficiencyByRadius) {
   EXPECT_LT(std::abs(rig.speed()), 0.01);
   EXPECT_NEAR(rig.torque(), torque, 1e-6 * torque);
   // The load on a rear tyre is some 5 kN: 12 mm of 525.
-  print_value("drawbar pull at idle, the clutch slipping [N]", force, std::to_string(torque / 0.513), "i g eta T / r");
+  print_value("drawbar pull at idle, the clutch slipping [N]", force,
+              std::to_string(torque / 0.513), "i g eta T / r");
   EXPECT_NEAR(force, torque / 0.513, 0.03 * torque / 0.513);
   EXPECT_EQ(rig.engine->drive_engine(0).speed, 100) << "it is not stalled";
   EXPECT_NEAR(rig.engine->drive_engine(0).torque, 150, 1e-9);
@@ -106,11 +114,11 @@ TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
   const double rated = scene::rated_point(diesel()).speed * scene::rated_point(diesel()).torque;
   double most = 0;
   run(*rig.engine, flat(), 8, kStep, [&](double) {
-    const EngineState state = rig.engine->drive_engine(0);
+    const CombustionEngineState state = rig.engine->drive_engine(0);
     most = std::max(most, state.power);
     EXPECT_GE(state.speed, 100);
     // 1 %: the torque was told for the speed at the step's start.
-    EXPECT_LE(rig.torque() * rig.cage(), 1.01 * 0.9 * std::max(state.power, 1.0));
+    EXPECT_LE(rig.torque() * rig.carrier(), 1.01 * 0.9 * std::max(state.power, 1.0));
   });
   print_value("largest power of the engine [kW]", most / 1e3, "45 at most", "T w at 300 rad/s");
   EXPECT_LE(most, rated * (1 + 1e-9));
@@ -163,7 +171,7 @@ TEST(PowerTrain, TurnsRoundToGoBack) {
 }
 
 TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
-  for (const scene::DriveEngine& about : {diesel(), source()}) {
+  for (const scene::CombustionEngine& about : {diesel(), source()}) {
     Rig rig(cart_with(about));
     const double wheelbase = std::get<scene::AckermannDrive>(rig.machine.drive).wheelbase;
     rig.engine->set_drive(0, {2, std::atan(wheelbase / 7), false});
@@ -172,10 +180,10 @@ TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
     EXPECT_GT(right.spin, 1.1 * left.spin) << "in a turn to the left";
     EXPECT_GT(left.shaft_torque, 0);
     EXPECT_NEAR(left.shaft_torque, right.shaft_torque, 0.01 * right.shaft_torque);
-    const EngineState engine = rig.engine->drive_engine(0);
+    const CombustionEngineState engine = rig.engine->drive_engine(0);
     const GearedEngine gears(about, false);
     const double ratio = gears.ratio(engine.gear);
-    EXPECT_NEAR(engine.speed, ratio * rig.cage(), 0.01 * engine.speed);
+    EXPECT_NEAR(engine.speed, ratio * rig.carrier(), 0.01 * engine.speed);
     EXPECT_NEAR(rig.torque(), 0.9 * ratio * engine.torque, 0.01 * rig.torque());
   }
 }
@@ -192,12 +200,12 @@ TEST(PowerTrain, ShaftsOfOneWithLimitedSlipDifferByTwiceItsTorque) {
   EXPECT_NEAR(right.shaft_torque - left.shaft_torque, 300, 3);
 }
 
-TEST(PowerTrain, ASourceOfSpeedTurnsTheCageAsTold) {
+TEST(PowerTrain, ASpeedSourceTurnsTheDifferentialCarrierAsCommanded) {
   Rig rig(cart_with(source()));
   rig.engine->set_drive(0, {1.5, 0.2, false});
   run(*rig.engine, flat(), 4, kStep);
-  EXPECT_NEAR(rig.cage() * 0.525, 1.5, 1e-3 * 1.5) << "by the unloaded radius";
-  EXPECT_NEAR(rig.engine->drive_engine(0).speed, 20 * rig.cage(), 1e-3 * 20 * rig.cage());
+  EXPECT_NEAR(rig.carrier() * 0.525, 1.5, 1e-3 * 1.5) << "by the unloaded radius";
+  EXPECT_NEAR(rig.engine->drive_engine(0).speed, 20 * rig.carrier(), 1e-3 * 20 * rig.carrier());
   // Held, it gives its largest torque and turns no further.
   Rig tied(cart_with(source()));
   tied.engine->set_drive(0, {1.5, 0, false});
@@ -208,7 +216,7 @@ TEST(PowerTrain, ASourceOfSpeedTurnsTheCageAsTold) {
 }
 
 TEST(PowerTrain, ResumesEqual) {
-  for (const scene::DriveEngine& about : {diesel(), source()}) {
+  for (const scene::CombustionEngine& about : {diesel(), source()}) {
     const scene::Machine cart = cart_with(about, {Kind::kLimitedSlip, 100, 0.2});
     Rig whole(cart), resumed(cart);
     whole.engine->set_drive(0, {3, 0.2, false, 1});
@@ -225,9 +233,10 @@ TEST(PowerTrain, ResumesEqual) {
   }
 }
 
-/// Radius of the turn of a cart whose rear wheels are turned and whose front wheels are steered one by one; the largest
-/// change of the chassis' velocity within a step goes to `jump`.
-double radius_of(double left_speed, double right_speed, double left_angle, double right_angle, double& jump) {
+/// Radius of the turn of a cart whose rear wheels are turned and whose front wheels are steered one
+/// by one; the largest change of the chassis' velocity within a step goes to `jump`.
+double radius_of(double left_speed, double right_speed, double left_angle, double right_angle,
+                 double& jump) {
   scene::Machine cart = testing::cart();
   for (const char* joint : {"rear_left_joint", "rear_right_joint"})
     cart.joints[static_cast<std::size_t>(cart.joint_index(joint))].effort = 4e3;
@@ -267,7 +276,8 @@ TEST(Ackermann, InputsThatDoNotFitUnderAndOversteerWithoutAJump) {
   const double straight = radius_of(w, w, inner, 0, jump);
   EXPECT_GT(straight, 1.3 * fits);
   print_value("radius with inputs that fit, under-, oversteer, one wheel straight [m]", fits,
-              std::to_string(under) + ", " + std::to_string(over) + ", " + std::to_string(straight), "");
+              std::to_string(under) + ", " + std::to_string(over) + ", " + std::to_string(straight),
+              "");
   print_value("largest change of velocity within a step [m/s]", jump, "0.25 at most", "");
   EXPECT_LT(jump, 0.25);
 }

@@ -37,11 +37,13 @@ TEST(Ride, WheelLoadsOnFirmGroundKeepWithinTenPercentOfTheirMean) {
     ++samples;
   });
   for (std::size_t w = 0; w < 4; ++w) {
-    const double mean = sum[w] / samples, rms = std::sqrt(std::max(0.0, squares[w] / samples - mean * mean));
-    print_value(
-        "wheel " + std::to_string(w) + " at 1.2 m/s: rms / mean of its load [-]", rms / mean,
-        "0.1; mean " + std::to_string(mean) + " N, " + std::to_string(least[w]) + " to " + std::to_string(most[w]),
-        "even ride");
+    const double mean = sum[w] / samples,
+                 rms = std::sqrt(std::max(0.0, squares[w] / samples - mean * mean));
+    print_value("wheel " + std::to_string(w) + " at 1.2 m/s: rms / mean of its load [-]",
+                rms / mean,
+                "0.1; mean " + std::to_string(mean) + " N, " + std::to_string(least[w]) + " to " +
+                    std::to_string(most[w]),
+                "even ride");
     EXPECT_LT(rms, 0.1 * mean);
   }
 }

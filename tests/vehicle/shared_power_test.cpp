@@ -23,8 +23,8 @@ constexpr double kStep = 1.0 / 600;
 constexpr double kEngine = 100e3;  // [W]
 
 /// 100 kW at 200 rad/s, its largest power.
-scene::DriveEngine diesel() {
-  scene::DriveEngine engine;
+scene::CombustionEngine diesel() {
+  scene::CombustionEngine engine;
   engine.curve = {{80, 450}, {140, 560}, {200, 500}, {220, 400}};
   engine.braking_torque = 80;
   engine.gears = {3, 1.5};
@@ -32,7 +32,8 @@ scene::DriveEngine diesel() {
   return engine;
 }
 
-scene::Machine excavator(double engine_power, const std::optional<scene::DriveEngine>& engine = {}) {
+scene::Machine excavator(double engine_power,
+                         const std::optional<scene::CombustionEngine>& engine = {}) {
   scene::Machine machine = ew180(0.2, -1.2, -1.3);
   auto& drive = std::get<scene::AckermannDrive>(machine.drive);
   drive.engine_power = engine_power;
@@ -77,11 +78,12 @@ TEST(SharedPower, OfAHydrostaticDriveAndThePumpIsTheEnginesAtMost) {
   const Powers own = climb_and_lift(excavator(0)), shared = climb_and_lift(excavator(kEngine));
   print_value("pump and drive at once, each with its own power [kW]", own.most / 1e3, "180 at most",
               "90 + 90, vehicles/ew180/SOURCE.md");
-  print_value("pump and drive at once on one engine of 100 kW [kW]", shared.most / 1e3, "100, gated at 2.5 %",
-              "docs/machines.md, drive");
+  print_value("pump and drive at once on one engine of 100 kW [kW]", shared.most / 1e3,
+              "100, gated at 2.5 %", "docs/machines.md, drive");
   EXPECT_GT(own.most, 1.3 * kEngine);
   EXPECT_EQ(own.shared, 0);
-  // 2.5 %: the drive hears of the pump's power one step later, and while valves open that rises by 1.4 kW in a step.
+  // 2.5 %: the drive hears of the pump's power one step later, and while valves open that rises by
+  // 1.4 kW in a step.
   EXPECT_LE(shared.most, 1.025 * kEngine);
   EXPECT_GT(shared.most, 0.9 * kEngine) << "it is made use of";
   EXPECT_NEAR(shared.shared, shared.most, 0.025 * kEngine);
@@ -90,12 +92,13 @@ TEST(SharedPower, OfAHydrostaticDriveAndThePumpIsTheEnginesAtMost) {
 }
 
 TEST(SharedPower, OfAnEngineWithGearsIsItsLargestAtMost) {
-  const scene::DriveEngine engine = diesel();
-  const scene::DriveEngine::Point rated = scene::rated_point(engine);
+  const scene::CombustionEngine engine = diesel();
+  const scene::CombustionEngine::Point rated = scene::rated_point(engine);
   EXPECT_NEAR(rated.speed * rated.torque, kEngine, 1);
-  const Powers shared = climb_and_lift(excavator(kEngine, engine)), own = climb_and_lift(excavator(0, engine));
-  print_value("pump and drive at once on a torque curve of 100 kW [kW]", shared.shared / 1e3, "100, gated at 2.5 %",
-              "docs/machines.md, engine and gears");
+  const Powers shared = climb_and_lift(excavator(kEngine, engine)),
+               own = climb_and_lift(excavator(0, engine));
+  print_value("pump and drive at once on a torque curve of 100 kW [kW]", shared.shared / 1e3,
+              "100, gated at 2.5 %", "docs/machines.md, engine and gears");
   // As above.
   EXPECT_LE(shared.shared, 1.025 * kEngine);
   EXPECT_LE(shared.most, 1.025 * kEngine);

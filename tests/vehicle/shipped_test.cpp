@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every shipped vehicle is loaded, driven, steered and braked: a new one is a file, and this test finds it.
+// Every shipped vehicle is loaded, driven, steered and braked: a new one is a file, and this test
+// finds it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,14 +27,17 @@ constexpr double kStep = 1.0 / 600;
 std::vector<std::string> shipped_vehicles() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(navvy::source_dir() + "/vehicles"))
-    if (std::filesystem::exists(entry.path() / "model.sdf")) names.push_back(entry.path().filename().string());
+    if (std::filesystem::exists(entry.path() / "model.sdf"))
+      names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
 class ShippedVehicles : public ::testing::TestWithParam<std::string> {
  protected:
-  ShippedVehicles() : machine(scene_io::load_machine(navvy::source_dir() + "/vehicles/" + GetParam() + "/model.sdf")) {
+  ShippedVehicles()
+      : machine(scene_io::load_machine(navvy::source_dir() + "/vehicles/" + GetParam() +
+                                       "/model.sdf")) {
     engine->add_machine(machine, Pose::Identity());
   }
   double forward() const {
@@ -46,17 +50,19 @@ class ShippedVehicles : public ::testing::TestWithParam<std::string> {
   }
   /// To the left: half as far as it steers, or half a radian a second.
   double steering() const {
-    if (const auto* steered = std::get_if<scene::AckermannDrive>(&machine.drive)) return 0.5 * steered->max_steer;
+    if (const auto* steered = std::get_if<scene::AckermannDrive>(&machine.drive))
+      return 0.5 * steered->max_steer;
     if (const auto* linkage = std::get_if<scene::LinkageDrive>(&machine.drive))
       return 0.5 * linkage->max_steer * linkage->gear_ratio;
     return 0.5;
   }
   bool drives() const {
-    return std::any_of(machine.wheels.begin(), machine.wheels.end(), [](const scene::Wheel& w) { return w.driven; });
+    return std::any_of(machine.wheels.begin(), machine.wheels.end(),
+                       [](const scene::Wheel& w) { return w.driven; });
   }
 
   scene::Machine machine;
-  std::unique_ptr<Engine> engine = make_bullet_engine(Vec3(0, 0, -kGravity));
+  std::unique_ptr<PhysicsEngine> engine = make_bullet_engine(Vec3(0, 0, -kGravity));
 };
 
 TEST_P(ShippedVehicles, DriveSteerAndBrake) {

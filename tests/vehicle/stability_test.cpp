@@ -16,7 +16,8 @@
 namespace navvy::vehicle {
 namespace {
 
-const std::vector<Vec2> kSquare = {{0, 0}, {2, 2}, {2, 0}, {0, 2}, {1, 1}};  // a foot in the middle is no corner
+// A foot in the middle is no corner
+const std::vector<Vec2> kSquare = {{0, 0}, {2, 2}, {2, 0}, {0, 2}, {1, 1}};
 
 TEST(SupportMargin, IsTheDistanceToTheNearestEdgePositiveWithin) {
   EXPECT_DOUBLE_EQ(support_margin(kSquare, {0.5, 1}), 0.5);
@@ -42,7 +43,8 @@ TEST(TippingLoad, IsTheMomentBalanceOverTheWeakestEdge) {
   EXPECT_NEAR(front.load, 18000 * 1.5 / 5, 1e-9);
   EXPECT_TRUE(front.outward.isApprox(Vec2(1, 0)));
   // Over a corner it goes over the edge that bears less.
-  EXPECT_NEAR(tipping_load(feet, centre, 18000, Vec2(6, 4)).load, std::min(18000 * 1.5 / 3, 18000 * 0.6 / 3), 1e-9);
+  EXPECT_NEAR(tipping_load(feet, centre, 18000, Vec2(6, 4)).load,
+              std::min(18000 * 1.5 / 3, 18000 * 0.6 / 3), 1e-9);
   // Within the feet no load tips it; a machine that tips by itself bears none.
   EXPECT_EQ(tipping_load(feet, centre, 18000, Vec2(2, 0)).load, kNoTippingLoad);
   EXPECT_EQ(tipping_load(feet, Vec2(1, 1.2), 18000, Vec2(2, 0)).load, 0);
@@ -57,7 +59,8 @@ class Below final : public GroundQuery {
 };
 
 TEST(Stability, OfTheExcavatorFollowsItsTilt) {
-  const scene::Machine machine = scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
+  const scene::Machine machine =
+      scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
   double before = 10;
   for (const double roll : {0.0, 15.0, 30.0, 45.0}) {
     const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
@@ -68,22 +71,27 @@ TEST(Stability, OfTheExcavatorFollowsItsTilt) {
     EXPECT_NEAR(degrees(stands.tilt), roll, 0.1);  // it falls for 0.1 ms
     EXPECT_LT(stands.margin, before);
     before = stands.margin;
-    // Half a track of 1.1 m and a centre of mass a metre over the ground: upright it stands, at 45 deg it does not.
+    // Half a track of 1.1 m and a centre of mass a metre over the ground: upright it stands, at 45
+    // deg it does not.
     if (roll == 0) EXPECT_GT(stands.margin, 0.4);
     if (roll == 45) EXPECT_LT(stands.margin, 0);
   }
 }
 
-/// Two wheels of 0.1 m on a track of 0.4 m under a box of 40 kg, whose middle is 0.1 m ahead of their axle.
+/// Two wheels of 0.1 m on a track of 0.4 m under a box of 40 kg, whose middle is 0.1 m ahead of
+/// their axle.
 scene::Machine two_wheels() {
   scene::Machine robot;
   robot.name = "robot";
-  robot.links.push_back(testing::box_link("base", make_pose(0, 0, 0.1), 40, Vec3(0.1, 0, 0.05), Vec3(0.5, 0.3, 0.1)));
+  robot.links.push_back(
+      testing::box_link("base", make_pose(0, 0, 0.1), 40, Vec3(0.1, 0, 0.05), Vec3(0.5, 0.3, 0.1)));
   robot.links[0].collisions.clear();
   for (const double y : {0.2, -0.2}) {
     const std::string name = y > 0 ? "left" : "right";
-    robot.links.push_back(testing::box_link(name, make_pose(0, y, 0.1), 3, Vec3::Zero(), Vec3(0.2, 0.05, 0.2)));
-    robot.joints.push_back(testing::revolute(name, 0, static_cast<int>(robot.links.size()) - 1, Vec3::UnitY()));
+    robot.links.push_back(
+        testing::box_link(name, make_pose(0, y, 0.1), 3, Vec3::Zero(), Vec3(0.2, 0.05, 0.2)));
+    robot.joints.push_back(
+        testing::revolute(name, 0, static_cast<int>(robot.links.size()) - 1, Vec3::UnitY()));
     scene::Wheel wheel;
     wheel.joint = name;
     wheel.radius = 0.1;
@@ -95,12 +103,14 @@ scene::Machine two_wheels() {
 
 /// A ball of this radius on a link of its own [m].
 void add_castor(scene::Machine& robot, double radius, double x) {
-  robot.links.push_back(testing::box_link("castor", make_pose(x, 0, radius), 1, Vec3::Zero(), Vec3::Constant(0.05)));
+  robot.links.push_back(
+      testing::box_link("castor", make_pose(x, 0, radius), 1, Vec3::Zero(), Vec3::Constant(0.05)));
   scene::Collision ball;
   ball.geometry.kind = scene::Geometry::Kind::kSphere;
   ball.geometry.radius = radius;
   robot.links.back().collisions = {ball};
-  scene::Joint joint = testing::revolute("castor", 0, static_cast<int>(robot.links.size()) - 1, Vec3::UnitY());
+  scene::Joint joint =
+      testing::revolute("castor", 0, static_cast<int>(robot.links.size()) - 1, Vec3::UnitY());
   joint.type = scene::Joint::Type::kBall;
   joint.X_LcJ = Pose::Identity();
   robot.joints.push_back(joint);
@@ -117,7 +127,8 @@ TEST(Stability, CountsABallAsAFootAndMakesNoneUp) {
   const Stability balances = standing(two_wheels(), 0);
   EXPECT_TRUE(balances.free);
   EXPECT_EQ(balances.margin, 0);
-  // With a ball 0.3 m ahead it stands: between axle and ball, nearest to the sides of that triangle.
+  // With a ball 0.3 m ahead it stands: between axle and ball, nearest to the sides of that
+  // triangle.
   scene::Machine robot = two_wheels();
   add_castor(robot, 0.05, 0.3);
   const Stability stands = standing(robot, 0);
@@ -135,7 +146,8 @@ TEST(Stability, CountsABallAsAFootAndMakesNoneUp) {
   EXPECT_EQ(standing(high, 0).margin, 0);
 }
 
-/// The shipped excavator with its arm over the side, on a plane that falls that way by `angle` [rad].
+/// The shipped excavator with its arm over the side, on a plane that falls that way by `angle`
+/// [rad].
 struct Lifting {
   explicit Lifting(double angle)
       : hill([t = std::tan(angle)](double, double y) { return -t * y; }),
@@ -149,16 +161,16 @@ struct Lifting {
 
   testing::FunctionGround hill;
   scene::Machine machine;
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<PhysicsEngine> engine;
 };
 
-TEST(Stability, TellsTheLoadThatTipsItOnTheFlatAndOnASlope) {
+TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
   for (const double angle : {0.0, radians(6)}) {
     Lifting rig(angle);
     const Stability before = rig.now();
     EXPECT_NEAR(before.tipping_heading, radians(90), radians(2));
-    // Closed form: sum of m (edge - y) over all links, over the load's lever; on the slope all turned with it. The edge
-    // is the line of the left wheels' feet.
+    // Closed form: sum of m (edge - y) over all links, over the load's lever; on the slope all
+    // turned with it. The edge is the line of the left wheels' feet.
     Vec3 centre = Vec3::Zero();
     double mass = 0;
     for (std::size_t i = 0; i < rig.machine.links.size(); ++i) {
@@ -177,10 +189,13 @@ TEST(Stability, TellsTheLoadThatTipsItOnTheFlatAndOnASlope) {
     testing::run(*rig.engine, rig.hill, 40, 2.0 / 600, [&](double) {
       if (tipped > 0) return;
       load += 100 * 2.0 / 600;
-      rig.engine->add_force(0, rig.machine.link_index("bucket"), Vec3(0, 0, -kGravity * load), rig.pin());
-      if (rig.engine->wheel(0, 1).force_W.z() <= 0 && rig.engine->wheel(0, 3).force_W.z() <= 0) tipped = load;
+      rig.engine->add_force(0, rig.machine.link_index("bucket"), Vec3(0, 0, -kGravity * load),
+                            rig.pin());
+      if (rig.engine->wheel(0, 1).force_W.z() <= 0 && rig.engine->wheel(0, 3).force_W.z() <= 0)
+        tipped = load;
     });
-    print_value("tipping load [kg]", tipped, std::to_string(before.tipping_load) + " +-6 %", "told before");
+    print_value("tipping load [kg]", tipped, std::to_string(before.tipping_load) + " +-6 %",
+                "told before");
     // 6 %: it leans on its tyres by a degree before it goes, which is told as it leans, not before.
     EXPECT_NEAR(tipped, before.tipping_load, 0.06 * before.tipping_load);
   }
@@ -193,14 +208,15 @@ TEST(Stability, LoadedMarginCountsWhatHangsOnTheArm) {
     EXPECT_NEAR(rig.now().loaded_margin, rig.now().margin, 0.02);
     const double load = 600;
     testing::run(*rig.engine, rig.hill, 4, 1.0 / 600, [&](double) {
-      rig.engine->add_force(0, rig.machine.link_index("bucket"), Vec3(0, 0, -kGravity * load), rig.pin());
+      rig.engine->add_force(0, rig.machine.link_index("bucket"), Vec3(0, 0, -kGravity * load),
+                            rig.pin());
     });
     const Stability stands = rig.now();
     // Both weights about the weakest edge: (M d - m l) / (M + m), with m_tip = M d / l.
     const double d = stands.margin, l = 18000 * d / stands.tipping_load;
     const double expected = (18000 * d - load * l) / (18000 + load);
-    print_value("margin with 600 kg over the side [m]", stands.loaded_margin, std::to_string(expected),
-                "moment balance");
+    print_value("margin with 600 kg over the side [m]", stands.loaded_margin,
+                std::to_string(expected), "moment balance");
     // 0.03 m: both tyres of a pair carry, so the ground's force is not in the middle between them.
     EXPECT_NEAR(stands.loaded_margin, expected, 0.03);
     EXPECT_LT(stands.loaded_margin, d - 0.1);
@@ -208,7 +224,8 @@ TEST(Stability, LoadedMarginCountsWhatHangsOnTheArm) {
 }
 
 TEST(Stability, OfAMachineThatCannotTipSaysNothing) {
-  scene::Machine machine = scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
+  scene::Machine machine =
+      scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
   machine.kinematic = true;
   const auto engine = make_kinematic_engine();
   engine->add_machine(machine, make_pose(0, 0, 1, radians(80), 0, 0));

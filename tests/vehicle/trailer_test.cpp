@@ -18,14 +18,15 @@ using testing::flat;
 using testing::run;
 
 constexpr double kStep = 1.0 / 600;
-constexpr double kHitch = 0.4, kDrawbar = 0.6;  // [m] behind the robot's axle, ahead of the trailer's
+// [m] behind the robot's axle, ahead of the trailer's
+constexpr double kHitch = 0.4, kDrawbar = 0.6;
 
 scene::Machine train() {
   return scene_io::load_machine(navvy::source_dir() + "/vehicles/robot_with_trailer/model.sdf");
 }
 
 /// Middle of the trailer's axle on the ground.
-Vec3 trailer(const Engine& engine, const scene::Machine& machine) {
+Vec3 trailer(const PhysicsEngine& engine, const scene::Machine& machine) {
   return engine.link(0, machine.link_index("robot_trailer::chassis")).X_WL.translation();
 }
 
@@ -35,13 +36,15 @@ TEST(Trailer, StandsOnItsWheelsAndItsHitch) {
   engine->add_machine(machine, Pose::Identity());
   run(*engine, flat(), 2, kStep);
   double carried = 0;
-  for (int w = 0; w < static_cast<int>(machine.wheels.size()); ++w) carried += engine->wheel(0, w).force_W.z();
+  for (int w = 0; w < static_cast<int>(machine.wheels.size()); ++w)
+    carried += engine->wheel(0, w).force_W.z();
   EXPECT_NEAR(carried, 68.5 * kGravity, 1);
   EXPECT_LT((trailer(*engine, machine) - Vec3(-kHitch - kDrawbar, 0, 0)).norm(), 0.005);
 }
 
 TEST(Trailer, RunsOnTheCircleThatGeometrySays) {
-  // In a steady circle the trailer's axle points at the robot's centre of turning: R^2 + h^2 = r^2 + l^2.
+  // In a steady circle the trailer's axle points at the robot's centre of turning: R^2 + h^2 = r^2
+  // + l^2.
   const scene::Machine machine = train();
   for (const double yaw_rate : {0.4, -0.25}) {
     const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
@@ -54,15 +57,16 @@ TEST(Trailer, RunsOnTheCircleThatGeometrySays) {
     run(*engine, flat(), circle, kStep, [&](double) {
       const LinkState base = engine->link(0, 0);
       // By its own motion: centre of the circle on its left, at v / yaw rate.
-      const Vec3 centre = base.X_WL * Vec3(0, base.X_WL.linear().col(0).dot(base.v_WL) / base.w_WL.z(), 0);
+      const Vec3 centre =
+          base.X_WL * Vec3(0, base.X_WL.linear().col(0).dot(base.v_WL) / base.w_WL.z(), 0);
       robots += (base.X_WL.translation() - centre).head<2>().norm();
       trailers += (trailer(*engine, machine) - centre).head<2>().norm();
       ++samples;
     });
     const double R = robots / samples;
     const double expected = std::sqrt(R * R + kHitch * kHitch - kDrawbar * kDrawbar);
-    print_value("radius of the trailer's axle [m]", trailers / samples, std::to_string(expected) + " +-3 %",
-                "sqrt(R^2 + h^2 - l^2)");
+    print_value("radius of the trailer's axle [m]", trailers / samples,
+                std::to_string(expected) + " +-3 %", "sqrt(R^2 + h^2 - l^2)");
     EXPECT_NEAR(trailers / samples, expected, 0.03 * expected);
   }
 }

@@ -47,7 +47,7 @@ scene::Machine pipe(double radius, double length, bool stands) {
   return body(geometry, 500, stands);
 }
 
-double wheel_height(const Engine& engine, int machine, int wheel) {
+double wheel_height(const PhysicsEngine& engine, int machine, int wheel) {
   return engine.wheel(machine, wheel).X_WWheel.translation().z();
 }
 
@@ -55,14 +55,15 @@ TEST(TyreBodies, APipeLiftsTheAxleByItsHeight) {
   // The excavator is let down with its front axle on a pipe of 0.4 m, brakes held.
   const auto axle = [](bool on_pipe) {
     auto engine = make_bullet_engine(kDown);
-    engine->add_machine(ew180(), make_pose(0, 0, on_pipe ? 0.05 : 0, 0, on_pipe ? -std::atan(0.4 / 2.8) : 0));
+    engine->add_machine(
+        ew180(), make_pose(0, 0, on_pipe ? 0.05 : 0, 0, on_pipe ? -std::atan(0.4 / 2.8) : 0));
     if (on_pipe) engine->add_machine(pipe(0.2, 4, true), make_pose(2.77, 0, 0.2, kPi / 2));
     engine->set_drive(0, {0, 0, true});
     run(*engine, flat(), 4, kStep);
     return 0.5 * (wheel_height(*engine, 0, 0) + wheel_height(*engine, 0, 1));
   };
-  // 20 mm: half of what the tyres give way; a round top presses them in no deeper than ground, as the law knows depth
-  // and no area, and a raised nose shifts load to the rear.
+  // 20 mm: half of what the tyres give way; a round top presses them in no deeper than ground, as
+  // the law knows depth and no area, and a raised nose shifts load to the rear.
   EXPECT_NEAR(axle(true) - axle(false), 0.4, 0.02);
 }
 
@@ -106,7 +107,8 @@ TEST(TyreBodies, AWheelStopsAtAWall) {
     farthest = std::max(farthest, engine->wheel(0, 0).X_WWheel.translation().x());
     highest = std::max(highest, wheel_height(*engine, 0, 0));
   });
-  // A radius before the wall, less what the tyre gives way under the blow and the thrust; the tread rubs up a little.
+  // A radius before the wall, less what the tyre gives way under the blow and the thrust; the tread
+  // rubs up a little.
   EXPECT_NEAR(farthest, 4.5 - 0.525, 0.1);
   EXPECT_LT(highest, 0.525 + 0.3);
 }
@@ -143,12 +145,13 @@ TEST(TyreBodies, ALightBodyIsPushedAsideAndNotThrown) {
   engine->add_machine(block(Vec3(0.2, 0.2, 0.2), false, 5), make_pose(4, 0.97, 0.1));
   engine->set_drive(0, {0.8, 0, false});
   double fastest = 0;
-  run(*engine, flat(), 4, kStep, [&](double) { fastest = std::max(fastest, engine->link(1, 0).v_WL.norm()); });
+  run(*engine, flat(), 4, kStep,
+      [&](double) { fastest = std::max(fastest, engine->link(1, 0).v_WL.norm()); });
   // Squeezed out at some times the machine's speed at most.
   EXPECT_LT(fastest, 8.0);
 }
 
-TEST(TyreBodies, AResumedRunOnAPlateIsEqualToTheBit) {
+TEST(TyreBodies, AResumedRunOnAPlateIsEqualBitIdentical) {
   const auto build = [] {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(cart(), make_pose(0, 0, 0.1));

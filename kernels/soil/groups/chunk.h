@@ -8,8 +8,8 @@
 
 #define CHUNK 208  // particles at a time, a multiple of NAVVY_LANES and at most CELLS
 
-// Staged words of a particle, word f of slot i at f * CHUNK + i: momentum at the base node, change of momentum per node
-// along x, y, z, mass [SI], offset from the base node [cells].
+// Staged words of a particle, word f of slot i at f * CHUNK + i: momentum at the base node, change
+// of momentum per node along x, y, z, mass [SI], offset from the base node [cells].
 #define STAGED_P 0
 #define STAGED_A 3
 #define STAGED_MASS 12
@@ -21,8 +21,8 @@ static inline int cell_of(float x, float y, float z) {
   return (int)base_node(x) + 1 + 6 * ((int)base_node(y) + 1) + 36 * ((int)base_node(z) + 1);
 }
 
-// Place of this work-item's particle among the `count` of the chunk, by cell, then in stored order. first, counts (zero
-// before): where each cell's particles stand afterwards.
+// Place of this work-item's particle among the `count` of the chunk, by cell, then in stored order.
+// first, counts (zero before): where each cell's particles stand afterwards.
 static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first, local int* counts) {
   const int me = get_local_id(0);
   int lower = 0, earlier = 0;
@@ -38,8 +38,8 @@ static inline int place_in_chunk(local const int* cells, int count, int cell, lo
 // Base node of a cell in the tile.
 static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 64 * (cell / 36); }
 
-// Momentum and mass that the `count` particles from slot `first` on give to the nine nodes of one layer (0..2 above the
-// base node), x fastest; of those that belong to tile t.
+// Momentum and mass that the `count` particles from slot `first` on give to the nine nodes of one
+// layer (0..2 above the base node), x fastest; of those that belong to tile t.
 static inline void add_layer(local const float* stage, local const int* sides, int first, int count, int t, int layer,
                              float4* sums) {
   UNROLL

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact of the two node fields with tools: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/contact.cl. One work-group per near block, one node per work-item; sums over nodes and
-// blocks are halved pair by pair in a fixed order. Host: src/soil/tools/contact.cpp.
+// In, Out: as in soil/lanes/contact.cl. One work-group per near block, one node per work-item; sums
+// over nodes and blocks are halved pair by pair in a fixed order. Host: src/soil/tools/contact.cpp.
 #include "soil/contact_node.h"
 
 // Out: sums per near block.

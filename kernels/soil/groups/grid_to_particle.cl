@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathers node velocities to particles and books their way: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes of its tile, then
-// each work-item takes one particle after the other. Every particle is one work-item's; the fastest of a block is
-// found by an integer maximum, which has no order. Host: src/soil/particles/grid_to_particle.cpp.
+// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes
+// of its tile, then each work-item takes one particle after the other. Every particle is one
+// work-item's; the fastest of a block is found by an integer maximum, which has no order. Host:
+// src/soil/particles/grid_to_particle.cpp.
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
 #define MEMBERS 128
 
-// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind the shell.
+// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind
+// the shell.
 static inline float4 felt(local const float4* front, local const float4* back, local const uchar* split, int node,
                           int side) {
   const bool behind = split[node] != 0 && (side == 2 || (side == 0 && split[node] == 2));
@@ -40,7 +42,7 @@ static inline float4 gather(local const float4* front, local const float4* back,
 }
 
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const Home* restrict homes,
+    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
     global const int* restrict neighbours, global const float4* restrict velocity0,
     global const float4* restrict velocity1, global const int* restrict near_slot,
     global const int* restrict node_split, global const int* restrict used, global Report* restrict report,
@@ -50,8 +52,10 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   local uchar split[TILE_SIZE];
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
-  const Home home = homes[block];
-  (void)used;  // tells the lanes' schedule which tiles to copy; here split nodes choose their field when they are read
+  const ParticleBlock home = particle_blocks[block];
+  // Tells the lanes' schedule which tiles to copy; here split nodes choose their field when they
+  // are read
+  (void)used;
   if (me == 0) fastest = 0;
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
     // Tile node -1..6 lies in the block before, this one or the one after.
@@ -99,11 +103,11 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
       const float lean = moments[axis].w - (x[axis] - b[axis]) * sum.w;
-      const float way = (dt / dx) * v[axis] + way_apart(share, lean, sum.w, most);
+      const float way = (dt / dx) * v[axis] + crowding_displacement(share, lean, sum.w, most);
       STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
       speed[axis] = way * (dx / dt);
     }
-    keep_largest(&fastest, fastest_component(speed));
+    atomic_max_nonnegative(&fastest, fastest_component(speed));
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me == 0) report[block].speed = as_float(fastest);
@@ -111,8 +115,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
 
 // See soil/lanes/grid_to_particle.cl.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle_end(
-    global float* restrict state, const int capacity, global const Home* restrict homes) {
-  const Home home = homes[get_group_id(0)];
+    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks) {
+  const ParticleBlock home = particle_blocks[get_group_id(0)];
   for (int slot = home.start + (int)get_local_id(0); slot < home.start + home.count; slot += MEMBERS)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));

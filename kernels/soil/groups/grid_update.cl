@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds up the tiles around each active block and turns momentum into velocity: schedule of work-groups.
+// Adds up the tiles around each active block and turns momentum into velocity: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per work-item; tiles are added
-// in the order of soil/lanes/grid_update.cl, so that a node's sum has the same bits. Host:
-// src/soil/particles/grid_update.cpp.
+// In, Out: as in soil/lanes/grid_update.cl. One work-group per active block, one node per
+// work-item; tiles are added in the order of soil/lanes/grid_update.cl, so that a node's sum has
+// the same bits. Host: src/soil/particles/grid_update.cpp.
 #include "soil/groups/group.h"
 #include "soil/node.h"
 #include "soil/place.h"
@@ -16,7 +17,8 @@ static inline int tile_node(int n) {
   return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
 
-// v = p / m + dv, on top of the velocity before in a held step; nodes lighter than a mass quantum are empty.
+// v = p / m + dv, on top of the velocity before in a held step; nodes lighter than a mass quantum
+// are empty.
 static inline float4 velocity_of(float4 momentum, float4 dv, int hold, float4 before) {
   if (!(momentum.w > MASS_QUANTUM)) return (float4)(momentum.xyz * 0.0f, momentum.w);
   float3 v = momentum.xyz * INVERSE_MASS(momentum.w) + dv.xyz;
@@ -25,7 +27,7 @@ static inline float4 velocity_of(float4 momentum, float4 dv, int hold, float4 be
 }
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
+    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
     global const float4* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
     global float4* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_group_id(0)], me = get_local_id(0);
@@ -34,7 +36,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     const int home = around[27 * block + n], node = tile_node(n);
     if (home < 0 || node < 0) continue;
     for (int t = 0; used[home] >> t; ++t)
-      if (used[home] >> t & 1) sum += tiles[(size_t)(homes[home].tile + t) * TILE_NODES + node];
+      if (used[home] >> t & 1) sum += tiles[(size_t)(particle_blocks[home].tile + t) * TILE_NODES + node];
   }
   // Nodes at or below the floor lose their velocity; masses become mass per room above the ground.
   float4 v = 0.0f;
@@ -43,15 +45,15 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     const float z = (float)(me >> 4);
     v = velocity_of(sum, dv, hold, velocity[(size_t)block * BLOCK_NODES + me]);
     if (z <= ground->held[me & 15]) v.xyz *= 0.0f;
-    v.w *= 1.0f / room_above(z - vload4(me & 15, ground->around[0]));
+    v.w *= 1.0f / free_fraction_above(z - vload4(me & 15, ground->around[0]));
   }
   velocity[(size_t)block * BLOCK_NODES + me] = v;
 }
 
 // Blocks near shells, see soil/lanes/grid_update.cl.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
-    global const float4* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
+    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
+    global const float4* restrict tiles, global const int* restrict used, global const float4* restrict block_surface,
     global const int* restrict node_split, global float4* restrict field0, global float4* restrict field1,
     global float4* restrict node_surface, global const float4* restrict last0, global const float4* restrict last1,
     const float4 dv, const int hold) {
@@ -67,13 +69,13 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     float mass = 0.0f;
     for (int t = 0; used[home] >> t; ++t) {
       if (!(used[home] >> t & 1)) continue;
-      const float4 part = tiles[(size_t)(homes[home].tile + t) * TILE_NODES + node];
+      const float4 part = tiles[(size_t)(particle_blocks[home].tile + t) * TILE_NODES + node];
       if (t == 0) neutral += part;
       if (t == 1) front += part;
       if (t == 2) back += part;
       mass += part.w;
     }
-    const float4 here = home_surface[home];
+    const float4 here = block_surface[home];
     if (!found) first = here;
     found = true;
     mixed = mixed || any(here != first);

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// One particle or node per work-item: the scalar counterpart of soil/lanes/lanes.h for the schedule of work-groups.
-// Law and shell queries are the same sources in both.
+// One particle or node per work-item: the scalar counterpart of soil/lanes/lanes.h for the schedule
+// of work-groups. Law and shell queries are the same sources in both.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 #define NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 
 #include "soil/scalar.h"
 
-// Loops over a work-item's own small arrays are unrolled: then these are registers, which a GPU cannot index.
+// Loops over a work-item's own small arrays are unrolled: then these are registers, which a GPU
+// cannot index.
 #define UNROLL _Pragma("unroll")
 
 // Tile nodes without the pad, and the cells of base nodes -1..4 in a tile, x fastest.
 #define TILE_SIZE 512
 #define CELLS 216
 
-// Field of `slot`, in kernels that name their arguments state and capacity; and the same for all fields of a list
-// (particle_fields.h) into or out of a struct.
+// Field of `slot`, in kernels that name their arguments state and capacity; and the same for all
+// fields of a list (particle_fields.h) into or out of a struct.
 #define LOAD(field) state[(size_t)(field)*capacity + (slot)]
 #define STORE(field, value) state[(size_t)(field)*capacity + (slot)] = (value)
 #define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
@@ -24,7 +25,8 @@
 #define STORE_MANY(NAME, member, count, rest) \
   UNROLL for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
-// Largest of values >= 0 (or infinite) in a work-group: the order of their bits is theirs, and integers have atomics.
-static inline void keep_largest(local int* largest, float value) { atomic_max(largest, as_int(value)); }
+// Largest of values >= 0 (or infinite) in a work-group: the order of their bits is theirs, and
+// integers have atomics.
+static inline void atomic_max_nonnegative(local int* largest, float value) { atomic_max(largest, as_int(value)); }
 
 #endif  // NAVVY_KERNELS_SOIL_GROUPS_GROUP_H

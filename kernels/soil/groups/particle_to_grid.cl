@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of each particle, then scatter of mass and momentum to its block's tile: schedule of work-groups.
+// Stress update of each particle, then scatter of mass and momentum to its block's tile: schedule
+// of work-groups.
 //
-// In, Out: as in soil/lanes/particle_to_grid.cl, tiles without their pad.
-// One work-group per home block. A work-item is first one particle of a chunk (law), then one cell of base nodes: it
-// adds up the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to the tile one
-// offset after the other. Cells of one offset share no node, so nothing is atomic. Particles are taken in stored order,
-// cell by cell: sums repeat bit for bit. Host: src/soil/particles/particle_to_grid.cpp. Reference:
-// src/soil/reference/reference_solver.cpp.
+// In, Out: as in soil/lanes/particle_to_grid.cl, tiles without their pad. One work-group per home
+// block. A work-item is first one particle of a chunk (law), then one cell of base nodes: it adds
+// up the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to
+// the tile one offset after the other. Cells of one offset share no node, so nothing is atomic.
+// Particles are taken in stored order, cell by cell: sums repeat bit for bit. Host:
+// src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {
@@ -51,9 +52,9 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   return isfinite(sum);
 }
 
-// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (mean_opening in soil/point.h). A
-// work-item is a cell.
-static inline float cell_opening(global const float* state, int capacity, Home home, local int* cells,
+// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (mean_opening in
+// soil/point.h). A work-item is a cell.
+static inline float cell_opening(global const float* state, int capacity, ParticleBlock home, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
@@ -79,8 +80,9 @@ static inline float cell_opening(global const float* state, int capacity, Home h
   return mean_opening(volume, bank, open ? 1.0f : 0.0f);
 }
 
-// What a home needs: bit 0 always, 1 and 2 for the tiles of a shell's sides, 3 when any particle is open.
-static inline int needs(global float* state, int capacity, Home home) {
+// What a home needs: bit 0 always, 1 and 2 for the tiles of a shell's sides, 3 when any particle is
+// open.
+static inline int needs(global float* state, int capacity, ParticleBlock home) {
   int out = 1;
   for (int i = get_local_id(0); i < home.count; i += CELLS) {
     const int slot = home.start + i, tag = as_int(LOAD(FIELD_TAG));
@@ -94,7 +96,7 @@ static inline int needs(global float* state, int capacity, Home home) {
 }
 
 __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
+    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
     global float4* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
     const float dx, const float mixing, const float most_mixing, const float carried) {
   local float4 tile[TILE_SIZE];
@@ -103,7 +105,7 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
   local float openings[CELLS];
   local int wanted, broken;
   const int block = get_group_id(0), me = get_local_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   if (me == 0) wanted = broken = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
   atomic_or(&wanted, needs(state, capacity, home));

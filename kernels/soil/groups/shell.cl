@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where nodes and particles lie relative to the shells: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per work-item; what a block
-// reports is found by integer atomics, which have no order. Host: src/soil/tools/shell.cpp.
+// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per
+// work-item; what a block reports is found by integer atomics, which have no order. Host:
+// src/soil/tools/shell.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
@@ -39,7 +40,7 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes
 // Out: side and position of the particles; Report.push and Report.crossed of the near homes.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
-    global const Home* restrict homes, global const int4* restrict keys,
+    global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
     global const ShellTriangle* restrict triangles, global const Tool* restrict tools, global const int* restrict first,
     global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
   local int push, crossings;
@@ -48,20 +49,20 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles
   const int3 key = keys[home].xyz;
   if (me == 0) push = crossings = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (int slot = homes[home].start + me; slot < homes[home].start + homes[home].count; slot += MEMBERS) {
+  for (int slot = particle_blocks[home].start + me; slot < particle_blocks[home].start + particle_blocks[home].count; slot += MEMBERS) {
     const float3 x = (float3)(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
     const int tag = as_int(LOAD(FIELD_TAG));
     Closest best;
     query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
     // Out of the band and never inside it: nothing to keep.
     if (!(best.distance2 < band * band) && tag >> 16 == 0) continue;
-    const SideResult kept = keep_side(x, tag >> 16, key, best.feature, best.distance2,
+    const SideResult kept = enforce_side(x, tag >> 16, key, best.feature, best.distance2,
                                       (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);
     STORE(FIELD_X, kept.x.x);
     STORE(FIELD_X + 1, kept.x.y);
     STORE(FIELD_X + 2, kept.x.z);
     STORE(FIELD_TAG, as_float((tag & 0xffff) | (kept.side << 16)));
-    keep_largest(&push, kept.push);
+    atomic_max_nonnegative(&push, kept.push);
     if (kept.crossed) atomic_inc(&crossings);
   }
   barrier(CLK_LOCAL_MEM_FENCE);

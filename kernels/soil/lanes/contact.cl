@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of the two node fields with tools: kinematic, unilateral, Coulomb and adhesion; and the sums of
-// the two-way solve.
+// Contact of the two node fields with tools: kinematic, unilateral, Coulomb and adhesion; and the
+// sums of the two-way solve.
 //
-// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per near node; tools.
+// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per
+// near node; tools.
 //      only: tool whose nodes count, -1: all.
-// One work-item per near block. Host: src/soil/tools/contact.cpp.
-// Lengths of node data in cells, everything else SI. The tool's twist is about its frame's origin, axes of W.
+// One work-item per near block. Host: src/soil/tools/contact.cpp. Lengths of node data in cells,
+// everything else SI. The tool's twist is about its frame's origin, axes of W.
 #include "soil/contact_node.h"
 
 // Out: sums per near block.
@@ -31,10 +32,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global 
   solve_twist(tools + tool, &total);
 }
 
-// Applies the impulses of the final twist, then holds nodes at or below the resting ground.
-// Out: velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with masses per room
-// (soil/node.h). For the host: touched[near] = 1 when any node of the block changed; records per node and field, valid
-// in touched blocks.
+// Applies the impulses of the final twist, then holds nodes at or below the resting ground. Out:
+// velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with
+// masses per room (soil/node.h). For the host: touched[near] = 1 when any node of the block
+// changed; records per node and field, valid in touched blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
     global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {

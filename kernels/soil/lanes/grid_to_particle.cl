@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and books their way; particles take it at the transfer's end.
+// Gathers node velocities to particles and books their way; particles take it at the transfer's
+// end.
 //
-// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg], node.h),
+// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg],
+// node.h),
 //      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing,
-//      spread [s] and most [cells]: seen_opening(), crowding() and way_apart() of point.h;
+//      spread [s] and most [cells]: seen_opening(), crowding() and crowding_displacement() of point.h;
 //      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
 //      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
 // Out: v, C, moved and the opening (J) of the particles; Report.speed, of the way that is booked.
@@ -12,7 +14,8 @@
 #include "soil/place.h"
 #include "soil/point.h"
 
-// Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block lies.
+// Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block
+// lies.
 static inline void copy_part(global const float* block, float* tile, int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -28,8 +31,8 @@ static inline void copy_part(global const float* block, float* tile, int3 d) {
     }
 }
 
-// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the node's own side.
-// Without a tile for the back (0) only neutral ones.
+// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the
+// node's own side. Without a tile for the back (0) only neutral ones.
 static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back,
                               int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
@@ -80,13 +83,13 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const Home* restrict homes,
+    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
     global const int* restrict neighbours, global const float* restrict velocity0,
     global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
     global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
     const float filled, const float closing, const float spread, const float most) {
   const int block = get_global_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
     copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
@@ -165,7 +168,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     const real share = crowding(c, j, j0, node_mass, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
-      const real way = (dt / dx) * v[axis] + way_apart(share, lean[axis], node_mass, most);
+      const real way = (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
       STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
       m[axis] = way * (dx / dt);
     }
@@ -179,8 +182,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
 // Ends a transfer: particles go the way they were booked, which begins anew.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
                                                                                 const int capacity,
-                                                                                global const Home* restrict homes) {
-  const Home home = homes[get_global_id(0)];
+                                                                                global const ParticleBlock* restrict particle_blocks) {
+  const ParticleBlock home = particle_blocks[get_global_id(0)];
   for (int slot = home.start; slot < home.start + home.count; slot += 16)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));

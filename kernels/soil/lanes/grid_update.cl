@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
-// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active block (-1: no
+// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active
+// block (-1: no
 //      particles there); homes.
 //      floors = resting ground per active block.
 //      hold = 1 in a held step: nodes add the step's impulse to the velocity they have.
-// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m is divided by the
+// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m
+// is divided by the
 //      share of the node's kernel that lies above the ground (soil/node.h).
-// One work-item per active block, neighbours in fixed order. Host: src/soil/particles/grid_update.cpp.
+// One work-item per active block, neighbours in fixed order. Host:
+// src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/node.h"
 #include "soil/place.h"
@@ -29,8 +32,8 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
     }
 }
 
-// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter than a mass quantum are
-// empty.
+// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter
+// than a mass quantum are empty.
 static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global const float* before) {
   const float4 m = momentum.s37bf;
   const float4 inv = INVERSE_MASS(m);
@@ -41,16 +44,16 @@ static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global 
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground]; masses become mass per
-// room above the ground [docs/soil.md, room].
+// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground];
+// masses become mass per room above the ground [docs/soil.md, room].
 static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
   const float16 below = z - vload16(row & 3, ground->around[0]);
-  return v * (float16)(on.xxx, 1.0f / room_above(below.lo.lo),  //
-                       on.yyy, 1.0f / room_above(below.lo.hi),  //
-                       on.zzz, 1.0f / room_above(below.hi.lo),  //
-                       on.www, 1.0f / room_above(below.hi.hi));
+  return v * (float16)(on.xxx, 1.0f / free_fraction_above(below.lo.lo),  //
+                       on.yyy, 1.0f / free_fraction_above(below.lo.hi),  //
+                       on.zzz, 1.0f / free_fraction_above(below.hi.lo),  //
+                       on.www, 1.0f / free_fraction_above(below.hi.hi));
 }
 
 // Whether no node of the block is held or has less than its full room.
@@ -61,7 +64,7 @@ static inline bool far_above(global const BlockFloor* ground) {
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
+    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
     global const float* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
     global float* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_global_id(0)];
@@ -72,7 +75,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
     if (home < 0) continue;
     for (int t = 0; used[home] >> t; ++t)
       if (used[home] >> t & 1)
-        add_part(tiles + (size_t)(homes[home].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+        add_part(tiles + (size_t)(particle_blocks[home].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const BlockFloor* ground = floors + block;
@@ -87,14 +90,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
 }
 
-// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity [Bardenhagen 2000], neither held
-// yet [docs/tools.md, two nodal fields].
-// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. home_surface = a
-// ContactSoil per home block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
+// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity
+// [Bardenhagen 2000], neither held yet [docs/tools.md, two nodal fields]. node_split per near node:
+// 0 one field, 1 split and in front, 2 split and behind. block_surface = a ContactSoil per home
+// block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
 // contact made of both fields in the step before.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const Home* restrict homes,
-    global const float* restrict tiles, global const int* restrict used, global const float4* restrict home_surface,
+    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
+    global const float* restrict tiles, global const int* restrict used, global const float4* restrict block_surface,
     global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
     global float4* restrict node_surface, global const float* restrict last0, global const float* restrict last1,
     const float4 dv, const int hold) {
@@ -105,13 +108,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   for (int i = 0; i < 16; ++i) rows[0][i] = rows[1][i] = rows[2][i] = total[i] = 0.0f;
   // Where all homes around have one surface, as nearly everywhere, there is nothing to weigh.
   float4 first = (float4)(0.0f);
-  bool mixed = false, any_home = false;
+  bool mixed = false, any_block = false;
   for (int n = 0; n < 27; ++n) {
     const int home = around[27 * block + n];
     if (home < 0) continue;
-    if (!any_home) first = home_surface[home];
-    any_home = true;
-    mixed = mixed || any(home_surface[home] != first);
+    if (!any_block) first = block_surface[home];
+    any_block = true;
+    mixed = mixed || any(block_surface[home] != first);
   }
   if (mixed)
     for (int i = 0; i < 64; ++i) weight[i] = (float4)(0.0f);
@@ -121,12 +124,12 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     for (int i = 0; i < 16; ++i) total[i] = 0.0f;
     for (int t = 0; used[home] >> t; ++t) {
       if (!(used[home] >> t & 1)) continue;
-      global const float* tile = tiles + (size_t)(homes[home].tile + t) * (4 * TILE_NODES);
+      global const float* tile = tiles + (size_t)(particle_blocks[home].tile + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));
     }
     if (!mixed) continue;
-    const float4 here = home_surface[home];
+    const float4 here = block_surface[home];
     for (int i = 0; i < 16; ++i) {
       const float4 m = total[i].s37bf;
       weight[4 * i] += here * m.x;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen lanes at a time: loads, weights, and the turn between "one component of 16 particles" and "4 components of
-// one particle". PoCL's own vectoriser gives up on kernels like ours, so float16 is written out (it maps to AVX-512 or
-// to pairs of AVX2 registers); other devices split it as they like.
+// Sixteen lanes at a time: loads, weights, and the turn between "one component of 16 particles" and
+// "4 components of one particle". PoCL's own vectoriser gives up on kernels like ours, so float16
+// is written out (it maps to AVX-512 or to pairs of AVX2 registers); other devices split it as they
+// like.
 #ifndef NAVVY_KERNELS_SOIL_LANES_H
 #define NAVVY_KERNELS_SOIL_LANES_H
 
-// float16 arguments of built-ins are inlined; that they would be passed in memory on AVX2 is no news worth printing.
+// float16 arguments of built-ins are inlined; that they would be passed in memory on AVX2 is no
+// news worth printing.
 #pragma clang diagnostic ignored "-Wpsabi"
 
 #include "common/portable.h"
@@ -22,7 +24,8 @@ typedef float4 columns;
 #define UNROLL _Pragma("unroll")
 #define INLINED static inline __attribute__((always_inline))
 
-// One vector out of the lanes of two. Written as single lanes, or as shuffle2, PoCL makes three times the instructions.
+// One vector out of the lanes of two. Written as single lanes, or as shuffle2, PoCL makes three
+// times the instructions.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_shufflevector)
 #define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
@@ -36,8 +39,8 @@ typedef float4 columns;
 #define PICK_LOW2(a, b) PICK(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
 #define PICK_HIGH2(a, b) PICK(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
 
-// Rows r0..r3 hold components 0..3 of 16 particles. Afterwards o0..o3 hold float4s: the one of particle 4 q + i is
-// part q of o_i. Applied again it undoes itself.
+// Rows r0..r3 hold components 0..3 of 16 particles. Afterwards o0..o3 hold float4s: the one of
+// particle 4 q + i is part q of o_i. Applied again it undoes itself.
 #define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                         \
   do {                                                                     \
     const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1);         \
@@ -48,8 +51,8 @@ typedef float4 columns;
     o3 = PICK_HIGH2(t1_, t3_);                                             \
   } while (0)
 
-// Field of the 16 slots from `slot` on, in kernels that name their arguments state and capacity; and the same for all
-// fields of a list (particle_fields.h) into or out of a struct.
+// Field of the 16 slots from `slot` on, in kernels that name their arguments state and capacity;
+// and the same for all fields of a list (particle_fields.h) into or out of a struct.
 #define LOAD(field) vload16(0, state + (size_t)(field) * capacity + slot)
 #define STORE(field, value) vstore16(value, 0, state + (size_t)(field) * capacity + slot)
 #define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
@@ -59,8 +62,8 @@ typedef float4 columns;
 #define STORE_MANY(NAME, member, count, rest) \
   for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
-// Asks for a field of the pack four packs on: thirty arrays are more streams than a processor follows by itself.
-// Nothing where the compiler does not know how.
+// Asks for a field of the pack four packs on: thirty arrays are more streams than a processor
+// follows by itself. Nothing where the compiler does not know how.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_prefetch)
 #define SOON(field) \
@@ -95,8 +98,8 @@ static inline bool some(int16 lanes) {
   return ((four.x | four.y) | (four.z | four.w)) != 0;
 }
 
-// The nine rows of four nodes around the particles of one cell. Particles come sorted by cell, so the rows stay in
-// registers until the cell changes.
+// The nine rows of four nodes around the particles of one cell. Particles come sorted by cell, so
+// the rows stay in registers until the cell changes.
 typedef struct Rows {
   float16 row[9];
 } Rows;

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the mass of every home block again, exactly, after each step.
 //
-// In: state, homes (layout.h), number of soils. Out: masses[soils * home + soil], 64-bit, in mass quanta (2^-24 kg).
-// One work-item per home; integer sums, so any order gives the same. Lanes past a block's count have mass 0.
-// Host: src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
+// In: state, homes (layout.h), number of soils. Out: masses[soils * home + soil], 64-bit, in mass
+// quanta (2^-24 kg). One work-item per home; integer sums, so any order gives the same. Lanes past
+// a block's count have mass 0. Host: src/soil/particles/mass_count.cpp; reference:
+// ParticleStore::masses.
 #include "soil/lanes/lanes.h"
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void mass_count(global const int* restrict state,
                                                                          const int capacity,
-                                                                         global const Home* restrict homes,
+                                                                         global const ParticleBlock* restrict particle_blocks,
                                                                          global long* restrict masses,
                                                                          const int soils) {
   const int home = get_global_id(0);
   const global int* mass = state + FIELD_MASS * (size_t)capacity;
   const global int* tag = state + FIELD_TAG * (size_t)capacity;
-  const int start = homes[home].start, end = start + homes[home].count;
+  const int start = particle_blocks[home].start, end = start + particle_blocks[home].count;
   for (int soil = 0; soil < soils; ++soil) {
     long16 sum = (long16)(0);
     for (int slot = start; slot < end; slot += NAVVY_LANES) {

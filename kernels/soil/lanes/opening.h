@@ -13,7 +13,8 @@ static inline int16 cell_of(real x, real y, real z) {
          36 * (convert_int16(base_node(z)) + 1);
 }
 
-// Sums per cell in float4s: volume, bank volume, open particles, 0. False, and no sums, when no particle is open.
+// Sums per cell in float4s: volume, bank volume, open particles, 0. False, and no sums, when no
+// particle is open.
 INLINED bool cell_openings(global const float* state, int capacity, int start, int end, float* openings) {
   bool open = false;
   for (int slot = start; slot < end && !open; slot += 16) open = some(LOAD(FIELD_J) > LOAD(FIELD_J0));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stress update of each particle, then scatter of mass and momentum to its block's tile.
 //
-// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing [s], most_mixing [-]: of
+// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing [s],
+// most_mixing [-]: of
 //      advance_state() in point.h; carried = 0 in a held step, whose nodes have kept their momentum.
-// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes
+// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m
+// [kg]) of the nodes
 //      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
-// One work-item per home block; particles in stored order, so sums repeat bit for bit.
-// Host: src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
+// One work-item per home block; particles in stored order, so sums repeat bit for bit. Host:
+// src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/lanes/opening.h"
 #include "soil/point.h"
@@ -43,8 +45,8 @@ INLINED void flush(global float* tile, int node, const Rows* sums) {
     }
 }
 
-// Adds one particle's shares; its turned components are momentum at the base node and mass, then the change of momentum
-// per node in x, y, z.
+// Adds one particle's shares; its turned components are momentum at the base node and mass, then
+// the change of momentum per node in x, y, z.
 INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wyz) {
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   const float4 next = start + ax;
@@ -62,7 +64,8 @@ INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, 
   }
 }
 
-// Which of a home's tiles its particles need: bit 0 always, bits 1 and 2 where particles have a side.
+// Which of a home's tiles its particles need: bit 0 always, bits 1 and 2 where particles have a
+// side.
 static inline int tiles_used(global const float* state, int capacity, int start, int end) {
   int16 tiles = 0;  // 1 or 2 each, or neither
   for (int slot = start; slot < end; slot += 16) tiles |= tile_of(as_int16(LOAD(FIELD_TAG)) >> 16);
@@ -70,11 +73,11 @@ static inline int tiles_used(global const float* state, int capacity, int start,
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const Home* restrict homes,
+    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
     global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
     const float dx, const float mixing, const float most_mixing, const float carried) {
   const int block = get_global_id(0);
-  const Home home = homes[block];
+  const ParticleBlock home = particle_blocks[block];
   global float* tile = tiles + (size_t)home.tile * (4 * TILE_NODES);
   const int mask = home.near ? tiles_used(state, capacity, home.start, home.start + home.count) : 1;
   used[block] = mask;

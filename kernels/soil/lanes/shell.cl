@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps particles on their side.
+// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps
+// particles on their side.
 //
-// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed rows). Band
-// [cells]:      how far a side reaches.
-// One work-item per near block, nothing shared. Host: src/soil/tools/shell.cpp.
+// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block
+// (compressed rows). Band [cells]:      how far a side reaches. One work-item per near block,
+// nothing shared. Host: src/soil/tools/shell.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/shell_side.h"
 
-// The same for `packs` packs of a home's particles from `slot` on: what a triangle needs is worked out once for all.
+// The same for `packs` packs of a home's particles from `slot` on: what a triangle needs is worked
+// out once for all.
 #define PACKS 8
 static inline void query_packs(global const float* state, int capacity, int slot, int packs, int3 key,
                                global const ShellTriangle* triangles, global const Tool* tools, global const int* list,
@@ -70,11 +72,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
   }
 }
 
-// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface (position only).
-// Out: Report.push and Report.crossed of the near homes.
+// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface
+// (position only). Out: Report.push and Report.crossed of the near homes.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
-    global const Home* restrict homes, global const int4* restrict keys,
+    global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
     global const ShellTriangle* restrict triangles, global const Tool* restrict tools, global const int* restrict first,
     global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
   const int near = get_global_id(0);
@@ -82,10 +84,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
   const int3 key = keys[home].xyz;
   float far_push = 0.0f;
   int crossings = 0;
-  const int end = homes[home].start + homes[home].count;
+  const int end = particle_blocks[home].start + particle_blocks[home].count;
   Closest found[PACKS];
   int pack = PACKS;
-  for (int slot = homes[home].start; slot < end; slot += 16, ++pack) {
+  for (int slot = particle_blocks[home].start; slot < end; slot += 16, ++pack) {
     const int count = min(16, end - slot);
     if (pack == PACKS) {
       query_packs(state, capacity, slot, min(PACKS, (end - slot + 15) / 16), key, triangles, tools, list, first[near],
@@ -112,7 +114,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     vstore16(tags, 0, tag);
     for (int l = 0; l < count; ++l) {
       if (!concerned[l]) continue;
-      const SideResult kept = keep_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
+      const SideResult kept = enforce_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
                                   (float3)(cx[l], cy[l], cz[l]), band, longest_push, triangles, tools);
       px[l] = kept.x.x;
       py[l] = kept.x.y;

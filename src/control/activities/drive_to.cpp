@@ -7,7 +7,7 @@
 #include <string>
 
 #include "control/activity.h"
-#include "control/headway.h"
+#include "control/progress_monitor.h"
 #include "control/reach.h"
 #include "vehicle/drive/drive_line.h"
 
@@ -19,20 +19,20 @@ struct Memory {
   double heading = 0;   // of the line that is followed [rad]
   double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
   double way = 0;       // to the target at the start [m]
-  Headway headway;
+  ProgressMonitor progress;
 
   void visit(Archive& a) {
     a("speed", speed);
     a("heading", heading);
     a("standing", standing);
     a("way", way);
-    headway.visit(a);
+    progress.visit(a);
   }
 };
 
 class Driving final : public ActivityWith<Memory> {
  public:
-  Driving(Workplace& place, const DriveTo& step) : ActivityWith(place), step_(step) {}
+  Driving(OperatorContext& place, const DriveTo& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "drive"; }
 
   void begin(const Observation& seen) override {
@@ -40,7 +40,7 @@ class Driving final : public ActivityWith<Memory> {
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
     // Patience is a matter of the whole way, not of what is left.
     m.way = (step_.target - at.p).norm();
-    m.headway.begin(at);
+    m.progress.begin(at);
   }
 
  private:
@@ -52,29 +52,35 @@ class Driving final : public ActivityWith<Memory> {
     const double limit = 30 + 3 * m.way / std::max(0.05, std::abs(step_.speed));
     const bool late = phase_time() > limit;
     if (pursuit.left(at) < kStopShort || m.standing > 0 || late) {
-      // Brake, and stand for a moment before the next step; `standing` stays positive once it began.
+      // Brake, and stand for a moment before the next step; `standing` stays positive once it
+      // began.
       out.drive = vehicle::DriveInput{0, 0, true};
-      m.standing = seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
+      m.standing =
+          seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
       if (m.standing < kStandTime && phase_time() < limit + 10) return false;
       const double miss = (step_.target - at.p).norm();
       if (late)
-        return fall_short(StepState::kOutOfTime, "not there after " + number_text(phase_time(), "s") + ", " +
+        return fall_short(StepState::kOutOfTime, "not there after " +
+                                                     number_text(phase_time(), "s") + ", " +
                                                      metres(miss) + " from the target");
       if (miss > step_.tolerance)
-        return fall_short(StepState::kOutOfReach,
-                          "it stands " + metres(miss) + " from the target; allowed are " + metres(step_.tolerance));
+        return fall_short(StepState::kOutOfReach, "it stands " + metres(miss) +
+                                                      " from the target; allowed are " +
+                                                      metres(step_.tolerance));
       return true;
     }
     std::string held;
     const double way = (step_.target - at.p).norm();
-    const StepState headway = m.headway.look(seen, place_.machine, step_.speed, way, dt, held);
-    if (headway != StepState::kRunning) return fall_short(headway, held);
+    const StepState progress = m.progress.look(seen, place_.machine, step_.speed, way, dt, held);
+    if (progress != StepState::kRunning) return fall_short(progress, held);
     // Up along the ramp, down along the curve that stops at the target.
-    m.speed = std::min({std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
+    m.speed = std::min(
+        {std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
     const double speed = pursuit.sense() * m.speed;
     // Pursuit steers by a bicycle angle; the drive says what it makes of that.
     const scene::Drive& drive = place_.machine.drive;
-    out.drive = vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
+    out.drive =
+        vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
     return false;
   }
 
@@ -94,24 +100,29 @@ DriveTo DriveTo::read(const scene::StepSource& source) {
       .finish();
   // Without a heading the machine arrives as the way leads it.
   step.has_heading = fields.has("heading_deg");
-  if (fields.has("speed_m_per_s") && step.speed == 0) fields.error("speed_m_per_s", "0", "the speed must not be zero");
-  source.require(source.machine && source.machine->has_drive, "drive_to needs a machine with <navvy:drive>");
+  if (fields.has("speed_m_per_s") && step.speed == 0)
+    fields.error("speed_m_per_s", "0", "the speed must not be zero");
+  source.require(source.machine && source.machine->has_drive,
+                 "drive_to needs a machine with <navvy:drive>");
   source.on_site("target_m", step.target);
   return step;
 }
 
-std::unique_ptr<Activity> DriveTo::activity(Workplace& place) const { return std::make_unique<Driving>(place, *this); }
+std::unique_ptr<Activity> DriveTo::activity(OperatorContext& place) const {
+  return std::make_unique<Driving>(place, *this);
+}
 
 void DriveTo::check_reach(ReachCheck& check) const {
   const PlanePose start = plane_pose(check.X_WB);
   const scene::Drive& drive = check.machine.drive;
   // The law of the run on a machine that rolls without slip: what steering alone cannot reach.
-  const PlanePose end = Pursuit::of(*this, drive, start).end_from(start, vehicle::equivalent_bicycle(drive).steer_rate);
+  const PlanePose end = Pursuit::of(*this, drive, start)
+                            .end_from(start, vehicle::equivalent_bicycle(drive).steer_rate);
   const double miss = (end.p - target).norm();
   if (miss > tolerance)
     check.fault("drive_to", place_text(target),
-                "steering as far as it can the machine ends at " + place_text(end.p) + ", " + metres(miss) +
-                    " from the target; allowed are " + metres(tolerance),
+                "steering as far as it can the machine ends at " + place_text(end.p) + ", " +
+                    metres(miss) + " from the target; allowed are " + metres(tolerance),
                 "give it a longer way to turn in, or approach in two drives");
 }
 
@@ -121,7 +132,8 @@ std::optional<Pose> DriveTo::station(const scene::Machine& machine, const Pose& 
   // The base link keeps its height over the ground; slopes are left to the run.
   const double rise = from.z() - surface.height(from.x(), from.y());
   const double yaw = Pursuit::of(*this, machine.drive, plane_pose(X_WB)).heading;
-  return make_pose(target.x(), target.y(), surface.height(target.x(), target.y()) + rise, 0, 0, yaw);
+  return make_pose(target.x(), target.y(), surface.height(target.x(), target.y()) + rise, 0, 0,
+                   yaw);
 }
 
 }  // namespace navvy::control

@@ -9,8 +9,9 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kShort = radians(6);  // heavy soil keeps the bucket short by less; more is an obstacle
-constexpr double kAtRest = 0.02;       // [rad/s]
+// Heavy soil keeps the bucket short by less; more is an obstacle
+constexpr double kShort = radians(6);
+constexpr double kAtRest = 0.02;  // [rad/s]
 
 enum Phase : std::int64_t { kOpening, kClosing };
 
@@ -27,7 +28,7 @@ struct Memory {
 // Open, hold, close; it does not look at what the bucket still holds.
 class Dumping final : public ActivityWith<Memory> {
  public:
-  Dumping(Workplace& place, const Dump& step) : ActivityWith(place), step_(step) {}
+  Dumping(OperatorContext& place, const Dump& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "dump"; }
 
   void begin(const Observation& seen) override {
@@ -62,7 +63,8 @@ class Dumping final : public ActivityWith<Memory> {
     const double rest = std::abs(m.move.target(3) - bucket.position);
     // Still on its way it is only slow.
     if (rest < kShort || !(bucket.stalled || std::abs(bucket.velocity) < kAtRest)) return false;
-    return fall_short(StepState::kBlocked, held_text(place_.machine.joints[j], bucket, rest, target));
+    return fall_short(StepState::kBlocked,
+                      held_text(place_.machine.joints[j], bucket, rest, target));
   }
 
   const Dump& step_;
@@ -78,6 +80,8 @@ Dump Dump::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Dump::activity(Workplace& place) const { return std::make_unique<Dumping>(place, *this); }
+std::unique_ptr<Activity> Dump::activity(OperatorContext& place) const {
+  return std::make_unique<Dumping>(place, *this);
+}
 
 }  // namespace navvy::control

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The go_to step: plan, turn the wheels, drive a leg, stop; look at the ground on the way meanwhile.
+// The go_to step: plan, turn the wheels, drive a leg, stop; look at the ground on the way
+// meanwhile.
 #include "control/activities/go_to.h"
 
 #include <algorithm>
@@ -8,21 +9,27 @@
 #include <utility>
 
 #include "control/activity.h"
-#include "control/headway.h"
 #include "control/path_follower.h"
+#include "control/progress_monitor.h"
 #include "control/reach.h"
 #include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
 namespace {
 
-constexpr double kLook = 0.25;                                   // [s] between looks at the ground on the way
-constexpr double kSettle = 0.3;                                  // [s] at a cusp, and for wheels that have been turned
-constexpr double kOffPath = 0.25, kOffTurn = radians(20);        // beside the path: it plans anew [m], [rad]
-constexpr double kElsewhere = 0.1, kElsewhereTurn = radians(3);  // from the start of a path that was planned ahead
-constexpr double kRange = 1;                                     // clearances are told up to this [m]
-constexpr int kMostCorrections = 3;                              // new plans since the last one ended beside the goal
-constexpr int kMostPlans = 100;                                  // nothing may go on for ever
+// [s] between looks at the ground on the way
+constexpr double kLook = 0.25;
+// [s] at a cusp, and for wheels that have been turned
+constexpr double kSettle = 0.3;
+// Beside the path: it plans anew [m], [rad]
+constexpr double kOffPath = 0.25, kOffTurn = radians(20);
+// From the start of a path that was planned ahead
+constexpr double kElsewhere = 0.1, kElsewhereTurn = radians(3);
+// Clearances are told up to this [m]
+constexpr double kRange = 1;
+// New plans since the last one ended beside the goal
+constexpr int kMostCorrections = 3;
+constexpr int kMostPlans = 100;  // nothing may go on for ever
 
 enum Phase : std::int64_t { kPlan, kTurn, kDrive, kStop, kNoPath };
 
@@ -42,13 +49,14 @@ struct Memory {
   double clearance = kRange;
   std::int64_t plans = 0, failed = 0, corrections = 0, cusps = 0;
   Then then = Then::kNextLeg;
-  Headway headway;
+  ProgressMonitor progress;
 
   void visit(Archive& a) {
     a("path", path);
     // The path's own number of legs is asked for below.
     a("leg", leg);
-    a.require(leg >= 0 && leg <= static_cast<std::int64_t>(path.legs().size()), "leg", "the path has no such leg");
+    a.require(leg >= 0 && leg <= static_cast<std::int64_t>(path.legs().size()), "leg",
+              "the path has no such leg");
     a("s", s);
     a("speed", speed);
     a("steer", steer);
@@ -62,13 +70,14 @@ struct Memory {
     a("corrections", corrections);
     a("cusps", cusps);
     a.ranged("then", then, Then::kNextLeg, Then::kPlanAnew);
-    headway.visit(a);
+    progress.visit(a);
   }
 };
 
 class Going final : public ActivityWith<Memory> {
  public:
-  Going(Workplace& place, const GoTo& step) : ActivityWith(place), step_(step), law_(place.machine.drive) {}
+  Going(OperatorContext& place, const GoTo& step)
+      : ActivityWith(place), step_(step), law_(place.machine.drive) {}
 
   const char* phase() const override {
     switch (phase_index()) {
@@ -93,8 +102,9 @@ class Going final : public ActivityWith<Memory> {
       if (ahead.step == place_.step) m.path = ahead.path, m.plans = 1;
     if (m.plans == 0 || arrived(at)) return;
     const PlanePose& from = m.path.start();
-    const double aside = (at.p - from.p).norm(), turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
-    if (!way_is_clear(0))
+    const double aside = (at.p - from.p).norm(),
+                 turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
+    if (!path_is_clear(0))
       place_.note("the ground on its way has changed since its program began: it plans anew");
     else if (aside > kElsewhere || turned > kElsewhereTurn)
       place_.note("it stands " + metres(aside) + " from where it was to begin: it plans anew");
@@ -102,14 +112,14 @@ class Going final : public ActivityWith<Memory> {
       start_path(at);
   }
 
-  std::vector<Figure> account(const Observation& seen) const override {
+  std::vector<Measurement> account(const Observation& seen) const override {
     const PlanePose at = plane_pose(seen.X_WB);
     return {{"plans", static_cast<double>(m.plans)},
             {"cusps", static_cast<double>(m.cusps)},
             {"driven_m", m.driven + m.s},
             {"path_m", m.path.length()},
             {"goal_miss_m", miss(at)},
-            {"goal_miss_deg", degrees(turn_miss(at))},
+            {"goal_miss_deg", degrees(turn_error(at))},
             {"least_clearance_m", m.clearance}};
   }
 
@@ -137,9 +147,11 @@ class Going final : public ActivityWith<Memory> {
 
   // Goal.
   double miss(const PlanePose& at) const { return (at.p - step_.target).norm(); }
-  double turn_miss(const PlanePose& at) const { return std::abs(std::remainder(at.yaw - step_.heading, 2 * kPi)); }
+  double turn_error(const PlanePose& at) const {
+    return std::abs(std::remainder(at.yaw - step_.heading, 2 * kPi));
+  }
   bool arrived(const PlanePose& at) const {
-    return miss(at) <= step_.tolerance && turn_miss(at) <= step_.turn_tolerance;
+    return miss(at) <= step_.tolerance && turn_error(at) <= step_.turn_tolerance;
   }
 
   // Ground.
@@ -148,17 +160,20 @@ class Going final : public ActivityWith<Memory> {
     place_.look(seen);
     m.clearance = std::min(m.clearance, place_.planner->clearance(plane_pose(seen.X_WB), kRange));
   }
-  bool way_is_clear(double s) const {
-    return clearance_along(*place_.planner, m.path, s, step_.clearance, step_.clearance) >= step_.clearance;
+  bool path_is_clear(double s) const {
+    return clearance_along(*place_.planner, m.path, s, step_.clearance, step_.clearance) >=
+           step_.clearance;
   }
 
   /// Plans from where the machine stands; true when the step is over.
   bool plan(const Observation& seen, const PlanePose& at) {
     look(seen);
     if (m.plans >= kMostPlans)
-      return fall_short(StepState::kOutOfTime, "not there after " + std::to_string(kMostPlans) + " plans, " +
-                                                   metres(miss(at)) + " from the target");
-    const std::optional<Path> path = place_.planner->plan(step_.query(at, static_cast<int>(m.plans + m.failed)));
+      return fall_short(StepState::kOutOfTime, "not there after " + std::to_string(kMostPlans) +
+                                                   " plans, " + metres(miss(at)) +
+                                                   " from the target");
+    const std::optional<Path> path =
+        place_.planner->plan(step_.query(at, static_cast<int>(m.plans + m.failed)));
     if (path) {
       ++m.plans;
       m.failed = 0;
@@ -176,8 +191,9 @@ class Going final : public ActivityWith<Memory> {
   }
 
   std::string no_path(const PlanePose& at) const {
-    std::string out = "no path from " + place_text(at.p) + " to " + place_text(step_.target) + " that keeps " +
-                      metres(step_.clearance) + " from ground it cannot drive on: ";
+    std::string out = "no path from " + place_text(at.p) + " to " + place_text(step_.target) +
+                      " that keeps " + metres(step_.clearance) +
+                      " from ground it cannot drive on: ";
     const double here = place_.planner->clearance(at, step_.clearance);
     const double there = place_.planner->clearance({step_.target, step_.heading}, step_.clearance);
     if (here < step_.clearance)
@@ -186,7 +202,9 @@ class Going final : public ActivityWith<Memory> {
       out += "the goal lies " + metres(there) + " from some";
     else
       out += std::to_string(step_.iterations) + " iterations found none";
-    return out + (m.failed > 1 ? ", try " + std::to_string(m.failed) + " of " + std::to_string(step_.tries) : "");
+    return out + (m.failed > 1
+                      ? ", try " + std::to_string(m.failed) + " of " + std::to_string(step_.tries)
+                      : "");
   }
 
   // Path.
@@ -204,12 +222,12 @@ class Going final : public ActivityWith<Memory> {
     // A differential drive turns nothing.
     m.turn = std::abs(angle - m.steer) / law_.steer_rate() + kSettle;
     m.steer = angle;
-    m.headway.begin(at);
+    m.progress.begin(at);
     enter(kTurn);
   }
   void drive_leg(const PlanePose& at) {
     m.speed = 0;
-    m.headway.begin(at);
+    m.progress.begin(at);
     enter(past_last() ? kStop : kDrive);
   }
 
@@ -225,7 +243,7 @@ class Going final : public ActivityWith<Memory> {
     m.unseen += dt;
     if (m.unseen >= kLook) {
       look(seen);
-      if (!way_is_clear(m.s)) {
+      if (!path_is_clear(m.s)) {
         place_.note("the ground on its way has changed: it plans anew");
         stop(Then::kPlanAnew);
         return false;
@@ -237,13 +255,16 @@ class Going final : public ActivityWith<Memory> {
       return false;
     }
     std::string held;
-    const StepState headway = m.headway.look(seen, place_.machine, step_.speed, miss(at), dt, held);
-    if (headway != StepState::kRunning) return fall_short(headway, held);
+    const StepState progress =
+        m.progress.look(seen, place_.machine, step_.speed, miss(at), dt, held);
+    if (progress != StepState::kRunning) return fall_short(progress, held);
     if (phase_time() > 30 + 3 * (leg().end - leg().begin) / step_.speed)
-      return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) + " took longer than " +
+      return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) +
+                                                   " took longer than " +
                                                    number_text(phase_time(), "s"));
     // Up along the ramp, down along the curves that end in a bend's speed or at the leg's end.
-    m.speed = std::min({step_.speed, m.speed + kDriveAcceleration * dt, law_.speed_limit(m.path, leg(), m.s)});
+    m.speed = std::min(
+        {step_.speed, m.speed + kDriveAcceleration * dt, law_.speed_limit(m.path, leg(), m.s)});
     m.steer = law_.steer(m.path, leg(), place);
     const double speed = leg().sense * m.speed;
     out.drive = vehicle::DriveInput{speed, steer_input(speed), false};
@@ -270,14 +291,17 @@ class Going final : public ActivityWith<Memory> {
     if (anew || arrived(at)) return !anew;
     if (++m.corrections > kMostCorrections)
       return fall_short(StepState::kOutOfReach, "it stands " + metres(miss(at)) + " and " +
-                                                    number_text(degrees(turn_miss(at)), "deg") +
-                                                    " from the goal after " + std::to_string(m.plans) + " plans");
-    place_.note("it stands " + metres(miss(at)) + " and " + number_text(degrees(turn_miss(at)), "deg") +
-                " from the goal: it plans anew");
+                                                    number_text(degrees(turn_error(at)), "deg") +
+                                                    " from the goal after " +
+                                                    std::to_string(m.plans) + " plans");
+    place_.note("it stands " + metres(miss(at)) + " and " +
+                number_text(degrees(turn_error(at)), "deg") + " from the goal: it plans anew");
     return false;
   }
 
-  double steer_input(double speed) const { return vehicle::steer_command(place_.machine.drive, m.steer, speed); }
+  double steer_input(double speed) const {
+    return vehicle::steer_command(place_.machine.drive, m.steer, speed);
+  }
 
   const GoTo& step_;
   const PathFollower law_;
@@ -300,7 +324,8 @@ GoTo GoTo::read(const scene::StepSource& source) {
       .whole("iterations", step.iterations, {1, 1e6})
       .whole("seed", step.seed, {1, 1e9})
       .finish();
-  source.require(source.machine && source.machine->has_drive, "go_to needs a machine with <navvy:drive>");
+  source.require(source.machine && source.machine->has_drive,
+                 "go_to needs a machine with <navvy:drive>");
   source.on_site("target_m", step.target);
   return step;
 }
@@ -309,7 +334,9 @@ PathQuery GoTo::query(const PlanePose& from, int plan) const {
   return {from, {target, heading}, clearance, iterations, static_cast<std::uint32_t>(seed + plan)};
 }
 
-std::unique_ptr<Activity> GoTo::activity(Workplace& place) const { return std::make_unique<Going>(place, *this); }
+std::unique_ptr<Activity> GoTo::activity(OperatorContext& place) const {
+  return std::make_unique<Going>(place, *this);
+}
 
 void GoTo::check_reach(ReachCheck& check) const {
   if (!check.planner) {
@@ -319,9 +346,10 @@ void GoTo::check_reach(ReachCheck& check) const {
   }
   const double there = check.planner->clearance({target, heading}, clearance);
   if (there >= clearance) return;
-  const std::string rule = "the machine would stand " + metres(there) +
-                           " from ground that it cannot drive on, as it lies at the start; needed are " +
-                           metres(clearance);
+  const std::string rule =
+      "the machine would stand " + metres(there) +
+      " from ground that it cannot drive on, as it lies at the start; needed are " +
+      metres(clearance);
   const std::string remedy =
       "choose another goal or a smaller <clearance_m>; navvy map --layers traversability shows "
       "the ground";
@@ -331,11 +359,13 @@ void GoTo::check_reach(ReachCheck& check) const {
     check.fault("go_to/target", place_text(target), rule, remedy);
 }
 
-std::optional<Pose> GoTo::station(const scene::Machine&, const Pose& X_WB, const SurfaceView& surface) const {
+std::optional<Pose> GoTo::station(const scene::Machine&, const Pose& X_WB,
+                                  const SurfaceView& surface) const {
   const Vec3 from = X_WB.translation();
   // The base link keeps its height over the ground; slopes are left to the run.
   const double rise = from.z() - surface.height(from.x(), from.y());
-  return make_pose(target.x(), target.y(), surface.height(target.x(), target.y()) + rise, 0, 0, heading);
+  return make_pose(target.x(), target.y(), surface.height(target.x(), target.y()) + rise, 0, 0,
+                   heading);
 }
 
 }  // namespace navvy::control

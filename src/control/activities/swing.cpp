@@ -9,12 +9,13 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kShort = radians(3);  // a load or a slope bends the swing by less; more is an obstacle
+// A load or a slope bends the swing by less; more is an obstacle
+constexpr double kShort = radians(3);
 
 // One move; patience is the move's.
 class Swinging final : public ActivityWith<ArmMove> {
  public:
-  Swinging(Workplace& place, const Swing& step) : ActivityWith(place), step_(step) {}
+  Swinging(OperatorContext& place, const Swing& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "swing"; }
 
   void begin(const Observation& seen) override {
@@ -25,11 +26,13 @@ class Swinging final : public ActivityWith<ArmMove> {
  private:
   bool update(const Observation& seen, double, Command&) override {
     if (!m.advance(place_, seen, phase_time(), phase())) return false;
-    // A move also ends at rest short of its target: heavy soil does that to the arm, but not to the swing.
+    // A move also ends at rest short of its target: heavy soil does that to the arm, but not to the
+    // swing.
     const double rest = std::abs(step_.angle - seen.joints[place_.joint(0)].position);
     if (rest < kShort) return true;
-    return fall_short(StepState::kBlocked, "the swing stopped " + number_text(degrees(rest), "deg") +
-                                               " short of its angle: something holds the upper structure");
+    return fall_short(StepState::kBlocked,
+                      "the swing stopped " + number_text(degrees(rest), "deg") +
+                          " short of its angle: something holds the upper structure");
   }
 
   const Swing& step_;
@@ -39,17 +42,21 @@ class Swinging final : public ActivityWith<ArmMove> {
 
 Swing Swing::read(const scene::StepSource& source) {
   Swing step;
-  source.fields.number("angle_deg", step.angle, {-3600, 3600}, scene::kDegree).required("angle_deg").finish();
+  source.fields.number("angle_deg", step.angle, {-3600, 3600}, scene::kDegree)
+      .required("angle_deg")
+      .finish();
   source.require(source.machine && !source.machine->arm.swing.empty(),
                  "swing needs a machine with <navvy:arm>/swing_joint");
   return step;
 }
 
-std::unique_ptr<Activity> Swing::activity(Workplace& place) const { return std::make_unique<Swinging>(place, *this); }
+std::unique_ptr<Activity> Swing::activity(OperatorContext& place) const {
+  return std::make_unique<Swinging>(place, *this);
+}
 
 void Swing::check_reach(ReachCheck& check) const {
   // An angle is a joint's, not a direction: it is not wound into the limits.
-  check.require_swing(Arm(check.machine), "swing", angle, "choose an angle between them");
+  check.require_swing(ArmKinematics(check.machine), "swing", angle, "choose an angle between them");
 }
 
 }  // namespace navvy::control

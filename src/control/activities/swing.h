@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
 /// Turn the upper structure to this angle of the swing joint, the bucket held.
-struct Swing final : Step {
+struct Swing final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "swing";
   explicit Swing(double angle_in = 0) : angle(angle_in) {}
@@ -17,7 +17,7 @@ struct Swing final : Step {
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
   /// One phase: a move of one axis.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override;
 };
 

@@ -28,10 +28,11 @@ struct Memory {
 
 class Tipping final : public ActivityWith<Memory> {
  public:
-  Tipping(Workplace& place, const Tip& step)
+  Tipping(OperatorContext& place, const Tip& step)
       : ActivityWith(place),
         step_(step),
-        joint_(static_cast<std::size_t>(place.machine.joint_index(place.machine.beds.at(0).joint))) {}
+        joint_(
+            static_cast<std::size_t>(place.machine.joint_index(place.machine.beds.at(0).joint))) {}
   const char* phase() const override { return "tip"; }
 
   void begin(const Observation& seen) override {
@@ -52,8 +53,9 @@ class Tipping final : public ActivityWith<Memory> {
     if (m.standing == 0 && late) {
       // What fell out until here counts as tipped.
       tell(CycleEvent::kTipEnd);
-      return fall_short(StepState::kStalled, "the bed stopped " + number_text(degrees(rest), "deg") +
-                                                 " short of its angle: its ram does not get it further");
+      return fall_short(StepState::kStalled,
+                        "the bed stopped " + number_text(degrees(rest), "deg") +
+                            " short of its angle: its ram does not get it further");
     }
     if (m.standing == 0 || m.standing < step_.hold) return false;
     tell(CycleEvent::kTipEnd);
@@ -76,14 +78,16 @@ Tip Tip::read(const scene::StepSource& source) {
       .finish();
   source.require(machine && !machine->beds.empty(), "tip needs a machine with <navvy:bed>");
   if (!machine || machine->beds.empty() || !fields.has("angle_deg")) return step;
-  // Limits can only be asked of a machine that has the bed, an angle that was given, and a joint that exists.
+  // Limits can only be asked of a machine that has the bed, an angle that was given, and a joint
+  // that exists.
   const int index = machine->joint_index(machine->beds[0].joint);
   if (index < 0) return step;
   const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
   if (joint.has_limits && (step.angle < joint.lower - 1e-6 || step.angle > joint.upper + 1e-6))
     fields.error("angle_deg", fields.written("angle_deg"),
-                 "must lie within the limits of the bed's joint, " + std::to_string(joint.lower / scene::kDegree) +
-                     " to " + std::to_string(joint.upper / scene::kDegree));
+                 "must lie within the limits of the bed's joint, " +
+                     std::to_string(joint.lower / scene::kDegree) + " to " +
+                     std::to_string(joint.upper / scene::kDegree));
   return step;
 }
 
@@ -91,10 +95,13 @@ void Tip::check_machine(const scene::Machine& machine) const {
   // A bed without a joint of its own is a box on the frame: it carries, but does not tip.
   const std::string joint = machine.beds.empty() ? "" : machine.beds[0].joint;
   if (machine.joint_index(joint) < 0)
-    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/tip", joint,
-                           "tip needs a machine with a bed on a joint of its own", "add <navvy:bed>"});
+    throw InputError(
+        Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/tip", joint,
+              "tip needs a machine with a bed on a joint of its own", "add <navvy:bed>"});
 }
 
-std::unique_ptr<Activity> Tip::activity(Workplace& place) const { return std::make_unique<Tipping>(place, *this); }
+std::unique_ptr<Activity> Tip::activity(OperatorContext& place) const {
+  return std::make_unique<Tipping>(place, *this);
+}
 
 }  // namespace navvy::control

@@ -15,16 +15,19 @@ namespace {
 using scene::FieldSource;
 using scene::kDegree;
 
-constexpr double kShortAngle = radians(3), kShortWay = 0.03;  // of a joint: a servo's lag under load is less [m]
-constexpr double kSettle = 0.3;                               // [s] before a joint at rest counts as held
-constexpr double kAtRest = 0.02;                              // [rad/s|m/s]
-constexpr double kPatience = 5;                               // [s] for joints that are slower than their positions
+// Of a joint: a servo's lag under load is less [m]
+constexpr double kShortAngle = radians(3), kShortPath = 0.03;
+// [s] before a joint at rest counts as held
+constexpr double kSettle = 0.3;
+constexpr double kAtRest = 0.02;  // [rad/s|m/s]
+// [s] for joints that are slower than their positions
+constexpr double kPatience = 5;
 
-// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at the end it looks: a
-// joint that is on its way is waited for, one that is held ends the program.
+// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at
+// the end it looks: a joint that is on its way is waited for, one that is held ends the program.
 class Following final : public Activity {
  public:
-  Following(Workplace& place, const Trajectory& step) : Activity(place), step_(step) {
+  Following(OperatorContext& place, const Trajectory& step) : Activity(place), step_(step) {
     for (const std::string& name : step.joints) joints_.push_back(place.machine.joint_index(name));
   }
   const char* phase() const override { return "trajectory"; }
@@ -61,10 +64,12 @@ class Following final : public Activity {
       const scene::Joint& joint = place_.machine.joints[j];
       const vehicle::JointState& now = seen.joints[j];
       const double rest = std::abs(step_.positions.back()[i] - now.position);
-      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortWay : kShortAngle)) continue;
+      if (rest <= (joint.type == scene::Joint::Type::kPrismatic ? kShortPath : kShortAngle))
+        continue;
       on_the_way = true;
       if (late < kSettle) continue;
-      // A joint that lies beside its target and moves may well be driven off by what holds it: patience has an end.
+      // A joint that lies beside its target and moves may well be driven off by what holds it:
+      // patience has an end.
       if (late > kPatience || now.stalled || std::abs(now.velocity) < kAtRest)
         return fall_short(StepState::kBlocked, held_text(joint, now, rest, "its last position"));
     }
@@ -76,8 +81,8 @@ class Following final : public Activity {
 };
 
 /// Whether the machine has the joint, in the unit that it is given in, and gets there.
-void check_joint(FieldSource& fields, const scene::Machine* machine, const std::string& name, bool in_degrees,
-                 const std::vector<double>& positions) {
+void check_joint(FieldSource& fields, const scene::Machine* machine, const std::string& name,
+                 bool in_degrees, const std::vector<double>& positions) {
   // A machine that could not be read has been told of already.
   if (!machine || machine->links.empty()) return;
   const int index = machine->joint_index(name);
@@ -88,27 +93,31 @@ void check_joint(FieldSource& fields, const scene::Machine* machine, const std::
     return;
   }
   const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
-  // The unit in the element's name must be the joint's: 90 read as metres would be a fault of another kind.
+  // The unit in the element's name must be the joint's: 90 read as metres would be a fault of
+  // another kind.
   const bool turns = joint.type == scene::Joint::Type::kRevolute;
   if (!turns && joint.type != scene::Joint::Type::kPrismatic) {
     fields.error("", name, "only revolute and prismatic joints can be moved");
   } else if (turns != in_degrees) {
-    fields.error("", name, turns ? "a revolute joint needs <positions_deg>" : "a prismatic joint needs <positions_m>");
+    fields.error(
+        "", name,
+        turns ? "a revolute joint needs <positions_deg>" : "a prismatic joint needs <positions_m>");
   } else if (joint.has_limits) {
     const double f = turns ? 1 / kDegree : 1;
     // The first one beyond them is enough to find the slip; rounding of degrees is let pass.
     for (const double position : positions) {
       if (position >= joint.lower - 1e-6 && position <= joint.upper + 1e-6) continue;
       fields.error("", std::to_string(position * f),
-                   "must lie within the joint's limits, " + std::to_string(joint.lower * f) + " to " +
-                       std::to_string(joint.upper * f));
+                   "must lie within the joint's limits, " + std::to_string(joint.lower * f) +
+                       " to " + std::to_string(joint.upper * f));
       break;
     }
   }
 }
 
 /// One joint's positions over the times; its name is added to the step.
-std::vector<double> read_joint(FieldSource& fields, const scene::Machine* machine, Trajectory& step) {
+std::vector<double> read_joint(FieldSource& fields, const scene::Machine* machine,
+                               Trajectory& step) {
   std::string name;
   std::vector<double> in_degrees, in_metres;
   fields.attribute("name", name)
@@ -127,7 +136,8 @@ std::vector<double> read_joint(FieldSource& fields, const scene::Machine* machin
   const std::vector<double>& positions = turns ? in_degrees : in_metres;
   if (positions.size() != step.times.size())
     fields.error("", std::to_string(positions.size()) + " positions",
-                 "needs one position for each of the " + std::to_string(step.times.size()) + " times of <times_s>");
+                 "needs one position for each of the " + std::to_string(step.times.size()) +
+                     " times of <times_s>");
   check_joint(fields, machine, name, turns, positions);
   return positions;
 }
@@ -140,7 +150,8 @@ Trajectory Trajectory::read(const scene::StepSource& source) {
   FieldSource& fields = source.fields;
   fields.list("times_s", step.times, {0, 1e6})
       .required("times_s")
-      .each("joint", [&](FieldSource& joint) { columns.push_back(read_joint(joint, source.machine, step)); })
+      .each("joint",
+            [&](FieldSource& joint) { columns.push_back(read_joint(joint, source.machine, step)); })
       .required("joint")
       .finish();
   // Equal times would be a jump, for which no joint has a servo.
@@ -149,30 +160,34 @@ Trajectory Trajectory::read(const scene::StepSource& source) {
       fields.error("times_s", fields.written("times_s"), "times must increase");
       break;
     }
-  if (fields.has("times_s") && step.times.empty()) fields.error("times_s", "", "needs at least one time");
+  if (fields.has("times_s") && step.times.empty())
+    fields.error("times_s", "", "needs at least one time");
   // The file gives a row a joint, the operator wants a row a time.
   step.positions.assign(step.times.size(), std::vector<double>(columns.size(), 0.0));
   for (std::size_t j = 0; j < columns.size(); ++j)
-    for (std::size_t k = 0; k < step.times.size() && k < columns[j].size(); ++k) step.positions[k][j] = columns[j][k];
+    for (std::size_t k = 0; k < step.times.size() && k < columns[j].size(); ++k)
+      step.positions[k][j] = columns[j][k];
   return step;
 }
 
 void Trajectory::check_machine(const scene::Machine& machine) const {
   // Programs built in C++ may be anything: the run relies on what is asked here.
   const auto fail = [&](const std::string& value, const std::string& rule) {
-    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:program/trajectory", value,
-                           rule, "give every joint one position for each time"});
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
+                           machine.name + "/navvy:program/trajectory", value, rule,
+                           "give every joint one position for each time"});
   };
   if (times.empty()) fail("", "a trajectory needs at least one time");
   if (positions.size() != times.size())
     fail(std::to_string(positions.size()) + " rows", "needs one row of positions for each time");
   for (const auto& row : positions)
-    if (row.size() != joints.size()) fail(std::to_string(row.size()), "a row needs one position for each joint");
+    if (row.size() != joints.size())
+      fail(std::to_string(row.size()), "a row needs one position for each joint");
   for (const std::string& name : joints)
     if (machine.joint_index(name) < 0) fail(name, "no joint of this name in the machine");
 }
 
-std::unique_ptr<Activity> Trajectory::activity(Workplace& place) const {
+std::unique_ptr<Activity> Trajectory::activity(OperatorContext& place) const {
   return std::make_unique<Following>(place, *this);
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 class LettingGo final : public Activity {
  public:
-  LettingGo(Workplace& place, const Unhitch& step) : Activity(place), step_(step) {}
+  LettingGo(OperatorContext& place, const Unhitch& step) : Activity(place), step_(step) {}
   const char* phase() const override { return "unhitch"; }
   void begin(const Observation&) override {}
 
@@ -30,7 +30,7 @@ Unhitch Unhitch::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Unhitch::activity(Workplace& place) const {
+std::unique_ptr<Activity> Unhitch::activity(OperatorContext& place) const {
   return std::make_unique<LettingGo>(place, *this);
 }
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "control/step.h"
+#include "control/program_step.h"
 
 namespace navvy::control {
 
 /// Let go of what hangs on the machine, or of what it hangs on.
-struct Unhitch final : Step {
+struct Unhitch final : ProgramStep {
   /// Name in scene files.
   static constexpr const char* kElement = "unhitch";
   explicit Unhitch(std::string hitch_in = "") : hitch(std::move(hitch_in)) {}
@@ -20,7 +20,7 @@ struct Unhitch final : Step {
   const char* element() const override { return kElement; }
   std::optional<std::string> opens() const override { return hitch; }
   /// One phase of one control step.
-  std::unique_ptr<Activity> activity(Workplace& place) const override;
+  std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 
 }  // namespace navvy::control

@@ -9,13 +9,15 @@ namespace {
 // Without memory: the clock that every activity has is enough.
 class Resting final : public Activity {
  public:
-  Resting(Workplace& place, const Wait& step) : Activity(place), step_(step) {}
+  Resting(OperatorContext& place, const Wait& step) : Activity(place), step_(step) {}
   const char* phase() const override { return "wait"; }
   void begin(const Observation&) override {}
 
  private:
   // The control step that ends at `duration` is the last.
-  bool update(const Observation&, double dt, Command&) override { return phase_time() + dt >= step_.duration; }
+  bool update(const Observation&, double dt, Command&) override {
+    return phase_time() + dt >= step_.duration;
+  }
 
   const Wait& step_;
 };
@@ -28,6 +30,8 @@ Wait Wait::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Wait::activity(Workplace& place) const { return std::make_unique<Resting>(place, *this); }
+std::unique_ptr<Activity> Wait::activity(OperatorContext& place) const {
+  return std::make_unique<Resting>(place, *this);
+}
 
 }  // namespace navvy::control

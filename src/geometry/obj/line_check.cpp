@@ -28,7 +28,8 @@ class LineCheck {
     most(vertices_, limits::kObjVertices, "vertices");
     each_line(text, [this](std::string_view line) {
       ++line_;
-      // Faces are read corner by corner, and a polygon is cut with all its corners held against each other.
+      // Faces are read corner by corner, and a polygon is cut with all its corners held against
+      // each other.
       if (line.size() > limits::kObjLineBytes)
         refuse_obj(path_, line_, line.substr(0, 40),
                    "a line may have at most " + std::to_string(limits::kObjLineBytes) + " bytes");
@@ -37,7 +38,8 @@ class LineCheck {
       if (key == "v") vertex(line, rest);
       if (key == "f") face(line, rest);
       if (key == "mtllib") most(++libraries_, limits::kMtlFiles, "mtllib lines");
-      if (!key.empty() && key.front() != '#' && key != "v" && key != "vt" && key != "vn" && key != "f")
+      if (!key.empty() && key.front() != '#' && key != "v" && key != "vt" && key != "vn" &&
+          key != "f")
         most(++statements_, limits::kObjStatements, "lines of groups, objects and materials");
     });
   }
@@ -69,21 +71,25 @@ class LineCheck {
       if (!word.empty() && word.front() == '+') word.remove_prefix(1);
       double value = 0;
       const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
-      // Vertices are kept in single precision, which holds centimetres at the limit; it shuts out nan and inf too.
-      if (failed != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= limits::kCoordinate))
+      // Vertices are kept in single precision, which holds centimetres at the limit; it shuts out
+      // nan and inf too.
+      if (failed != std::errc() || end != word.data() + word.size() ||
+          !(std::abs(value) <= limits::kCoordinate))
         refuse_obj(path_, line_, line, "a vertex must be three numbers from -1e6 to 1e6 m");
     }
   }
 
   void face(std::string_view line, std::string_view rest) {
     int corners = 0;
-    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners) {
+    for (std::string_view word = next_word(rest); !word.empty();
+         word = next_word(rest), ++corners) {
       // vertex/texture/normal: the vertex counts from 1, or backwards from the last one read.
       long index = 0;
       const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), index);
       const bool whole = failed == std::errc() && (end == word.data() + word.size() || *end == '/');
       if (!whole || index == 0 || index > vertices_ || index < -seen_)
-        refuse_obj(path_, line_, line, "a face must name vertices from 1 to " + std::to_string(vertices_));
+        refuse_obj(path_, line_, line,
+                   "a face must name vertices from 1 to " + std::to_string(vertices_));
     }
     if (corners < 3) refuse_obj(path_, line_, line, "a face must have at least three corners");
     if (corners > static_cast<int>(limits::kObjCorners))
@@ -101,11 +107,14 @@ class LineCheck {
 
 }  // namespace
 
-void check_obj_lines(const std::string& path, std::string_view text) { const LineCheck check(path, text); }
+void check_obj_lines(const std::string& path, std::string_view text) {
+  const LineCheck check(path, text);
+}
 
 void refuse_obj(const std::string& path, int line, std::string_view value, const std::string& rule,
                 const std::string& remedy) {
-  throw InputError(Fault{Fault::Severity::kError, path, line, "", std::string(value), rule, remedy});
+  throw InputError(
+      Fault{Fault::Severity::kError, path, line, "", std::string(value), rule, remedy});
 }
 
 }  // namespace navvy::geometry

@@ -18,17 +18,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whoever wrote the OBJ file chose the names of its MTL files: they are opened in its folder and below, and only plain
-/// files of a bounded size.
+/// Whoever wrote the OBJ file chose the names of its MTL files: they are opened in its folder and
+/// below, and only plain files of a bounded size.
 class MaterialsBeside final : public tinyobj::MaterialReader {
  public:
-  explicit MaterialsBeside(const std::string& obj) : obj_(obj), folder_(fs::path(obj).parent_path()) {}
+  explicit MaterialsBeside(const std::string& obj)
+      : obj_(obj), folder_(fs::path(obj).parent_path()) {}
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* map,
-                  std::string* warning, std::string* error) override {
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* map, std::string* warning,
+                  std::string* error) override {
     const fs::path plain = fs::path(name).lexically_normal();
     if (plain.is_absolute() || (!plain.empty() && *plain.begin() == ".."))
-      refuse_obj(obj_, 0, "mtllib " + name, "a material file must lie in the folder of the OBJ file or below",
+      refuse_obj(obj_, 0, "mtllib " + name,
+                 "a material file must lie in the folder of the OBJ file or below",
                  "copy it beside the OBJ file and name it without a path");
     const std::string path = (folder_ / plain).string();
     std::error_code unknown;
@@ -41,7 +44,8 @@ class MaterialsBeside final : public tinyobj::MaterialReader {
     try {
       bytes = read_file(path, limits::kMtlBytes);
     } catch (const FileError& failure) {
-      refuse_obj(obj_, 0, "mtllib " + name, failure.what(), "name a material file, or take the line out");
+      refuse_obj(obj_, 0, "mtllib " + name, failure.what(),
+                 "name a material file, or take the line out");
     }
     std::istringstream stream(std::string(bytes.begin(), bytes.end()));
     tinyobj::LoadMtl(map, materials, &stream, warning, error);
@@ -89,7 +93,8 @@ TriangleMesh read_obj(const std::string& path) {
   std::string warning, error;
   std::istringstream stream(std::move(text));
   MaterialsBeside beside(path);
-  const bool read = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, &beside, true);
+  const bool read =
+      tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream, &beside, true);
   if (!read) refuse_obj(path, 0, "", "cannot be read as an OBJ file: " + error);
   // A missing MTL file changes colours only.
   if (!warning.empty()) log_warning(path + ": " + first_of(warning));
@@ -97,12 +102,15 @@ TriangleMesh read_obj(const std::string& path) {
   // Indices into the vertices stay the file's own: vertices are not split by normals or materials.
   TriangleMesh mesh;
   const std::vector<tinyobj::real_t>& v = attributes.vertices;
-  for (std::size_t i = 0; i + 2 < v.size(); i += 3) mesh.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
-  for (const tinyobj::material_t& material : materials) mesh.materials.push_back(to_material(material));
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
+    mesh.vertices.emplace_back(v[i], v[i + 1], v[i + 2]);
+  for (const tinyobj::material_t& material : materials)
+    mesh.materials.push_back(to_material(material));
   for (const tinyobj::shape_t& shape : shapes)
     for (std::size_t f = 0; f < shape.mesh.num_face_vertices.size(); ++f) {
       const tinyobj::index_t* corner = &shape.mesh.indices[3 * f];
-      mesh.triangles.push_back({corner[0].vertex_index, corner[1].vertex_index, corner[2].vertex_index});
+      mesh.triangles.push_back(
+          {corner[0].vertex_index, corner[1].vertex_index, corner[2].vertex_index});
       if (!materials.empty()) mesh.material_of.push_back(std::max(-1, shape.mesh.material_ids[f]));
     }
   require_valid(mesh, path);

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "heightfield/gdal/beside.h"
-#include "heightfield/gdal/session.h"
+#include "heightfield/gdal/gdal_session.h"
 
 namespace navvy::heightfield {
 
@@ -24,8 +24,8 @@ bool read_band(const std::string& file, const std::string& name, int nx, int ny,
   for (const std::string& one : beside) siblings.push_back(one.c_str());
   siblings.push_back(nullptr);
   const char* const drivers[] = {"GTiff", nullptr};
-  const std::unique_ptr<GDALDataset> data(
-      GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, nullptr, siblings.data()));
+  const std::unique_ptr<GDALDataset> data(GDALDataset::Open(
+      file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, nullptr, siblings.data()));
   if (!data) fail("", session.cause("is no GeoTIFF"));
   GDALRasterBand* band = nullptr;
   for (int b = 1; b <= data->GetRasterCount(); ++b)
@@ -37,7 +37,8 @@ bool read_band(const std::string& file, const std::string& name, int nx, int ny,
   std::vector<float> row(static_cast<std::size_t>(nx));
   // Row 0 of the file is the northern edge.
   for (int r = 0; r < ny; ++r) {
-    if (band->RasterIO(GF_Read, 0, r, nx, 1, row.data(), nx, 1, GDT_Float32, 0, 0, nullptr) != CE_None)
+    if (band->RasterIO(GF_Read, 0, r, nx, 1, row.data(), nx, 1, GDT_Float32, 0, 0, nullptr) !=
+        CE_None)
       fail("row " + std::to_string(r), session.cause("cannot be read"));
     take(ny - 1 - r, row);
   }

@@ -24,12 +24,14 @@ std::string lower(std::string text) {
 std::vector<std::string> files_beside(const std::string& file) {
   const fs::path path = file;
   std::vector<std::string> known = {lower(path.filename().string() + ".aux.xml")};
-  for (const char* ending : {".prj", ".tfw", ".tifw", ".tiffw", ".pgw", ".pngw", ".wld", ".aux.xml"})
+  for (const char* ending :
+       {".prj", ".tfw", ".tifw", ".tiffw", ".pgw", ".pngw", ".wld", ".aux.xml"})
     known.push_back(lower(path.stem().string() + ending));
   std::vector<std::string> names = {path.filename().string()};
   std::error_code failed;
   // Endings and names are written in capitals by some programs, and GDAL looks for those too.
-  for (fs::directory_iterator at(path.parent_path().empty() ? "." : path.parent_path(), failed), end;
+  for (fs::directory_iterator at(path.parent_path().empty() ? "." : path.parent_path(), failed),
+       end;
        !failed && at != end; at.increment(failed)) {
     const std::string name = at->path().filename().string();
     if (std::find(known.begin(), known.end(), lower(name)) == known.end()) continue;
@@ -38,7 +40,8 @@ std::vector<std::string> files_beside(const std::string& file) {
     const std::uintmax_t size = fs::file_size(at->path(), unknown);
     if (!unknown && size > limits::kMapSidecarBytes)
       throw FileError("cannot read '" + at->path().string() + "': it has " + std::to_string(size) +
-                      " bytes, a file beside a map may have " + std::to_string(limits::kMapSidecarBytes));
+                      " bytes, a file beside a map may have " +
+                      std::to_string(limits::kMapSidecarBytes));
     names.push_back(name);
   }
   std::sort(names.begin() + 1, names.end());

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "heightfield/gdal/map_file_private.h"
-#include "heightfield/site.h"
+#include "heightfield/make_ground.h"
 #include "heightfield/span_text.h"
 
 namespace navvy::heightfield {
@@ -21,20 +21,23 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
   const Vec2 extent(report.cell_x * report.columns, report.cell_y * report.rows);
   // Without a wish the site lies in the middle of the map.
   Vec2 middle = 0.5 * extent;
-  if (ground.has_at) middle = ground.at_is_local ? ground.at : Vec2((ground.at - report.file_min) * report.metres);
+  if (ground.has_at)
+    middle = ground.at_is_local ? ground.at : Vec2((ground.at - report.file_min) * report.metres);
   const Vec2 size = setup.cell * Vec2(setup.nx, setup.ny);
   const Vec2 corner = middle - 0.5 * size;
   report.site_min = report.file_min + corner / report.metres;
   report.site_max = report.site_min + size / report.metres;
   // Rounding up to blocks may reach over the edge by up to four columns, which repeat the edge.
   const Vec2 slack = Vec2::Constant(4 * setup.cell);
-  const bool inside =
-      ((corner + slack).array() >= 0).all() && ((corner + size - slack).array() <= extent.array()).all();
+  const bool inside = ((corner + slack).array() >= 0).all() &&
+                      ((corner + size - slack).array() <= extent.array()).all();
   if (!inside) {
     map.fail("at", span_text(report.site_min, report.site_max),
-             "the site is off the map, which reaches over " + span_text(report.file_min, report.file_max) + " (" +
-                 number_text(extent.x()) + " x " + number_text(extent.y()) + " m)",
-             "move --at inside (local:X,Y counts metres from the map's lower-left corner) or make --size smaller");
+             "the site is off the map, which reaches over " +
+                 span_text(report.file_min, report.file_max) + " (" + number_text(extent.x()) +
+                 " x " + number_text(extent.y()) + " m)",
+             "move --at inside (local:X,Y counts metres from the map's lower-left corner) or make "
+             "--size smaller");
   }
   setup.easting = report.site_min.x();
   setup.northing = report.site_min.y();
@@ -45,10 +48,12 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
 
 }  // namespace
 
-TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held, int side) {
+TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held,
+                             int side) {
   MapFile map(world.ground.file, world.ground.scale, "terrain");
   setup.crs_wkt = map.crs_wkt;
-  const Vec2 corner = place_site(map, world.ground, setup), size = setup.cell * Vec2(setup.nx, setup.ny);
+  const Vec2 corner = place_site(map, world.ground, setup),
+             size = setup.cell * Vec2(setup.nx, setup.ny);
   TerrainReport& report = map.report;
   for (const scene::GroundLayer& layer : world.ground.layers)
     if (const int i = world.soil_index(layer.soil); i >= 0) {
@@ -56,10 +61,12 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, do
       break;
     }
   const double cell = setup.cell;
-  // What the report says of heights and slopes is said of the filled map, which is what the columns come from. The
-  // surfaces share their map, so that copies of the setup cost nothing.
+  // What the report says of heights and slopes is said of the filled map, which is what the columns
+  // come from. The surfaces share their map, so that copies of the setup cost nothing.
   const auto surface_of = [cell](const auto& raster) {
-    return [raster, cell](int ix, int iy) { return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell); };
+    return [raster, cell](int ix, int iy) {
+      return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell);
+    };
   };
   float least = 0, most = 0;
   if (static_cast<double>(cells_under(map, corner, size)) > held) {
@@ -77,7 +84,8 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, do
     report.slope = slopes(*raster, report.repose);
     StateHash heights;
     heights.bytes(raster->z.data(), raster->z.size() * sizeof(float));
-    for (const double one : {raster->cell_x, raster->cell_y, raster->x0, raster->y0}) heights.value(one);
+    for (const double one : {raster->cell_x, raster->cell_y, raster->x0, raster->y0})
+      heights.value(one);
     heights.value(raster->nx);
     setup.map_hash = heights.digest();
     setup.surface = surface_of(raster);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coordinates are the site's own: a design in another system would lie elsewhere, so it is refused, not guessed.
+// Coordinates are the site's own: a design in another system would lie elsewhere, so it is refused,
+// not guessed.
 #include "heightfield/gdal/import_design.h"
 
 #include <ogr_spatialref.h>
@@ -18,23 +19,26 @@ std::string name_of(const std::string& wkt) {
   return end == std::string::npos ? "none" : wkt.substr(begin + 1, end - begin - 1);
 }
 
-/// Two CRS are one when their horizontal parts are; a file without one is taken to be in the site's.
+/// Two CRS are one when their horizontal parts are; a file without one is taken to be in the
+/// site's.
 void require_same_crs(const MapFile& map, const GroundSetup& setup) {
   if (map.crs_wkt.empty() && setup.file_unit != 1)
     map.fail("CRS", "none",
-             "the site counts in units of " + number_text(setup.file_unit) + " m, this file does not say",
+             "the site counts in units of " + number_text(setup.file_unit) +
+                 " m, this file does not say",
              "assign the site's CRS: gdal_translate -a_srs EPSG:CODE IN OUT.tif");
   if (map.crs_wkt.empty()) return;
   if (setup.crs_wkt.empty())
-    map.fail("CRS", name_of(map.crs_wkt), "the site has no CRS, so the two cannot be laid together",
-             "give the ground's map its CRS too, or take this file's away: " + map.edit("-a_srs \"\""));
+    map.fail(
+        "CRS", name_of(map.crs_wkt), "the site has no CRS, so the two cannot be laid together",
+        "give the ground's map its CRS too, or take this file's away: " + map.edit("-a_srs \"\""));
   OGRSpatialReference a, b;
   a.importFromWkt(map.crs_wkt.c_str());
   b.importFromWkt(setup.crs_wkt.c_str());
   a.StripVertical();
   b.StripVertical();
-  const char* const options[] = {"IGNORE_COORDINATE_EPOCH=YES", "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS",
-                                 nullptr};
+  const char* const options[] = {"IGNORE_COORDINATE_EPOCH=YES",
+                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
   if (a.IsSame(&b, options) == 0)
     map.fail("CRS", name_of(map.crs_wkt), "the site's map is in " + name_of(setup.crs_wkt),
              "reproject it: gdalwarp -t_srs EPSG:CODE IN OUT.tif, with the code of the site's CRS");
@@ -47,8 +51,8 @@ double sample(const HeightRaster& raster, const Vec2& p, double edge) {
   const auto cell = [](double x, double x0, double step, int n) {
     return std::clamp(static_cast<int>(std::lround((x - x0) / step)), 0, n - 1);
   };
-  return static_cast<double>(
-      raster.at(cell(p.x(), raster.x0, raster.cell_x, raster.nx), cell(p.y(), raster.y0, raster.cell_y, raster.ny)));
+  return static_cast<double>(raster.at(cell(p.x(), raster.x0, raster.cell_x, raster.nx),
+                                       cell(p.y(), raster.y0, raster.cell_y, raster.ny)));
 }
 
 }  // namespace
@@ -67,22 +71,26 @@ DesignSurface import_design(const scene::Design& design, const Terrain& site) {
   const Vec2 low = corner.cwiseMax(0), high = extent.cwiseMin(corner + size);
   if (!((high - low).array() > 0).all()) {
     const Vec2 at(setup.easting, setup.northing);
-    map.fail("", span_text(report.file_min, report.file_max),
-             "does not overlap the site, which reaches over " + span_text(at, at + size / report.metres),
-             "give both in the same coordinates; a procedural site counts in W");
+    map.fail(
+        "", span_text(report.file_min, report.file_max),
+        "does not overlap the site, which reaches over " + span_text(at, at + size / report.metres),
+        "give both in the same coordinates; a procedural site counts in W");
   }
   const HeightRaster raster = read_heights(map, low, high - low);
   const double shift = report.height_offset - setup.height_offset;
   // Columns whose centres lie on the map.
-  const auto from = ((low - corner) / setup.cell - Vec2(0.5, 0.5)).array().ceil().cast<int>().max(0).eval();
-  const auto to = ((high - corner) / setup.cell - Vec2(0.5, 0.5)).array().floor().cast<int>().eval();
+  const auto from =
+      ((low - corner) / setup.cell - Vec2(0.5, 0.5)).array().ceil().cast<int>().max(0).eval();
+  const auto to =
+      ((high - corner) / setup.cell - Vec2(0.5, 0.5)).array().floor().cast<int>().eval();
   DesignSurface out;
   out.rect = {from.x(), from.y(), std::min(to.x() + 1, setup.nx), std::min(to.y() + 1, setup.ny)};
   out.z.reserve(static_cast<std::size_t>(out.rect.area()));
   for (int iy = out.rect.y0; iy < out.rect.y1; ++iy)
     for (int ix = out.rect.x0; ix < out.rect.x1; ++ix)
-      out.z.push_back(
-          static_cast<float>(sample(raster, corner + setup.cell * Vec2(ix + 0.5, iy + 0.5) - low, setup.cell) + shift));
+      out.z.push_back(static_cast<float>(
+          sample(raster, corner + setup.cell * Vec2(ix + 0.5, iy + 0.5) - low, setup.cell) +
+          shift));
   return out;
 }
 

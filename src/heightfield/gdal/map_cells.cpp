@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a map file as heights: units, gaps, a whole number of metres taken off, whole or by windows.
+// The cells of a map file as heights: units, gaps, a whole number of metres taken off, whole or by
+// windows.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,7 +28,8 @@ class Staircase {
   explicit Staircase(double unit) : unit_(unit) {}
   void look(double height) {
     if (whole_) {
-      // No call of std::round: this is asked of 10^8 cells. A float of a whole metre in feet is off by less.
+      // No call of std::round: this is asked of 10^8 cells. A float of a whole metre in feet is off
+      // by less.
       const double steps = height / unit_;
       const auto nearest = static_cast<std::int64_t>(steps + (steps < 0 ? -0.5 : 0.5));
       whole_ = std::abs(steps - static_cast<double>(nearest)) < 1e-4;
@@ -44,13 +46,15 @@ class Staircase {
 
 void note_staircase(MapFile& map, const std::string& unit, double metres) {
   TerrainReport& report = map.report;
-  // Means of some cells lie between two steps, and what is bilinear between them has the slopes of the ground.
+  // Means of some cells lie between two steps, and what is bilinear between them has the slopes of
+  // the ground.
   const double wide = 4 * std::max(map.step_x, map.step_y);
-  report.notes.push_back("all heights are whole numbers of the " + unit + ": a staircase with steps of " +
-                         number_text(metres, "%.4g") + " m; get them with decimals, or smooth them: " +
-                         (report.for_gdal ? "gdalwarp -ot Float32 -r average -tr " + number_text(wide) + " " +
-                                                number_text(wide) + " IN OUT.tif"
-                                          : "scipy.ndimage.uniform_filter before numpy.save"));
+  report.notes.push_back(
+      "all heights are whole numbers of the " + unit + ": a staircase with steps of " +
+      number_text(metres, "%.4g") + " m; get them with decimals, or smooth them: " +
+      (report.for_gdal ? "gdalwarp -ot Float32 -r average -tr " + number_text(wide) + " " +
+                             number_text(wide) + " IN OUT.tif"
+                       : "scipy.ndimage.uniform_filter before numpy.save"));
 }
 
 // Turns what a file says into metres, and every spelling of "no data" into NaN.
@@ -70,7 +74,8 @@ class Decoder {
     // Black and white of a picture.
     if (map.scale.has_heights) {
       offset_ = map.scale.low;
-      scale_ = (map.scale.high - map.scale.low) / (map.band->GetRasterDataType() == GDT_Byte ? 255 : 65535);
+      scale_ = (map.scale.high - map.scale.low) /
+               (map.band->GetRasterDataType() == GDT_Byte ? 255 : 65535);
     }
     metres_ = map.report.height_metres;
   }
@@ -95,23 +100,26 @@ class Decoder {
   double scale_ = 1, offset_ = 0, metres_ = 1;
 };
 
-/// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start of a row by reading
-/// those before it and goes on after a row that fails: asked for the last row of a cut file it tries 2^rows times.
+/// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start
+/// of a row by reading those before it and goes on after a row that fails: asked for the last row
+/// of a cut file it tries 2^rows times.
 void find_rows(MapFile& map, int last_row) {
   if (std::string(map.data->GetDriver()->GetDescription()) != "AAIGrid") return;
   check_words(map.file, (static_cast<std::int64_t>(last_row) + 1) * map.report.columns);
   for (int row = 0; row <= last_row; ++row) {
     double value = 0;
-    if (map.band->RasterIO(GF_Read, 0, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) != CE_None)
+    if (map.band->RasterIO(GF_Read, 0, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr) !=
+        CE_None)
       map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
                "the file is damaged: get it again");
   }
 }
 
-/// A few bytes may decode to gigabytes, and blocks that do not fit into GDAL's cache side by side are decoded for every
-/// row anew.
+/// A few bytes may decode to gigabytes, and blocks that do not fit into GDAL's cache side by side
+/// are decoded for every row anew.
 void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
-  const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1, blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
+  const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1,
+            blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
   const double across = blocks_x, down = blocks_y;
   const bool kept = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
   const double decoded = across * (kept ? down : y1 - y0 + 1.0) * map.block_bytes;
@@ -129,7 +137,8 @@ struct Cut {
   bool columns_fall = false, rows_fall = true;
 };
 
-/// Cells that the site needs, with a margin; clamped in double, as a damaged header may give any number.
+/// Cells that the site needs, with a margin; clamped in double, as a damaged header may give any
+/// number.
 Cut cut_of(const MapFile& map, const Vec2& corner, const Vec2& size) {
   const TerrainReport& report = map.report;
   const auto first = [](double x, double cell, int n) {
@@ -160,30 +169,36 @@ HeightRaster frame_of(const TerrainReport& report, const Cut& cut, const Vec2& c
   return raster;
 }
 
-/// Raw numbers of some cells of the cut, counted from its first, x fastest. False where the file cannot be read.
-bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells, std::vector<double>& raw) {
+/// Raw numbers of some cells of the cut, counted from its first, x fastest. False where the file
+/// cannot be read.
+bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells,
+              std::vector<double>& raw) {
   const int nx = cells.x1 - cells.x0, ny = cells.y1 - cells.y0;
   const int column = cut.columns_fall ? cut.columns - (cut.x0 + cells.x1) : cut.x0 + cells.x0;
   const int row = cut.rows_fall ? cut.rows - (cut.y0 + cells.y1) : cut.y0 + cells.y0;
   raw.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-  if (band.RasterIO(GF_Read, column, row, nx, ny, raw.data(), nx, ny, GDT_Float64, 0, 0, nullptr) != CE_None)
+  if (band.RasterIO(GF_Read, column, row, nx, ny, raw.data(), nx, ny, GDT_Float64, 0, 0, nullptr) !=
+      CE_None)
     return false;
   const auto line = [&](int y) { return raw.begin() + static_cast<std::ptrdiff_t>(y) * nx; };
   for (int y = 0; cut.columns_fall && y < ny; ++y) std::reverse(line(y), line(y + 1));
-  for (int y = 0; cut.rows_fall && y < ny / 2; ++y) std::swap_ranges(line(y), line(y + 1), line(ny - 1 - y));
+  for (int y = 0; cut.rows_fall && y < ny / 2; ++y)
+    std::swap_ranges(line(y), line(y + 1), line(ny - 1 - y));
   return true;
 }
 
 /// Heights as they come out of the file: counts them, takes their mean, notes what is odd.
 class Intake {
  public:
-  Intake(MapFile& map) : map_(map), decode_(map), in_units_(map.report.height_metres), in_metres_(1) {}
+  Intake(MapFile& map)
+      : map_(map), decode_(map), in_units_(map.report.height_metres), in_metres_(1) {}
   const Decoder& decoder() const { return decode_; }
   /// Above `first()`, as it is known so far; NaN for a gap.
   float take(double raw) {
     TerrainReport& report = map_.report;
     const double height = decode_(raw);
-    if (std::isnan(height) && !decode_.is_nodata(raw) && report.unmarked++ == 0) report.unmarked_value = raw;
+    if (std::isnan(height) && !decode_.is_nodata(raw) && report.unmarked++ == 0)
+      report.unmarked_value = raw;
     // The first height found stands in for the offset until the mean is known.
     if (!std::isnan(height) && known_++ == 0) first_ = std::floor(height);
     if (!std::isnan(height)) {
@@ -194,8 +209,8 @@ class Intake {
     return static_cast<float>(height - first_);
   }
   double first() const { return first_; }
-  /// A whole number of metres near the mean of what `take` gave, exact in float. @throws InputError without a height.
-  /// Tells of a staircase.
+  /// A whole number of metres near the mean of what `take` gave, exact in float. @throws InputError
+  /// without a height. Tells of a staircase.
   double shift() const {
     if (known_ == 0)
       map_.fail("at", "", "there is no height anywhere under the site, all is nodata",
@@ -246,7 +261,8 @@ class SiteCells {
 };
 
 [[noreturn]] void fail_row(const MapFile& map, int row) {
-  map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"), "the file is damaged: get it again");
+  map.fail("row " + std::to_string(row), "", map.session.cause("cannot be read"),
+           "the file is damaged: get it again");
 }
 
 /// A map that stays open: its cells as heights, whenever they are asked for.
@@ -277,11 +293,13 @@ class OpenMap {
   void read(const CellRect& cells, float* out) {
     const GdalSession session;
     if (!read_raw(*band_, cut_, cells, raw_))
-      throw InputError(Fault{Fault::Severity::kError, file_, 0, element_, "", session.cause("cannot be read"),
+      throw InputError(Fault{Fault::Severity::kError, file_, 0, element_, "",
+                             session.cause("cannot be read"),
                              "the file is damaged or gone: get it again"});
     // Rounded to float before and after the shift, as a map that is held is.
-    std::transform(raw_.begin(), raw_.end(), out,
-                   [&](double raw) { return static_cast<float>(static_cast<float>(decode_(raw) - first_) - shift_); });
+    std::transform(raw_.begin(), raw_.end(), out, [&](double raw) {
+      return static_cast<float>(static_cast<float>(decode_(raw) - first_) - shift_);
+    });
   }
 
  private:
@@ -322,7 +340,8 @@ HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
     if (!read_raw(*map.band, cut, {0, iy, raster.nx, iy + 1}, line))
       fail_row(map, map.rows_fall ? report.rows - 1 - (cut.y0 + iy) : cut.y0 + iy);
     for (int ix = 0; ix < raster.nx; ++ix)
-      if (std::isnan(raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)]))) on_site.gap(ix, iy);
+      if (std::isnan(raster.at(ix, iy) = intake.take(line[static_cast<std::size_t>(ix)])))
+        on_site.gap(ix, iy);
   }
   const double shift = intake.shift();
   for (float& z : raster.z) z = static_cast<float>(z - shift);
@@ -330,7 +349,8 @@ HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
   return raster;
 }
 
-std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner, const Vec2& size, int side) {
+std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner,
+                                                   const Vec2& size, int side) {
   TerrainReport& report = map.report;
   const Cut cut = cut_of(map, corner, size);
   const HeightRaster frame = frame_of(report, cut, corner);
@@ -358,13 +378,15 @@ std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& cor
         on_site.gap(static_cast<int>(i) % frame.nx, y0 + static_cast<int>(i) / frame.nx);
       }
     if (static_cast<double>(gaps.size()) > limits::kMapCells)
-      map.fail("nodata", std::to_string(gaps.size()) + " cells",
-               "more than " + number_text(limits::kMapCells) + " cells without a height under the site",
-               "choose a smaller --size, or fill them with gdal_fillnodata.py");
+      map.fail(
+          "nodata", std::to_string(gaps.size()) + " cells",
+          "more than " + number_text(limits::kMapCells) + " cells without a height under the site",
+          "choose a smaller --size, or fill them with gdal_fillnodata.py");
   }
   const double shift = intake.shift();
   report.height_offset = intake.first() + shift;
-  const auto open_map = std::make_shared<OpenMap>(map, cut, intake.decoder(), intake.first(), shift);
+  const auto open_map =
+      std::make_shared<OpenMap>(map, cut, intake.decoder(), intake.first(), shift);
   const auto out = std::make_shared<WindowedRaster>(
       frame, [open_map](const CellRect& cells, float* to) { open_map->read(cells, to); }, side);
   report.nodata = out->fill_gaps(std::move(gaps));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps come from everywhere, so each step names what it refuses and how to mend the file, and notes what it had to
-// guess: open, georeference, CRS, unit of heights. Its cells: map_cells.cpp.
+// Maps come from everywhere, so each step names what it refuses and how to mend the file, and notes
+// what it had to guess: open, georeference, CRS, unit of heights. Its cells: map_cells.cpp.
 #include "heightfield/gdal/map_file_private.h"
 
 #include <cpl_vsi.h>
@@ -20,16 +20,19 @@ namespace navvy::heightfield {
 namespace {
 
 // Puts a map of whatever format to its place.
-constexpr const char* kPlaceIt = "put it to its place: gdal_translate -a_ullr LEFT TOP RIGHT BOTTOM IN OUT.tif";
+constexpr const char* kPlaceIt =
+    "put it to its place: gdal_translate -a_ullr LEFT TOP RIGHT BOTTOM IN OUT.tif";
 
 /// GDAL has no driver for NPY: the numbers lie in memory, and a dataset looks at them there.
 void open_npy(MapFile& map) {
   NpyGrid grid = read_npy(map.file);
-  static constexpr GDALDataType kTypes[] = {GDT_Float32, GDT_Float64, GDT_Int16, GDT_Int32, GDT_UInt16, GDT_Byte};
+  static constexpr GDALDataType kTypes[] = {GDT_Float32, GDT_Float64, GDT_Int16,
+                                            GDT_Int32,   GDT_UInt16,  GDT_Byte};
   const GDALDataType type = kTypes[static_cast<int>(grid.type)];
   map.numbers = std::move(grid.bytes);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
-  if (driver == nullptr) map.fail("", "", "GDAL was built without its memory driver", "install Debian's libgdal");
+  if (driver == nullptr)
+    map.fail("", "", "GDAL was built without its memory driver", "install Debian's libgdal");
   map.data.reset(driver->Create("", grid.columns, grid.rows, 0, type, nullptr));
   char pointer[64] = {};
   CPLPrintPointer(pointer, map.numbers.data(), sizeof pointer - 1);
@@ -56,8 +59,8 @@ void open_raster(MapFile& map) {
   // Doubles, because the ASCII driver guesses whole numbers from the first values it sees.
   const char* const drivers[] = {"GTiff", "AAIGrid", "PNG", nullptr};
   const char* const options[] = {"DATATYPE=Float64", nullptr};
-  map.data.reset(
-      GDALDataset::Open(map.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, options, siblings.data()));
+  map.data.reset(GDALDataset::Open(map.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers,
+                                   options, siblings.data()));
   if (!map.data || map.data->GetRasterCount() < 1)
     map.fail("", "", map.session.cause("is neither GeoTIFF, ESRI ASCII, PNG nor NPY"),
              "convert it with gdal_translate -of GTiff");
@@ -67,26 +70,29 @@ void open_raster(MapFile& map) {
 bool is_png(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "PNG"); }
 bool is_npy(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "MEM"); }
 
-/// Pictures and arrays have neither metres nor places: the scene must say them, and of other files it may not.
+/// Pictures and arrays have neither metres nor places: the scene must say them, and of other files
+/// it may not.
 void check_scale(MapFile& map) {
   const scene::RasterScale& scale = map.scale;
   const bool png = is_png(map), npy = is_npy(map);
   double transform[6];
   if (!png && !npy) {
     if (scale.any())
-      map.fail("", map.report.format, "map_cell_m, map_heights_m, map_corner_m and map_rows are for PNG and NPY only",
+      map.fail("", map.report.format,
+               "map_cell_m, map_heights_m, map_corner_m and map_rows are for PNG and NPY only",
                "remove them: this file tells its own cells and heights");
     return;
   }
   if (png && (map.data->GetRasterCount() > 2 || map.band->GetColorTable() != nullptr))
-    map.fail("", std::to_string(map.data->GetRasterCount()) + " bands", "heights are gray, this picture has colours",
-             "save it as 16-bit gray");
+    map.fail("", std::to_string(map.data->GetRasterCount()) + " bands",
+             "heights are gray, this picture has colours", "save it as 16-bit gray");
   if (png && !scale.has_heights)
     map.fail("heights", "", "a picture has no heights of its own",
              "say what black and white stand for: <map_heights_m>0 12.5</map_heights_m>");
   if (npy && scale.has_heights)
     map.fail("heights", "map_heights_m", "an NPY's numbers are metres", "remove map_heights_m");
-  if (png && scale.north_first) map.fail("", "map_rows", "a picture's first row is north", "remove map_rows");
+  if (png && scale.north_first)
+    map.fail("", "map_rows", "a picture's first row is north", "remove map_rows");
   if (scale.cell <= 0 && (npy || map.data->GetGeoTransform(transform) != CE_None))
     map.fail("georeference", "", "the file does not tell how large its cells are",
              "add e.g. <map_cell_m>0.5</map_cell_m>");
@@ -111,13 +117,15 @@ void open(MapFile& map) {
   map.report.rows = map.data->GetRasterYSize();
   check_scale(map);
   if (map.data->GetRasterCount() > 1)
-    map.report.notes.push_back(std::to_string(map.data->GetRasterCount()) + " bands: the first one is taken as height");
+    map.report.notes.push_back(std::to_string(map.data->GetRasterCount()) +
+                               " bands: the first one is taken as height");
   if (map.band->GetRasterDataType() == GDT_Byte)
-    map.report.notes.push_back("8-bit heights: steps of " +
-                               (map.scale.has_heights
-                                    ? number_text(std::abs(map.scale.high - map.scale.low) / 255, "%.3g") + " m"
-                                    : std::string("a whole unit")) +
-                               ", and nodata may have become 0");
+    map.report.notes.push_back(
+        "8-bit heights: steps of " +
+        (map.scale.has_heights
+             ? number_text(std::abs(map.scale.high - map.scale.low) / 255, "%.3g") + " m"
+             : std::string("a whole unit")) +
+        ", and nodata may have become 0");
   int block_x = 0, block_y = 0;
   map.band->GetBlockSize(&block_x, &block_y);
   // A block of pixel-interleaved bands holds them all.
@@ -129,7 +137,8 @@ void open(MapFile& map) {
   map.block_bytes = static_cast<double>(block_x) * block_y * 8 * bands_in_block;
   if (map.block_bytes > limits::kMapBlockBytes)
     // A damaged header may promise anything.
-    map.fail("", std::to_string(block_x) + " x " + std::to_string(block_y), "is stored in blocks too large to read",
+    map.fail("", std::to_string(block_x) + " x " + std::to_string(block_y),
+             "is stored in blocks too large to read",
              "rewrite it with gdal_translate -co TILED=YES");
 }
 
@@ -141,13 +150,16 @@ void read_transform(MapFile& map) {
     const double cell = scale.cell > 0 ? scale.cell : 1;
     const bool north_first = !is_npy(map) || scale.north_first;
     g[0] = scale.corner.x(), g[2] = g[4] = 0, g[1] = cell;
-    g[3] = scale.corner.y() + (north_first ? map.report.rows * cell : 0), g[5] = north_first ? -cell : cell;
-    map.report.notes.push_back("no georeference: cells of " + number_text(cell) + " m, lower-left corner at (" +
-                               number_text(scale.corner.x()) + ", " + number_text(scale.corner.y()) + ")" +
-                               (is_npy(map) ? (north_first ? ", first row north" : ", first row south") : ""));
+    g[3] = scale.corner.y() + (north_first ? map.report.rows * cell : 0),
+    g[5] = north_first ? -cell : cell;
+    map.report.notes.push_back(
+        "no georeference: cells of " + number_text(cell) + " m, lower-left corner at (" +
+        number_text(scale.corner.x()) + ", " + number_text(scale.corner.y()) + ")" +
+        (is_npy(map) ? (north_first ? ", first row north" : ", first row south") : ""));
   }
   for (const double value : g)
-    if (!std::isfinite(value)) map.fail("georeference", number_text(value), "must be finite", kPlaceIt);
+    if (!std::isfinite(value))
+      map.fail("georeference", number_text(value), "must be finite", kPlaceIt);
   if (g[2] != 0 || g[4] != 0)
     map.fail("georeference", number_text(g[2]) + ", " + number_text(g[4]),
              "the map is turned against its coordinate axes", "straighten it: gdalwarp IN OUT.tif");
@@ -161,7 +173,8 @@ void read_transform(MapFile& map) {
   map.x_min = std::min(g[0], g[0] + g[1] * map.report.columns);
   map.y_min = std::min(g[3], g[3] + g[5] * map.report.rows);
   map.report.file_min = Vec2(map.x_min, map.y_min);
-  map.report.file_max = map.report.file_min + Vec2(map.step_x * map.report.columns, map.step_y * map.report.rows);
+  map.report.file_max =
+      map.report.file_min + Vec2(map.step_x * map.report.columns, map.step_y * map.report.rows);
   // GDAL has moved the corner of point-registered files by half a cell already.
   const char* registration = map.data->GetMetadataItem(GDALMD_AREA_OR_POINT);
   map.report.point_registered = registration != nullptr && EQUAL(registration, GDALMD_AOP_POINT);
@@ -174,7 +187,8 @@ void refuse_degrees(MapFile& map) {
   const int epsg = (middle.y() < 0 ? 32700 : 32600) + zone;
   map.fail("CRS", map.report.crs, "coordinates are degrees, a site needs lengths",
            "reproject it: gdalwarp -t_srs EPSG:" + std::to_string(epsg) +
-               " -r bilinear IN OUT.tif; if they are metres in truth, drop the CRS: " + map.edit("-a_srs \"\""));
+               " -r bilinear IN OUT.tif; if they are metres in truth, drop the CRS: " +
+               map.edit("-a_srs \"\""));
 }
 
 void read_crs(MapFile& map) {
@@ -187,9 +201,11 @@ void read_crs(MapFile& map) {
   } else {
     report.crs = declared->GetName() != nullptr ? declared->GetName() : "unnamed";
     if (declared->IsGeographic() != 0) {
-      // Coordinates of hundreds of kilometres under a CRS of degrees are a wrong label, not a wrong map.
+      // Coordinates of hundreds of kilometres under a CRS of degrees are a wrong label, not a wrong
+      // map.
       const Vec2 &low = report.file_min, &high = report.file_max;
-      if (low.x() >= -361 && high.x() <= 361 && low.y() >= -91 && high.y() <= 91) refuse_degrees(map);
+      if (low.x() >= -361 && high.x() <= 361 && low.y() >= -91 && high.y() <= 91)
+        refuse_degrees(map);
       report.notes.push_back("declares degrees (" + report.crs +
                              ") but its coordinates cannot be: taken as metres, CRS dropped");
       report.crs.clear();
@@ -209,7 +225,8 @@ void read_crs(MapFile& map) {
   report.cell_x = map.step_x * report.metres;
   report.cell_y = map.step_y * report.metres;
   const Vec2 extent = (report.file_max - report.file_min) * report.metres;
-  if (!extent.allFinite() || !report.file_min.allFinite() || !(report.cell_x > 0) || !(report.cell_y > 0))
+  if (!extent.allFinite() || !report.file_min.allFinite() || !(report.cell_x > 0) ||
+      !(report.cell_y > 0))
     map.fail("georeference", number_text(map.step_x), "cells must have a finite size", kPlaceIt);
 }
 
@@ -238,14 +255,16 @@ void read_height_unit(MapFile& map) {
                                     {"Foot_US", kSurveyFoot},
                                     {"ftUS", kSurveyFoot},
                                     {"us-ft", kSurveyFoot}};
-  const auto* const known = std::find_if(std::begin(kUnits), std::end(kUnits),
-                                         [&](const Unit& each) { return EQUAL(each.name, unit.c_str()); });
+  const auto* const known =
+      std::find_if(std::begin(kUnits), std::end(kUnits),
+                   [&](const Unit& each) { return EQUAL(each.name, unit.c_str()); });
   if (known != std::end(kUnits)) {
     report.height_metres = known->metres;
     if (known->metres != 1) report.height_unit = unit;
   } else if (!unit.empty()) {
-    report.notes.push_back("heights in '" + unit +
-                           "', which is no known unit: taken as metres; to assign one: " + map.edit("-units ft"));
+    report.notes.push_back(
+        "heights in '" + unit +
+        "', which is no known unit: taken as metres; to assign one: " + map.edit("-units ft"));
   } else if (declared != nullptr && declared->IsVertical() != 0) {
     const char* name = nullptr;
     report.height_metres = declared->GetTargetLinearUnits("VERT_CS", &name);
@@ -253,10 +272,12 @@ void read_height_unit(MapFile& map) {
   } else if (report.metres != 1) {
     report.height_unit = report.unit;
     report.height_metres = report.metres;
-    report.notes.push_back("heights carry no unit: taken in the unit of the coordinates (" + report.unit + ")");
+    report.notes.push_back("heights carry no unit: taken in the unit of the coordinates (" +
+                           report.unit + ")");
   }
   if (!std::isfinite(report.height_metres) || !(report.height_metres > 0))
-    map.fail("heights", report.height_unit, "a unit of length must be > 0 m", "assign one: " + map.edit("-units m"));
+    map.fail("heights", report.height_unit, "a unit of length must be > 0 m",
+             "assign one: " + map.edit("-units m"));
 }
 
 }  // namespace
@@ -269,7 +290,8 @@ std::string number_text(double value, const char* format) {
 
 void MapFile::fail(const std::string& part, const std::string& value, const std::string& rule,
                    const std::string& remedy) const {
-  // What is wrong with the file as such is told of the element; a ground's parts go by their own names.
+  // What is wrong with the file as such is told of the element; a ground's parts go by their own
+  // names.
   const bool of_ground = element == "terrain" && part != "at" && part != "size";
   const std::string where = part.empty() ? element : of_ground ? part : element + "/" + part;
   throw InputError(Fault{Fault::Severity::kError, file, 0, where, value, rule, remedy});

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `blade`: a flat plate pushed through the ground.
 //
-// A blade in plane strain is the digging force in its purest form: a wedge slides up between blade and rupture surface.
-// Smooth and upright the surface is a plane and the force Rankine's, exactly. A rough upright blade bends it: the plane
-// wedge is then an upper bound only, and the force is held against slip lines and log spiral (theory/earth_pressure.h).
-// A rough or flat blade also lifts soil that piles up and rides on it, so that the force grows with the travel: it is
-// held against a wedge under the pile as it lies, which tells errors of force from errors of the pile's shape. A narrow
-// blade in open ground carries crescents at its sides besides.
+// A blade in plane strain is the digging force in its purest form: a wedge slides up between blade
+// and rupture surface. Smooth and upright the surface is a plane and the force Rankine's, exactly.
+// A rough upright blade bends it: the plane wedge is then an upper bound only, and the force is
+// held against slip lines and log spiral (theory/earth_pressure.h). A rough or flat blade also
+// lifts soil that piles up and rides on it, so that the force grows with the travel: it is held
+// against a wedge under the pile as it lies, which tells errors of force from errors of the pile's
+// shape. A narrow blade in open ground carries crescents at its sides besides.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/rig_shapes.h"
 #include "lab/rigs/blade_bed.h"
 #include "lab/rigs/chute.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 
@@ -25,30 +26,35 @@ const char* const kSource = "[docs/validation.md, Blades and earth pressure]";
 
 double rake_of(const Setup& setup) { return radians(setup["rake-deg"]); }
 
-BladeCase case_of(const Setup& setup) { return blade_case(setup, rake_of(setup), setup["depth"], setup["width"]); }
+BladeCase case_of(const Setup& setup) {
+  return blade_case(setup, rake_of(setup), setup["depth"], setup["width"]);
+}
 
 /// Of the blade's upper edge over its lip [m].
 double blade_height(const Setup& setup) {
   const double length = setup["length"];
-  return length > 0 ? length * std::sin(radians(setup["rake-deg"])) : setup["depth"] * (1 + setup["above"]);
+  return length > 0 ? length * std::sin(radians(setup["rake-deg"]))
+                    : setup["depth"] * (1 + setup["above"]);
 }
 
 /// What the mean force is held against, and where that says something.
-struct Gate {
+struct Tolerance {
   double expected = 0, low = kNone, high = kNone;
   std::string source, range;
   bool here = false;
 };
 
-/// A measured force replaces theory. Theory gates upright blades in plane strain, smooth within --gate-percent, rough
-/// ones from 0.95 of the lower bound (0.80 with cohesion, as soil without dilatancy is weaker) to 1.05 of the spiral.
-Gate gate_of(const Setup& setup, const BladeForce& wedge, const std::string& source) {
+/// A measured force replaces theory. Theory gates upright blades in plane strain, smooth within
+/// --gate-percent, rough ones from 0.95 of the lower bound (0.80 with cohesion, as soil without
+/// dilatancy is weaker) to 1.05 of the spiral.
+Tolerance tolerance_of(const Setup& setup, const BladeForce& wedge, const std::string& source) {
   const double given = setup["expected-n"], share = setup["gate-percent"] / 100;
   const bool upright = setup.is("plane", "yes") && std::abs(setup["rake-deg"] - 90) < 1e-6;
   const Reference theory = upright ? upright_reference(case_of(setup)) : Reference{};
-  Gate out;
+  Tolerance out;
   out.range =
-      "an upright blade in plane strain in soil that does not soften, E at least 200 c (rough: and 4 MPa), or a "
+      "an upright blade in plane strain in soil that does not soften, E at least 200 c (rough: and "
+      "4 MPa), or a "
       "force given by --expected-n";
   const double young = setup.soil.young_modulus;
   const bool stiff = young > 199.9 * setup.soil.cohesion && (!theory.rough || young > 3.99e6);
@@ -59,12 +65,14 @@ Gate gate_of(const Setup& setup, const BladeForce& wedge, const std::string& sou
                          : source;
   if (!(share > 0)) return out;
   const bool rough = theory.rough && !(given > 0);
-  out.low = rough ? (setup.soil.cohesion > 0 ? 0.80 : 0.95) * theory.low : (1 - share) * out.expected;
+  out.low =
+      rough ? (setup.soil.cohesion > 0 ? 0.80 : 0.95) * theory.low : (1 - share) * out.expected;
   out.high = rough ? 1.05 * theory.high : (1 + share) * out.expected;
   return out;
 }
 
-/// The largest force [N] of what is slower than the grid: passing two cells of soil takes 2 cell / v.
+/// The largest force [N] of what is slower than the grid: passing two cells of soil takes 2 cell /
+/// v.
 double smooth_peak(const Setup& setup, const Trace& trace, double scale) {
   std::vector<double> x;
   for (const Vec3& f : trace.force) x.push_back(-scale * f.x());
@@ -81,34 +89,40 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
   // One window for mean and scatter, the one that an experiment states.
   const Vec3 force = scale * mean_force(driver.trace(), from, to),
              scatter = scale * force_scatter(driver.trace(), from, to);
-  const Gate gate = gate_of(setup, wedge, source);
-  report.add("horizontal force", -force.x(), "N", gate.expected, gate.low, gate.high, gate.source)
-      .holds_for(gate.range, gate.here);
-  // The formula stands beside whatever else is expected, without a gate; a planar wedge is an upper bound.
-  if (std::abs(gate.expected / wedge.horizontal - 1) > 1e-6)
-    report.add("horizontal force, against the wedge", -force.x(), "N", wedge.horizontal, kNone, kNone,
-               source + (setup.is("plane", "yes") ? ", planar wedge: an upper bound" : ""));
+  const Tolerance tolerance = tolerance_of(setup, wedge, source);
+  report
+      .add("horizontal force", -force.x(), "N", tolerance.expected, tolerance.low, tolerance.high,
+           tolerance.source)
+      .holds_for(tolerance.range, tolerance.here);
+  // The formula stands beside whatever else is expected, without a gate; a planar wedge is an upper
+  // bound.
+  if (std::abs(tolerance.expected / wedge.horizontal - 1) > 1e-6)
+    report.add("horizontal force, against the wedge", -force.x(), "N", wedge.horizontal, kNone,
+               kNone, source + (setup.is("plane", "yes") ? ", planar wedge: an upper bound" : ""));
   if (softens(setup.soil)) {
     BladeCase intact = case_of(setup);
     intact.cohesion = setup.soil.cohesion;
-    report.add("horizontal force, were the soil intact", -force.x(), "N", reece_wedge(intact).horizontal, kNone, kNone,
+    report.add("horizontal force, were the soil intact", -force.x(), "N",
+               reece_wedge(intact).horizontal, kNone, kNone,
                "[Reece 1964], cohesion before remoulding: no limit of this soil");
   }
-  report.add("vertical force on the blade, down", -force.z(), "N", wedge.vertical, kNone, kNone, source);
+  report.add("vertical force on the blade, down", -force.z(), "N", wedge.vertical, kNone, kNone,
+             source);
   // One number to compare runs of other soils and depths by.
-  report.add("horizontal over expected", -force.x() / gate.expected, "", 1, kNone, kNone, "");
+  report.add("horizontal over expected", -force.x() / tolerance.expected, "", 1, kNone, kNone, "");
   report.note("scatter of the force", 100 * scatter.x() / std::abs(force.x()), "%",
               "rms about the mean over its window");
   const double peak = smooth_peak(setup, driver.trace(), scale);
   report.note("peak, low-passed at v / (2 cells)", peak, "N");
-  report.add("peak over expected", peak / gate.expected, "", 1, kNone, kNone, "");
+  report.add("peak over expected", peak / tolerance.expected, "", 1, kNone, kNone, "");
 }
 
-/// Height over the lip [m] of what lies at x ahead of it, mean over the middle half of the chute. Beyond the
-/// bed's end the ground rests, `depth` over the lip.
-std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const ChuteBed& bed, double gap,
-                                      double depth) {
-  const HeapSurface s = surface_of(in_contact(site, site.solver().particles()), site.cell(), p_lip.z());
+/// Height over the lip [m] of what lies at x ahead of it, mean over the middle half of the chute.
+/// Beyond the bed's end the ground rests, `depth` over the lip.
+std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const ChuteBed& bed,
+                                      double gap, double depth) {
+  const HeapSurface s =
+      surface_of(in_contact(site, site.solver().particles()), site.cell(), p_lip.z());
   const int low = static_cast<int>((p_lip.y() + 0.25 * gap - s.origin.y()) / s.spacing),
             high = static_cast<int>((p_lip.y() + 0.75 * gap - s.origin.y()) / s.spacing);
   // A cell short of the bed's end, where particles lean on resting ground.
@@ -122,35 +136,41 @@ std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const
   };
 }
 
-/// Holds the force of the last tenth of the travel against a wedge under the pile as it lies then: whether it is the
-/// force or the pile that differs from an experiment.
-void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, const ChuteBed& bed, double gap,
-               Report& report) {
+/// Holds the force of the last tenth of the travel against a wedge under the pile as it lies then:
+/// whether it is the force or the pile that differs from an experiment.
+void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, const ChuteBed& bed,
+               double gap, Report& report) {
   const double travel = setup["travel"], height = blade_height(setup), depth = setup["depth"];
   const BladeCase c = case_of(setup);
   const auto surface = profile(site, driver.pose().translation(), bed, gap, depth);
   // The last tenth: the pile hardly changes in it, so that force and pile belong together.
-  const double end = -setup["width"] / gap * mean_force(driver.trace(), 0.9 * travel, 2 * travel).x();
+  const double end =
+      -setup["width"] / gap * mean_force(driver.trace(), 0.9 * travel, 2 * travel).x();
   const double wedge = wedge_under(c, height, surface).horizontal;
-  // A wide band: the plane wedge is an upper bound for a rough blade, and the law's zero dilatancy lowers it.
+  // A wide band: the plane wedge is an upper bound for a rough blade, and the law's zero dilatancy
+  // lowers it.
   report
       .add("horizontal force at the end", end, "N", wedge, 0.75 * wedge, 1.25 * wedge,
            std::string("wedge under the pile as it lies [Coulomb 1776] ") + kSource)
-      .holds_for("a raked blade with tool friction that has gone three depths",
-                 setup["rake-deg"] < 89.9 && setup.soil.tool_friction_angle > 0 && travel > 2.99 * depth);
+      .holds_for(
+          "a raked blade with tool friction that has gone three depths",
+          setup["rake-deg"] < 89.9 && setup.soil.tool_friction_angle > 0 && travel > 2.99 * depth);
   report.note("at the end over its wedge", end / wedge, "");
   // From the blade's upper edge on; a quarter of a cell is the surface's own spacing.
   double top = 0;
-  for (double x = -height / std::tan(c.rake); x < travel; x += site.cell() / 4) top = std::max(top, surface(x));
+  for (double x = -height / std::tan(c.rake); x < travel; x += site.cell() / 4)
+    top = std::max(top, surface(x));
   report.note("top of the pile over the lip", top, "m");
   // The formula is for a blade of its own length: without one there is nothing to ride up.
   if (setup["length"] > 0)
-    report.add("horizontal force, against a riding layer", end, "N", riding_layer(c, setup["length"]).horizontal, kNone,
-               kNone, "[Miedema 2014], largest force of a layer riding on the whole blade and beyond: an upper bound");
+    report.add("horizontal force, against a riding layer", end, "N",
+               riding_layer(c, setup["length"]).horizontal, kNone, kNone,
+               "[Miedema 2014], largest force of a layer riding on the whole blade and beyond: an "
+               "upper bound");
 }
 
-/// The tools of a plane bed. A smooth blade and its side plates are one shell; a rough blade's plates are another
-/// shell, without friction.
+/// The tools of a plane bed. A smooth blade and its side plates are one shell; a rough blade's
+/// plates are another shell, without friction.
 ToolDriver plane_tools(const Setup& setup, Site& site, const ChuteShape& shape, bool rough) {
   // Both shells start at one pose and have one twist: they stay together.
   const Pose start = make_pose(0, chute_offset(setup.cell), -setup["depth"]);
@@ -163,7 +183,8 @@ ToolDriver plane_tools(const Setup& setup, Site& site, const ChuteShape& shape, 
 
 /// Plane strain: the blade spans a chute. Forces are scaled to `width`.
 Report run_plane(const Setup& setup) {
-  const double cell = setup.cell, depth = setup["depth"], width = setup["width"], rake = radians(setup["rake-deg"]);
+  const double cell = setup.cell, depth = setup["depth"], width = setup["width"],
+               rake = radians(setup["rake-deg"]);
   // Soil that the blade never comes near still carries the wedge's foot.
   const double reach = setup["travel"] + setup["ahead"] * depth;
   const bool rough = setup.soil.tool_friction_angle > 0 || setup.soil.adhesion > 0;
@@ -174,10 +195,14 @@ Report run_plane(const Setup& setup) {
   const ChuteBed bed{6 * cell, cell * std::ceil(reach / cell), below};
   Site site(setup, chute_site(setup, bed, gap));
   ChuteShape shape;
-  shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake, shape.height = blade_height(setup),
-  shape.top = std::max(shape.height, 2.5 * depth) + (rough ? 2 * depth : 0);  // over what piles up in front
-  shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell, shape.bottom = depth - below - 2 * cell;
-  const Box box{Vec3(-bed.back, chute_offset(cell), -below), Vec3(bed.ahead, chute_offset(cell) + gap, 0)};
+  shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake,
+  shape.height = blade_height(setup),
+  // Over what piles up in front
+      shape.top = std::max(shape.height, 2.5 * depth) + (rough ? 2 * depth : 0);
+  shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell,
+  shape.bottom = depth - below - 2 * cell;
+  const SiteBox box{Vec3(-bed.back, chute_offset(cell), -below),
+                    Vec3(bed.ahead, chute_offset(cell) + gap, 0)};
   auto soil = site.fill(box, [&](const Vec3& p) { return ahead_of_blade(p, depth, rake, cell); });
   site.rest(soil, trench(depth));
   site.solver().insert(soil);
@@ -197,12 +222,14 @@ Report run_plane(const Setup& setup) {
 
 /// A blade of finite width in open ground.
 Report run_open(const Setup& setup) {
-  const double cell = setup.cell, depth = setup["depth"], width = setup["width"], rake = radians(setup["rake-deg"]);
+  const double cell = setup.cell, depth = setup["depth"], width = setup["width"],
+               rake = radians(setup["rake-deg"]);
   // Crescents reach about a depth to the side; the bed is twice as wide by default.
   const double side = width / 2 + setup["beside"] * depth;
   const double up = whole_cells(depth * (1 + setup["below"]), cell);
-  const Box bed{Vec3(-whole_cells(2 * depth, cell), -whole_cells(side, cell), -up),
-                Vec3(whole_cells(setup["travel"] + setup["ahead"] * depth, cell), whole_cells(side, cell), 0)};
+  const SiteBox bed{Vec3(-whole_cells(2 * depth, cell), -whole_cells(side, cell), -up),
+                    Vec3(whole_cells(setup["travel"] + setup["ahead"] * depth, cell),
+                         whole_cells(side, cell), 0)};
   SiteOptions options;
   options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 8 * cell);
   options.depth = up + 8 * cell;
@@ -213,43 +240,53 @@ Report run_open(const Setup& setup) {
     return std::abs(p.y()) > width / 2 + 0.5 * cell || ahead_of_blade(p, depth, rake, cell);
   });
   // At rest beside the trench as everywhere: the trench is as wide as the blade only.
-  site.rest(soil, [=](double x, double y) { return x > 0 || std::abs(y) > width / 2 ? 0.0 : -depth; });
+  site.rest(soil,
+            [=](double x, double y) { return x > 0 || std::abs(y) > width / 2 ? 0.0 : -depth; });
   site.solver().insert(soil);
   scene::Shell shell = blade(width, blade_height(setup), rake);
   shell.half_thickness = setup["thick"] / 2;
   // The plate's face, not its middle, starts at x = 0.
-  ToolDriver driver(site, shell, make_pose(-shell.half_thickness / std::sin(rake), 0.07 * cell, -depth));
+  ToolDriver driver(site, shell,
+                    make_pose(-shell.half_thickness / std::sin(rake), 0.07 * cell, -depth));
   const double speed = setup["speed"];
   site.expect((setup["travel"] + setup["ramp"]) / speed);
   driver.start(setup["travel"], Vec3(speed, 0, 0), setup["ramp"]);
   Report report;
-  read_force(setup, driver, 1, mckyes_ali(case_of(setup)), std::string("[McKyes 1977] ") + kSource, report);
+  read_force(setup, driver, 1, mckyes_ali(case_of(setup)), std::string("[McKyes 1977] ") + kSource,
+             report);
   // What the crescents add shows in the difference of the two.
-  report.add("2-D wedge alone", -mean_force(driver.trace(), setup["from"], setup["travel"]).x(), "N",
-             reece_wedge(case_of(setup)).horizontal, kNone, kNone, "[Reece 1964]");
+  report.add("2-D wedge alone", -mean_force(driver.trace(), setup["from"], setup["travel"]).x(),
+             "N", reece_wedge(case_of(setup)).horizontal, kNone, kNone, "[Reece 1964]");
   return finish_blade(site, driver, report);
 }
 
 /// The two kinds of ground share the reading, not the bed.
-Report run_blade(const Setup& setup) { return setup.is("plane", "yes") ? run_plane(setup) : run_open(setup); }
+Report run_blade(const Setup& setup) {
+  return setup.is("plane", "yes") ? run_plane(setup) : run_open(setup);
+}
 
 const std::vector<Parameter> kBlade = {
     {"width", 1, "m", "of the blade; in plane strain forces are scaled to it", above(0)},
     {"depth", 0.3, "m", "of the lip under the ground", above(0)},
-    {"rake-deg", 90, "deg", "of the blade's face with the ground ahead, 90 is upright", between(15, 150)},
+    {"rake-deg", 90, "deg", "of the blade's face with the ground ahead, 90 is upright",
+     between(15, 150)},
     {"speed", 0.3, "m/s", "ahead", above(0)},
     {"from", 0.03, "m", "of travel at which the mean begins", above(0)},
     {"travel", 0.07, "m", "at which it ends", above(0)},
     {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
-    yes_no("plane", true, "plane strain between smooth plates", "a blade of its width in open ground"),
+    yes_no("plane", true, "plane strain between smooth plates",
+           "a blade of its width in open ground"),
     {"ahead", 3, "depths", "of soil in front after the travel", at_least(0)},
     {"beside", 2, "depths", "of soil on either side (open ground)", at_least(0)},
     {"below", 1, "depths", "of soil under the lip", at_least(0)},
-    {"thick", 0.01, "m", "of the plate in open ground; in plane strain it is half a cell and only its face counts",
+    {"thick", 0.01, "m",
+     "of the plate in open ground; in plane strain it is half a cell and only its face counts",
      above(0)},
     {"above", 1, "depths", "of blade over the ground", above(0)},
-    {"length", 0, "m", "of the blade from its lip along its face; 0: as high as `above` says", at_least(0)},
-    {"expected-n", 0, "N", "a measured force to be held against instead of the formula; 0: none", at_least(0)},
+    {"length", 0, "m", "of the blade from its lip along its face; 0: as high as `above` says",
+     at_least(0)},
+    {"expected-n", 0, "N", "a measured force to be held against instead of the formula; 0: none",
+     at_least(0)},
     {"gate-percent", 15, "%", "of the expected force; 0: no gate", at_least(0)}};
 
 }  // namespace
@@ -259,34 +296,46 @@ Rig blade_rig() {
   rig.name = "blade";
   rig.summary = "flat blade pushed through the ground: force against wedge theory or an experiment";
   rig.drawing =
-      "A plate with its lip `depth` under level ground, a trench open behind it, moves ahead at `speed`. The force is "
-      "the mean of the soil's impulses while the travel is between `from` and `travel`. `plane` yes: the plate spans "
-      "a chute of smooth side plates that travel with it, 5 cells wide, 8 with tool friction. In soil without "
-      "cohesion the force of the last tenth of the travel is held against Coulomb's wedge under the pile as it lies "
-      "then; with `length` Miedema's layer that rides on the whole blade stands beside it, an upper bound. What gates: "
+      "A plate with its lip `depth` under level ground, a trench open behind it, moves ahead at "
+      "`speed`. The force is "
+      "the mean of the soil's impulses while the travel is between `from` and `travel`. `plane` "
+      "yes: the plate spans "
+      "a chute of smooth side plates that travel with it, 5 cells wide, 8 with tool friction. In "
+      "soil without "
+      "cohesion the force of the last tenth of the travel is held against Coulomb's wedge under "
+      "the pile as it lies "
+      "then; with `length` Miedema's layer that rides on the whole blade stands beside it, an "
+      "upper bound. What gates: "
       "an "
-      "upright smooth blade Rankine, a rough one 0.95 of the lower bound (slip lines; weight by Lancellotta) to 1.05 "
-      "of the log spiral (Caquot and Kerisel); Reece's planar wedge is an upper bound and only printed. Soil that "
-      "softens is held against its residual cohesion and not gated. No: open ground, beside McKyes and Ali.";
-  rig.examples = {
-      {"Narrow blade in washed sand [Obermayr 2011]; depths 0.10, 0.15, 0.20, 0.25 m measured 280, 505, 820, 1310 N",
-       "--plane no --width 0.2 --depth 0.10 --density 1440 --phi-deg 35 --delta-deg 16.2 --speed 0.45 --from 0.5 "
-       "--travel 1.5 --expected-n 280 --gate-percent 25 --cell 0.05"},
-      {"Raked blade in sand [Hatamura 1977]; the formula of [Miedema 2014] for the largest force gives 259, 400, 605 N "
-       "at "
-       "rakes of 30, 45, 60",
-       "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 --density 1460 --depth 0.10 --cell "
-       "0.033 --ahead 4 --gate-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
-      {"The same six times as fast, its pile full grown",
-       "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 --density 1460 --depth 0.10 --cell "
-       "0.033 --ahead 4 --gate-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
-      {"Three speeds and two steps in one table, with a picture",
-       "--speed 0.05,0.15,0.3 --courant 0.5,0.25 --cell 0.05 --plot blade.svg"}};
+      "upright smooth blade Rankine, a rough one 0.95 of the lower bound (slip lines; weight by "
+      "Lancellotta) to 1.05 "
+      "of the log spiral (Caquot and Kerisel); Reece's planar wedge is an upper bound and only "
+      "printed. Soil that "
+      "softens is held against its residual cohesion and not gated. No: open ground, beside McKyes "
+      "and Ali.";
+  rig.examples = {{"Narrow blade in washed sand [Obermayr 2011]; depths 0.10, 0.15, 0.20, 0.25 m "
+                   "measured 280, 505, 820, 1310 N",
+                   "--plane no --width 0.2 --depth 0.10 --density 1440 --phi-deg 35 --delta-deg "
+                   "16.2 --speed 0.45 --from 0.5 "
+                   "--travel 1.5 --expected-n 280 --gate-percent 25 --cell 0.05"},
+                  {"Raked blade in sand [Hatamura 1977]; the formula of [Miedema 2014] for the "
+                   "largest force gives 259, 400, 605 N "
+                   "at "
+                   "rakes of 30, 45, 60",
+                   "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
+                   "--density 1460 --depth 0.10 --cell "
+                   "0.033 --ahead 4 --gate-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
+                  {"The same six times as fast, its pile full grown",
+                   "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
+                   "--density 1460 --depth 0.10 --cell "
+                   "0.033 --ahead 4 --gate-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
+                  {"Three speeds and two steps in one table, with a picture",
+                   "--speed 0.05,0.15,0.3 --courant 0.5,0.25 --cell 0.05 --plot blade.svg"}};
   rig.parameters = kBlade;
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
-  rig.headline = {"horizontal over expected", "horizontal force", "peak over expected", "at the end over its wedge",
-                  "scatter of the force"};
+  rig.headline = {"horizontal over expected", "horizontal force", "peak over expected",
+                  "at the end over its wedge", "scatter of the force"};
   rig.experiment = run_blade;
   return rig;
 }

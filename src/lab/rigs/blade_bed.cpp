@@ -13,7 +13,8 @@ BladeCase blade_case(const Setup& setup, double rake, double depth, double width
   out.phi = s.friction_angle, out.delta = s.tool_friction_angle, out.rake = rake;
   out.depth = depth, out.width = width;
   // The cohesion of intact soil that softens is gone where the tool has been: it is no reference.
-  out.unit_weight = s.bank_density * kGravity, out.cohesion = s.residual_cohesion, out.adhesion = s.adhesion;
+  out.unit_weight = s.bank_density * kGravity, out.cohesion = s.residual_cohesion,
+  out.adhesion = s.adhesion;
   return out;
 }
 
@@ -22,14 +23,17 @@ Reference upright_reference(const BladeCase& blade) {
   out.rough = blade.delta > 0 || blade.adhesion > 0;
   if (!out.rough) {
     out.expected = out.low = out.high =
-        blade.width * rankine_passive_force(blade.phi, blade.cohesion, blade.unit_weight, blade.depth);
+        blade.width *
+        rankine_passive_force(blade.phi, blade.cohesion, blade.unit_weight, blade.depth);
     out.source = "smooth and upright: [Rankine 1857]";
     return out;
   }
   const PassiveBand band = rough_passive(blade);
   out.expected = out.low = band.low, out.high = band.high, out.vertical = -band.vertical;
   // Both ends are named: a reader must see which theory a rough tool is held against.
-  out.source = "rough: slip lines [Sokolovskii 1965], weight from [Lancellotta 2002] to log spiral [Caquot 1948]";
+  out.source =
+      "rough: slip lines [Sokolovskii 1965], weight from [Lancellotta 2002] to log spiral [Caquot "
+      "1948]";
   return out;
 }
 
@@ -43,7 +47,8 @@ std::function<double(double, double)> trench(double depth) {
 }
 
 Report finish_blade(Site& site, const ToolDriver& driver, Report report) {
-  report.add("particles through the blade", static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
+  report.add("particles through the blade",
+             static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
              "none may pass; summed over steps [docs/validation.md, Blades and earth pressure]");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   driver.write(report, 20);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigs `bucket` (fill along a path), `scrape` (flat on level ground), `cycle` (dig and dump at one place).
+// Rigs `bucket` (fill along a path), `scrape` (flat on level ground), `cycle` (dig and dump at one
+// place).
 //
-// No closed form fills a bucket. What can be asked is that force and load change little when the cell is halved, that a
-// bucket dragged flat neither jams nor throws, and that over several digs not a gram is lost while ground wakes and
-// takes soil back.
-// The wedge of the literature stands beside the drag for scale only.
+// No closed form fills a bucket. What can be asked is that force and load change little when the
+// cell is halved, that a bucket dragged flat neither jams nor throws, and that over several digs
+// not a gram is lost while ground wakes and takes soil back. The wedge of the literature stands
+// beside the drag for scale only.
 #include <algorithm>
 #include <cmath>
 
@@ -18,10 +19,13 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Buckets and carried loads]";
 
-/// Profile of a bucket of unit size: lip, end of the floor, heel, back, rim; the mouth looks ahead and up.
+/// Profile of a bucket of unit size: lip, end of the floor, heel, back, rim; the mouth looks ahead
+/// and up.
 const std::vector<Vec2>& profile() {
-  // Like an excavator's: a floor to cut with, a round heel to roll the soil on, a back, an open mouth.
-  static const std::vector<Vec2> points = {{0, 0}, {-0.6, 0}, {-0.8, 0.15}, {-0.8, 0.5}, {-0.55, 0.7}};
+  // Like an excavator's: a floor to cut with, a round heel to roll the soil on, a back, an open
+  // mouth.
+  static const std::vector<Vec2> points = {
+      {0, 0}, {-0.6, 0}, {-0.8, 0.15}, {-0.8, 0.5}, {-0.55, 0.7}};
   return points;
 }
 
@@ -39,7 +43,8 @@ double profile_area() {
 /// A bucket of `width` and struck volume, with its frame at the lip.
 struct Bucket {
   double width, size;
-  Bucket(double width_in, double volume) : width(width_in), size(std::sqrt(volume / (width_in * profile_area()))) {}
+  Bucket(double width_in, double volume)
+      : width(width_in), size(std::sqrt(volume / (width_in * profile_area()))) {}
   scene::Shell shell() const {
     scene::Shell s;
     s.name = "bucket";
@@ -62,23 +67,28 @@ struct Bucket {
 };
 
 /// What a load would measure when heaped loose [m3]: fill factors are quoted so.
-double loose_volume(const scene::Soil& soil, double mass) { return mass / soil.bank_density * soil.swell; }
+double loose_volume(const scene::Soil& soil, double mass) {
+  return mass / soil.bank_density * soil.swell;
+}
 
-/// Turns the bucket about its lip by `angle` [rad] (positive: mouth up) while the lip moves by `travel`.
+/// Turns the bucket about its lip by `angle` [rad] (positive: mouth up) while the lip moves by
+/// `travel`.
 Vec3 turn(ToolDriver& driver, double angle, const Vec3& travel, double seconds) {
   // Mouth up is a turn about -y.
   driver.set_twist(travel / seconds, Vec3(0, -angle / seconds, 0));
   return driver.run(seconds);
 }
 
-/// Lip down at `attack`, level drag, curl, lift: `fill` returns the mean horizontal force of the drag [N].
+/// Lip down at `attack`, level drag, curl, lift: `fill` returns the mean horizontal force of the
+/// drag [N].
 struct Scoop {
   double depth, drag, speed, attack, curl, lift;
   double fill(ToolDriver& driver) const {
     // The way in is along the floor's own direction: the bucket cuts, its back does not press.
     const double in = depth / std::tan(attack);
     driver.advance(std::hypot(in, depth), speed * Vec3(std::cos(attack), 0, -std::sin(attack)));
-    turn(driver, attack, Vec3(0.5 * attack * speed, 0, 0), 0.5 * attack);  // floor level, one rad/s or two
+    // Floor level, one rad/s or two
+    turn(driver, attack, Vec3(0.5 * attack * speed, 0, 0), 0.5 * attack);
     const Vec3 force = driver.advance(drag, Vec3(speed, 0, 0));
     // The lip rises as it curls, or the heel would dig in behind it.
     turn(driver, curl, Vec3(0.35 * depth, 0, 1.2 * depth), curl);
@@ -87,7 +97,9 @@ struct Scoop {
     return -force.x();
   }
   // For the progress line alone.
-  double seconds() const { return (depth / std::sin(attack) + drag) / speed + 0.5 * attack + curl + lift / 0.8; }
+  double seconds() const {
+    return (depth / std::sin(attack) + drag) / speed + 0.5 * attack + curl + lift / 0.8;
+  }
 };
 
 /// The lift starts from the drag's depth.
@@ -112,8 +124,8 @@ Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   // Half a bucket and more beyond the path on every side, so that the bed's walls are not felt.
   const double reach = scoop.depth / std::tan(scoop.attack) + scoop.drag + 1.0 + 2 * scoop.depth,
                side = bucket.width / 2 + 1.5 * scoop.depth;
-  const Box bed{Vec3(-0.5, -whole_cells(side, cell), -whole_cells(scoop.depth + 0.3, cell)),
-                Vec3(whole_cells(reach, cell), whole_cells(side, cell), 0)};
+  const SiteBox bed{Vec3(-0.5, -whole_cells(side, cell), -whole_cells(scoop.depth + 0.3, cell)),
+                    Vec3(whole_cells(reach, cell), whole_cells(side, cell), 0)};
   SiteOptions options;
   options.size = 2 * (reach + 1);
   // Thirty centimetres of particles under the path, then ground.
@@ -138,7 +150,8 @@ Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   out.held = force.z() / (-out.payload * kGravity);
   out.held = std::abs(out.held);
   if (write) driver.write(report, setup["speed"] / (2 * cell));
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   site.finish(report);
   return out;
 }
@@ -163,18 +176,22 @@ Report run_bucket(const Setup& setup) {
                         setup.soil.cohesion,
                         0,
                         0};
-  report.add("drag over an upright wedge of the depth", coarse.force / reece_wedge(wedge).horizontal, "", kNone, kNone,
-             kNone, "[Reece 1964], for scale");
-  // The cell is the one length the soil does not have: a result that changes with it is the method's.
+  report.add("drag over an upright wedge of the depth",
+             coarse.force / reece_wedge(wedge).horizontal, "", kNone, kNone, kNone,
+             "[Reece 1964], for scale");
+  // The cell is the one length the soil does not have: a result that changes with it is the
+  // method's.
   if (setup.is("refine", "no")) return report;
   const Filled fine = run_fill(setup, setup.cell / 2, report, false);
-  report.add("force over the run at half the cell", coarse.force / fine.force, "", 1, 0.75, 1.25, kSource);
-  report.add("volume over the run at half the cell", coarse.payload / fine.payload, "", 1, 0.94, 1.06, kSource);
+  report.add("force over the run at half the cell", coarse.force / fine.force, "", 1, 0.75, 1.25,
+             kSource);
+  report.add("volume over the run at half the cell", coarse.payload / fine.payload, "", 1, 0.94,
+             1.06, kSource);
   return report;
 }
 
-/// Highest change of the ground's surface outside the bucket's path [m].
-/// One and a half metres beyond the drag's ends and a width beside it, soil may have been pushed or fallen.
+/// Highest change of the ground's surface outside the bucket's path [m]. One and a half metres
+/// beyond the drag's ends and a width beside it, soil may have been pushed or fallen.
 double change_outside(const heightfield::Ground& ground, double width, double length) {
   double most = 0;
   for (int iy = 0; iy < ground.ny(); ++iy)
@@ -188,11 +205,13 @@ double change_outside(const heightfield::Ground& ground, double width, double le
 
 /// What the drag of `scrape` told.
 struct Dragged {
-  Vec3 pressing = Vec3::Zero(), dragging = Vec3::Zero();  ///< mean forces; dragging: over the second half [N]
-  double load = 0;                                        ///< in the bucket at its end [kg]
+  /// Mean forces; dragging: over the second half [N].
+  Vec3 pressing = Vec3::Zero(), dragging = Vec3::Zero();
+  double load = 0;  ///< in the bucket at its end [kg]
 };
 
-/// Ground of its own for every drag: it wakes where the bucket comes, without particles at the start.
+/// Ground of its own for every drag: it wakes where the bucket comes, without particles at the
+/// start.
 SiteOptions scrape_site(const Setup& setup, bool crowding) {
   SiteOptions options;
   options.size = 2 * (setup["drag"] + 4);
@@ -215,8 +234,9 @@ Dragged drag_flat(const Setup& setup, const Site& site, ToolDriver& driver) {
   return out;
 }
 
-/// Flat contact over the whole floor, the case in which a grid contact is most likely to jam. Held against the same
-/// drag without crowding: moving particles apart must not carry what slides over them.
+/// Flat contact over the whole floor, the case in which a grid contact is most likely to jam. Held
+/// against the same drag without crowding: moving particles apart must not carry what slides over
+/// them.
 Report run_scrape(const Setup& setup) {
   const Bucket bucket(setup["width"], setup["volume"]);
   const Pose start = make_pose(0, 0.07 * setup.cell, 0.015 + 0.01);
@@ -238,18 +258,21 @@ Report run_scrape(const Setup& setup) {
   // Time to come to rest and go back into the ground, so that its surface is whole again.
   driver.run(3);
   Report report;
-  report.add("drag, second half", -with.dragging.x(), "N", -without.dragging.x(), -0.75 * without.dragging.x(),
-             -1.25 * without.dragging.x(), std::string("the same with crowding off, 25 % ") + kSource);
+  report.add("drag, second half", -with.dragging.x(), "N", -without.dragging.x(),
+             -0.75 * without.dragging.x(), -1.25 * without.dragging.x(),
+             std::string("the same with crowding off, 25 % ") + kSource);
   report.note("vertical force while pressing, mean", with.pressing.z(), "N");
-  report.add("vertical force, second half of the drag", std::abs(with.dragging.z()), "N", kNone, kNone,
-             1.2 * with.load * kGravity, std::string("the weight of the load and 20 %, either way ") + kSource);
+  report.add("vertical force, second half of the drag", std::abs(with.dragging.z()), "N", kNone,
+             kNone, 1.2 * with.load * kGravity,
+             std::string("the weight of the load and 20 %, either way ") + kSource);
   // Three times the bucket's own speed: grains may roll, not be shot.
   report.add("fastest soil when the bucket lifts off", fastest, "m/s", speed, kNone, 3 * speed,
              std::string("no energy gain ") + kSource);
-  report.add("ground outside the path", 1000 * change_outside(site.ground(), bucket.width, drag), "mm", 0, kNone,
-             1000 * setup.cell, std::string("one cell ") + kSource);
+  report.add("ground outside the path", 1000 * change_outside(site.ground(), bucket.width, drag),
+             "mm", 0, kNone, 1000 * setup.cell, std::string("one cell ") + kSource);
   report.note("soil in the bucket at the end of the drag", with.load, "kg");
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   report.add("ledger", static_cast<double>(site.solver().ledger().error()), "quanta", 0, 0, 0,
              "closed [docs/exchange.md, ledger]");
   driver.write(report, speed / (2 * setup.cell));
@@ -257,7 +280,8 @@ Report run_scrape(const Setup& setup) {
   return report;
 }
 
-/// Digs, carries and tips again and again at one place, on ground that exchanges soil with the particles.
+/// Digs, carries and tips again and again at one place, on ground that exchanges soil with the
+/// particles.
 Report run_cycle(const Setup& setup) {
   const Bucket bucket(setup["width"], setup["volume"]);
   const Scoop scoop = scoop_of(setup);
@@ -276,7 +300,8 @@ Report run_cycle(const Setup& setup) {
   double ledger = 0, sum = 0;
   for (int i = 0; i < count; ++i) {
     // Each dig begins where the last one left the floor, deeper by the step.
-    const Pose home = make_pose(0, 0.07 * setup.cell, 0.02 - i * setup["step-down"], 0, scoop.attack, 0);
+    const Pose home =
+        make_pose(0, 0.07 * setup.cell, 0.02 - i * setup["step-down"], 0, scoop.attack, 0);
     // Put back rather than moved: the way home would cost time and touch nothing.
     site.tool(driver.tool()).motion.X_WT = home;  // in the air over the hole
     forces.values.push_back(scoop.fill(driver));
@@ -308,7 +333,8 @@ Report run_cycle(const Setup& setup) {
   report.note("wakes", static_cast<double>(site.solver().stats().wakes), "");
   report.note("deposits", static_cast<double>(site.solver().stats().deposits), "");
   report.note("particles at the end", site.solver().stats().particles, "");
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   report.series = {volumes, forces};
   site.finish(report);
   return report;
@@ -333,15 +359,18 @@ Rig bucket_rig() {
   rig.name = "bucket";
   rig.summary = "bucket filled along a path: force and load, against half the cell";
   rig.drawing =
-      "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor at `attack-deg`, "
-      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, goes up by `depth` and `lift` and "
-      "holds. `refine` yes repeats it at half the cell and compares mean force of the drag and load.";
+      "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor "
+      "at `attack-deg`, "
+      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, goes up by "
+      "`depth` and `lift` and "
+      "holds. `refine` yes repeats it at half the cell and compares mean force of the drag and "
+      "load.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back(yes_no("refine", false, "also at half the cell", "one run"));
   rig.headline = {"mean horizontal force of the drag", "load", "held force over the load's weight",
                   "drag over an upright wedge of the depth"};
-  rig.examples = {
-      {"Two cells and two steps in one table, with a picture", "--cell 0.1,0.05 --courant 0.5,0.25 --plot bucket.svg"}};
+  rig.examples = {{"Two cells and two steps in one table, with a picture",
+                   "--cell 0.1,0.05 --courant 0.5,0.25 --plot bucket.svg"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run_bucket;
   return rig;
@@ -352,8 +381,10 @@ Rig scrape_rig() {
   rig.name = "scrape";
   rig.summary = "bucket pressed flat on level ground and dragged: no jam, no gain of energy";
   rig.drawing =
-      "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged `drag` at `speed` and "
-      "lifted; soil wakes and is deposited by itself. The drag's second half is held against the same with crowding "
+      "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged `drag` at "
+      "`speed` and "
+      "lifted; soil wakes and is deposited by itself. The drag's second half is held against the "
+      "same with crowding "
       "off, "
       "its vertical force against the weight of the load.";
   rig.parameters = {{"width", 0.8, "m", "of the bucket", above(0)},
@@ -371,7 +402,8 @@ Rig cycle_rig() {
   rig.name = "cycle";
   rig.summary = "dig and dump several times at one place: volume per pass, ledger";
   rig.drawing =
-      "The bucket's path of rig `bucket` on ground that wakes and takes soil back by itself, `cycles` times, each "
+      "The bucket's path of rig `bucket` on ground that wakes and takes soil back by itself, "
+      "`cycles` times, each "
       "`step-down` deeper; every load is carried `dump` to the side and tipped by 130 degrees.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back({"cycles", 3, "", "in all", count_from(1)});

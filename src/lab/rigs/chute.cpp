@@ -10,8 +10,8 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// Appends a side plate: triangles over vertices that alternate between y = 0 (even) and y = gap (odd). `corners` are
-/// those at y = 0, in an order whose normal looks along +y.
+/// Appends a side plate: triangles over vertices that alternate between y = 0 (even) and y = gap
+/// (odd). `corners` are those at y = 0, in an order whose normal looks along +y.
 void add_sides(scene::Shell& s, const Triangles& corners) {
   for (const auto& t : corners) {
     s.triangles.push_back({2 * t[0], 2 * t[1], 2 * t[2]});
@@ -19,7 +19,8 @@ void add_sides(scene::Shell& s, const Triangles& corners) {
   }
 }
 
-/// One corner of both side plates. They stand off by half their thickness: faces, not middles, bound the soil.
+/// One corner of both side plates. They stand off by half their thickness: faces, not middles,
+/// bound the soil.
 void add_pair(scene::Shell& s, const ChuteShape& c, double x, double z) {
   s.vertices.emplace_back(x, -c.half, z);
   s.vertices.emplace_back(x, c.gap + c.half, z);
@@ -31,7 +32,8 @@ void add_strip(scene::Shell& s, int a, int b) {
   s.triangles.push_back({2 * a, 2 * b + 1, 2 * b});
 }
 
-// Four blocks are enough for the middle to be plane; a block on either side keeps it off the plates.
+// Four blocks are enough for the middle to be plane; a block on either side keeps it off the
+// plates.
 constexpr double kRoughBlocks = 4;  ///< in the middle of a chute with friction
 
 }  // namespace
@@ -58,7 +60,8 @@ scene::Shell chute_sides(const ChuteShape& c) {
   scene::Shell s;
   s.name = "sides";
   s.half_thickness = c.half;
-  // Smooth whatever the soil: what the blade's own shell feels along its face is then the blade's alone.
+  // Smooth whatever the soil: what the blade's own shell feels along its face is then the blade's
+  // alone.
   s.friction_share = s.adhesion_share = 0;
   add_pair(s, c, -c.back, c.bottom);
   add_pair(s, c, -c.back, c.top);
@@ -130,18 +133,19 @@ SiteOptions chute_site(const Setup& setup, const ChuteBed& bed, double gap) {
   out.energy = setup.energy;
   // Twice a whole number of blocks: a block begins at y = 0.
   const double block = soil::kBlockCells * cell;
-  out.size = 2 * block * std::ceil((std::max(bed.back, std::max(bed.ahead, gap)) + 2 * block) / block);
+  out.size =
+      2 * block * std::ceil((std::max(bed.back, std::max(bed.ahead, gap)) + 2 * block) / block);
   out.depth = bed.below + 8 * cell;
   out.surface = pit({Vec3(-bed.back, -margin, -bed.below), Vec3(bed.ahead, gap + margin, 0)});
   return out;
 }
 
-std::vector<soil::Particle> chute_fill(const Site& site, const ChuteBed& bed, double gap, bool rough,
-                                       const std::function<bool(const Vec3&)>& keep,
+std::vector<soil::Particle> chute_fill(const Site& site, const ChuteBed& bed, double gap,
+                                       bool rough, const std::function<bool(const Vec3&)>& keep,
                                        const std::function<double(double, double)>& surface) {
   const double cell = site.cell(), inset = chute_offset(cell), block = soil::kBlockCells * cell;
   // Soil fills the chute alone; the margin outside the plates stays empty.
-  const Box box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
+  const SiteBox box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
   auto out = site.fill(box, keep, rough ? 0 : 1);
   if (rough)
     for (soil::Particle& p : out) {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `column`: granular column collapse, plane or axisymmetric.
 //
-// A column that is let go spreads, stops and leaves a deposit; how far and how high depends on the aspect ratio a
-// alone, hardly on the grains. So the laws of the literature hold for any sand, and the rig needs no material data.
-// Between plates the collapse is plane strain, the state in which the law's friction angle is defined; the free
-// cylinder is nearer to triaxial states and spreads a little less than its law. Below 30 cells of length the run-out
-// falls short, as the thin tongue at the front is then a cell high.
+// A column that is let go spreads, stops and leaves a deposit; how far and how high depends on the
+// aspect ratio a alone, hardly on the grains. So the laws of the literature hold for any sand, and
+// the rig needs no material data. Between plates the collapse is plane strain, the state in which
+// the law's friction angle is defined; the free cylinder is nearer to triaxial states and spreads a
+// little less than its law. Below 30 cells of length the run-out falls short, as the thin tongue at
+// the front is then a cell high.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 
@@ -29,16 +30,20 @@ struct Column {
   double front(const Vec3& p) const { return axisymmetric ? p.head<2>().norm() : p.x(); }
 };
 
-/// Between smooth plates, against a third one; the plates stand a little off the grid's planes, as any plate does.
+/// Between smooth plates, against a third one; the plates stand a little off the grid's planes, as
+/// any plate does.
 void build_plane(Site& site, const Column& column) {
   const double cell = site.cell(), x0 = 0.13 * cell, y0 = 0.07 * cell;
-  scene::Shell walls =
-      channel(column.length * (2 + 4 * column.a), column.gap, -6 * cell, column.height + 8 * cell, true);
-  // Plates long enough for the widest run-out, low enough that no grain creeps under, high enough for the splash.
+  scene::Shell walls = channel(column.length * (2 + 4 * column.a), column.gap, -6 * cell,
+                               column.height + 8 * cell, true);
+  // Plates long enough for the widest run-out, low enough that no grain creeps under, high enough
+  // for the splash.
   walls.half_thickness = 0.2 * cell;
   site.add_tool(walls, make_pose(x0, y0, 0));
-  const double inset = 0.25 * cell;  // a quarter cell: half the spacing of particles, face and first row apart
-  const Box box{Vec3(x0 + inset, y0 + inset, 0), Vec3(x0 + column.length, y0 + column.gap - inset, column.height)};
+  // A quarter cell: half the spacing of particles, face and first row apart
+  const double inset = 0.25 * cell;
+  const SiteBox box{Vec3(x0 + inset, y0 + inset, 0),
+                    Vec3(x0 + column.length, y0 + column.gap - inset, column.height)};
   auto soil = site.fill(box);
   site.rest(soil, column.height);
   site.solver().insert(soil);
@@ -47,21 +52,24 @@ void build_plane(Site& site, const Column& column) {
 void build_round(Site& site, const Column& column) {
   const double r = column.length;
   const auto inside = [r](const Vec3& p) { return p.head<2>().norm() < r; };
-  // A lattice cut by a circle: its radius is uncertain by a quarter of a cell, one percent of 30 cells.
+  // A lattice cut by a circle: its radius is uncertain by a quarter of a cell, one percent of 30
+  // cells.
   auto soil = site.fill({Vec3(-r, -r, 0), Vec3(r, r, column.height)}, inside);
   site.rest(soil, column.height);
   site.solver().insert(soil);
 }
 
-/// Grains that fly ahead of the heap are no front: only those in contact count, and of them all but the first percent.
+/// Grains that fly ahead of the heap are no front: only those in contact count, and of them all but
+/// the first percent.
 double front_of(const Site& site, const Column& column) {
   std::vector<double> distance;
-  for (const Vec3& p : in_contact(site, site.solver().particles())) distance.push_back(column.front(p));
+  for (const Vec3& p : in_contact(site, site.solver().particles()))
+    distance.push_back(column.front(p));
   return percentile(std::move(distance), 0.99);
 }
 
-/// When the front moves [tau]: `accelerates` until its speed first reaches 95 % of the highest (read over 0.2 tau),
-/// `stops` when it has covered 99 % of its way.
+/// When the front moves [tau]: `accelerates` until its speed first reaches 95 % of the highest
+/// (read over 0.2 tau), `stops` when it has covered 99 % of its way.
 struct FrontTimes {
   double accelerates = kNone, stops = kNone;
 };
@@ -70,16 +78,20 @@ struct FrontTimes {
 FrontTimes times_of(const std::vector<double>& time, const std::vector<double>& front) {
   FrontTimes out;
   std::vector<double> speed;
-  for (std::size_t i = 2; i < time.size(); ++i) speed.push_back((front[i] - front[i - 2]) / (time[i] - time[i - 2]));
+  for (std::size_t i = 2; i < time.size(); ++i)
+    speed.push_back((front[i] - front[i - 2]) / (time[i] - time[i - 2]));
   if (speed.empty() || !(front.back() > front.front())) return out;
   const double fast = 0.95 * *std::max_element(speed.begin(), speed.end());
   const double far = front.front() + 0.99 * (front.back() - front.front());
-  const auto risen = std::find_if(speed.begin(), speed.end(), [fast](double v) { return v >= fast; });
+  const auto risen =
+      std::find_if(speed.begin(), speed.end(), [fast](double v) { return v >= fast; });
   // The first sample at this speed, not the last: later the front only loses speed.
-  out.accelerates = time[static_cast<std::size_t>(risen - speed.begin()) + 1];  // the middle of its two intervals
+  // The middle of its two intervals
+  out.accelerates = time[static_cast<std::size_t>(risen - speed.begin()) + 1];
   for (std::size_t i = 1; i < time.size() && std::isnan(out.stops); ++i)
     if (front[i] >= far)
-      out.stops = time[i - 1] + (time[i] - time[i - 1]) * (far - front[i - 1]) / (front[i] - front[i - 1]);
+      out.stops =
+          time[i - 1] + (time[i] - time[i - 1]) * (far - front[i - 1]) / (front[i] - front[i - 1]);
   return out;
 }
 
@@ -98,18 +110,21 @@ void judge_height(const Column& c, double height, Report& report) {
 }
 
 void judge(const Setup& setup, const Column& c, double run_out, double height, Report& report) {
-  const std::string source = std::string(c.axisymmetric ? "[Lube 2004] " : "[Lube 2005] ") + kChapter;
+  const std::string source =
+      std::string(c.axisymmetric ? "[Lube 2004] " : "[Lube 2005] ") + kChapter;
   const double expected = c.axisymmetric ? lube_axisymmetric_run_out(c.a) : lube_plane_run_out(c.a);
   // Bands around the law, as published runs scatter; wider for tall columns.
   double low = kNone, high = kNone;  // bands are given for these aspect ratios only
   if (!c.axisymmetric && c.a == 1) low = 1.2, high = 1.8;
-  if (!c.axisymmetric && c.a == 5) low = 1.6 * std::pow(5, 2.0 / 3), high = 2.7 * std::pow(5, 2.0 / 3);
+  if (!c.axisymmetric && c.a == 5)
+    low = 1.6 * std::pow(5, 2.0 / 3), high = 2.7 * std::pow(5, 2.0 / 3);
   if (c.axisymmetric && c.a == 1) low = 1.0, high = 1.5;
   if (c.axisymmetric && c.a == 3) low = 2.49, high = 3.81;
   const double phi = degrees(setup.soil.friction_angle);
   const bool known = !std::isnan(low) && std::abs(phi - 33) < 0.5 && !(setup.soil.cohesion > 0);
   report.add("run-out over L0", run_out, "", expected, low, high, source)
-      .holds_for(std::string("a of 1 or ") + (c.axisymmetric ? "3" : "5") + ", phi 33, no cohesion, 30 cells along L0",
+      .holds_for(std::string("a of 1 or ") + (c.axisymmetric ? "3" : "5") +
+                     ", phi 33, no cohesion, 30 cells along L0",
                  known && c.length > 29.999 * setup.cell);
   judge_height(c, height, report);
 }
@@ -138,8 +153,10 @@ Report run(const Setup& setup) {
   }
 
   Report report;
-  // The height is read from the surface a ball rolls on: the topmost grain stands above what carries others.
-  const HeapSurface surface = surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
+  // The height is read from the surface a ball rolls on: the topmost grain stands above what
+  // carries others.
+  const HeapSurface surface =
+      surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
   judge(setup, column, front.values.back(), surface.highest(), report);
   const FrontTimes times = times_of(time.values, front.values);
   report.add("front accelerates until", times.accelerates, "tau", 0.8, kNone, kNone,
@@ -147,7 +164,8 @@ Report run(const Setup& setup) {
   report.add("front stops after", times.stops, "tau", 3, kNone, kNone,
              std::string("near 3 tau [Lube 2004] [Lube 2005] ") + kChapter);
   // A leak would shorten the run-out without a word.
-  report.note("particles through a plate", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through a plate",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   report.series = {time, front};
   site.finish(report);
   return report;
@@ -158,18 +176,27 @@ Report run(const Setup& setup) {
 Rig column_rig() {
   Rig rig;
   rig.name = "column";
-  rig.summary = "column collapse: run-out and height of a plane or round column of sand that is let go";
+  rig.summary =
+      "column collapse: run-out and height of a plane or round column of sand that is let go";
   rig.drawing =
-      "`shape` plane: a block `l0` long and a x l0 high stands on rough level ground between two smooth plates `gap` "
-      "cells apart, its back against a third plate, and is let go on its free side. `shape` round: a free-standing "
-      "cylinder of radius `l0`, no plates. After `time` x sqrt(H0/g) the run-out is the 99th percentile of the "
-      "distances of particles that touch others; the height is that of the surface over the heap. The front "
-      "accelerates until its speed is within 5 % of the highest, and stops when 99 % of the way is done. The ground "
-      "holds the lowest layer, so the floor's friction is the soil's own. Bands hold for l0 of at least 30 cells, phi "
+      "`shape` plane: a block `l0` long and a x l0 high stands on rough level ground between two "
+      "smooth plates `gap` "
+      "cells apart, its back against a third plate, and is let go on its free side. `shape` round: "
+      "a free-standing "
+      "cylinder of radius `l0`, no plates. After `time` x sqrt(H0/g) the run-out is the 99th "
+      "percentile of the "
+      "distances of particles that touch others; the height is that of the surface over the heap. "
+      "The front "
+      "accelerates until its speed is within 5 % of the highest, and stops when 99 % of the way is "
+      "done. The ground "
+      "holds the lowest layer, so the floor's friction is the soil's own. Bands hold for l0 of at "
+      "least 30 cells, phi "
       "33 and a = 1 or 5 (plane), 1 or 3 (round).";
-  rig.examples = {{"Negative control: nearly rigid sand must fall outside the band", "--phi-deg 59"}};
+  rig.examples = {
+      {"Negative control: nearly rigid sand must fall outside the band", "--phi-deg 59"}};
   rig.parameters = {
-      choice("shape", "plane", "", {{"plane", 0, "a block between plates"}, {"round", 1, "a free cylinder"}}),
+      choice("shape", "plane", "",
+             {{"plane", 0, "a block between plates"}, {"round", 1, "a free cylinder"}}),
       {"a", 1, "", "height over length (radius)", above(0)},
       {"l0", 1.5, "m", "length or radius at the start", above(0)},
       {"gap", 5, "cells", "between the side plates", above(0)},

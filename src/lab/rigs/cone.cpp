@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `cone`: heaps built at a given angle, one that should stand and one that should slide.
 //
-// The sharp pair to `pour`: nothing falls here, the heap simply stands there at an angle a little below or above what
-// its friction holds. A law with a threshold keeps the first and loses the second; viscosity in disguise would lose
-// both slowly.
+// The sharp pair to `pour`: nothing falls here, the heap simply stands there at an angle a little
+// below or above what its friction holds. A law with a threshold keeps the first and loses the
+// second; viscosity in disguise would lose both slowly.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -27,7 +27,8 @@ struct Outcome {
 /// Builds a heap at `angle` [deg], lets it be for `time`, and books the run into the report.
 Outcome stand(const Setup& setup, double angle, Report& report) {
   const bool round = setup.is("shape", "cone");
-  const double base = setup["base"], cell = setup.cell, gap = setup["gap"] * cell, slope = std::tan(radians(angle));
+  const double base = setup["base"], cell = setup.cell, gap = setup["gap"] * cell,
+               slope = std::tan(radians(angle));
   SiteOptions options;
   // A heap that slides ends within twice its base.
   options.size = 6 * base;
@@ -42,18 +43,22 @@ Outcome stand(const Setup& setup, double angle, Report& report) {
     site.add_tool(walls, make_pose(-2.5 * base, -gap / 2 + 0.07 * cell, 0));
   }
   // Straight flanks from the axis to the base.
-  const auto surface = [=](double x, double y) { return slope * (base - (round ? std::hypot(x, y) : std::abs(x))); };
-  // A quarter of a cell off the plates, half the spacing of particles; the plates stand off the grid's planes.
+  const auto surface = [=](double x, double y) {
+    return slope * (base - (round ? std::hypot(x, y) : std::abs(x)));
+  };
+  // A quarter of a cell off the plates, half the spacing of particles; the plates stand off the
+  // grid's planes.
   const double y = round ? base : gap / 2 - 0.25 * cell, middle = round ? 0 : 0.07 * cell;
   auto soil = site.fill({Vec3(-base, middle - y, 0), Vec3(base, middle + y, slope * base)},
                         [&](const Vec3& p) { return p.z() < surface(p.x(), p.y()); });
-  // The stress of level ground under each point is not that of a heap: its flanks must find their shear themselves.
+  // The stress of level ground under each point is not that of a heap: its flanks must find their
+  // shear themselves.
   site.rest(soil, surface);
   site.solver().insert(soil);
   // The same reading before and after: a bias of the measure falls out of the difference.
   const auto flank = [&] {
-    return degrees(
-        flank_angle(surface_of(in_contact(site, site.solver().particles()), cell, 0), Vec2::Zero(), round, cell));
+    return degrees(flank_angle(surface_of(in_contact(site, site.solver().particles()), cell, 0),
+                               Vec2::Zero(), round, cell));
   };
   Outcome out;
   out.before = flank();
@@ -61,7 +66,8 @@ Outcome stand(const Setup& setup, double angle, Report& report) {
   out.after = flank();
   std::vector<double> moved;
   const auto end = site.solver().particles();
-  for (std::size_t i = 0; i < end.size(); ++i) moved.push_back((site.position(end[i]) - site.position(soil[i])).norm());
+  for (std::size_t i = 0; i < end.size(); ++i)
+    moved.push_back((site.position(end[i]) - site.position(soil[i])).norm());
   // The last percent are grains that roll down the flank one by one.
   out.moved = percentile(std::move(moved), 0.99);
   site.finish(report);
@@ -72,17 +78,21 @@ Outcome stand(const Setup& setup, double angle, Report& report) {
 Report run(const Setup& setup) {
   Report report;
   const double phi = degrees(setup.soil.friction_angle);
-  const Outcome low = stand(setup, phi + setup["stands"], report), high = stand(setup, phi + setup["slides"], report);
+  const Outcome low = stand(setup, phi + setup["stands"], report),
+                high = stand(setup, phi + setup["slides"], report);
   // What was built is read like what is left: the lattice makes steps of the flank.
   report.note("lower heap, angle built", low.before, "deg");
-  report.add("lower heap, angle lost", low.before - low.after, "deg", 0, kNone, 1, std::string("stands ") + kSource)
+  report
+      .add("lower heap, angle lost", low.before - low.after, "deg", 0, kNone, 1,
+           std::string("stands ") + kSource)
       .holds_for("phi - 2 or less", setup["stands"] < -1.999);
   report.note("lower heap, farthest motion (99 %)", 1000 * low.moved, "mm");
   report.note("steeper heap, angle built", high.before, "deg");
   report
       .add("steeper heap, angle lost", high.before - high.after, "deg", kNone, 1.5, kNone,
            std::string("slides ") + kSource)
-      .holds_for("phi + 3 or more, no cohesion", setup["slides"] > 2.999 && !(setup.soil.cohesion > 0));
+      .holds_for("phi + 3 or more, no cohesion",
+                 setup["slides"] > 2.999 && !(setup.soil.cohesion > 0));
   report.note("steeper heap, angle at the end", high.after, "deg");
   report.note("steeper heap, farthest motion (99 %)", 1000 * high.moved, "mm");
   return report;
@@ -95,16 +105,20 @@ Rig cone_rig() {
   rig.name = "cone";
   rig.summary = "heaps built at an angle: one must stand, a steeper one must slide";
   rig.drawing =
-      "A heap of half width `base` is built on rough level ground with straight flanks and the vertical stress of the "
-      "soil above each point, once at phi + `stands` and once at phi + `slides` degrees. It is watched for `time`. It "
-      "stands when its flank loses at most 1 degree, it slides when it loses at least 1.5. `shape` plane: between "
+      "A heap of half width `base` is built on rough level ground with straight flanks and the "
+      "vertical stress of the "
+      "soil above each point, once at phi + `stands` and once at phi + `slides` degrees. It is "
+      "watched for `time`. It "
+      "stands when its flank loses at most 1 degree, it slides when it loses at least 1.5. `shape` "
+      "plane: between "
       "smooth plates `gap` cells apart; cone: free (triaxial: weaker than phi says).";
-  rig.parameters = {choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
-                    {"base", 2, "m", "half width", above(0)},
-                    {"gap", 5, "cells", "between the side plates", above(0)},
-                    {"stands", -2, "deg", "angle of the lower heap against phi", any()},
-                    {"slides", 3, "deg", "angle of the steeper heap against phi", above(0)},
-                    {"time", 3, "s", "simulated time of each", above(0)}};
+  rig.parameters = {
+      choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
+      {"base", 2, "m", "half width", above(0)},
+      {"gap", 5, "cells", "between the side plates", above(0)},
+      {"stands", -2, "deg", "angle of the lower heap against phi", any()},
+      {"slides", 3, "deg", "angle of the steeper heap against phi", above(0)},
+      {"time", 3, "s", "simulated time of each", above(0)}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;
   return rig;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `cut`: how high a vertical cut in cohesive soil stands.
 //
-// Cohesion is what lets a trench stand. A vertical face holds for certain while no tension is needed, and fails for
-// certain well above the critical height of a slip circle; between the two the rig finds by halving where the law lets
-// go.
+// Cohesion is what lets a trench stand. A vertical face holds for certain while no tension is
+// needed, and fails for certain well above the critical height of a slip circle; between the two
+// the rig finds by halving where the law lets go.
 #include <algorithm>
 #include <cmath>
 
@@ -33,7 +33,8 @@ double face_motion(const Site& site, double height, const std::vector<Vec3>& sta
   return sum / count;
 }
 
-/// Two smooth plates beside the whole bed, three cells past its ends and under it; their fronts look at the soil.
+/// Two smooth plates beside the whole bed, three cells past its ends and under it; their fronts
+/// look at the soil.
 scene::Shell plates(const ChuteBed& bed, double gap, double cell) {
   const double half = chute_half(cell), y0 = -half, y1 = gap + half, x0 = -bed.back - 3 * cell,
                x1 = bed.ahead + 3 * cell, z0 = -bed.below - 3 * cell, z1 = 4 * cell;
@@ -50,7 +51,8 @@ scene::Shell plates(const ChuteBed& bed, double gap, double cell) {
 double try_cut(const Setup& setup, double height, Report& report) {
   const double cell = setup.cell, gap = 4 * cell;
   const double below = whole_cells(height + setup["below"] * height, cell), foot = height;
-  const ChuteBed bed{whole_cells(setup["front"] * height, cell), whole_cells(setup["back"] * height, cell), below};
+  const ChuteBed bed{whole_cells(setup["front"] * height, cell),
+                     whole_cells(setup["back"] * height, cell), below};
   Site site(setup, chute_soils(setup.soil), chute_site(setup, bed, gap));
   site.add_tool(plates(bed, gap, cell), make_pose(0, chute_offset(cell), 0));
   // Nothing stands ahead of the face: the soil is let go by laying it without support.
@@ -82,7 +84,8 @@ Report run(const Setup& setup) {
     const double motion = try_cut(setup, height, report);
     heights.values.push_back(height);
     motions.values.push_back(motion);
-    if (setup.progress) setup.progress(std::min(0.99, heights.values.size() / (2 + setup["trials"])));
+    if (setup.progress)
+      setup.progress(std::min(0.99, heights.values.size() / (2 + setup["trials"])));
     return motion;
   };
   // Below the first no element needs tension; at the second any mechanism fails.
@@ -93,7 +96,9 @@ Report run(const Setup& setup) {
       .add("motion at 0.9 of the no-tension height", 100 * low, "% of H", 0, kNone, 100 * share,
            std::string("stands ") + kSource)
       .holds_for(range, heights.values[0] < 0.95 * safe);
-  report.add("motion at 1.25 Hc", 100 * high, "% of H", kNone, 100 * share, kNone, std::string("fails ") + kSource)
+  report
+      .add("motion at 1.25 Hc", 100 * high, "% of H", kNone, 100 * share, kNone,
+           std::string("fails ") + kSource)
       .holds_for(range, heights.values[1] > 1.2 * critical);
   // The two gated heights bracket the search; whether they really stand and fall is judged above.
   double stands = 0.9 * safe, fails = 1.25 * critical;
@@ -116,9 +121,12 @@ Rig cut_rig() {
   rig.name = "cut";
   rig.summary = "vertical cut in cohesive soil: the height that stands";
   rig.drawing =
-      "Cohesive soil between smooth plates with an upright free face, at rest under its own weight without support of "
-      "the face, is let go for `time`. It stands when the upper half of the soil within half a height of the face has "
-      "moved less than `limit` heights in the mean. Tried are 0.9 of the height that holds without tension, 1.25 Hc, "
+      "Cohesive soil between smooth plates with an upright free face, at rest under its own weight "
+      "without support of "
+      "the face, is let go for `time`. It stands when the upper half of the soil within half a "
+      "height of the face has "
+      "moved less than `limit` heights in the mean. Tried are 0.9 of the height that holds without "
+      "tension, 1.25 Hc, "
       "and `trials` halvings between.";
   rig.parameters = {{"time", 1.5, "s", "of each trial", above(0)},
                     {"trials", 3, "", "halvings between the two heights", count_from(1)},

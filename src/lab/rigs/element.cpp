@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigs `shear` and `triaxial`: one element of soil, in the middle of a small sample that the kernels themselves strain.
+// Rigs `shear` and `triaxial`: one element of soil, in the middle of a small sample that the
+// kernels themselves strain.
 //
-// The law by itself is tested without a grid (tests/soil/particles). Here the same strains come through transfers,
-// contact and steps, as in any dig, and the stress is read from the particles in the middle, so that rims, lids and
-// plates only have to strain the sample and are not what is measured. There is no gravity: the sample is the same
-// everywhere.
+// The law by itself is tested without a grid (tests/soil/particles). Here the same strains come
+// through transfers, contact and steps, as in any dig, and the stress is read from the particles in
+// the middle, so that rims, lids and plates only have to strain the sample and are not what is
+// measured. There is no gravity: the sample is the same everywhere.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 #include "lab/theory/earth_pressure.h"
 
@@ -24,13 +25,14 @@ struct Stress {
   double xx = 0, yy = 0, zz = 0;
 };
 
-Stress stress_in(const Site& site, const Box& box) {
+Stress stress_in(const Site& site, const SiteBox& box) {
   Stress sum;
   double count = 0;
   for (const soil::Particle& p : site.solver().particles()) {
     if (!box.contains(site.position(p))) continue;
     const double pressure = site.pressure(p);
-    sum.xx += pressure - static_cast<double>(p.s[0]), sum.yy += pressure - static_cast<double>(p.s[1]);
+    sum.xx += pressure - static_cast<double>(p.s[0]),
+        sum.yy += pressure - static_cast<double>(p.s[1]);
     sum.zz += pressure - static_cast<double>(p.s[2]);
     count += 1;
   }
@@ -40,7 +42,7 @@ Stress stress_in(const Site& site, const Box& box) {
 }
 
 /// Particles under the pressure `p` on all sides, from the start.
-std::vector<soil::Particle> pressed(const Site& site, const Box& box, double p) {
+std::vector<soil::Particle> pressed(const Site& site, const SiteBox& box, double p) {
   auto out = site.fill(box);
   const double bulk = site.soil().young_modulus / (3 * (1 - 2 * site.soil().poisson));
   for (soil::Particle& grain : out) grain.j = static_cast<float>(1 - p / bulk);
@@ -48,13 +50,13 @@ std::vector<soil::Particle> pressed(const Site& site, const Box& box, double p) 
 }
 
 /// Site without gravity, its ground a pit of the sample's size whose floor and walls rest.
-SiteOptions weightless(const Box& sample, double floor, double cell) {
+SiteOptions weightless(const SiteBox& sample, double floor, double cell) {
   SiteOptions out;
   const double reach = std::max(sample.high.x(), sample.high.y());
   out.size = 2 * (reach + 8 * cell);
   out.depth = -floor + 8 * cell;
   out.gravity = Vec3::Zero();
-  out.surface = pit(Box{Vec3(sample.low.x(), sample.low.y(), floor), sample.high});
+  out.surface = pit(SiteBox{Vec3(sample.low.x(), sample.low.y(), floor), sample.high});
   return out;
 }
 
@@ -85,7 +87,8 @@ struct Press {
   }
 };
 
-/// Sine of the angle that the largest and the least of three stresses mobilise: tau / sigma of the plane that shears.
+/// Sine of the angle that the largest and the least of three stresses mobilise: tau / sigma of the
+/// plane that shears.
 double mobilised(const Stress& s) {
   const double most = std::max({s.xx, s.yy, s.zz}), least = std::min({s.xx, s.yy, s.zz});
   return std::clamp((most - least) / (most + least), -1.0, 1.0);
@@ -97,14 +100,15 @@ struct Strained {
   Stress last;      ///< at the end
 };
 
-/// Strains a cube evenly by `rate` [1/s], without change of volume, until the largest strain is `strain`.
+/// Strains a cube evenly by `rate` [1/s], without change of volume, until the largest strain is
+/// `strain`.
 Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   const double cell = setup.cell, half = 0.5 * setup["edge"] * cell, p = setup["pressure-pa"];
-  const Box sample{Vec3::Constant(-half), Vec3::Constant(half)};
+  const SiteBox sample{Vec3::Constant(-half), Vec3::Constant(half)};
   Setup smooth = setup;
   smooth.soil = without_tool_friction(setup.soil);
   // In the air: a pit twice as wide and as deep as the sample.
-  Site site(smooth, weightless(Box{2 * sample.low, 2 * sample.high}, -half - 8 * cell, cell));
+  Site site(smooth, weightless(SiteBox{2 * sample.low, 2 * sample.high}, -half - 8 * cell, cell));
   auto soil = pressed(site, sample, p);
   // The sample moves evenly from the start, plates and all: no wave runs through it.
   for (soil::Particle& grain : soil)
@@ -117,7 +121,7 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   press.strain(site, half, rate);
   const double fastest = rate.cwiseAbs().maxCoeff(), seconds = setup["strain"] / fastest;
   site.expect(seconds);
-  const Box middle{Vec3::Constant(-half / 2), Vec3::Constant(half / 2)};
+  const SiteBox middle{Vec3::Constant(-half / 2), Vec3::Constant(half / 2)};
   Series strain{"largest strain", "", {}}, sine{"mobilised sin phi", "", {}};
   constexpr int kReadings = 20;
   Strained out;
@@ -136,7 +140,8 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
 
 /// Whether the theory of both rigs speaks of this setup.
 bool plain(const Setup& setup) {
-  return !(setup.soil.cohesion > 0) && !(setup.soil.dilatancy_angle > 0) && setup["strain"] > 0.0399;
+  return !(setup.soil.cohesion > 0) && !(setup.soil.dilatancy_angle > 0) &&
+         setup["strain"] > 0.0399;
 }
 
 Report run_shear(const Setup& setup) {
@@ -145,7 +150,8 @@ Report run_shear(const Setup& setup) {
   Report report;
   const Strained got = strain_cube(setup, Vec3(-rate, 0, rate), report);
   const double expected = std::sin(setup.soil.friction_angle);
-  // Below 0.1 /s soil has up to its static share more [docs/soil.md, static friction]; planes shear by 2 rate.
+  // Below 0.1 /s soil has up to its static share more [docs/soil.md, static friction]; planes shear
+  // by 2 rate.
   const double share = 2 * rate < 0.1 ? setup.soil.static_friction_share : 0;
   report
       .add("tau over sigma", got.sine, "", expected, 0.99 * expected, (1.01 + share) * expected,
@@ -153,8 +159,8 @@ Report run_shear(const Setup& setup) {
       .holds_for("soil without cohesion and dilatancy, strained by 0.04 or more, 0.005 .. 0.6 m/s",
                  plain(setup) && speed > 0.00499 && speed < 0.6001);
   report.note("tau over sigma / sin phi", got.sine / expected, "");
-  report.note("middle stress over the mean of the others", 2 * got.last.yy / (got.last.xx + got.last.zz), "",
-              "1 without dilatancy");
+  report.note("middle stress over the mean of the others",
+              2 * got.last.yy / (got.last.xx + got.last.zz), "", "1 without dilatancy");
   report.note("normal stress", 0.5 * (got.last.xx + got.last.zz), "Pa");
   return report;
 }
@@ -165,13 +171,15 @@ Report run_triaxial(const Setup& setup) {
   const Strained got = strain_cube(setup, Vec3(-axial / 2, -axial / 2, axial), report);
   const double expected = degrees(matsuoka_nakai_triaxial(setup.soil.friction_angle));
   report
-      .add("mobilised friction angle", degrees(std::asin(got.sine)), "deg", expected, expected - 0.2, expected + 0.2,
+      .add("mobilised friction angle", degrees(std::asin(got.sine)), "deg", expected,
+           expected - 0.2, expected + 0.2,
            std::string("[Matsuoka 1974] matched in plane strain ") + kSource)
       .holds_for("soil without cohesion and dilatancy, strained by 0.04 or more", plain(setup));
   report.note("plane-strain angle", degrees(setup.soil.friction_angle), "deg");
   report.note("axial stress", got.last.zz, "Pa");
   report.note("stress on the sides", 0.5 * (got.last.xx + got.last.yy), "Pa");
-  report.note("difference of the sides", 2 * std::abs(got.last.xx - got.last.yy) / (got.last.xx + got.last.yy), "");
+  report.note("difference of the sides",
+              2 * std::abs(got.last.xx - got.last.yy) / (got.last.xx + got.last.yy), "");
   return report;
 }
 
@@ -180,12 +188,16 @@ Report run_triaxial(const Setup& setup) {
 Rig shear_rig() {
   Rig rig;
   rig.name = "shear";
-  rig.summary = "shear of a sample in plane strain: tau over sigma in its middle is sin phi, at any speed";
+  rig.summary =
+      "shear of a sample in plane strain: tau over sigma in its middle is sin phi, at any speed";
   rig.drawing =
-      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six smooth plates: one pair "
-      "closes at `speed` each, one opens as fast, the third stays, until the strain is `strain`. tau over sigma is "
+      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six "
+      "smooth plates: one pair "
+      "closes at `speed` each, one opens as fast, the third stays, until the strain is `strain`. "
+      "tau over sigma is "
       "that "
-      "of the planes that shear, (s1 - s3) / (s1 + s3) of the mean stress of the particles in the middle, over the "
+      "of the planes that shear, (s1 - s3) / (s1 + s3) of the mean stress of the particles in the "
+      "middle, over the "
       "last "
       "quarter; what plates feel is not used.";
   rig.examples = {{"As slow as a machine ever moves", "--speed 0.005"}};
@@ -203,10 +215,13 @@ Rig triaxial_rig() {
   rig.name = "triaxial";
   rig.summary = "triaxial compression and extension: the mobilised friction angle";
   rig.drawing =
-      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six smooth plates: its axis "
+      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six "
+      "smooth plates: its axis "
       "is "
-      "strained by `strain` at `rate`, its sides by half of it the other way, so that its volume stays. The angle is "
-      "that of the largest and least mean stress of the particles in the middle, over the last quarter. Sand stands 2 "
+      "strained by `strain` at `rate`, its sides by half of it the other way, so that its volume "
+      "stays. The angle is "
+      "that of the largest and least mean stress of the particles in the middle, over the last "
+      "quarter. Sand stands 2 "
       "to 4 degrees below its plane-strain angle here, in compression as in extension.";
   rig.examples = {{"Extension", "--path extension"}};
   rig.parameters = {choice("path", "compression", "",

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigs `footing` (bearing capacity of a strip, plane strain) and `plate` (pressure and sinkage of a plate).
+// Rigs `footing` (bearing capacity of a strip, plane strain) and `plate` (pressure and sinkage of a
+// plate).
 //
-// A strip pressed into weightless soil has an exact limit load: 5.14 c for clay, and Nq times a surcharge that lies
-// beside it. Weightless is what makes it exact, so gravity is off or turned far down.
-// Zero dilatancy lowers Nq of a frictional soil below its associated value, to about that of Davis's angle; the gates
-// hold both ends. The shell feels soil up to a cell away: it is made narrower by an offset.
-// The plate on real ground gives the pressure-sinkage curve that wheel formulas are made of; the law of the particles
-// was not fitted to it.
+// A strip pressed into weightless soil has an exact limit load: 5.14 c for clay, and Nq times a
+// surcharge that lies beside it. Weightless is what makes it exact, so gravity is off or turned far
+// down. Zero dilatancy lowers Nq of a frictional soil below its associated value, to about that of
+// Davis's angle; the gates hold both ends. The shell feels soil up to a cell away: it is made
+// narrower by an offset. The plate on real ground gives the pressure-sinkage curve that wheel
+// formulas are made of; the law of the particles was not fitted to it.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/chute.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 #include "terramechanics/plate.h"
@@ -24,8 +25,9 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Footings and plates]";
 
-/// The surcharge layer: thickness [cells] and density, and the density of the soil under it [kg/m3]. Gravity is scaled
-/// so that the layer weighs the wanted surcharge; the soil's own weight is then small beside it.
+/// The surcharge layer: thickness [cells] and density, and the density of the soil under it
+/// [kg/m3]. Gravity is scaled so that the layer weighs the wanted surcharge; the soil's own weight
+/// is then small beside it.
 constexpr double kLayerCells = 2, kLayerDensity = 19000, kSoilDensity = 190;
 
 /// Lengths of the experiment, soil in whole cells [m].
@@ -35,8 +37,8 @@ struct Strip {
 
 Strip strip_of(const Setup& setup) {
   const double cell = setup.cell, breadth = setup["breadth"];
-  return {breadth, 4 * cell, whole_cells(setup["beside"] * breadth, cell), whole_cells(setup["below"] * breadth, cell),
-          setup["settlement"] * breadth};
+  return {breadth, 4 * cell, whole_cells(setup["beside"] * breadth, cell),
+          whole_cells(setup["below"] * breadth, cell), setup["settlement"] * breadth};
 }
 
 /// Smooth soil below, a strengthless layer above it; the layer is left out without surcharge.
@@ -53,9 +55,11 @@ std::vector<scene::Soil> strip_soils(const Setup& setup) {
   return {soil, layer};
 }
 
-/// Soil at rest under its surcharge, and the layer beside the place of the footing, at rest under its own weight.
-void lay_strip(Site& site, const Strip& strip, double surcharge) {
-  const double cell = site.cell(), y = chute_offset(cell), low = -strip.ahead - strip.breadth / 2, high = -low;
+/// Soil at rest under its surcharge, and the layer beside the place of the footing, at rest under
+/// its own weight.
+void place_footing(Site& site, const Strip& strip, double surcharge) {
+  const double cell = site.cell(), y = chute_offset(cell), low = -strip.ahead - strip.breadth / 2,
+               high = -low;
   // In the chute only, not in the pit's margin outside the plates.
   auto bed = site.fill({Vec3(low, y, -strip.below), Vec3(high, y + strip.gap, 0)});
   site.rest(bed, 0.0, surcharge);
@@ -63,10 +67,13 @@ void lay_strip(Site& site, const Strip& strip, double surcharge) {
   if (!(surcharge > 0)) return;
   const double top = kLayerCells * cell;
   // A tenth of a cell off the stem, or the first row would start inside its reach.
-  const auto beside = [&](const Vec3& p) { return std::abs(p.x()) > strip.breadth / 2 + 0.1 * cell; };
+  const auto beside = [&](const Vec3& p) {
+    return std::abs(p.x()) > strip.breadth / 2 + 0.1 * cell;
+  };
   auto layer = site.fill({Vec3(low, y, 0), Vec3(high, y + strip.gap, top)}, beside, 1);
   const double weight = site.soil(1).bank_density * -site.world().gravity.z();
-  for (soil::Particle& p : layer) p.j = static_cast<float>(p.j0 * (1 - weight * (top - site.position(p).z()) / 833e3));
+  for (soil::Particle& p : layer)
+    p.j = static_cast<float>(p.j0 * (1 - weight * (top - site.position(p).z()) / 833e3));
   site.solver().insert(layer);
 }
 
@@ -86,8 +93,8 @@ SiteOptions strip_site(const Setup& setup, const Strip& strip) {
   return out;
 }
 
-/// Reads the one factor that the load case leaves: Nq under a surcharge, Nc without. Gates hold for the angles whose
-/// bounds by associated flow and by zero dilatancy are known.
+/// Reads the one factor that the load case leaves: Nq under a surcharge, Nc without. Gates hold for
+/// the angles whose bounds by associated flow and by zero dilatancy are known.
 void judge(const Setup& setup, double pressure, Report& report) {
   const double phi = setup.soil.friction_angle, c = setup.soil.cohesion, q = setup["surcharge-pa"];
   if (q > 0) {
@@ -95,18 +102,22 @@ void judge(const Setup& setup, double pressure, Report& report) {
     if (std::abs(degrees(phi) - 20) < 0.01) low = 5.3, high = 6.7;
     if (std::abs(degrees(phi) - 30) < 0.01) low = 11.7, high = 19.3;
     const double nq = (pressure - c * bearing_nc(phi)) / q, d = davis_angle(phi);
-    report.add("Nq", nq, "", bearing_nq(phi), low, high, std::string("[Reissner 1924], associated flow ") + kSource)
+    report
+        .add("Nq", nq, "", bearing_nq(phi), low, high,
+             std::string("[Reissner 1924], associated flow ") + kSource)
         .holds_for("phi 20 or 30", !std::isnan(low));
-    report.add("Nq against Davis", nq, "", bearing_nq(d), kNone, kNone, "[Davis 1968], zero dilatancy");
+    report.add("Nq against Davis", nq, "", bearing_nq(d), kNone, kNone,
+               "[Davis 1968], zero dilatancy");
     return;
   }
   // Only this case has a solution without assumptions; with friction weight or flow rule come in.
   const bool exact = phi < 1e-6 && setup.is("weightless", "yes");
   const double nc = bearing_nc(phi);
   report
-      .add("Nc = pressure / c", pressure / c, "", nc, exact ? 0.92 * nc : kNone, exact ? 1.08 * nc : kNone,
-           std::string("[Prandtl 1920] ") + kSource)
-      .holds_for("phi 0, weightless soil, a breadth of 20 cells", exact && setup["breadth"] > 19.999 * setup.cell);
+      .add("Nc = pressure / c", pressure / c, "", nc, exact ? 0.92 * nc : kNone,
+           exact ? 1.08 * nc : kNone, std::string("[Prandtl 1920] ") + kSource)
+      .holds_for("phi 0, weightless soil, a breadth of 20 cells",
+                 exact && setup["breadth"] > 19.999 * setup.cell);
 }
 
 /// Presses the strip in at constant speed; the factor is read where the load no longer grows.
@@ -115,16 +126,20 @@ Report run_footing(const Setup& setup) {
   // Neither cohesion nor surcharge: the limit load would be nothing, and the factor 0 / 0.
   if (!(q > 0) && !(setup.soil.cohesion > 0))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "lab footing --surcharge-pa", "0",
-                           "above 0 for soil without cohesion", "give --surcharge-pa or --cohesion-pa"});
+                           "above 0 for soil without cohesion",
+                           "give --surcharge-pa or --cohesion-pa"});
   const Strip strip = strip_of(setup);
   Site site(setup, strip_soils(setup), strip_site(setup, strip));
-  lay_strip(site, strip, q);
+  place_footing(site, strip, q);
   ChuteShape shape;
-  shape.half = chute_half(cell), shape.gap = strip.gap, shape.top = (kLayerCells + 6) * cell + strip.settlement;
+  shape.half = chute_half(cell), shape.gap = strip.gap,
+  shape.top = (kLayerCells + 6) * cell + strip.settlement;
   shape.ahead = strip.ahead + strip.breadth / 2 + 3 * cell, shape.bottom = -strip.below - 3 * cell;
-  // Faces of the stem stand half a plate outside the breadth's lines, the sole's face at the ground.
+  // Faces of the stem stand half a plate outside the breadth's lines, the sole's face at the
+  // ground.
   const double inset = shape.half + setup["offset"] * cell;
-  // A stem as broad as the sole: soil that rises beside the footing presses on nothing but its flanks.
+  // A stem as broad as the sole: soil that rises beside the footing presses on nothing but its
+  // flanks.
   ToolDriver driver(site, footing_chute(shape, strip.breadth - 2 * inset),
                     make_pose(0, chute_offset(cell), shape.half));
   // Slow against the speed of sound; the force of inertia is small beside c.
@@ -145,20 +160,23 @@ Report run_footing(const Setup& setup) {
   // A plateau shows in the last fifth being no more than the middle one.
   const double last = mean_force(trace, 0.8 * strip.settlement, strip.settlement).z() / area;
   judge(setup, last, report);
-  const double middle = mean_force(trace, 0.4 * strip.settlement, 0.6 * strip.settlement).z() / area;
+  const double middle =
+      mean_force(trace, 0.4 * strip.settlement, 0.6 * strip.settlement).z() / area;
   report.note("pressure, last fifth over middle fifth", last / middle, "", "1: a plateau");
   report.series = {travel, pressure};
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   site.finish(report);
   return report;
 }
 
 /// Presses the plate in and fits p = k z^n through the curve, by least squares of the logarithms.
 Report run_plate(const Setup& setup) {
-  const double cell = setup.cell, b = setup["breadth"], l = setup["length"], deep = setup["sinkage"];
+  const double cell = setup.cell, b = setup["breadth"], l = setup["length"],
+               deep = setup["sinkage"];
   const double x = whole_cells(l / 2 + 1.5 * b, cell), y = whole_cells(2 * b, cell),
                z = whole_cells(2 * b + deep, cell);
-  const Box bed{Vec3(-x, -y, -z), Vec3(x, y, 0)};
+  const SiteBox bed{Vec3(-x, -y, -z), Vec3(x, y, 0)};
   SiteOptions options;
   options.size = 2 * (std::max(x, y) + 4 * cell);
   options.depth = z + 8 * cell;
@@ -181,7 +199,8 @@ Report run_plate(const Setup& setup) {
     pressure.values.push_back(mean_force(driver.trace(), from, to).z() / (b * l));
     // The first tenth is the plate finding its contact.
     if (i < 2 || !(pressure.values.back() > 0)) continue;
-    log_z.push_back(std::log(depth.values.back())), log_p.push_back(std::log(pressure.values.back()));
+    log_z.push_back(std::log(depth.values.back())),
+        log_p.push_back(std::log(pressure.values.back()));
   }
   Report report;
   if (log_z.size() > 2) {
@@ -191,9 +210,10 @@ Report run_plate(const Setup& setup) {
     report.note("k of p = k z^n", std::exp(line.a) / 1000, "kPa/m^n");
   }
   const double law = terramechanics::plate_pressure(setup.soil, deep, b);
-  report.add("pressure at full sinkage", pressure.values.back() / 1000, "kPa", law / 1000, kNone, kNone,
-             "[Bekker 1969], with the soil's own parameters");
-  report.note("particles through the plate", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.add("pressure at full sinkage", pressure.values.back() / 1000, "kPa", law / 1000, kNone,
+             kNone, "[Bekker 1969], with the soil's own parameters");
+  report.note("particles through the plate",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   report.series = {depth, pressure};
   site.finish(report);
   return report;
@@ -206,24 +226,30 @@ Rig footing_rig() {
   rig.name = "footing";
   rig.summary = "strip footing on weightless soil: bearing capacity factors Nc and Nq";
   rig.drawing =
-      "A smooth strip of `breadth` with an upright stem is pressed into level soil at `speed`, in plane strain "
-      "between smooth plates. Without surcharge gravity is off (`weightless` yes) and the factor is the pressure over "
-      "c at the last fifth of `settlement`. With `surcharge-pa` a layer of two cells lies on the soil beside the "
-      "footing: strengthless, a hundred times denser, and gravity is turned down until the layer weighs the "
-      "surcharge, so that the soil's own weight is a hundredth of it per layer. The layer is inert: faster or softer "
+      "A smooth strip of `breadth` with an upright stem is pressed into level soil at `speed`, in "
+      "plane strain "
+      "between smooth plates. Without surcharge gravity is off (`weightless` yes) and the factor "
+      "is the pressure over "
+      "c at the last fifth of `settlement`. With `surcharge-pa` a layer of two cells lies on the "
+      "soil beside the "
+      "footing: strengthless, a hundred times denser, and gravity is turned down until the layer "
+      "weighs the "
+      "surcharge, so that the soil's own weight is a hundredth of it per layer. The layer is "
+      "inert: faster or softer "
       "runs than the example's weigh its inertia or end before the strength is mobilised.";
-  rig.examples = {
-      {"Nc of clay", "--phi-deg 0 --cohesion-pa 5000"},
-      {"Nq, gated at phi 20 and 30",
-       "--cohesion-pa 0 --phi-deg 20 --surcharge-pa 2000 --young-pa 4e6 --settlement 0.08 --speed 0.02 --cell 0.1"}};
-  rig.parameters = {{"breadth", 1, "m", "of the strip, 20 cells or more for the gates", above(0)},
-                    {"settlement", 0.12, "breadths", "at the end", above(0)},
-                    {"speed", 0.2, "m/s", "downwards", above(0)},
-                    {"beside", 2, "breadths", "of soil on either side", at_least(0)},
-                    {"below", 1.2, "breadths", "of soil", at_least(0)},
-                    {"offset", 0.4, "cells", "by which the shell is narrower at either edge", at_least(0)},
-                    {"surcharge-pa", 0, "Pa", "on the ground beside the footing", at_least(0)},
-                    yes_no("weightless", true, "gravity off when there is no surcharge", "gravity as it is")};
+  rig.examples = {{"Nc of clay", "--phi-deg 0 --cohesion-pa 5000"},
+                  {"Nq, gated at phi 20 and 30",
+                   "--cohesion-pa 0 --phi-deg 20 --surcharge-pa 2000 --young-pa 4e6 --settlement "
+                   "0.08 --speed 0.02 --cell 0.1"}};
+  rig.parameters = {
+      {"breadth", 1, "m", "of the strip, 20 cells or more for the gates", above(0)},
+      {"settlement", 0.12, "breadths", "at the end", above(0)},
+      {"speed", 0.2, "m/s", "downwards", above(0)},
+      {"beside", 2, "breadths", "of soil on either side", at_least(0)},
+      {"below", 1.2, "breadths", "of soil", at_least(0)},
+      {"offset", 0.4, "cells", "by which the shell is narrower at either edge", at_least(0)},
+      {"surcharge-pa", 0, "Pa", "on the ground beside the footing", at_least(0)},
+      yes_no("weightless", true, "gravity off when there is no surcharge", "gravity as it is")};
   rig.default_soil = cohesive(0, 5000);
   rig.default_cell = 0.05;
   rig.experiment = run_footing;
@@ -235,8 +261,10 @@ Rig plate_rig() {
   rig.name = "plate";
   rig.summary = "plate pressed into the ground: pressure against sinkage";
   rig.drawing =
-      "A flat plate of `length` by `breadth` is pressed into level ground at `speed` to `sinkage`. The curve is "
-      "fitted with p = k z^n. The expected value is Bekker's law with the soil's own parameters: what tyres feel on "
+      "A flat plate of `length` by `breadth` is pressed into level ground at `speed` to `sinkage`. "
+      "The curve is "
+      "fitted with p = k z^n. The expected value is Bekker's law with the soil's own parameters: "
+      "what tyres feel on "
       "resting ground, not a property of the particle law.";
   rig.parameters = {{"length", 0.6, "m", "of the plate", above(0)},
                     {"breadth", 0.3, "m", "of the plate", above(0)},

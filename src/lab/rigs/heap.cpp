@@ -14,7 +14,8 @@ using Cell = std::array<int, 3>;
 
 Cell cell_of(const Vec3& p, double cell) {
   Cell out;
-  for (std::size_t a = 0; a < 3; ++a) out[a] = static_cast<int>(std::floor(p[static_cast<int>(a)] / cell));
+  for (std::size_t a = 0; a < 3; ++a)
+    out[a] = static_cast<int>(std::floor(p[static_cast<int>(a)] / cell));
   return out;
 }
 
@@ -57,7 +58,8 @@ void dilate(HeapSurface& s, const std::vector<Vec3>& positions, double radius) {
   }
 }
 
-/// The lowest place a ball can be pushed down to under the surface: fills what no ball of this radius can enter.
+/// The lowest place a ball can be pushed down to under the surface: fills what no ball of this
+/// radius can enter.
 void erode(HeapSurface& s, double radius) {
   const Ball ball(radius, s.spacing);
   std::vector<double> out(s.top.size());
@@ -77,7 +79,8 @@ void erode(HeapSurface& s, double radius) {
 
 }  // namespace
 
-std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles, int neighbours) {
+std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles,
+                             int neighbours) {
   // Two passes: count by cell, then look around each cell that has any.
   std::vector<Vec3> positions, out;
   std::map<Cell, int> count;
@@ -102,7 +105,8 @@ std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>
   return out;
 }
 
-/// Nearest column; p must be a particle of the pile, which lies well inside the surface's rectangle.
+/// Nearest column; p must be a particle of the pile, which lies well inside the surface's
+/// rectangle.
 double HeapSurface::over(const Vec3& p) const {
   return at(static_cast<int>(std::lround((p.x() - origin.x()) / spacing)),
             static_cast<int>(std::lround((p.y() - origin.y()) / spacing)));
@@ -115,7 +119,9 @@ double HeapSurface::volume() const {
   return sum * spacing * spacing;
 }
 
-double HeapSurface::highest() const { return top.empty() ? floor : *std::max_element(top.begin(), top.end()); }
+double HeapSurface::highest() const {
+  return top.empty() ? floor : *std::max_element(top.begin(), top.end());
+}
 
 HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double floor) {
   HeapSurface s;
@@ -130,12 +136,14 @@ HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double f
   // Wide enough for both balls.
   low -= Vec2::Constant(1.5 * cell);
   high += Vec2::Constant(1.5 * cell);
-  // Columns on a fixed lattice: the same pile gives the same surface wherever its outermost grain lies.
+  // Columns on a fixed lattice: the same pile gives the same surface wherever its outermost grain
+  // lies.
   s.origin = s.spacing * (low / s.spacing).array().floor().matrix();
   s.nx = static_cast<int>((high.x() - s.origin.x()) / s.spacing) + 1;
   s.ny = static_cast<int>((high.y() - s.origin.y()) / s.spacing) + 1;
   s.top.assign(static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny), floor);
-  // A larger ball out than in: the difference is the quarter of a cell by which a pile stands above its topmost grains.
+  // A larger ball out than in: the difference is the quarter of a cell by which a pile stands above
+  // its topmost grains.
   dilate(s, positions, 0.75 * cell);
   erode(s, 0.5 * cell);
   return s;
@@ -148,15 +156,16 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
     sx += x[i], sz += z[i];
     sxx += x[i] * x[i], sxz += x[i] * z[i];
   }
-  // Normal equations; the values are a few tens of metres or seconds at most, so that nothing cancels.
+  // Normal equations; the values are a few tens of metres or seconds at most, so that nothing
+  // cancels.
   Line out;
   out.b = (n * sxz - sx * sz) / (n * sxx - sx * sx);
   out.a = (sz - out.b * sx) / n;
   return out;
 }
 
-std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface, const Vec2& axis, bool axisymmetric,
-                                                     double cell) {
+std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface, const Vec2& axis,
+                                                     bool axisymmetric, double cell) {
   // Sum and count by ring.
   std::map<int, std::pair<double, int>> rings;
   // The middle third between the plates: half of it on either side.
@@ -173,7 +182,8 @@ std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface,
     }
   std::vector<std::pair<double, double>> out;
   out.reserve(rings.size());
-  for (const auto& [ring, entry] : rings) out.emplace_back((ring + 0.5) * 0.5 * cell, entry.first / entry.second);
+  for (const auto& [ring, entry] : rings)
+    out.emplace_back((ring + 0.5) * 0.5 * cell, entry.first / entry.second);
   return out;
 }
 
@@ -182,7 +192,8 @@ double flank_angle(const HeapSurface& surface, const Vec2& axis, bool axisymmetr
   const auto profile = flank_profile(surface, axis, axisymmetric, cell);
   double highest = 0, shoulder = 0;
   for (const auto& [r, height] : profile) highest = std::max(highest, height);
-  // A stream leaves a dip in the middle: the flank begins outside the last ring that is higher than 80 %.
+  // A stream leaves a dip in the middle: the flank begins outside the last ring that is higher than
+  // 80 %.
   for (const auto& [r, height] : profile)
     if (height > 0.8 * highest) shoulder = r;
   std::vector<double> x, z;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pile of particles looks like from outside: its surface, volume, front and slope. Uses positions only, none of
-// the solver's own density states.
+// What a pile of particles looks like from outside: its surface, volume, front and slope. Uses
+// positions only, none of the solver's own density states.
 #pragma once
 
 #include <utility>
 #include <vector>
 
-#include "lab/site.h"
+#include "lab/lab_site.h"
 
 namespace navvy::lab {
 
-/// Positions of the particles that touch others: at least `neighbours` more in the 3 x 3 x 3 cells around. The rest are
-/// single grains that fly or lie about.
-std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles, int neighbours = 8);
+/// Positions of the particles that touch others: at least `neighbours` more in the 3 x 3 x 3 cells
+/// around. The rest are single grains that fly or lie about.
+std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>& particles,
+                             int neighbours = 8);
 
 /// Heights over a rectangle, a quarter of a cell apart.
 struct HeapSurface {
@@ -29,8 +30,8 @@ struct HeapSurface {
   double highest() const;
 };
 
-/// The surface a ball rolls on over the pile (closing by balls of 0.75 and 0.5 cells), a quarter of a cell above the
-/// topmost particles as half the spacing of eight a cell demands.
+/// The surface a ball rolls on over the pile (closing by balls of 0.75 and 0.5 cells), a quarter of
+/// a cell above the topmost particles as half the spacing of eight a cell demands.
 HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double floor);
 
 /// Least-squares line z = a + b x.
@@ -39,12 +40,13 @@ struct Line {
 };
 Line fit_line(const std::vector<double>& x, const std::vector<double>& z);
 
-/// Distance from `axis` [m] and mean height over the floor [m] in rings (`axisymmetric`) or in strips along x of half a
-/// cell, strips over the middle third of the width.
-std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface, const Vec2& axis, bool axisymmetric,
-                                                     double cell);
+/// Distance from `axis` [m] and mean height over the floor [m] in rings (`axisymmetric`) or in
+/// strips along x of half a cell, strips over the middle third of the width.
+std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface, const Vec2& axis,
+                                                     bool axisymmetric, double cell);
 
-/// Angle of the flank of a heap [rad]: least-squares line through its profile between 20 and 80 % of its height.
+/// Angle of the flank of a heap [rad]: least-squares line through its profile between 20 and 80 %
+/// of its height.
 double flank_angle(const HeapSurface& surface, const Vec2& axis, bool axisymmetric, double cell);
 
 /// The value below which `share` of the values lie.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigs `hold` (a bucket with its resting load) and `light-tool` (a plate lighter than the soil it falls on).
+// Rigs `hold` (a bucket with its resting load) and `light-tool` (a plate lighter than the soil it
+// falls on).
 //
-// A load at rest in a bucket weighs what it weighs: the mean force must be right to a percent and must not drift,
-// whatever the step. With a shell lighter than its load the exchange of impulses is two-way and stiff; solved
-// explicitly it would chatter at several g.
-// The light plate asks the same of a contact that opens and closes: whatever the ratio of masses, it must not gain
-// energy.
+// A load at rest in a bucket weighs what it weighs: the mean force must be right to a percent and
+// must not drift, whatever the step. With a shell lighter than its load the exchange of impulses is
+// two-way and stiff; solved explicitly it would chatter at several g. The light plate asks the same
+// of a contact that opens and closes: whatever the ratio of masses, it must not gain energy.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/rig_shapes.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 
@@ -31,7 +31,8 @@ std::vector<soil::Particle> load_of(const Site& site, const Pose& X, double mass
   // Layer by layer, the last one as far as the mass goes.
   for (height = wall; sum < mass; height += h)
     for (double y = -kWidth / 2 + wall; y <= kWidth / 2 - wall + 1e-9; y += h)
-      for (double x = -kLength / 2 + wall; x <= kLength / 2 - wall + 1e-9 && sum < mass; x += h, sum += grain)
+      for (double x = -kLength / 2 + wall; x <= kLength / 2 - wall + 1e-9 && sum < mass;
+           x += h, sum += grain)
         out.push_back(site.particle(X * Vec3(x, y, height), h * h * h));
   return out;
 }
@@ -58,8 +59,8 @@ void hang(Tool& tool, const Pose& home, double load, double hertz) {
   // Of shell and load together: a servo tuned for the shell alone would sag.
   const double stiffness = all * omega * omega, damping = 1.4 * all * omega;
   const Eigen::AngleAxisd turn(tool.motion.X_WT.linear() * home.linear().transpose());
-  tool.force_W = -stiffness * (tool.motion.X_WT.translation() - home.translation()) - damping * tool.motion.v_WT +
-                 Vec3(0, 0, all * kGravity);
+  tool.force_W = -stiffness * (tool.motion.X_WT.translation() - home.translation()) -
+                 damping * tool.motion.v_WT + Vec3(0, 0, all * kGravity);
   tool.torque_W = -arm2 * (stiffness * turn.angle() * turn.axis() + damping * tool.motion.w_WT);
 }
 
@@ -105,17 +106,22 @@ Report run_hold(const Setup& setup) {
   // Counted inside the shell at the end.
   const double held = site.solver().payload(driver.tool(), driver.pose());
   Report report;
-  report.add("mean vertical force over the load's weight", -force.z() / weight, "", 1, 0.998, 1.002, kSource);
-  report.add("horizontal force over the weight", std::hypot(force.x(), force.y()) / weight, "", 0, kNone, 0.01,
-             std::string("statics ") + kSource);
-  report.add("largest step's deviation", 100 * most, "% of weight", 0, kNone, kNone, "after the first fifth");
-  report.add("load lost", load - held, "kg", 0, kNone, 0.01 * load, std::string("no drift ") + kSource);
+  report.add("mean vertical force over the load's weight", -force.z() / weight, "", 1, 0.998, 1.002,
+             kSource);
+  report.add("horizontal force over the weight", std::hypot(force.x(), force.y()) / weight, "", 0,
+             kNone, 0.01, std::string("statics ") + kSource);
+  report.add("largest step's deviation", 100 * most, "% of weight", 0, kNone, kNone,
+             "after the first fifth");
+  report.add("load lost", load - held, "kg", 0, kNone, 0.01 * load,
+             std::string("no drift ") + kSource);
   report.note("load lost after the first fifth", before - held, "kg");
-  report.note("drift of the load's middle", 1000 * (middle_of(site) - middle).norm() / (0.8 * seconds), "mm/s");
+  report.note("drift of the load's middle",
+              1000 * (middle_of(site) - middle).norm() / (0.8 * seconds), "mm/s");
   // Chatter that cancels in the mean shows as speed.
   report.note("fastest motion of the shell", fastest, "m/s", "two-way only");
   report.note("load", load, "kg");
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   site.finish(report);
   return report;
@@ -126,7 +132,7 @@ Report run_light(const Setup& setup) {
   const double cell = setup.cell, edge = setup["edge"];
   // Three cells beside the plate and four below it: the ground's edge is not felt.
   const double side = cell * std::ceil((edge / 2 + 3 * cell) / cell);
-  const Box bed{Vec3(-side, -side, -4 * cell), Vec3(side, side, 0)};
+  const SiteBox bed{Vec3(-side, -side, -4 * cell), Vec3(side, side, 0)};
   SiteOptions options;
   options.size = 2 * (side + 4 * cell);
   options.depth = 12 * cell;
@@ -146,7 +152,8 @@ Report run_light(const Setup& setup) {
   // A thin square plate.
   tool.inertia = tool.mass * edge * edge / 12 * Vec3(1, 1, 2);
   tool.motion.v_WT = Vec3(0, 0, -setup["speed"]);
-  // Height counts from W's origin, the ground's surface, so that the ratio below is of energies above rest.
+  // Height counts from W's origin, the ground's surface, so that the ratio below is of energies
+  // above rest.
   const auto energy = [&tool] {
     const soil::ToolMotion& m = tool.motion;
     const Vec3 w = m.X_WT.linear().transpose() * m.w_WT;
@@ -166,12 +173,13 @@ Report run_light(const Setup& setup) {
   // An explicit exchange of impulses pushes a light plate away faster than it came.
   report.add("highest energy over the energy at the start", most / first, "", 1, kNone, 1.01,
              std::string("no growth ") + kSource);
-  report.add("speed at the end", tool.motion.v_WT.norm(), "m/s", 0, kNone, 0.02, std::string("at rest ") + kSource);
+  report.add("speed at the end", tool.motion.v_WT.norm(), "m/s", 0, kNone, 0.02,
+             std::string("at rest ") + kSource);
   report.note("mass of the plate", tool.mass, "kg");
   // Its lower face, half a thickness under the middle, is what stands off.
   const double z = tool.motion.X_WT.translation().z();
-  report.add("stand-off of the plate at rest", (z - shell.half_thickness) / cell, "cells", 0, kNone, 0.5,
-             std::string("on the soil, not over it ") + kSource);
+  report.add("stand-off of the plate at rest", (z - shell.half_thickness) / cell, "cells", 0, kNone,
+             0.5, std::string("on the soil, not over it ") + kSource);
   report.note("rests at", 1000 * z, "mm", "its middle, over the ground");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   site.finish(report);
@@ -185,9 +193,12 @@ Rig hold_rig() {
   rig.name = "hold";
   rig.summary = "a held bucket feels the weight of its resting load";
   rig.drawing =
-      "An open box of 1.0 x 0.8 m hangs in the air, tilted by `tilt-deg`, with `mass` of soil laid into it, for "
-      "`time`. The force is the mean after the first fifth. With `shell-mass` 0 the box is held fast; with more it is "
-      "free and hangs on a servo of `servo-hz` that carries shell and load. `step-share` is the step as a share of "
+      "An open box of 1.0 x 0.8 m hangs in the air, tilted by `tilt-deg`, with `mass` of soil laid "
+      "into it, for "
+      "`time`. The force is the mean after the first fifth. With `shell-mass` 0 the box is held "
+      "fast; with more it is "
+      "free and hangs on a servo of `servo-hz` that carries shell and load. `step-share` is the "
+      "step as a share of "
       "the stable step.";
   rig.parameters = {{"mass", 500, "kg", "of the load", above(0)},
                     {"tilt-deg", 10, "deg", "of the box", at_least(0)},
@@ -206,15 +217,19 @@ Rig light_tool_rig() {
   rig.name = "light-tool";
   rig.summary = "a plate lighter than the soil it touches falls on soil and gains no energy";
   rig.drawing =
-      "A square plate of `edge`, tilted by 4 degrees, `mass-ratio` times as heavy as the layer of one cell under it, "
-      "falls on a bed from `height` at `speed`. Its kinetic and potential energy must never exceed what it started "
-      "with by more than 1 % (one step of gravity before the first contact), and it comes to rest. It may stand off by "
+      "A square plate of `edge`, tilted by 4 degrees, `mass-ratio` times as heavy as the layer of "
+      "one cell under it, "
+      "falls on a bed from `height` at `speed`. Its kinetic and potential energy must never exceed "
+      "what it started "
+      "with by more than 1 % (one step of gravity before the first contact), and it comes to rest. "
+      "It may stand off by "
       "half a cell: the gap between its lower face, at its middle, and the nominal ground.";
-  rig.parameters = {{"edge", 0.6, "m", "of the plate", above(0)},
-                    {"mass-ratio", 0.1, "", "mass over that of the soil layer it touches", above(0)},
-                    {"height", 0.08, "m", "over the ground at the start", at_least(0)},
-                    {"speed", 0.5, "m/s", "downwards at the start", above(0)},
-                    {"time", 1.2, "s", "in all", above(0)}};
+  rig.parameters = {
+      {"edge", 0.6, "m", "of the plate", above(0)},
+      {"mass-ratio", 0.1, "", "mass over that of the soil layer it touches", above(0)},
+      {"height", 0.08, "m", "over the ground at the start", at_least(0)},
+      {"speed", 0.5, "m/s", "downwards at the start", above(0)},
+      {"time", 1.2, "s", "in all", above(0)}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run_light;
   return rig;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `pour`: angle of repose of a heap poured from above, and whether it keeps it.
 //
-// Pouring builds a heap from grains that arrive loose and fast, the way every spoil heap is made. Its flank must come
-// to rest between the angle at which flow stops and the friction angle, and must then stay: a heap that goes on
-// creeping loses degrees in ten seconds.
-// That holds of a heap poured gently. A fast stream spreads by its momentum, and a static angle says nothing of it.
-// Known errors: the plane heap settles by some degrees at the coarse cell, the free cone stands lower since near
-// triaxial states the law is weaker than phi says.
+// Pouring builds a heap from grains that arrive loose and fast, the way every spoil heap is made.
+// Its flank must come to rest between the angle at which flow stops and the friction angle, and
+// must then stay: a heap that goes on creeping loses degrees in ten seconds. That holds of a heap
+// poured gently. A fast stream spreads by its momentum, and a static angle says nothing of it.
+// Known errors: the plane heap settles by some degrees at the coarse cell, the free cone stands
+// lower since near triaxial states the law is weaker than phi says.
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 #include "lab/theory/earth_pressure.h"
 #include "lab/theory/formulas.h"
@@ -25,8 +25,8 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Swell, pouring and heaps]";
 
-/// What is poured has been dug: soil that swells or softens comes loose and remoulded, down to a hundredth of its
-/// bonds.
+/// What is poured has been dug: soil that swells or softens comes loose and remoulded, down to a
+/// hundredth of its bonds.
 void loosen(const scene::Soil& soil, soil::Particle& p) {
   if (soil.swell > 1) {
     p.j = p.j0 = static_cast<float>(soil.swell);
@@ -35,7 +35,8 @@ void loosen(const scene::Soil& soil, soil::Particle& p) {
   if (softens(soil)) p.shear = scene::remoulded_shear(soil);
 }
 
-/// A stream of loose grains, `speed` fast at its mouth, that follows the heap's top at a height of `drop`.
+/// A stream of loose grains, `speed` fast at its mouth, that follows the heap's top at a height of
+/// `drop`.
 struct Stream {
   bool axisymmetric;
   double half, gap, speed, drop;
@@ -44,8 +45,9 @@ struct Stream {
   void emit(Site& site, double top, Random& random) const {
     const double z = top + drop, h = site.cell() / 2;
     const double y = axisymmetric ? half : gap / 2 - 0.25 * site.cell();
-    auto layer = site.fill({Vec3(-half, -y, z), Vec3(half, y, z + h)},
-                           [this](const Vec3& p) { return !axisymmetric || p.head<2>().norm() < half; });
+    auto layer = site.fill({Vec3(-half, -y, z), Vec3(half, y, z + h)}, [this](const Vec3& p) {
+      return !axisymmetric || p.head<2>().norm() < half;
+    });
     for (soil::Particle& p : layer) {
       for (float& x : p.x) x += static_cast<float>(random.uniform(-0.1, 0.1));
       p.v[2] = static_cast<float>(-speed);
@@ -57,7 +59,8 @@ struct Stream {
 
 /// Flank angle [deg] of what lies in contact; the stream still falling is left out.
 double angle_of(const Site& site, bool axisymmetric) {
-  const HeapSurface surface = surface_of(in_contact(site, site.solver().particles()), site.cell(), 0);
+  const HeapSurface surface =
+      surface_of(in_contact(site, site.solver().particles()), site.cell(), 0);
   return degrees(flank_angle(surface, Vec2::Zero(), axisymmetric, site.cell()));
 }
 
@@ -82,7 +85,8 @@ void pour_out(Site& site, const Stream& stream, double volume) {
       top = surface_of(in_contact(site, site.solver().particles(), 40), site.cell(), 0).highest();
     // The stream itself is no heap: its mouth never rises faster than the heap can.
     stream.emit(site, std::min(top, layer * site.cell() / 8), random);
-    // The next layer follows when this one has fallen by its own thickness: a stream of bank density.
+    // The next layer follows when this one has fallen by its own thickness: a stream of bank
+    // density.
     site.run(site.cell() / 2 / stream.speed);
   }
 }
@@ -91,15 +95,18 @@ void pour_out(Site& site, const Stream& stream, double volume) {
 void read_angles(const Setup& setup, double at_first, double at_last, Report& report) {
   const bool round = setup.is("shape", "cone");
   const double phi = setup.soil.friction_angle, flow = degrees(flow_angle(phi));
-  // A cone is nearer to triaxial states: its angle is that of sand in a triaxial test, 2 to 4 degrees below phi.
+  // A cone is nearer to triaxial states: its angle is that of sand in a triaxial test, 2 to 4
+  // degrees below phi.
   const double cone = degrees(flow_angle(matsuoka_nakai_triaxial(phi)));
-  const char* const range = "soil without cohesion, poured at 0.2 m/s and from 2 cells at most, at rest for 10 s";
+  const char* const range =
+      "soil without cohesion, poured at 0.2 m/s and from 2 cells at most, at rest for 10 s";
   const bool gentle = setup["speed"] < 0.201 && setup["drop"] < 2.001;
   const bool here = gentle && !(setup.soil.cohesion > 0) && setup["rest"] > 9.99;
   report.note("repose after pouring", at_first, "deg");
   report
       .add("repose after rest", at_last, "deg", round ? cone : flow,
-           std::round(10 * ((round ? cone : flow) - 1.5)) / 10, round ? kNone : degrees(phi) - 2, kSource)
+           std::round(10 * ((round ? cone : flow) - 1.5)) / 10, round ? kNone : degrees(phi) - 2,
+           kSource)
       .holds_for(range, here);
   // Of the cone the law is known to be too weak; what it loses shows in its angle.
   report
@@ -111,8 +118,10 @@ void read_angles(const Setup& setup, double at_first, double at_last, Report& re
 /// Pours, waits two seconds, reads, rests, reads again.
 Report run(const Setup& setup) {
   const bool round = setup.is("shape", "cone");
-  const double base = setup["base"], slope = std::sin(setup.soil.friction_angle), gap = setup["gap"] * setup.cell;
-  const Stream stream{round, setup["stream"] * setup.cell, gap, setup["speed"], setup["drop"] * setup.cell};
+  const double base = setup["base"], slope = std::sin(setup.soil.friction_angle),
+               gap = setup["gap"] * setup.cell;
+  const Stream stream{round, setup["stream"] * setup.cell, gap, setup["speed"],
+                      setup["drop"] * setup.cell};
   // Of a cone, or a wedge, whose flank stands at atan(sin phi): the base is then the one asked for.
   const double volume = round ? kPi / 3 * base * base * base * slope : base * base * slope * gap;
   SiteOptions options;
@@ -165,19 +174,25 @@ Rig pour_rig() {
   rig.name = "pour";
   rig.summary = "angle of repose of a poured heap, and whether it creeps";
   rig.drawing =
-      "A stream of grains, `stream` cells in half width, falls from `drop` cells above the top of the heap it makes "
-      "on rough level ground, until the heap would have a base of half width `base` at the angle atan(sin phi). Two "
-      "seconds later, and again after `rest`, a line is fitted to the mean flank between 20 and 80 % of the height. "
-      "`shape` plane: a heap between smooth plates `gap` cells apart; cone: a free heap. phi is the plane-strain "
-      "angle: a cone, being closer to triaxial states, is held against the triaxial angle of [Matsuoka 1974]. Gated "
+      "A stream of grains, `stream` cells in half width, falls from `drop` cells above the top of "
+      "the heap it makes "
+      "on rough level ground, until the heap would have a base of half width `base` at the angle "
+      "atan(sin phi). Two "
+      "seconds later, and again after `rest`, a line is fitted to the mean flank between 20 and 80 "
+      "% of the height. "
+      "`shape` plane: a heap between smooth plates `gap` cells apart; cone: a free heap. phi is "
+      "the plane-strain "
+      "angle: a cone, being closer to triaxial states, is held against the triaxial angle of "
+      "[Matsuoka 1974]. Gated "
       "when poured gently, as by default; a faster stream spreads by its momentum.";
-  rig.parameters = {choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
-                    {"base", 1.5, "m", "half width of the heap aimed at", above(0)},
-                    {"gap", 5, "cells", "between the side plates", above(0)},
-                    {"stream", 3, "cells", "half width of the stream", above(0)},
-                    {"drop", 2, "cells", "height of the mouth above the heap's top", at_least(0)},
-                    {"speed", 0.2, "m/s", "of the grains at the mouth", above(0)},
-                    {"rest", 10, "s", "time at rest", at_least(0)}};
+  rig.parameters = {
+      choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
+      {"base", 1.5, "m", "half width of the heap aimed at", above(0)},
+      {"gap", 5, "cells", "between the side plates", above(0)},
+      {"stream", 3, "cells", "half width of the stream", above(0)},
+      {"drop", 2, "cells", "height of the mouth above the heap's top", at_least(0)},
+      {"speed", 0.2, "m/s", "of the grains at the mouth", above(0)},
+      {"rest", 10, "s", "time at rest", at_least(0)}};
   rig.examples = {{"A stream that spreads by its momentum, not gated", "--speed 0.8 --drop 4"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `rest`: level ground under its own weight.
 //
-// The plainest thing soil does, and what everything else starts from: if the weight above is not carried, no force on a
-// tool can be right. Stress is read from the particles, as the law keeps it, and not from a reaction at the floor,
-// which would be right for any distribution inside.
-// What holds: vertical stress within one percent and a percent or two of ringing. sigma_x is K0 sigma_z only while the
-// soil stays elastic; loose sand of low friction yields at rest and rightly shows less.
+// The plainest thing soil does, and what everything else starts from: if the weight above is not
+// carried, no force on a tool can be right. Stress is read from the particles, as the law keeps it,
+// and not from a reaction at the floor, which would be right for any distribution inside. What
+// holds: vertical stress within one percent and a percent or two of ringing. sigma_x is K0 sigma_z
+// only while the soil stays elastic; loose sand of low friction yields at rest and rightly shows
+// less.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/lab_site.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -18,11 +19,11 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Rest and stress]";
 
-/// Sums over the particles of the middle third, one cell clear of the pit's floor and of the free surface. The walls
-/// carry some of the weight beside them, hence the middle alone.
+/// Sums over the particles of the middle third, one cell clear of the pit's floor and of the free
+/// surface. The walls carry some of the weight beside them, hence the middle alone.
 struct StressSums {
-  // A fit through the origin, sigma_z = slope x weight above: slope = sum(w s) / sum(w w). A free intercept would hide
-  // a surface that carries load.
+  // A fit through the origin, sigma_z = slope x weight above: slope = sum(w s) / sum(w w). A free
+  // intercept would hide a surface that carries load.
   double zz = 0, zs = 0, error = 0, ratio = 0, count = 0;
 
   void add(const Site& site, double half, double depth) {
@@ -34,7 +35,8 @@ struct StressSums {
       if (at.z() < site.cell() - depth || at.z() > -site.cell()) continue;
       const double pressure = site.pressure(p), weight = weight_of * at.z();
       // s is the deviator; stress is positive in tension, the pressure in compression.
-      const double sz = static_cast<double>(p.s[2]) - pressure, sx = static_cast<double>(p.s[0]) - pressure;
+      const double sz = static_cast<double>(p.s[2]) - pressure,
+                   sx = static_cast<double>(p.s[0]) - pressure;
       zz += weight * weight;
       zs -= weight * sz;
       error += (sz + weight) * (sz + weight);
@@ -44,7 +46,8 @@ struct StressSums {
   }
 };
 
-/// Every particle of the middle third, floor and surface included: a plot shows what the fit leaves out.
+/// Every particle of the middle third, floor and surface included: a plot shows what the fit leaves
+/// out.
 void write_profile(const Site& site, double half, Report& report) {
   Series height{"z", "m", {}}, vertical{"sigma_z", "Pa", {}}, horizontal{"sigma_x", "Pa", {}};
   for (const soil::Particle& p : site.solver().particles()) {
@@ -61,7 +64,7 @@ void write_profile(const Site& site, double half, Report& report) {
 /// Fills the pit, waits, and averages the second half of the time.
 Report run(const Setup& setup) {
   const double depth = setup["depth"], half = setup["width"] / 2, seconds = setup["time"];
-  const Box bed{Vec3(-half, -half, -depth), Vec3(half, half, 0)};
+  const SiteBox bed{Vec3(-half, -half, -depth), Vec3(half, half, 0)};
   SiteOptions options;
   options.surface = pit(bed);
   // A metre of resting ground under the pit: bedrock is not felt.
@@ -71,7 +74,8 @@ Report run(const Setup& setup) {
   std::vector<soil::Particle> start = site.fill(bed);
   if (setup.is("stressed", "yes")) site.rest(start, 0.0);
   site.solver().insert(start);
-  // The first half lets the start's sound waves die away; the second is sampled, as sand at rest rings.
+  // The first half lets the start's sound waves die away; the second is sampled, as sand at rest
+  // rings.
   site.run(seconds / 2);
   StressSums sums;
   const int samples = 12;
@@ -93,9 +97,10 @@ Report run(const Setup& setup) {
              std::string("an SPH soil's scatter ") + kSource);
   // The plane-strain cone, sqrt(J2) = p sin phi, under the stress of rest.
   const double yields = std::asin(std::min(1.0, std::sqrt(3.0) * (1 - k0) / (1 + 2 * k0)));
-  const bool bears = setup.is("stressed", "yes") && (setup.soil.friction_angle > yields || setup.soil.cohesion > 0);
-  const std::string range =
-      "soil that bears K0 stress (phi above " + short_text(degrees(yields)) + ", or cohesion), stressed at the start";
+  const bool bears = setup.is("stressed", "yes") &&
+                     (setup.soil.friction_angle > yields || setup.soil.cohesion > 0);
+  const std::string range = "soil that bears K0 stress (phi above " + short_text(degrees(yields)) +
+                            ", or cohesion), stressed at the start";
   report
       .add("sigma_x over sigma_z", sums.ratio / sums.count, "", k0, 0.97 * k0, 1.03 * k0,
            std::string("nu / (1 - nu), elastic rest ") + kSource)
@@ -113,15 +118,20 @@ Rig rest_rig() {
   rig.name = "rest";
   rig.summary = "level ground at rest: vertical and horizontal stress against the weight above";
   rig.drawing =
-      "A square pit, `width` wide and `depth` deep, in resting ground that holds its walls and floor. Particles fill "
-      "it up to the surface, with the stress of level ground at rest (`stressed` yes) or without any (no: they "
-      "settle). Over the second half of `time` the stress of the middle third is fitted, sigma_z = slope x rho g z, "
-      "twelve samples in all: sand at rest rings by a percent or two. The plane-strain cone yields under K0 = nu / (1 "
+      "A square pit, `width` wide and `depth` deep, in resting ground that holds its walls and "
+      "floor. Particles fill "
+      "it up to the surface, with the stress of level ground at rest (`stressed` yes) or without "
+      "any (no: they "
+      "settle). Over the second half of `time` the stress of the middle third is fitted, sigma_z = "
+      "slope x rho g z, "
+      "twelve samples in all: sand at rest rings by a percent or two. The plane-strain cone yields "
+      "under K0 = nu / (1 "
       "- nu) when phi is below about 32 degrees (nu 0.3): then sigma_x is not K0 sigma_z.";
-  rig.parameters = {{"width", 2.8, "m", "edge of the pit", above(0)},
-                    {"depth", 0.8, "m", "depth of the pit", above(0)},
-                    {"time", 1.0, "s", "simulated time", above(0)},
-                    yes_no("stressed", true, "particles start with the stress of rest", "without stress")};
+  rig.parameters = {
+      {"width", 2.8, "m", "edge of the pit", above(0)},
+      {"depth", 0.8, "m", "depth of the pit", above(0)},
+      {"time", 1.0, "s", "simulated time", above(0)},
+      yes_no("stressed", true, "particles start with the stress of rest", "without stress")};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;
   return rig;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function per rig. A new rig is a file in this folder, a line here and a line in rigs.cpp; the program's command,
-// its help and the checks of its parameters follow from what the function returns.
+// One function per rig. A new rig is a file in this folder, a line here and a line in rigs.cpp; the
+// program's command, its help and the checks of its parameters follow from what the function
+// returns.
 #pragma once
 
 #include "lab/rig.h"

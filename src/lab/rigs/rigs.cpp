@@ -7,8 +7,9 @@ namespace {
 /// What every rig has: a result that depends on the step has no value.
 std::vector<Rig> with_common_parameters(std::vector<Rig> list) {
   for (Rig& rig : list)
-    rig.parameters.push_back(
-        {"courant", 0.5, "", "the step, as a share of the cell over the speed of sound", between(0.01, 1)});
+    rig.parameters.push_back({"courant", 0.5, "",
+                              "the step, as a share of the cell over the speed of sound",
+                              between(0.01, 1)});
   return list;
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `box`: direct shear.
 //
-// The classical test for friction: two halves of a sample are moved against each other under a load. At large strain
-// and without dilatancy the ratio of shear to normal stress is sin phi.
-// Known error: the soil lifts the smooth lid, which passes no shear, so that part of the sample shears inside the ring
-// and the ratio reads low by a tenth to a fifth: the figure has no gate. Rig `shear` reads the stress in the soil
-// itself and has no such rim.
+// The classical test for friction: two halves of a sample are moved against each other under a
+// load. At large strain and without dilatancy the ratio of shear to normal stress is sin phi. Known
+// error: the soil lifts the smooth lid, which passes no shear, so that part of the sample shears
+// inside the ring and the ratio reads low by a tenth to a fifth: the figure has no gate. Rig
+// `shear` reads the stress in the soil itself and has no such rim.
 #include <cmath>
 
+#include "lab/rig_shapes.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 
@@ -24,13 +24,14 @@ scene::Shell inverted_box(double length, double width, double height) {
   return s;
 }
 
-/// Largest shear over `normal` [N] in the first half of the travel, over windows of a fiftieth of it: a single step
-/// would be noise.
+/// Largest shear over `normal` [N] in the first half of the travel, over windows of a fiftieth of
+/// it: a single step would be noise.
 double peak_ratio(const Trace& trace, double travel, double normal) {
   double peak = 0;
   for (double from = 0; from < 0.5 * travel; from += 0.02 * travel) {
     const Vec3 force = mean_force(trace, from, from + 0.02 * travel);
-    if (std::isfinite(force.x())) peak = std::max(peak, -force.x() / normal);  // no step in the window: NaN
+    // No step in the window: NaN
+    if (std::isfinite(force.x())) peak = std::max(peak, -force.x() / normal);
   }
   return peak;
 }
@@ -39,12 +40,13 @@ double peak_ratio(const Trace& trace, double travel, double normal) {
 Report run(const Setup& setup) {
   const double cell = setup.cell, length = setup["length"] * cell, width = setup["width"] * cell,
                height = setup["height"] * cell, half = 0.25 * cell;
-  const Box lower{Vec3(-length / 2, -width / 2, -height), Vec3(length / 2, width / 2, 0)};
+  const SiteBox lower{Vec3(-length / 2, -width / 2, -height), Vec3(length / 2, width / 2, 0)};
   SiteOptions options;
   options.size = 2 * (length + 8 * cell);
   options.depth = height + 8 * cell;
   options.surface = pit(lower);
-  // A smooth ring: what it passes along x comes from its back wall, not from the skin of the others.
+  // A smooth ring: what it passes along x comes from its back wall, not from the skin of the
+  // others.
   Setup smooth = setup;
   smooth.soil = without_tool_friction(setup.soil);
   Site site(smooth, options);
@@ -59,9 +61,10 @@ Report run(const Setup& setup) {
   Tool& ring = site.tool(driver.tool());
   // Its weight is the normal load; free to sink, it keeps it whatever the soil does below.
   ring.mass = sigma * area / kGravity;
-  ring.keep_attitude = true;
+  ring.lock_rotation = true;
   // The stable step is that of the ring's own speed.
-  const double speed = setup["speed"], travel = setup["travel"] * length, dt = site.step_limit(speed);
+  const double speed = setup["speed"], travel = setup["travel"] * length,
+               dt = site.step_limit(speed);
   const int steps = static_cast<int>(std::ceil(travel / speed / dt));
   site.expect(steps * dt);
   for (int i = 0; i < steps; ++i) {
@@ -78,8 +81,8 @@ Report run(const Setup& setup) {
   const double normal = force.z() + weight, ratio = -force.x() / normal;
   Report report;
   // Without a gate: what the rim and the lid do is in the figure.
-  report.add("tau over sigma, large strain", ratio, "", std::sin(setup.soil.friction_angle), kNone, kNone,
-             "sin phi, zero dilatancy; rig `shear` has the gate");
+  report.add("tau over sigma, large strain", ratio, "", std::sin(setup.soil.friction_angle), kNone,
+             kNone, "sin phi, zero dilatancy; rig `shear` has the gate");
   const double peak = peak_ratio(trace, travel, normal);
   report.add("tau over sigma, peak", peak, "", std::tan(setup.soil.friction_angle), kNone, kNone,
              "the peak may approach tan phi");
@@ -87,7 +90,8 @@ Report run(const Setup& setup) {
   // What leaks under the rim, and how far the lid rides up: the known errors of this rig.
   report.note("lid sank by", -1000 * driver.pose().translation().z(), "mm");
   report.note("soil left in the ring", site.solver().payload(driver.tool(), driver.pose()), "kg");
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   driver.write(report, 10);
   site.finish(report);
   return report;
@@ -100,15 +104,21 @@ Rig shear_box_rig() {
   rig.name = "box";
   rig.summary = "direct shear: tau over sigma at large strain is sin phi";
   rig.drawing =
-      "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls are resting ground, "
-      "the upper half in a smooth ring with a lid of the same size that rests on it with the weight sigma-pa x area, "
-      "free to sink. The ring is moved along x at `speed` by `travel` lengths. tau over sigma is the mean horizontal "
-      "force over the weight on the plane between the halves, in the second half of the travel. Soil that leaks under "
+      "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls are "
+      "resting ground, "
+      "the upper half in a smooth ring with a lid of the same size that rests on it with the "
+      "weight sigma-pa x area, "
+      "free to sink. The ring is moved along x at `speed` by `travel` lengths. tau over sigma is "
+      "the mean horizontal "
+      "force over the weight on the plane between the halves, in the second half of the travel. "
+      "Soil that leaks under "
       "the ring's rim shows in the sinking of the lid.";
-  rig.parameters = {
-      {"length", 24, "cells", "of the sample", above(0)}, {"width", 8, "cells", "of the sample", above(0)},
-      {"height", 4, "cells", "of each half", above(0)},   {"sigma-pa", 5000, "Pa", "under the lid", above(0)},
-      {"speed", 0.2, "m/s", "of the ring", above(0)},     {"travel", 0.08, "lengths", "of the ring", above(0)}};
+  rig.parameters = {{"length", 24, "cells", "of the sample", above(0)},
+                    {"width", 8, "cells", "of the sample", above(0)},
+                    {"height", 4, "cells", "of each half", above(0)},
+                    {"sigma-pa", 5000, "Pa", "under the lid", above(0)},
+                    {"speed", 0.2, "m/s", "of the ring", above(0)},
+                    {"travel", 0.08, "lengths", "of the ring", above(0)}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;
   return rig;

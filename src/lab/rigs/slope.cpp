@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `slope`: the angle at which a long bed starts to flow, and the one at which a flowing bed stops.
+// Rig `slope`: the angle at which a long bed starts to flow, and the one at which a flowing bed
+// stops.
 //
-// An infinite slope is the one flow whose stress is known everywhere: both normal stresses equal, shear weight x sin.
-// Soil that neither swells nor shrinks as it shears then slips at atan(sin phi), not at phi, which is why poured heaps
-// of phi 35 stand at 30 degrees.
-// Two angles are looked for since they could differ: starting needs the law to yield, stopping needs it to dissipate.
+// An infinite slope is the one flow whose stress is known everywhere: both normal stresses equal,
+// shear weight x sin. Soil that neither swells nor shrinks as it shears then slips at atan(sin
+// phi), not at phi, which is why poured heaps of phi 35 stand at 30 degrees. Two angles are looked
+// for since they could differ: starting needs the law to yield, stopping needs it to dissipate.
 // Both are found by trial at a fixed angle, which has no rate of tilting in it.
 #include <cmath>
 
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 #include "lab/theory/formulas.h"
 
 namespace navvy::lab {
 namespace {
 
-/// Mean speed above which a bed flows [m/s]. After 1.25 s a bed 2 degrees too flat reads 0.002 (its ends collapse), one
-/// 0.5 degrees too steep would have 0.1.
+/// Mean speed above which a bed flows [m/s]. After 1.25 s a bed 2 degrees too flat reads 0.002 (its
+/// ends collapse), one 0.5 degrees too steep would have 0.1.
 constexpr double kFlows = 0.03;
 
 /// A bed under tilted gravity; the middle third is read, away from the ends.
 class Bed {
  public:
-  Bed(const Setup& setup, double angle) : length_(setup["length"]), site_(smooth(setup), options(setup, angle)) {
+  Bed(const Setup& setup, double angle)
+      : length_(setup["length"]), site_(smooth(setup), options(setup, angle)) {
     const double cell = setup.cell, depth = setup["depth"], gap = setup["gap"] * cell;
     scene::Shell walls = channel(1.6 * length_, gap, -6 * cell, depth + 8 * cell, false);
     // Longer than the bed at its lower end: what runs out stays between the plates.
     walls.half_thickness = 0.2 * cell;
     site_.add_tool(walls, make_pose(-0.7 * length_, -gap / 2 + 0.07 * cell, 0));
     const double y = gap / 2 - 0.25 * cell;
-    auto soil = site_.fill({Vec3(-length_ / 2, 0.07 * cell - y, 0), Vec3(length_ / 2, 0.07 * cell + y, depth)});
+    auto soil = site_.fill(
+        {Vec3(-length_ / 2, 0.07 * cell - y, 0), Vec3(length_ / 2, 0.07 * cell + y, depth)});
     for (soil::Particle& p : soil) stress(p, depth);
     site_.solver().insert(soil);
   }
@@ -56,7 +59,8 @@ class Bed {
     setup.progress = {};
     return setup;
   }
-  /// Gravity is tilted, not the bed: its surface stays level with the grid, so that no step of cells roughens it.
+  /// Gravity is tilted, not the bed: its surface stays level with the grid, so that no step of
+  /// cells roughens it.
   static SiteOptions options(const Setup& setup, double angle) {
     SiteOptions out;
     out.size = 2 * setup["length"];
@@ -64,7 +68,8 @@ class Bed {
     out.gravity = kGravity * Vec3(std::sin(angle), 0, -std::cos(angle));
     return out;
   }
-  /// The stress of an infinite slope with equal normal stresses, the state in which coaxial soil flows.
+  /// The stress of an infinite slope with equal normal stresses, the state in which coaxial soil
+  /// flows.
   void stress(soil::Particle& p, double top) const {
     const double depth = top - site_.position(p).z();
     const scene::Soil& soil = site_.soil();
@@ -99,10 +104,11 @@ bool goes_on(const Setup& setup, double angle, double steep, Report& report) {
   return bed.speed() > before;
 }
 
-/// The angle where `flows` changes from false to true, by halving; [rad]. Eight trials of 1.25 s cost less than one
-/// slow tilt, and each starts from the same state.
+/// The angle where `flows` changes from false to true, by halving; [rad]. Eight trials of 1.25 s
+/// cost less than one slow tilt, and each starts from the same state.
 template <class F>
-double critical(const F& flows, double low, double high, int halvings, const std::function<void(int)>& tick) {
+double critical(const F& flows, double low, double high, int halvings,
+                const std::function<void(int)>& tick) {
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
     (flows(middle) ? high : low) = middle;
@@ -119,21 +125,28 @@ Report run(const Setup& setup) {
   const auto tick = [&](int done, int offset) {
     if (setup.progress) setup.progress((offset + done + 1.0) / (2 * halvings));
   };
-  // Both searches begin around the angle expected; an end that is found at the border of the search shows in the
-  // result.
-  const double start = critical([&](double angle) { return starts(setup, angle, report); }, flow - width, flow + width,
-                                halvings, [&](int i) { tick(i, 0); });
-  const double stop = critical([&](double angle) { return goes_on(setup, angle, flow + radians(12), report); },
-                               flow - width, flow + width, halvings, [&](int i) { tick(i, halvings); });
+  // Both searches begin around the angle expected; an end that is found at the border of the search
+  // shows in the result.
+  const double start = critical([&](double angle) { return starts(setup, angle, report); },
+                                flow - width, flow + width, halvings, [&](int i) { tick(i, 0); });
+  const double stop =
+      critical([&](double angle) { return goes_on(setup, angle, flow + radians(12), report); },
+               flow - width, flow + width, halvings, [&](int i) { tick(i, halvings); });
   const double expected = degrees(flow);
-  // Coaxial flow without dilatancy mobilises tau / sigma_n = sin phi, less than the tan phi of a slip line.
+  // Coaxial flow without dilatancy mobilises tau / sigma_n = sin phi, less than the tan phi of a
+  // slip line.
   const char* source = "atan(sin phi), zero dilatancy [docs/validation.md, Slopes, walls and cuts]";
   const char* range = "sand: no cohesion, no dilatancy, friction that knows no rate";
   const scene::Soil& s = setup.soil;
-  const bool sand = !(s.cohesion > 0) && !(s.dilatancy_angle > 0) && !(s.fast_friction_angle > s.friction_angle);
-  report.add("starts to flow at", degrees(start), "deg", expected, expected - 1.5, expected + 1.5, source)
+  const bool sand =
+      !(s.cohesion > 0) && !(s.dilatancy_angle > 0) && !(s.fast_friction_angle > s.friction_angle);
+  report
+      .add("starts to flow at", degrees(start), "deg", expected, expected - 1.5, expected + 1.5,
+           source)
       .holds_for(range, sand);
-  report.add("flowing bed stops at", degrees(stop), "deg", expected, expected - 1.5, expected + 1.5, source)
+  report
+      .add("flowing bed stops at", degrees(stop), "deg", expected, expected - 1.5, expected + 1.5,
+           source)
       .holds_for(range, sand);
   report.note("angles searched to", degrees(2 * width) / std::pow(2.0, halvings + 1), "deg");
   return report;
@@ -146,14 +159,20 @@ Rig slope_rig() {
   rig.name = "slope";
   rig.summary = "long slope of sand: the angle at which it starts to flow, and at which it stops";
   rig.drawing =
-      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` cells apart, both ends "
-      "free, so that nothing pushes it along but its weight; gravity is tilted. It starts with the stress of an "
-      "infinite slope. The mean velocity of the middle third of its length is read after `time`: above 0.03 m/s it "
-      "flows. For stopping, 12 degrees more set the bed in motion for a quarter of `time`; then it flows on at the "
-      "angle under test when it does not slow down. Both angles are found by `halvings` halvings of +-`search` "
+      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` cells "
+      "apart, both ends "
+      "free, so that nothing pushes it along but its weight; gravity is tilted. It starts with the "
+      "stress of an "
+      "infinite slope. The mean velocity of the middle third of its length is read after `time`: "
+      "above 0.03 m/s it "
+      "flows. For stopping, 12 degrees more set the bed in motion for a quarter of `time`; then it "
+      "flows on at the "
+      "angle under test when it does not slow down. Both angles are found by `halvings` halvings "
+      "of +-`search` "
       "degrees around atan(sin phi).";
   rig.parameters = {
-      {"length", 16, "m", "of the bed; 30 depths keep the collapse of its ends out of the middle", above(0)},
+      {"length", 16, "m", "of the bed; 30 depths keep the collapse of its ends out of the middle",
+       above(0)},
       {"depth", 0.5, "m", "of the bed", above(0)},
       {"gap", 3, "cells", "between the side plates", above(0)},
       {"time", 1.25, "s", "of each trial", above(0)},

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `stand`: a body put on the ground and left alone stands.
 //
-// What machines lay down, stones and steel plates, must not sink for ever: the ground fails or it bears. A body that
-// rests on particles feels whatever they still do, so creep of a contact shows here and nowhere else: at a blade it is
-// nothing beside the blade's speed.
+// What machines lay down, stones and steel plates, must not sink for ever: the ground fails or it
+// bears. A body that rests on particles feels whatever they still do, so creep of a contact shows
+// here and nowhere else: at a blade it is nothing beside the blade's speed.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/rig_shapes.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 
@@ -25,7 +25,8 @@ scene::Shell body(double length, double width, double height) {
 }
 
 Report run(const Setup& setup) {
-  const double cell = setup.cell, length = setup["length"], width = setup["width"], height = setup["height"];
+  const double cell = setup.cell, length = setup["length"], width = setup["width"],
+               height = setup["height"];
   SiteOptions options;
   // The zone that a tool at rest wakes is one dig depth about it; farther out nothing happens.
   options.size = 2 * (whole_cells(std::max(length, width) / 2, cell) + 12 * cell);
@@ -37,14 +38,16 @@ Report run(const Setup& setup) {
   Site site(setup, options);
   const scene::Shell shell = body(length, width, height);
   const double under = height / 2 + shell.half_thickness;
-  ToolDriver driver(site, shell,
-                    make_pose(0.02, 0.01, level + under + setup["gap"] * cell, 0, radians(setup["tilt-deg"]), 0));
+  ToolDriver driver(
+      site, shell,
+      make_pose(0.02, 0.01, level + under + setup["gap"] * cell, 0, radians(setup["tilt-deg"]), 0));
   Tool& tool = site.tool(driver.tool());
   tool.mass = setup["mass"];
-  tool.inertia =
-      tool.mass / 12 *
-      Vec3(width * width + height * height, length * length + height * height, length * length + width * width);
-  const double settled = setup["settle"], seconds = settled + setup["time"], dt = site.step_limit(0.5);
+  tool.inertia = tool.mass / 12 *
+                 Vec3(width * width + height * height, length * length + height * height,
+                      length * length + width * width);
+  const double settled = setup["settle"], seconds = settled + setup["time"],
+               dt = site.step_limit(0.5);
   site.expect(seconds);
   Series time{"time", "s", {}}, gap{"height of the lower face", "mm", {}};
   const auto stands = [&] { return tool.motion.X_WT.translation().z() - under - level; };
@@ -66,17 +69,21 @@ Report run(const Setup& setup) {
   Report report;
   report.add("sinking while it stands", 1000 * (before - stands()), "mm", 0, -1, 1,
              std::string("at rest is at rest ") + kSource);
-  report.add("drift while it stands", 1000 * (tool.motion.X_WT.translation() - place).head<2>().norm(), "mm", 0, 0, 1,
+  report.add("drift while it stands",
+             1000 * (tool.motion.X_WT.translation() - place).head<2>().norm(), "mm", 0, 0, 1,
              std::string("at rest is at rest ") + kSource);
-  const double share = driver.trace().force.empty() ? 0 : driver.trace().force.back().z() / (tool.mass * kGravity);
-  report.add("force of the ground over the weight", share, "", 1, 0.99, 1.01, std::string("statics ") + kSource);
-  report.note("sunk when it came to rest", -1000 * before, "mm", "its lower face, below the ground's surface");
+  const double share =
+      driver.trace().force.empty() ? 0 : driver.trace().force.back().z() / (tool.mass * kGravity);
+  report.add("force of the ground over the weight", share, "", 1, 0.99, 1.01,
+             std::string("statics ") + kSource);
+  report.note("sunk when it came to rest", -1000 * before, "mm",
+              "its lower face, below the ground's surface");
   report.note("stand-off", stands() / cell, "cells", "its lower face over the ground's surface");
   const Vec3 up = tool.motion.X_WT.linear().col(2);
   report.note("tilt at the end", degrees(std::acos(std::min(1.0, up.z()))), "deg");
   report.note("pressure", tool.mass * kGravity / (length * width), "Pa");
-  report.add("particles at the end", static_cast<double>(site.solver().stats().particles), "", 0, 0, 0,
-             std::string("its soil lies in columns ") + kSource);
+  report.add("particles at the end", static_cast<double>(site.solver().stats().particles), "", 0, 0,
+             0, std::string("its soil lies in columns ") + kSource);
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   report.series = {time, gap};
   site.finish(report);
@@ -88,21 +95,26 @@ Report run(const Setup& setup) {
 Rig stand_rig() {
   Rig rig;
   rig.name = "stand";
-  rig.summary = "a body put on the ground stands: how far it sinks, and that it does not go on sinking";
+  rig.summary =
+      "a body put on the ground stands: how far it sinks, and that it does not go on sinking";
   rig.drawing =
-      "A closed box of `length`, `width`, `height` and `mass`, tilted by `tilt-deg`, is let go `gap` cells above level "
-      "ground, which wakes and goes back to columns by itself. After `settle` it must stand: over `time` it neither "
-      "sinks nor drifts by a millimetre. `below-plane` moves the surface from a plane of the grid down by a share of "
+      "A closed box of `length`, `width`, `height` and `mass`, tilted by `tilt-deg`, is let go "
+      "`gap` cells above level "
+      "ground, which wakes and goes back to columns by itself. After `settle` it must stand: over "
+      "`time` it neither "
+      "sinks nor drifts by a millimetre. `below-plane` moves the surface from a plane of the grid "
+      "down by a share of "
       "a cell.";
-  rig.parameters = {{"length", 0.6, "m", "of the box", above(0)},
-                    {"width", 0.6, "m", "of the box", above(0)},
-                    {"height", 0.5, "m", "of the box", above(0)},
-                    {"mass", 468, "kg", "of the box", above(0)},
-                    {"gap", 0.5, "cells", "over the ground at the start", at_least(0)},
-                    {"tilt-deg", 0, "deg", "about its width, at the start", at_least(0)},
-                    {"below-plane", 0, "cells", "the surface under a plane of the grid", at_least(0)},
-                    {"settle", 10, "s", "before it is watched", at_least(0)},
-                    {"time", 60, "s", "watched", above(0)}};
+  rig.parameters = {
+      {"length", 0.6, "m", "of the box", above(0)},
+      {"width", 0.6, "m", "of the box", above(0)},
+      {"height", 0.5, "m", "of the box", above(0)},
+      {"mass", 468, "kg", "of the box", above(0)},
+      {"gap", 0.5, "cells", "over the ground at the start", at_least(0)},
+      {"tilt-deg", 0, "deg", "about its width, at the start", at_least(0)},
+      {"below-plane", 0, "cells", "the surface under a plane of the grid", at_least(0)},
+      {"settle", 10, "s", "before it is watched", at_least(0)},
+      {"time", 60, "s", "watched", above(0)}};
   rig.default_soil = cohesive(28, 5000);
   rig.experiment = run;
   return rig;

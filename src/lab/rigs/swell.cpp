@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `swell`: a bucket of bank soil is tipped out; the heap's volume against the bank's.
 //
-// Bank soil dug and let lie takes more room, by a quarter for loam. That factor belongs to the soil and is an input;
-// the rig asks whether a load that is tipped in one piece, sheared only by its own fall, reaches it.
-// Known error: where the load falls as a block it does not shear and so does not swell; the surface of the heap hides
-// that by the stand-off of its lowest layer.
+// Bank soil dug and let lie takes more room, by a quarter for loam. That factor belongs to the soil
+// and is an input; the rig asks whether a load that is tipped in one piece, sheared only by its own
+// fall, reaches it. Known error: where the load falls as a block it does not shear and so does not
+// swell; the surface of the heap hides that by the stand-off of its lowest layer.
 #include <cmath>
 
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 
 namespace navvy::lab {
 namespace {
@@ -24,7 +24,8 @@ struct HeapVolume {
   double angle = 0;                     ///< of the flank [deg]
 };
 
-/// Reads the heap twice, by what can be seen and by what the law believes: they fail in different ways.
+/// Reads the heap twice, by what can be seen and by what the law believes: they fail in different
+/// ways.
 HeapVolume measure(const Site& site) {
   HeapVolume out;
   const auto particles = site.solver().particles();
@@ -52,7 +53,8 @@ HeapVolume measure(const Site& site) {
   return out;
 }
 
-/// Particles a cell in layers one cell thick from the ground up, where the heap reaches a cell above the layer.
+/// Particles a cell in layers one cell thick from the ground up, where the heap reaches a cell
+/// above the layer.
 Series profile(const Site& site) {
   const std::vector<Vec3> heap = in_contact(site, site.solver().particles());
   const double cell = site.cell();
@@ -67,7 +69,8 @@ Series profile(const Site& site) {
     if (k < layers && surface.over(p) > cell * static_cast<double>(k + 2)) count[k] += 1;
   }
   Series out{"particles a cell by layer", "", {}};
-  for (std::size_t k = 0; k < layers; ++k) out.values.push_back(volume[k] > 4 ? count[k] / volume[k] : kNone);
+  for (std::size_t k = 0; k < layers; ++k)
+    out.values.push_back(volume[k] > 4 ? count[k] / volume[k] : kNone);
   return out;
 }
 
@@ -75,7 +78,8 @@ Series profile(const Site& site) {
 Report run(const Setup& setup) {
   const double cell = setup.cell, volume = setup["volume"];
   // A box whose load is 1.2 : 1 : 0.8; its walls stand 0.3 cells off the load.
-  const double edge = std::cbrt(volume / 0.96), length = 1.2 * edge, width = edge, depth = 0.8 * edge;
+  const double edge = std::cbrt(volume / 0.96), length = 1.2 * edge, width = edge,
+               depth = 0.8 * edge;
   const double gap = 0.3 * cell;
   SiteOptions options;
   // A heap of wet soil is low and wide, single grains roll farther.
@@ -111,20 +115,27 @@ Report run(const Setup& setup) {
   const double swell = setup.soil.swell;
   Report report;
   report.note("bank volume tipped", bank, "m3");
-  report.add("heap over bank by the surface", got.by_surface, "", swell, 0.95 * swell, 1.05 * swell, kSource);
-  report.add("heap over bank by mass and state", got.by_state, "", swell, 0.95 * swell, 1.05 * swell, kSource);
+  report.add("heap over bank by the surface", got.by_surface, "", swell, 0.95 * swell, 1.05 * swell,
+             kSource);
+  report.add("heap over bank by mass and state", got.by_state, "", swell, 0.95 * swell,
+             1.05 * swell, kSource);
   // Averaged over the layers above the lowest, where the heap reaches well over each.
   const Series layers = profile(site);
   double above = 0, count = 0;
   for (std::size_t k = 1; k < layers.values.size(); ++k)
     if (!std::isnan(layers.values[k])) above += layers.values[k], count += 1;
-  // Resting ground holds nodes up to a quarter of a cell above it: the lowest layer stands off by that much.
-  report.add("the same without the lowest layer", 8 * count / above, "", swell, 0.95 * swell, 1.05 * swell,
-             std::string("8 particles a cell in the bank over those in the layers above it ") + kSource);
-  report.add("particles a cell inside the heap", got.crowding, "", 8 / swell, kNone, kNone, "8 in the bank");
-  report.note("particles that lie about singly", 100 * got.loose_share, "%", "not in the surface's volume");
+  // Resting ground holds nodes up to a quarter of a cell above it: the lowest layer stands off by
+  // that much.
+  report.add(
+      "the same without the lowest layer", 8 * count / above, "", swell, 0.95 * swell, 1.05 * swell,
+      std::string("8 particles a cell in the bank over those in the layers above it ") + kSource);
+  report.add("particles a cell inside the heap", got.crowding, "", 8 / swell, kNone, kNone,
+             "8 in the bank");
+  report.note("particles that lie about singly", 100 * got.loose_share, "%",
+              "not in the surface's volume");
   report.note("left in the bucket", left, "kg");
-  report.note("particles through the shell", static_cast<double>(site.solver().stats().shell_crossings), "");
+  report.note("particles through the shell",
+              static_cast<double>(site.solver().stats().shell_crossings), "");
   report.series = {layers};
   site.finish(report);
   return report;
@@ -135,12 +146,17 @@ Report run(const Setup& setup) {
 Rig swell_rig() {
   Rig rig;
   rig.name = "swell";
-  rig.summary = "bank soil tipped from a bucket and left to rest: volume of the heap over its bank volume";
+  rig.summary =
+      "bank soil tipped from a bucket and left to rest: volume of the heap over its bank volume";
   rig.drawing =
-      "An open box holds a block of undisturbed soil of `volume`, its floor `height` above rough level ground. It is "
-      "turned upside down at `turn`, drawn away, and the heap rests for `rest`. Its volume is read twice: under the "
-      "surface a ball rolls on over the particles, and as mass times the tracked volume ratio. Both are given over "
-      "the bank volume of the particles counted. The number of particles in a cell inside the heap says how crowded "
+      "An open box holds a block of undisturbed soil of `volume`, its floor `height` above rough "
+      "level ground. It is "
+      "turned upside down at `turn`, drawn away, and the heap rests for `rest`. Its volume is read "
+      "twice: under the "
+      "surface a ball rolls on over the particles, and as mass times the tracked volume ratio. "
+      "Both are given over "
+      "the bank volume of the particles counted. The number of particles in a cell inside the heap "
+      "says how crowded "
       "they are.";
   rig.examples = {{"Soil without swell must keep its volume", "--swell 1 --cohesion-pa 0"}};
   rig.parameters = {{"volume", 1, "m3", "bank soil in the box", above(0)},

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `throw`: soil without swell thrown apart in a bin; it must land in the volume it left.
 //
-// Soil that flies apart opens; its particles' volume ratio grows without stress. When it lands it must close again to
-// the volume it left, or to its swell, neither as a foam that keeps the voids of its flight nor pressed into itself.
-// Two readings that fail differently: the surface over the bin sees what is there, mass times tracked ratio tells what
-// the law believes.
+// Soil that flies apart opens; its particles' volume ratio grows without stress. When it lands it
+// must close again to the volume it left, or to its swell, neither as a foam that keeps the voids
+// of its flight nor pressed into itself. Two readings that fail differently: the surface over the
+// bin sees what is there, mass times tracked ratio tells what the law believes.
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
+#include "lab/lab_site.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/heap.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
-#include "lab/site.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -74,7 +74,8 @@ Series profile(const Site& site, double edge, double margin, const std::string& 
   return out;
 }
 
-/// What lies there now on its way up: the upper half faster than the lower, each grain a little aside.
+/// What lies there now on its way up: the upper half faster than the lower, each grain a little
+/// aside.
 std::vector<soil::Particle> thrown(const Site& site, double speed, double height) {
   // A fixed seed: two runs throw the same grains alike.
   Random random(1);
@@ -89,21 +90,25 @@ std::vector<soil::Particle> thrown(const Site& site, double speed, double height
 }
 
 /// The results by name.
-void judge(Report& report, const Volume& before, const Volume& after, const Series& by_state, double swell) {
-  const double most =
-      by_state.values.empty() ? kNone : *std::max_element(by_state.values.begin(), by_state.values.end());
+void judge(Report& report, const Volume& before, const Volume& after, const Series& by_state,
+           double swell) {
+  const double most = by_state.values.empty()
+                          ? kNone
+                          : *std::max_element(by_state.values.begin(), by_state.values.end());
   // Swell 1 lands where it lay; a law that keeps what opened would not.
   report.note("opened in flight to, V/V0", most, "");
-  report.add("V/V0 by the surface", after.by_surface / before.by_surface, "", swell, 0.95 * swell, 1.05 * swell,
-             kSource);
-  report.add("V/V0 by mass and state", after.by_state / before.by_state, "", swell, 0.95 * swell, 1.05 * swell,
-             kSource);
+  report.add("V/V0 by the surface", after.by_surface / before.by_surface, "", swell, 0.95 * swell,
+             1.05 * swell, kSource);
+  report.add("V/V0 by mass and state", after.by_state / before.by_state, "", swell, 0.95 * swell,
+             1.05 * swell, kSource);
   report.note("V/V0 by the surface, in the middle", after.in_middle / before.in_middle, "");
-  report.note("surface over state before the throw", before.by_surface / before.by_state, "", "bias of the measure");
+  report.note("surface over state before the throw", before.by_surface / before.by_state, "",
+              "bias of the measure");
   report.note("rms speed at the end", 1000 * after.rms, "mm/s");
 }
 
-/// Rests, throws and lands: the throw starts in a second site that takes over the first one's particles.
+/// Rests, throws and lands: the throw starts in a second site that takes over the first one's
+/// particles.
 Report run(const Setup& setup) {
   const double cell = setup.cell, edge = setup["edge"], height = setup["height"];
   Setup smooth = setup;
@@ -133,7 +138,8 @@ Report run(const Setup& setup) {
   Site flying(smooth, options);
   flying.add_tool(bin, make_pose(off.x(), off.y(), 0, 0, 0, radians(45)));
   flying.solver().insert(thrown(site, setup["speed"], height));
-  Series time{"time", "s", {}}, by_surface{"volume by surface", "", {}}, by_state{"volume by state", "", {}};
+  Series time{"time", "s", {}}, by_surface{"volume by surface", "", {}},
+      by_state{"volume by state", "", {}};
   const double seconds = flight + setup["rest"];
   // Enough samples to see how far it opens at the top of its flight.
   for (int i = 1; i <= 20; ++i) {
@@ -146,8 +152,10 @@ Report run(const Setup& setup) {
   const Volume after = measure(flying, edge, 0, height);
   Report report;
   judge(report, before, after, by_state, setup.soil.swell);
-  report.note("particles through a wall", static_cast<double>(flying.solver().stats().shell_crossings), "");
-  report.series = {time, by_surface, by_state, profile(flying, edge, 0.25, "particles a cell by layer"),
+  report.note("particles through a wall",
+              static_cast<double>(flying.solver().stats().shell_crossings), "");
+  report.series = {time, by_surface, by_state,
+                   profile(flying, edge, 0.25, "particles a cell by layer"),
                    profile(flying, edge, 2, "particles a cell by layer in the middle")};
   flying.finish(report);
   return report;
@@ -160,10 +168,14 @@ Rig throw_rig() {
   rig.name = "throw";
   rig.summary = "soil thrown apart in a bin lands in the volume it left";
   rig.drawing =
-      "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at rest every grain gets a "
-      "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up to 0.5 m/s aside: "
-      "the soil opens, flies and lands. After the flight and `rest` the volume is read twice: under the surface a "
-      "ball rolls on over the particles, and as mass times the tracked volume ratio. Soils with swell must land at it.";
+      "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at rest "
+      "every grain gets a "
+      "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up "
+      "to 0.5 m/s aside: "
+      "the soil opens, flies and lands. After the flight and `rest` the volume is read twice: "
+      "under the surface a "
+      "ball rolls on over the particles, and as mass times the tracked volume ratio. Soils with "
+      "swell must land at it.";
   rig.parameters = {{"edge", 1.2, "m", "of the bin", above(0)},
                     {"height", 0.6, "m", "depth of the soil", above(0)},
                     {"speed", 3, "m/s", "mean velocity of the throw", above(0)},

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `wall`: a plate as high as the soil it holds, moved little.
 //
-// Drawn away it feels the active pressure, pushed in the passive one. A wall that moves off at once sends a wave of
-// rho c_p v through the soil, 2.3 kPa at 0.05 m/s and 4 MPa against an active pressure of 4.3 kPa at the toe: it comes
-// up to speed slowly, and an active wall is slow altogether. Its toe is cut short by the contact's reach, so that an
-// active force wants twenty cells of height. Smooth it is held against Rankine, rough against the bounds of
+// Drawn away it feels the active pressure, pushed in the passive one. A wall that moves off at once
+// sends a wave of rho c_p v through the soil, 2.3 kPa at 0.05 m/s and 4 MPa against an active
+// pressure of 4.3 kPa at the toe: it comes up to speed slowly, and an active wall is slow
+// altogether. Its toe is cut short by the contact's reach, so that an active force wants twenty
+// cells of height. Smooth it is held against Rankine, rough against the bounds of
 // theory/earth_pressure.h; planar wedges stand beside them.
 #include <algorithm>
 #include <cmath>
 
+#include "lab/rig_shapes.h"
 #include "lab/rigs/blade_bed.h"
 #include "lab/rigs/chute.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 
 namespace navvy::lab {
@@ -20,7 +21,8 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Slopes, walls and cuts]";
 
-/// Speeds for which nothing is given: a passive wall pushes with some ten kPa, an active one with one or two.
+/// Speeds for which nothing is given: a passive wall pushes with some ten kPa, an active one with
+/// one or two.
 constexpr double kPassiveSpeed = 0.1, kActiveSpeed = 0.01;  // [m/s]
 
 /// Of the wall, always positive [m/s].
@@ -29,8 +31,8 @@ double speed_of(const Setup& setup) {
   return given > 0 ? given : setup["travel"] > 0 ? kPassiveSpeed : kActiveSpeed;
 }
 
-/// What the force per metre of wall is held against. By widths: over `share` of the chute the wall is rough, beside it
-/// lies soil without tool friction.
+/// What the force per metre of wall is held against. By widths: over `share` of the chute the wall
+/// is rough, beside it lies soil without tool friction.
 Reference wall_reference(const Setup& setup, bool passive, double share) {
   BladeCase rough = blade_case(setup, kPi / 2, setup["height"], 1), smooth = rough;
   smooth.delta = smooth.adhesion = 0;
@@ -42,7 +44,9 @@ Reference wall_reference(const Setup& setup, bool passive, double share) {
   }
   if (!(share > 0)) return out;
   const Reference other = upright_reference(rough);
-  const auto mix = [share](double at_sides, double middle) { return (1 - share) * at_sides + share * middle; };
+  const auto mix = [share](double at_sides, double middle) {
+    return (1 - share) * at_sides + share * middle;
+  };
   out.low = mix(out.low, other.low), out.high = mix(out.high, other.high), out.expected = out.low;
   out.source = other.source, out.rough = true;
   return out;
@@ -51,28 +55,33 @@ Reference wall_reference(const Setup& setup, bool passive, double share) {
 /// The wall's force against theory, gated where theory speaks of this setup.
 void read_wall(const Setup& setup, const Vec3& force, double share, Report& report) {
   const scene::Soil& s = setup.soil;
-  const double height = setup["height"], weight = s.bank_density * kGravity, moved = std::abs(setup["travel"]);
+  const double height = setup["height"], weight = s.bank_density * kGravity,
+               moved = std::abs(setup["travel"]);
   const bool passive = setup["travel"] > 0, rough = share > 0;
   const Reference theory = wall_reference(setup, passive, share);
   // Smooth walls 10 %; rough ones from 0.95 of the lower bound to 1.05 of the spiral.
-  const bool gated = passive || !rough;
+  const bool with_tolerance = passive || !rough;
   const bool slow = passive || (speed_of(setup) < 0.0101 && height / setup.cell > 19.99);
   report
       .add(passive ? "passive force" : "active force", force.x(), "N/m", theory.expected,
-           gated ? (theory.rough ? 0.95 : 0.9) * theory.low : kNone,
-           gated ? (theory.rough ? 1.05 : 1.1) * theory.high : kNone, theory.source + " " + kSource)
+           with_tolerance ? (theory.rough ? 0.95 : 0.9) * theory.low : kNone,
+           with_tolerance ? (theory.rough ? 1.05 : 1.1) * theory.high : kNone,
+           theory.source + " " + kSource)
       .holds_for(
-          "E of 4 MPa or more, soil that does not soften; pushed in by 0.2 H, or a smooth wall of 20 cells drawn out "
+          "E of 4 MPa or more, soil that does not soften; pushed in by 0.2 H, or a smooth wall of "
+          "20 cells drawn out "
           "by "
           "0.03 H at 0.01 m/s or less",
           s.young_modulus > 3.99e6 && moved > (passive ? 0.1999 : 0.0299) && slow && !softens(s));
   // Ka or Kp as a textbook tabulates them.
-  if (!rough) report.note("coefficient", force.x() / (0.5 * weight * height * height), "", "of 0.5 gamma H2");
+  if (!rough)
+    report.note("coefficient", force.x() / (0.5 * weight * height * height), "", "of 0.5 gamma H2");
   if (rough && passive) {
     // Coulomb's and Reece's wedge, by widths as well: what a rough wall is not held against.
     BladeCase c = blade_case(setup, kPi / 2, height, 1), smooth = c;
     smooth.delta = smooth.adhesion = 0;
-    const double wedge = (1 - share) * reece_wedge(smooth).horizontal + share * reece_wedge(c).horizontal;
+    const double wedge =
+        (1 - share) * reece_wedge(smooth).horizontal + share * reece_wedge(c).horizontal;
     report.add("passive force, against the wedge", force.x(), "N/m", wedge, kNone, kNone,
                "[Reece 1964], planar wedge: an upper bound");
   }
@@ -81,24 +90,27 @@ void read_wall(const Setup& setup, const Vec3& force, double share, Report& repo
              "tan delta times the rough share");
 }
 
-/// Force per metre at three stages: before it moves, at its least (active) or over the last fifth (passive).
+/// Force per metre at three stages: before it moves, at its least (active) or over the last fifth
+/// (passive).
 Report run_wall(const Setup& setup) {
-  const double cell = setup.cell, height = setup["height"], speed = speed_of(setup), travel = setup["travel"] * height;
+  const double cell = setup.cell, height = setup["height"], speed = speed_of(setup),
+               travel = setup["travel"] * height;
   const bool passive = setup["travel"] > 0;
   double share = 0;
   const double gap = chute_gap(setup, share);
   const double below = whole_cells(height * (1 + setup["below"]), cell);
-  // Older than the chute of blades and kept for its numbers: a rough wall is rough over the middle of the chute only,
-  // with smooth soil against the plates.
-  const ChuteBed bed{6 * cell, cell * std::ceil((std::abs(travel) + setup["ahead"] * height) / cell), below};
+  // Older than the chute of blades and kept for its numbers: a rough wall is rough over the middle
+  // of the chute only, with smooth soil against the plates.
+  const ChuteBed bed{6 * cell,
+                     cell * std::ceil((std::abs(travel) + setup["ahead"] * height) / cell), below};
   Site site(setup, chute_soils(setup.soil), chute_site(setup, bed, gap));
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = gap, shape.height = shape.top = height + 4 * cell;
   shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell + std::abs(travel),
   shape.bottom = height - below - 2 * cell;
   site.solver().insert(chute_fill(
-      site, bed, gap, share > 0, [&](const Vec3& p) { return ahead_of_blade(p, height, kPi / 2, cell); },
-      trench(height)));
+      site, bed, gap, share > 0,
+      [&](const Vec3& p) { return ahead_of_blade(p, height, kPi / 2, cell); }, trench(height)));
   ToolDriver driver(site, blade_chute(shape), make_pose(0, chute_offset(cell), -height));
   // The wall's way either way; half of it at most is spent on coming up to speed.
   const double way = std::abs(travel), ramp = std::min(setup["ramp"], 0.5 * way);
@@ -119,7 +131,8 @@ Report run_wall(const Setup& setup) {
   const scene::Soil& s = setup.soil;
   const double k0 = s.poisson / (1 - s.poisson);
   Report report;
-  report.add("force at rest", at_rest, "N/m", 0.5 * s.bank_density * kGravity * height * height * k0, kNone, kNone,
+  report.add("force at rest", at_rest, "N/m",
+             0.5 * s.bank_density * kGravity * height * height * k0, kNone, kNone,
              "K0 = nu / (1 - nu), elastic rest");
   read_wall(setup, last, share, report);
   if (hold > 0)
@@ -135,29 +148,38 @@ Rig wall_rig() {
   rig.name = "wall";
   rig.summary = "retaining wall: active and passive earth pressure against Rankine";
   rig.drawing =
-      "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` it moves `travel` "
-      "heights: towards the soil when positive (passive), away when negative (active). Plane strain: the wall spans a "
-      "chute of smooth side plates; it comes up to speed over `ramp`. The force at rest is the mean of the last third "
-      "of the wait, the other the mean over the last fifth of the travel. With tool friction (--delta-deg) the wall is "
-      "rough over its middle two thirds and held against the lower bound of Lancellotta and the log spiral of Caquot "
-      "and Kerisel; planar wedges are upper bounds and stand beside them. With --hold it then stands, and what the "
+      "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` "
+      "it moves `travel` "
+      "heights: towards the soil when positive (passive), away when negative (active). Plane "
+      "strain: the wall spans a "
+      "chute of smooth side plates; it comes up to speed over `ramp`. The force at rest is the "
+      "mean of the last third "
+      "of the wait, the other the mean over the last fifth of the travel. With tool friction "
+      "(--delta-deg) the wall is "
+      "rough over its middle two thirds and held against the lower bound of Lancellotta and the "
+      "log spiral of Caquot "
+      "and Kerisel; planar wedges are upper bounds and stand beside them. With --hold it then "
+      "stands, and what the "
       "soil "
       "keeps of its force is told.";
   rig.examples = {{"Active pressure", "--travel -0.03"},
                   {"Passive pressure at two speeds", "--speed 0.05,0.2"},
                   {"What soil keeps of it when the wall stops", "--hold 0.5,1,2"}};
-  rig.parameters = {{"height", 1, "m", "of the wall", above(0)},
-                    {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
-                    {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
-                    {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
-                    {"wait", 0.3, "s", "at rest before it moves", at_least(0)},
-                    {"hold", 0, "s", "that it stands after the travel; the force at its end is told", at_least(0)},
-                    {"ahead", 3, "heights", "of soil in front", at_least(0)},
-                    {"below", 0.5, "heights", "of soil under the toe", at_least(0)}};
+  rig.parameters = {
+      {"height", 1, "m", "of the wall", above(0)},
+      {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
+      {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
+      {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
+      {"wait", 0.3, "s", "at rest before it moves", at_least(0)},
+      {"hold", 0, "s", "that it stands after the travel; the force at its end is told",
+       at_least(0)},
+      {"ahead", 3, "heights", "of soil in front", at_least(0)},
+      {"below", 0.5, "heights", "of soil under the toe", at_least(0)}};
   rig.default_cell = 0.05;
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
-  rig.default_soil.young_modulus = 4e6;  // at 1 MPa a passive wall needs more than a fifth of its height of travel
+  // At 1 MPa a passive wall needs more than a fifth of its height of travel
+  rig.default_soil.young_modulus = 4e6;
   rig.headline = {"passive force", "active force", "coefficient", "force at rest",
                   "force it is held by / force before it stopped"};
   rig.experiment = run_wall;

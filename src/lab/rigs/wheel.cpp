@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a slip that is kept.
+// Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a slip
+// that is kept.
 //
 // Or the law alone, without particles (`law`).
 //
-// The single-wheel test of terramechanics: slip is kept, the wheel sinks as it likes, and pull, torque and sinkage are
-// read. The formulas beside the results integrate a measured plate curve over the rim; the particles know nothing of
-// that curve, so a gap between both is no error of either.
-// What must hold whatever the soil: the load is carried, no particle passes the drum, more slip pulls more, and power
-// goes into the soil and never comes out.
+// The single-wheel test of terramechanics: slip is kept, the wheel sinks as it likes, and pull,
+// torque and sinkage are read. The formulas beside the results integrate a measured plate curve
+// over the rim; the particles know nothing of that curve, so a gap between both is no error of
+// either. What must hold whatever the soil: the load is carried, no particle passes the drum, more
+// slip pulls more, and power goes into the soil and never comes out.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
+#include "lab/rig_shapes.h"
 #include "lab/rigs/rig_list.h"
-#include "lab/shapes.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
 #include "terramechanics/rigid_wheel.h"
@@ -27,10 +28,13 @@ using terramechanics::WheelCase;
 using terramechanics::WheelForce;
 
 constexpr const char* kLawSource =
-    "[Bekker 1969] [Janosi 1961] [Lyasko 2010] over the arc, the soil's own parameters [docs/validation.md, Wheels]";
+    "[Bekker 1969] [Janosi 1961] [Lyasko 2010] over the arc, the soil's own parameters "
+    "[docs/validation.md, Wheels]";
 constexpr const char* kNotCarried = "none: by Bekker's law the soil does not carry this load";
-constexpr double kLoading = 0.3;   // seconds in which the load comes on, at standstill, and half as many to start
-constexpr double kDashpot = 0.05;  // sinking speed at which the carriage's damper bears a tenth of the load [m/s]
+// Seconds in which the load comes on, at standstill, and half as many to start
+constexpr double kLoading = 0.3;
+// Sinking speed at which the carriage's damper bears a tenth of the load [m/s]
+constexpr double kDashpot = 0.05;
 
 WheelCase wheel_of(const Setup& setup) {
   WheelCase wheel{setup["radius"], setup["width"], setup["load-n"], setup["slip"]};
@@ -55,15 +59,19 @@ scene::Soil wheel_bed_sand() {
 /// What ties parameters to each other or to the cell; their own ranges are checked already.
 void check_wheel(const Setup& setup) {
   std::vector<Fault> faults;
-  const auto refuse = [&faults](const char* name, double value, const char* rule, const char* remedy) {
-    faults.push_back(
-        Fault{Fault::Severity::kError, "", 0, std::string("lab wheel --") + name, short_text(value), rule, remedy});
+  const auto refuse = [&faults](const char* name, double value, const char* rule,
+                                const char* remedy) {
+    faults.push_back(Fault{Fault::Severity::kError, "", 0, std::string("lab wheel --") + name,
+                           short_text(value), rule, remedy});
   };
   const double radius = setup["radius"];
   if (setup.is("law", "yes")) return;  // no cells, no way
-  if (setup["slip-angle-deg"] != 0) refuse("slip-angle-deg", setup["slip-angle-deg"], "0 on particles", "--law yes");
-  if (setup["grouser"] > 0) refuse("grouser", setup["grouser"], "0 on particles: their drum is smooth", "--law yes");
-  if (radius < 4 * setup.cell) refuse("radius", radius, "at least 4 cells", "a finer --cell, or a larger wheel");
+  if (setup["slip-angle-deg"] != 0)
+    refuse("slip-angle-deg", setup["slip-angle-deg"], "0 on particles", "--law yes");
+  if (setup["grouser"] > 0)
+    refuse("grouser", setup["grouser"], "0 on particles: their drum is smooth", "--law yes");
+  if (radius < 4 * setup.cell)
+    refuse("radius", radius, "at least 4 cells", "a finer --cell, or a larger wheel");
   if (setup["width"] < 2 * setup.cell)
     refuse("width", setup["width"], "at least 2 cells", "a finer --cell, or a wider wheel");
   if (setup["from"] >= setup["travel"])
@@ -81,8 +89,10 @@ Report law_alone(const Setup& setup) {
   report.note("drawbar pull", value(law.drawbar), "N", source);
   report.note("sinkage", value(1000 * law.sinkage), "mm", source);
   report.note("torque", value(law.torque), "N m", source);
-  report.note("side force", value(law.side), "N", "against the way to the side; the wheel's side wall is not counted");
-  report.note("bulldozing resistance", value(law.bulldozing), "N", "[Bekker 1969], counted in the pull");
+  report.note("side force", value(law.side), "N",
+              "against the way to the side; the wheel's side wall is not counted");
+  report.note("bulldozing resistance", value(law.bulldozing), "N",
+              "[Bekker 1969], counted in the pull");
   report.note("drawbar pull over the load", value(law.drawbar / wheel.load), "");
   const double in = law.torque * rim_speed(setup["speed"], wheel.slip) / wheel.radius;
   report.note("tractive efficiency", in > 0 ? value(law.drawbar * setup["speed"] / in) : kNone, "",
@@ -91,7 +101,7 @@ Report law_alone(const Setup& setup) {
 }
 
 /// A bed long and wide enough that its ends are not felt; the wheel starts over x = 0.
-Box bed_of(const Setup& setup) {
+SiteBox bed_of(const Setup& setup) {
   const double cell = setup.cell, r = setup["radius"];
   // A wheel pushes soil aside by less than its radius.
   const double side = whole_cells(setup["width"] / 2 + setup["beside"] * r, cell);
@@ -99,11 +109,13 @@ Box bed_of(const Setup& setup) {
           Vec3(whole_cells(setup["travel"] + 2.5 * r, cell), side, 0)};
 }
 
-/// Loads the wheel slowly, then lets it go at its slip for the travel. Height of the axle over time in `height`.
+/// Loads the wheel slowly, then lets it go at its slip for the travel. Height of the axle over time
+/// in `height`.
 class Carriage {
  public:
   // The wheel's mass is its load over g: what sinks, sinks with the inertia of what it carries.
-  Carriage(const Setup& setup, ToolDriver& driver) : setup_(setup), driver_(driver), wheel_(wheel_of(setup)) {
+  Carriage(const Setup& setup, ToolDriver& driver)
+      : setup_(setup), driver_(driver), wheel_(wheel_of(setup)) {
     Tool& tool = driver.site().tool(driver.tool());
     tool.mass = wheel_.load / kGravity;
     tool.only_sinks = true;
@@ -137,8 +149,10 @@ class Carriage {
 
   template <class Each>
   void run_for(double seconds, const Each& each) {
-    // One step for the whole run, and so for the speed to come: the wheel stands still when it is asked for.
-    const double dt = driver_.site().step_limit(rim_speed(setup_["speed"], std::max(0.0, wheel_.slip)) * 1.5);
+    // One step for the whole run, and so for the speed to come: the wheel stands still when it is
+    // asked for.
+    const double dt =
+        driver_.site().step_limit(rim_speed(setup_["speed"], std::max(0.0, wheel_.slip)) * 1.5);
     const int steps = std::max(1, static_cast<int>(std::ceil(seconds / dt)));
     for (int i = 0; i < steps; ++i) {
       each((i + 1.0) / steps);
@@ -148,7 +162,8 @@ class Carriage {
       driver_.step(seconds / steps);
       height_.push_back(driver_.pose().translation().z());
       // The first force that is more than noise.
-      if (std::isnan(touched_) && driver_.trace().force.back().z() > 0.02 * wheel_.load) touched_ = height_.back();
+      if (std::isnan(touched_) && driver_.trace().force.back().z() > 0.02 * wheel_.load)
+        touched_ = height_.back();
     }
   }
 
@@ -162,8 +177,9 @@ class Carriage {
 
 /// Means over the steps from a time on.
 struct Steady {
-  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< soil on wheel, moment about the axle [N], [N m]
-  double height = 0;                                 ///< of the axle over the level ground [m]
+  /// Soil on wheel, moment about the axle [N], [N m].
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  double height = 0;  ///< of the axle over the level ground [m]
 };
 
 Steady steady_part(const Trace& trace, const std::vector<double>& height, double from_time) {
@@ -186,7 +202,7 @@ Report run(const Setup& setup) {
   check_wheel(setup);
   if (setup.is("law", "yes")) return law_alone(setup);
   const WheelCase wheel = wheel_of(setup);
-  const Box bed = bed_of(setup);
+  const SiteBox bed = bed_of(setup);
   SiteOptions options;
   options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 4 * setup.cell);
   options.depth = -bed.low.z() + 8 * setup.cell;
@@ -196,39 +212,48 @@ Report run(const Setup& setup) {
   site.rest(soil, 0.0);
   site.solver().insert(soil);
 
-  // Contact reaches past the shell by up to a cell: a shell of the wheel's own size would stand on air.
+  // Contact reaches past the shell by up to a cell: a shell of the wheel's own size would stand on
+  // air.
   const double half = 0.25 * setup.cell, inset = half + setup["offset"] * setup.cell;
   scene::Shell shell = drum(wheel.radius - inset, wheel.width - 2 * inset);
   shell.half_thickness = half;  // faces stand at radius and width, less the offset
-  ToolDriver driver(site, shell, make_pose(0, 0.07 * setup.cell, wheel.radius + (1.5 - setup["offset"]) * setup.cell));
+  ToolDriver driver(
+      site, shell,
+      make_pose(0, 0.07 * setup.cell, wheel.radius + (1.5 - setup["offset"]) * setup.cell));
   Carriage carriage(setup, driver);
   const double travel_time = setup["travel"] / setup["speed"], start = 1.5 * kLoading;
   site.expect(start + travel_time);
   carriage.run();
 
-  // The bed's first half digests the start; a wheel needs about a diameter of way to find its sinkage.
+  // The bed's first half digests the start; a wheel needs about a diameter of way to find its
+  // sinkage.
   const Trace& trace = driver.trace();
-  const Steady mean = steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
+  const Steady mean =
+      steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
   // A soil too soft for the law has no expected values, which is said instead.
   const WheelForce law = rigid_wheel(wheel, setup.soil);
   const std::string source = law.carried ? kLawSource : kNotCarried;
   const auto expected = [&law](double value) { return law.carried ? value : kNone; };
   Report report;
   report.add("drawbar pull", mean.force.x(), "N", expected(law.drawbar), kNone, kNone, source);
-  report.add("sinkage", 1000 * (wheel.radius - mean.height), "mm", expected(1000 * law.sinkage), kNone, kNone, source);
+  report.add("sinkage", 1000 * (wheel.radius - mean.height), "mm", expected(1000 * law.sinkage),
+             kNone, kNone, source);
   report.add("torque", -mean.moment.y(), "N m", expected(law.torque), kNone, kNone, source);
   report.add("vertical force over the load", mean.force.z() / wheel.load, "", 1, 0.95, 1.05,
              "statics [docs/validation.md, Wheels]");
-  report.note("torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
-              "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
-                  " bears at most about this");
+  report.note(
+      "torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
+      "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
+          " bears at most about this");
   // Soil takes energy and gives none: a negative figure means the contact makes some.
   report.note("power in: torque x turning less pull x speed",
-              -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius - mean.force.x() * setup["speed"],
+              -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius -
+                  mean.force.x() * setup["speed"],
               "W", "what soil and slip take; above 0");
   report.note("first touched above the ground by", 1000 * (carriage.touched() - wheel.radius), "mm",
               "where it bore a fiftieth of the load: contact reaches a cell");
-  report.add("particles through the wheel", static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
+  report.add("particles through the wheel",
+             static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
              "none may pass; summed over steps [docs/validation.md, Wheels]");
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   driver.write(report, 20);
@@ -248,33 +273,45 @@ Rig wheel_rig() {
   rig.name = "wheel";
   rig.summary = "one wheel at a kept slip: drawbar pull, sinkage, torque";
   rig.drawing =
-      "A smooth closed wheel of `radius` and `width` is let down on level soil until it bears `load-n`, then goes "
-      "ahead at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster than it goes, -0.2 is "
-      "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a single-wheel test bed; a "
-      "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are means from `from` to "
-      "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them stands what Bekker's "
-      "and Janosi's laws give over the arc with the soil's own numbers, which the particles do not follow; those of "
-      "the default soil were measured on its sand. Contact begins up to a cell before the shell; `offset` makes up "
-      "for it. With `law` those formulas are all that is measured, in no time, at a slip angle and with grousers too.";
+      "A smooth closed wheel of `radius` and `width` is let down on level soil until it bears "
+      "`load-n`, then goes "
+      "ahead at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster "
+      "than it goes, -0.2 is "
+      "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a "
+      "single-wheel test bed; a "
+      "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are "
+      "means from `from` to "
+      "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them "
+      "stands what Bekker's "
+      "and Janosi's laws give over the arc with the soil's own numbers, which the particles do not "
+      "follow; those of "
+      "the default soil were measured on its sand. Contact begins up to a cell before the shell; "
+      "`offset` makes up "
+      "for it. With `law` those formulas are all that is measured, in no time, at a slip angle and "
+      "with grousers too.";
   rig.parameters = {
       {"radius", 0.0625, "m", "of the wheel, 4 cells or more", above(0)},
       {"width", 0.06, "m", "of the wheel, 2 cells or more", above(0)},
       {"load-n", 24.6, "N", "on the axle, the wheel's own weight included", above(0)},
-      {"slip", 0.2, "", "that is kept: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked", between(-1, 0.95)},
+      {"slip", 0.2, "", "that is kept: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked",
+       between(-1, 0.95)},
       {"speed", 0.2, "m/s", "of the axle", above(0)},
       {"travel", 0.25, "m", "of the axle", above(0)},
       {"from", 0.12, "m", "where the means begin", above(0)},
-      {"offset", 0.5, "cells", "by which the shell is smaller than the wheel on every side: contact reaches farther",
+      {"offset", 0.5, "cells",
+       "by which the shell is smaller than the wheel on every side: contact reaches farther",
        at_least(0)},
       {"beside", 1.6, "radii", "of soil on either side", at_least(0)},
       {"below", 2.2, "radii", "of soil", at_least(0)},
       {"slip-angle-deg", 0, "deg", "between way and wheel, by the law only", between(0, 80)},
       {"grouser", 0, "m", "height of bars on the rim, by the law only; 0 is smooth", at_least(0)},
-      {"slip-sinkage", 1, "", "coefficient of the law's sinkage by slip: 1 as [Lyasko 2010] has it, 0 none",
+      {"slip-sinkage", 1, "",
+       "coefficient of the law's sinkage by slip: 1 as [Lyasko 2010] has it, 0 none",
        between(0, 3)},
       yes_no("law", false, "the law alone, without particles", "particles, the law beside them")};
   rig.examples = {{"A wheel on a soil whose plate curve is known",
-                   "--slip 0.2 --set bekker_kphi_n_per_m_n2=1734000 --set bekker_n=1.34 --set janosi_k_m=0.021"}};
+                   "--slip 0.2 --set bekker_kphi_n_per_m_n2=1734000 --set bekker_n=1.34 --set "
+                   "janosi_k_m=0.021"}};
   rig.examples.push_back({"Pull against slip by the law, a wheel with grousers that goes askew",
                           "--law yes --slip 0,0.1,0.2,0.4,0.6 --grouser 0.005 --slip-angle-deg 5"});
   rig.default_soil = wheel_bed_sand();

@@ -10,7 +10,8 @@
 namespace navvy::lab {
 namespace {
 
-/// c cot phi, from which pressures count; no soil is quite without friction here, so that clay has a limit too.
+/// c cot phi, from which pressures count; no soil is quite without friction here, so that clay has
+/// a limit too.
 constexpr double kLeastPhi = 1e-5;
 
 /// The stress that the field turned by t puts on the wall.
@@ -20,8 +21,9 @@ WallStress turned_by(double t, double phi, double cohesion, double surcharge) {
   return {p * (1 + sine * std::cos(2 * t)) - tension, p * sine * std::sin(2 * t)};
 }
 
-/// Force per gamma H^2 / 2 along delta for a wall of height 1, the pole `away` from the wall's head on the line of
-/// Rankine's boundary. Moments of the body between wall, spiral and the upright section at the spiral's end.
+/// Force per gamma H^2 / 2 along delta for a wall of height 1, the pole `away` from the wall's head
+/// on the line of Rankine's boundary. Moments of the body between wall, spiral and the upright
+/// section at the spiral's end.
 double spiral_coefficient(double phi, double delta, double away) {
   // x ahead of the wall's head, z up.
   const double rise = kPi / 4 - phi / 2, px = -away * std::cos(rise), pz = away * std::sin(rise);
@@ -35,12 +37,14 @@ double spiral_coefficient(double phi, double delta, double away) {
     ax = bx, az = bz;
   };
   for (int i = 1; i <= kCorners; ++i) {
-    const double angle = toe + (end - toe) * i / kCorners, r = radius * std::exp((angle - toe) * std::tan(phi));
+    const double angle = toe + (end - toe) * i / kCorners,
+                 r = radius * std::exp((angle - toe) * std::tan(phi));
     edge(px + r * std::cos(angle), pz + r * std::sin(angle));
   }
   const double depth = -az;
   edge(ax, 0);  // Rankine's zone begins at this section
-  edge(0, 0);   // along the ground to the wall's head; the wall itself passes through the origin: no area
+  // Along the ground to the wall's head; the wall itself passes through the origin: no area
+  edge(0, 0);
   const double rankine = 0.5 * rankine_passive(phi) * depth * depth;
   // Reactions along the spiral point at the pole and have no moment about it.
   const double resisting = moment - px * area + rankine * (pz + 2.0 / 3 * depth);
@@ -51,7 +55,8 @@ double spiral_coefficient(double phi, double delta, double away) {
 
 }  // namespace
 
-WallStress passive_slip_line(double phi, double delta, double cohesion, double adhesion, double surcharge) {
+WallStress passive_slip_line(double phi, double delta, double cohesion, double adhesion,
+                             double surcharge) {
   phi = std::max(phi, kLeastPhi);
   const auto excess = [&](double t) {
     const WallStress stress = turned_by(t, phi, cohesion, surcharge);
@@ -71,12 +76,14 @@ double passive_lancellotta(double phi, double delta) {
   const double sine = std::sin(phi), across = std::sin(delta);
   if (!(sine > 0)) return 1;
   const double turn = std::asin(std::min(1.0, across / sine)) + delta;
-  return std::cos(delta) * (std::cos(delta) + std::sqrt(std::max(0.0, sine * sine - across * across))) / (1 - sine) *
+  return std::cos(delta) *
+         (std::cos(delta) + std::sqrt(std::max(0.0, sine * sine - across * across))) / (1 - sine) *
          std::exp(turn * std::tan(phi));
 }
 
 double passive_log_spiral(double phi, double delta) {
-  // Far away the spiral is a plane: a smooth wall's pole lies at infinity. One minimum; powers of ten find it.
+  // Far away the spiral is a plane: a smooth wall's pole lies at infinity. One minimum; powers of
+  // ten find it.
   double best = std::numeric_limits<double>::infinity(), at = 0;
   for (double power = -3; power <= 3; power += 0.1) {
     const double value = spiral_coefficient(phi, delta, std::pow(10, power));
@@ -90,11 +97,13 @@ double passive_log_spiral(double phi, double delta) {
 PassiveBand rough_passive(const BladeCase& blade) {
   const double delta = std::min(blade.delta, blade.phi);
   const double weight = 0.5 * blade.unit_weight * blade.depth * blade.depth;
-  const WallStress rest = passive_slip_line(blade.phi, delta, blade.cohesion, blade.adhesion, blade.surcharge);
+  const WallStress rest =
+      passive_slip_line(blade.phi, delta, blade.cohesion, blade.adhesion, blade.surcharge);
   PassiveBand out;
   const double lower = weight * passive_lancellotta(blade.phi, delta);
   out.low = blade.width * (lower + rest.normal * blade.depth);
-  out.high = blade.width * (weight * passive_log_spiral(blade.phi, delta) + rest.normal * blade.depth);
+  out.high =
+      blade.width * (weight * passive_log_spiral(blade.phi, delta) + rest.normal * blade.depth);
   out.vertical = blade.width * (lower * std::tan(delta) + rest.shear * blade.depth);
   return out;
 }

@@ -39,38 +39,45 @@ double divisor(const BladeCase& s, double beta) {
 double reece_force(const BladeCase& s, double beta) {
   const double d = divisor(s, beta), lean = cot(s.rake) + cot(beta), k = cot(beta + s.phi);
   // The four N of the header, each named by what it multiplies.
-  const double n_weight = lean / (2 * d), n_cohesion = (1 + cot(beta) * k) / d, n_adhesion = (1 - cot(s.rake) * k) / d,
-               n_surcharge = lean / d;
-  return s.width * (s.unit_weight * s.depth * s.depth * n_weight + s.cohesion * s.depth * n_cohesion +
-                    s.adhesion * s.depth * n_adhesion + s.surcharge * s.depth * n_surcharge);
+  const double n_weight = lean / (2 * d), n_cohesion = (1 + cot(beta) * k) / d,
+               n_adhesion = (1 - cot(s.rake) * k) / d, n_surcharge = lean / d;
+  return s.width *
+         (s.unit_weight * s.depth * s.depth * n_weight + s.cohesion * s.depth * n_cohesion +
+          s.adhesion * s.depth * n_adhesion + s.surcharge * s.depth * n_surcharge);
 }
 
 double mckyes_force(const BladeCase& s, double beta) {
   const double d = divisor(s, beta), lean = cot(s.rake) + cot(beta), k = cot(beta + s.phi);
   // r is how far ahead the wedge comes up; crescents of that radius stand at both sides.
-  const double r = s.depth * lean, share = cot(s.rake) / lean, side = std::sqrt(std::max(0.0, 1 - share * share));
+  const double r = s.depth * lean, share = cot(s.rake) / lean,
+               side = std::sqrt(std::max(0.0, 1 - share * share));
   const double n_weight = r / (2 * s.depth) * (1 + 2 * r / (3 * s.width) * side) / d;
   const double n_cohesion = (1 + cot(beta) * k) * (1 + r / s.width * side) / d;
   const double n_surcharge = r / s.depth * (1 + r / s.width * side) / d;
-  return s.width * (s.unit_weight * s.depth * s.depth * n_weight + s.cohesion * s.depth * n_cohesion +
-                    s.surcharge * s.depth * n_surcharge);
+  return s.width * (s.unit_weight * s.depth * s.depth * n_weight +
+                    s.cohesion * s.depth * n_cohesion + s.surcharge * s.depth * n_surcharge);
 }
 
-/// Weight, blade and rupture plane are the only forces: a triangle of forces gives P by the law of sines.
-/// Equilibrium of a body of cross-section `area` between the blade and a plane at beta.
+/// Weight, blade and rupture plane are the only forces: a triangle of forces gives P by the law of
+/// sines. Equilibrium of a body of cross-section `area` between the blade and a plane at beta.
 double body_force(const BladeCase& s, double beta, double area) {
-  return s.unit_weight * s.width * area * std::sin(beta + s.phi) / std::sin(s.rake + beta + s.delta + s.phi);
+  return s.unit_weight * s.width * area * std::sin(beta + s.phi) /
+         std::sin(s.rake + beta + s.delta + s.phi);
 }
 
 double riding_force(const BladeCase& s, double beta, double length) {
-  // The layer turns at the lip; what rides is a parallelogram up the blade with a triangle at its foot.
+  // The layer turns at the lip; what rides is a parallelogram up the blade with a triangle at its
+  // foot.
   const double thickness = s.depth * std::sin(s.rake + beta) / std::sin(beta);
-  const double mean_length = length + s.depth + s.depth * std::cos(s.rake + beta) / (2 * std::sin(beta));
+  const double mean_length =
+      length + s.depth + s.depth * std::cos(s.rake + beta) / (2 * std::sin(beta));
   return body_force(s, beta, thickness * mean_length);
 }
 
-/// Between the blade, the plane at beta and the surface, in strips from the blade's upper edge on [m2].
-double area_over(const BladeCase& s, double beta, double height, const std::function<double(double)>& surface) {
+/// Between the blade, the plane at beta and the surface, in strips from the blade's upper edge on
+/// [m2].
+double area_over(const BladeCase& s, double beta, double height,
+                 const std::function<double(double)>& surface) {
   // Behind the lip the blade bounds the body from below, ahead of it the rupture plane does.
   const double edge = -height * cot(s.rake), step = height / 400;
   double area = 0;
@@ -82,7 +89,8 @@ double area_over(const BladeCase& s, double beta, double height, const std::func
   }
 }
 
-/// Angle of the least force. Under an uneven pile there may be several dips: a scan by degrees finds the lowest.
+/// Angle of the least force. Under an uneven pile there may be several dips: a scan by degrees
+/// finds the lowest.
 template <class F>
 double lowest_angle(const F& force, double low, double high) {
   // A degree is finer than any dip that a surface of cells makes.
@@ -98,10 +106,12 @@ BladeForce least(const BladeCase& s, const F& force) {
   // The wedge exists while D > 0, that is for beta + phi + rake + delta < 180 degrees.
   const double high = kPi - s.phi - s.rake - s.delta;
   BladeForce out;
-  out.beta = lowest_angle([&](double beta) { return force(s, beta); }, radians(2), high - radians(0.5));
+  out.beta =
+      lowest_angle([&](double beta) { return force(s, beta); }, radians(2), high - radians(0.5));
   out.force = force(s, out.beta);
   // Adhesion acts along the blade, the resultant P not: it is added here.
-  out.horizontal = out.force * std::sin(s.rake + s.delta) + s.adhesion * s.depth * s.width * cot(s.rake);
+  out.horizontal =
+      out.force * std::sin(s.rake + s.delta) + s.adhesion * s.depth * s.width * cot(s.rake);
   out.vertical = out.force * std::cos(s.rake + s.delta) - s.adhesion * s.depth * s.width;
   return out;
 }
@@ -130,16 +140,23 @@ double rankine_passive_force(double phi, double cohesion, double unit_weight, do
 BladeForce reece_wedge(const BladeCase& blade) { return least(blade, reece_force); }
 BladeForce mckyes_ali(const BladeCase& blade) { return least(blade, mckyes_force); }
 BladeForce riding_layer(const BladeCase& blade, double length) {
-  return least(blade, [length](const BladeCase& s, double beta) { return riding_force(s, beta, length); });
+  return least(blade,
+               [length](const BladeCase& s, double beta) { return riding_force(s, beta, length); });
 }
-BladeForce wedge_under(const BladeCase& blade, double height, const std::function<double(double)>& surface) {
-  return least(
-      blade, [&](const BladeCase& s, double beta) { return body_force(s, beta, area_over(s, beta, height, surface)); });
+BladeForce wedge_under(const BladeCase& blade, double height,
+                       const std::function<double(double)>& surface) {
+  return least(blade, [&](const BladeCase& s, double beta) {
+    return body_force(s, beta, area_over(s, beta, height, surface));
+  });
 }
 
-double bearing_nq(double phi) { return std::exp(kPi * std::tan(phi)) * tan_45_plus_half(phi) * tan_45_plus_half(phi); }
+double bearing_nq(double phi) {
+  return std::exp(kPi * std::tan(phi)) * tan_45_plus_half(phi) * tan_45_plus_half(phi);
+}
 // The limit phi -> 0 is taken by hand: (Nq - 1) / tan phi is 0 / 0 there.
-double bearing_nc(double phi) { return std::tan(phi) > 1e-9 ? (bearing_nq(phi) - 1) / std::tan(phi) : kPi + 2; }
+double bearing_nc(double phi) {
+  return std::tan(phi) > 1e-9 ? (bearing_nq(phi) - 1) / std::tan(phi) : kPi + 2;
+}
 // Zero dilatancy lowers the strength of a mechanism that would have to dilate.
 double davis_angle(double phi) { return std::atan(std::sin(phi)); }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closed forms and published formulas that rigs are held against: each once, with its equation, symbols and source.
+// Closed forms and published formulas that rigs are held against: each once, with its equation,
+// symbols and source.
 //
-// SI units, angles [rad], unit weights gamma = rho g [N/m3], cohesion c and pressures [Pa], compression positive. phi
-// is the friction angle in plane strain, delta that of soil on steel. Nothing here knows the solver or its cells.
+// SI units, angles [rad], unit weights gamma = rho g [N/m3], cohesion c and pressures [Pa],
+// compression positive. phi is the friction angle in plane strain, delta that of soil on steel.
+// Nothing here knows the solver or its cells.
 #pragma once
 
 #include <functional>
@@ -15,49 +17,54 @@ namespace navvy::lab {
 double rankine_active(double phi);
 /// Passive coefficient, the wall is pushed in: Kp = 1 / Ka.
 double rankine_passive(double phi);
-/// Active force per metre of wall [N/m]: Pa = gamma H^2 Ka / 2 - 2 c H sqrt(Ka) + 2 c^2 / gamma. The soil takes no
-/// tension: above the crack's depth 2 c / (gamma sqrt(Ka)) it pushes with nothing, and so does a wall that ends there.
+/// Active force per metre of wall [N/m]: Pa = gamma H^2 Ka / 2 - 2 c H sqrt(Ka) + 2 c^2 / gamma.
+/// The soil takes no tension: above the crack's depth 2 c / (gamma sqrt(Ka)) it pushes with
+/// nothing, and so does a wall that ends there.
 double rankine_active_force(double phi, double cohesion, double unit_weight, double height);
 /// Passive force per metre of wall [N/m]: Pp = gamma H^2 Kp / 2 + 2 c H sqrt(Kp).
 double rankine_passive_force(double phi, double cohesion, double unit_weight, double height);
 
 /// What a flat blade of `width` w at `depth` d meets.
 struct BladeCase {
-  double phi = 0, delta = 0;    ///< friction in the soil and on the blade
-  double rake = 0;              ///< alpha, of the blade's face with the ground ahead; 90 degrees: upright
-  double depth = 0, width = 1;  ///< d, w [m]
+  double phi = 0, delta = 0;  ///< friction in the soil and on the blade
+  /// Alpha, of the blade's face with the ground ahead; 90 degrees: upright.
+  double rake = 0;
+  double depth = 0, width = 1;                         ///< d, w [m]
   double unit_weight = 0, cohesion = 0, adhesion = 0;  ///< gamma, c and ca
   double surcharge = 0;                                ///< q, lies on the ground ahead
 };
-/// A wedge of soil slides up between the blade and a rupture plane that rises from the lip at an angle beta. All models
-/// below choose the beta of the least force. With the resultant P, delta off the blade's normal, the force on the blade
-/// is H = P sin(alpha + delta) + ca d w cot(alpha) along the ground and V = P cos(alpha + delta) - ca d w downwards.
+/// A wedge of soil slides up between the blade and a rupture plane that rises from the lip at an
+/// angle beta. All models below choose the beta of the least force. With the resultant P, delta off
+/// the blade's normal, the force on the blade is H = P sin(alpha + delta) + ca d w cot(alpha) along
+/// the ground and V = P cos(alpha + delta) - ca d w downwards.
 struct BladeForce {
   double beta = 0;        ///< rupture angle
   double force = 0;       ///< P [N]
   double horizontal = 0;  ///< H [N]
   double vertical = 0;    ///< V [N]
 };
-/// Planar wedge, exact for it [Reece 1964]: P = (gamma d^2 Ng + c d Nc + ca d Na + q d Nq) w with
-/// D = cos(alpha + delta) + sin(alpha + delta) cot(beta + phi), Ng = (cot alpha + cot beta) / (2 D),
-/// Nc = (1 + cot beta cot(beta + phi)) / D, Na = (1 - cot alpha cot(beta + phi)) / D, Nq = (cot alpha + cot beta) / D.
+/// Planar wedge, exact for it [Reece 1964]: P = (gamma d^2 Ng + c d Nc + ca d Na + q d Nq) w with D
+/// = cos(alpha + delta) + sin(alpha + delta) cot(beta + phi), Ng = (cot alpha + cot beta) / (2 D),
+/// Nc = (1 + cot beta cot(beta + phi)) / D, Na = (1 - cot alpha cot(beta + phi)) / D, Nq = (cot
+/// alpha + cot beta) / D.
 BladeForce reece_wedge(const BladeCase& blade);
-/// Narrow blade with crescents of soil at its sides [McKyes 1977]. With the wedge's length r = d (cot alpha + cot beta)
-/// and s = sqrt(1 - (cot alpha / (cot alpha + cot beta))^2): Ng = r / (2 d) (1 + 2 r s / (3 w)) / D,
-/// Nc = (1 + cot beta cot(beta + phi)) (1 + r s / w) / D, Nq = r / d (1 + r s / w) / D, no adhesion. For w >> d the
-/// planar wedge.
+/// Narrow blade with crescents of soil at its sides [McKyes 1977]. With the wedge's length r = d
+/// (cot alpha + cot beta) and s = sqrt(1 - (cot alpha / (cot alpha + cot beta))^2): Ng = r / (2 d)
+/// (1 + 2 r s / (3 w)) / D, Nc = (1 + cot beta cot(beta + phi)) (1 + r s / w) / D, Nq = r / d (1 +
+/// r s / w) / D, no adhesion. For w >> d the planar wedge.
 BladeForce mckyes_ali(const BladeCase& blade);
-/// Dry sand cut by a blade of `length` [m] along its face [Miedema 2014, chapter 5]: the layer cut, of thickness
-/// t = d sin(alpha + beta) / sin(beta), rides up the whole blade and by the depth of the cut beyond it, unsupported and
-/// unslumped: P = gamma w t (length + d + d cos(alpha + beta) / (2 sin beta)) sin(beta + phi) /
-/// sin(alpha + beta + delta + phi). An estimate of the largest force, 2-D, without inertia (0.3 N at 0.05 m/s). Takes
-/// no cohesion, adhesion or surcharge.
+/// Dry sand cut by a blade of `length` [m] along its face [Miedema 2014, chapter 5]: the layer cut,
+/// of thickness t = d sin(alpha + beta) / sin(beta), rides up the whole blade and by the depth of
+/// the cut beyond it, unsupported and unslumped: P = gamma w t (length + d + d cos(alpha + beta) /
+/// (2 sin beta)) sin(beta + phi) / sin(alpha + beta + delta + phi). An estimate of the largest
+/// force, 2-D, without inertia (0.3 N at 0.05 m/s). Takes no cohesion, adhesion or surcharge.
 BladeForce riding_layer(const BladeCase& blade, double length);
-/// Planar wedge under ground of any shape [Coulomb 1776]: P = gamma w A sin(beta + phi) / sin(alpha + beta + delta +
-/// phi), A the area between blade, rupture plane and surface. `surface(x)` is the ground's height over the blade's lip
-/// at x ahead of the lip, the blade's upper edge lies `height` over the lip [m]. For a rake of 90 degrees at most;
-/// takes no cohesion, adhesion or surcharge.
-BladeForce wedge_under(const BladeCase& blade, double height, const std::function<double(double)>& surface);
+/// Planar wedge under ground of any shape [Coulomb 1776]: P = gamma w A sin(beta + phi) / sin(alpha
+/// + beta + delta + phi), A the area between blade, rupture plane and surface. `surface(x)` is the
+/// ground's height over the blade's lip at x ahead of the lip, the blade's upper edge lies `height`
+/// over the lip [m]. For a rake of 90 degrees at most; takes no cohesion, adhesion or surcharge.
+BladeForce wedge_under(const BladeCase& blade, double height,
+                       const std::function<double(double)>& surface);
 
 // Bearing capacity of a strip footing on weightless soil, associated flow: p = c Nc + q Nq.
 
@@ -65,13 +72,14 @@ BladeForce wedge_under(const BladeCase& blade, double height, const std::functio
 double bearing_nq(double phi);
 /// Share of the cohesion c [Prandtl 1920]: Nc = (Nq - 1) cot phi; pi + 2 at phi = 0.
 double bearing_nc(double phi);
-/// Friction angle phi* that soil of zero dilatancy mobilises in a rigid-plastic mechanism [Davis 1968]: tan phi* =
-/// sin phi.
+/// Friction angle phi* that soil of zero dilatancy mobilises in a rigid-plastic mechanism
+/// [Davis 1968]: tan phi* = sin phi.
 double davis_angle(double phi);
 
 // Height [m] of a vertical cut.
 
-/// At which a vertical cut fails by a slip circle [Taylor 1948]: Hc = 3.83 c / gamma tan(45 deg + phi / 2).
+/// At which a vertical cut fails by a slip circle [Taylor 1948]: Hc = 3.83 c / gamma tan(45 deg +
+/// phi / 2).
 double cut_critical_height(double phi, double cohesion, double unit_weight);
 /// That needs no tension anywhere, the depth of the tension crack: 2 c / gamma tan(45 deg +
 /// phi / 2) [Terzaghi 1943].
@@ -79,11 +87,12 @@ double cut_no_tension_height(double phi, double cohesion, double unit_weight);
 /// At which a plane wedge slides [Culmann 1875]: 4 c / gamma tan(45 deg + phi / 2), an upper bound.
 double culmann_height(double phi, double cohesion, double unit_weight);
 
-// Granular collapse of a column of height H0: a = H0 / L0 (plane, let go on one side) or H0 / R0 (axisymmetric).
-// Run-out is (front - L0) / L0, front at rest; heights are those of the deposit. Fits to experiments, whatever the
-// grains.
+// Granular collapse of a column of height H0: a = H0 / L0 (plane, let go on one side) or H0 / R0
+// (axisymmetric). Run-out is (front - L0) / L0, front at rest; heights are those of the deposit.
+// Fits to experiments, whatever the grains.
 
-/// Plane run-out [Lube 2005]: 1.2 a below a = 1.8, 1.9 a^(2/3) above 2.8, between them joined by a line.
+/// Plane run-out [Lube 2005]: 1.2 a below a = 1.8, 1.9 a^(2/3) above 2.8, between them joined by a
+/// line.
 double lube_plane_run_out(double a);
 /// Axisymmetric run-out [Lube 2004]: 1.24 a below a = 1.7, 1.6 a^(1/2) above.
 double lube_axisymmetric_run_out(double a);
@@ -94,8 +103,9 @@ double lajeunesse_plane_height(double a);
 /// H / L0, plane [Lube 2005]: a below 1.15, then a^(2/5).
 double lube_plane_height(double a);
 
-/// Slope at which soil of zero dilatancy flows: atan(sin phi). Stress and strain rate have common axes in the flow, so
-/// that the plane along the slope carries tau / sigma_n = sin phi at most [Davis 1968].
+/// Slope at which soil of zero dilatancy flows: atan(sin phi). Stress and strain rate have common
+/// axes in the flow, so that the plane along the slope carries tau / sigma_n = sin phi at most
+/// [Davis 1968].
 double flow_angle(double phi);
 
 }  // namespace navvy::lab

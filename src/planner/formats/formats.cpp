@@ -15,15 +15,25 @@ const std::vector<Format>& formats() {
   // One row a format: a new one needs its file and this.
   static const std::vector<Format> table = {
       {"geotiff", ".tif", "GeoTIFF, one band a layer, georeferenced", all_layers(), write_geotiff},
-      {"npz", ".npz", "NumPy arrays and header.json, in the world's frame", all_layers(), write_npz},
+      {"npz", ".npz", "NumPy arrays and header.json, in the world's frame", all_layers(),
+       write_npz},
       {"nav2",
        ".yaml",
        "nav2 map_server pair, free / occupied / unknown",
        {Layer::kTraversability},
        write_nav2_trinary,
        {".pgm"}},
-      {"nav2-scale", ".yaml", "the same in mode scale, 0 to 100", {Layer::kTraversability}, write_nav2_scale, {".png"}},
-      {"hillshade", ".png", "picture of a surface, lit from the north-west", {Layer::kElevation}, write_hillshade},
+      {"nav2-scale",
+       ".yaml",
+       "the same in mode scale, 0 to 100",
+       {Layer::kTraversability},
+       write_nav2_scale,
+       {".png"}},
+      {"hillshade",
+       ".png",
+       "picture of a surface, lit from the north-west",
+       {Layer::kElevation},
+       write_hillshade},
       {"relief", ".png", "picture of one layer in colours", {Layer::kElevation}, write_relief},
       {"obj", ".obj", "triangles of one surface", {Layer::kElevation}, write_obj},
       {"terra",
@@ -58,14 +68,16 @@ const Format& format_named(const std::string& name) {
     if (each.name == name) return each;
     names.push_back(each.name);
   }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "format", name, "no such format", suggestion(name, names)});
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "format", name, "no such format",
+                         suggestion(name, names)});
 }
 
 std::vector<std::string> files_of(const Format& format, const std::string& path) {
   std::vector<std::string> out;
   // A folder's files lie in it, others beside the first one.
   if (format.within != nullptr) {
-    for (const std::string& name : format.within(folder_name(path))) out.push_back(path + "/" + name);
+    for (const std::string& name : format.within(folder_name(path)))
+      out.push_back(path + "/" + name);
     return out;
   }
   out.push_back(path);

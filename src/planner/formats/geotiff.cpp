@@ -8,7 +8,8 @@
 
 namespace navvy::planner {
 
-void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers,
+                   const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
   // Rows by rows: nothing is copied whole.
   std::vector<heightfield::MapBand> bands;
@@ -21,7 +22,8 @@ void write_geotiff(const TerrainMap& map, const std::vector<Layer>& layers, cons
   heightfield::write_geotiff(map.setup(), bands, path);
 #else
   (void)map, (void)layers;
-  throw FileError("cannot write '" + path + "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
+  throw FileError("cannot write '" + path +
+                  "': this build has no GDAL; build with -DNAVVY_WITH_GDAL=ON");
 #endif
 }
 

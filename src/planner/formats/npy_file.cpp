@@ -7,12 +7,13 @@
 namespace navvy::planner {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "numbers are written as they lie in memory");
 
 std::string header(const char* descr, int nx, int ny) {
   // A dictionary as Python prints it.
-  std::string dict = std::string("{'descr': '") + descr + "', 'fortran_order': False, 'shape': (" + std::to_string(ny) +
-                     ", " + std::to_string(nx) + "), }";
+  std::string dict = std::string("{'descr': '") + descr + "', 'fortran_order': False, 'shape': (" +
+                     std::to_string(ny) + ", " + std::to_string(nx) + "), }";
   // Magic, version and length count too; the data begin at a multiple of 64.
   dict.append(63 - (10 + dict.size()) % 64, ' ');
   dict += '\n';

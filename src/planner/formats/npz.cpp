@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// NPZ is a ZIP archive of NPY files (NumPy's format 1.0). Entries are stored, not compressed: float layers of dug
-// ground hardly shrink, and readers can map them.
+// NPZ is a ZIP archive of NPY files (NumPy's format 1.0). Entries are stored, not compressed: float
+// layers of dug ground hardly shrink, and readers can map them.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -42,7 +42,8 @@ class Crc32 {
   std::uint32_t sum_ = 0xFFFFFFFFu;
 };
 
-/// A ZIP archive without compression, as far as files below 4 GiB need one; entries come piece by piece.
+/// A ZIP archive without compression, as far as files below 4 GiB need one; entries come piece by
+/// piece.
 class Zip {
  public:
   explicit Zip(const std::string& path) : file_(path) {}
@@ -75,7 +76,8 @@ class Zip {
     directory_ += name_;
     ++entries_;
   }
-  /// The directory and the end record: its counts and place, which readers look for from the file's end.
+  /// The directory and the end record: its counts and place, which readers look for from the file's
+  /// end.
   void commit() {
     const std::uint64_t begin = file_.size();
     std::string last = "PK\x05\x06";
@@ -118,25 +120,32 @@ class Zip {
 std::string header(const TerrainMap& map, const std::vector<Layer>& layers) {
   const heightfield::GroundSetup& s = map.setup();
   std::string out = "{\n  \"format_version\": 1,\n  \"nx\": " + std::to_string(map.nx()) +
-                    ",\n  \"ny\": " + std::to_string(map.ny()) + ",\n  \"cell_m\": " + json_number(map.cell()) +
-                    ",\n  \"origin_m\": [" + json_number(map.origin().x()) + ", " + json_number(map.origin().y()) +
-                    "],\n  \"order\": \"array[iy, ix]; row 0 has least y, column 0 least x; origin_m is the lower-left "
+                    ",\n  \"ny\": " + std::to_string(map.ny()) +
+                    ",\n  \"cell_m\": " + json_number(map.cell()) + ",\n  \"origin_m\": [" +
+                    json_number(map.origin().x()) + ", " + json_number(map.origin().y()) +
+                    "],\n  \"order\": \"array[iy, ix]; row 0 has least y, column 0 least x; "
+                    "origin_m is the lower-left "
                     "corner of [0, 0]\",\n  \"time_s\": " +
-                    json_number(map.time()) + ",\n  \"sequence\": " + std::to_string(map.sequence()) +
-                    ",\n  \"layers\": {";
+                    json_number(map.time()) +
+                    ",\n  \"sequence\": " + std::to_string(map.sequence()) + ",\n  \"layers\": {";
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const LayerInfo& each = info(layers[i]);
-    out += (i > 0 ? ",\n    " : "\n    ") + json_string(each.name) + ": {\"unit\": " + json_string(each.unit) +
+    out += (i > 0 ? ",\n    " : "\n    ") + json_string(each.name) +
+           ": {\"unit\": " + json_string(each.unit) +
            ", \"meaning\": " + json_string(each.meaning) + "}";
   }
   out += "\n  },\n  \"soils\": [";
-  for (std::size_t i = 0; i < s.soils.size(); ++i) out += (i > 0 ? ", " : "") + json_string(s.soils[i].name);
-  // File coordinates = easting + x / metres_per_unit, from origin_m; file heights = (z + offset) / metres_per_unit.
+  for (std::size_t i = 0; i < s.soils.size(); ++i)
+    out += (i > 0 ? ", " : "") + json_string(s.soils[i].name);
+  // File coordinates = easting + x / metres_per_unit, from origin_m; file heights = (z + offset) /
+  // metres_per_unit.
   return out + "],\n  \"georeference\": {\"easting\": " + json_number(s.easting) +
-         ", \"northing\": " + json_number(s.northing) + ", \"metres_per_unit\": " + json_number(s.file_unit) +
+         ", \"northing\": " + json_number(s.northing) +
+         ", \"metres_per_unit\": " + json_number(s.file_unit) +
          ", \"height_offset_m\": " + json_number(s.height_offset) +
          ", \"metres_per_height_unit\": " + json_number(s.file_height_unit) +
-         ", \"crs_wkt\": " + json_string(s.crs_wkt) + "},\n  \"filled\": {\"share\": " + json_number(s.filled_share) +
+         ", \"crs_wkt\": " + json_string(s.crs_wkt) +
+         "},\n  \"filled\": {\"share\": " + json_number(s.filled_share) +
          ", \"from_m\": " + json_number(s.filled_from) + "}\n}\n";
 }
 
@@ -146,9 +155,10 @@ void write_npz(const TerrainMap& map, const std::vector<Layer>& layers, const st
   const auto bytes = static_cast<std::uint64_t>(map.rect().area()) * sizeof(float) * layers.size();
   // A margin for names and headers.
   if (bytes > std::numeric_limits<std::uint32_t>::max() - (1u << 20))
-    throw InputError(Fault{Fault::Severity::kError, path, 0, "npz",
-                           std::to_string(bytes >> 20) + " MiB in " + std::to_string(layers.size()) + " layers",
-                           "below 4 GiB", "ask for fewer layers, or for a GeoTIFF"});
+    throw InputError(
+        Fault{Fault::Severity::kError, path, 0, "npz",
+              std::to_string(bytes >> 20) + " MiB in " + std::to_string(layers.size()) + " layers",
+              "below 4 GiB", "ask for fewer layers, or for a GeoTIFF"});
   // The header first: a reader of the stream knows what comes.
   Zip zip(path);
   const std::string told = header(map, layers), before = npy_header(map.nx(), map.ny());
@@ -156,10 +166,12 @@ void write_npz(const TerrainMap& map, const std::vector<Layer>& layers, const st
   zip.add(told.data(), told.size());
   zip.end();
   for (const Layer layer : layers) {
-    zip.begin(info(layer).name + ".npy", before.size() + static_cast<std::uint64_t>(map.rect().area()) * sizeof(float));
+    zip.begin(info(layer).name + ".npy",
+              before.size() + static_cast<std::uint64_t>(map.rect().area()) * sizeof(float));
     zip.add(before.data(), before.size());
     for (int y0 = 0; y0 < map.ny(); y0 += kRows) {
-      const std::vector<float> rows = map.copy(layer, {0, y0, map.nx(), std::min(y0 + kRows, map.ny())});
+      const std::vector<float> rows =
+          map.copy(layer, {0, y0, map.nx(), std::min(y0 + kRows, map.ny())});
       zip.add(rows.data(), rows.size() * sizeof(float));
     }
     zip.end();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: vertices are known column centres, row by row from least y. The format has no place for layers.
+// Wavefront OBJ: vertices are known column centres, row by row from least y. The format has no
+// place for layers.
 #include <charconv>
 #include <cstdint>
 
@@ -21,7 +22,8 @@ void append(std::string& to, T value) {
 
 void write_obj(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
   if (layers.size() != 1 || !info(layers[0]).height)
-    throw InputError(Fault{Fault::Severity::kError, path, 0, "obj", layers.empty() ? "" : info(layers.back()).name,
+    throw InputError(Fault{Fault::Severity::kError, path, 0, "obj",
+                           layers.empty() ? "" : info(layers.back()).name,
                            "a mesh is one surface: elevation, elevation_start or target",
                            "ask for ply to have layers"});
   const int nx = map.nx(), ny = map.ny();
@@ -55,7 +57,8 @@ void write_obj(const TerrainMap& map, const std::vector<Layer>& layers, const st
   // Counter-clockwise from above, as in the PLY.
   for (int iy = 0; iy + 1 < ny; ++iy)
     for (int ix = 0; ix + 1 < nx; ++ix) {
-      const auto k = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);
+      const auto k = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
+                     static_cast<std::size_t>(ix);
       const auto up = k + static_cast<std::size_t>(nx);
       triangle(k, k + 1, up + 1);
       triangle(k, up + 1, up);

@@ -11,7 +11,8 @@
 
 namespace navvy::planner {
 
-PartFile::PartFile(const std::string& path) : path_(path), part_(partial_name(path)), file_(nullptr) {
+PartFile::PartFile(const std::string& path)
+    : path_(path), part_(partial_name(path)), file_(nullptr) {
   // Asked first: gigabytes are not written for a place that is then refused.
   require_writable(path);
   file_ = std::fopen(part_.c_str(), "wb");
@@ -32,8 +33,8 @@ void PartFile::write(const void* data, std::size_t count) {
 }
 
 void PartFile::overwrite(std::uint64_t at, const void* data, std::size_t count) {
-  if (::fseeko(file_, static_cast<off_t>(at), SEEK_SET) != 0 || std::fwrite(data, 1, count, file_) != count ||
-      ::fseeko(file_, 0, SEEK_END) != 0)
+  if (::fseeko(file_, static_cast<off_t>(at), SEEK_SET) != 0 ||
+      std::fwrite(data, 1, count, file_) != count || ::fseeko(file_, 0, SEEK_END) != 0)
     fail();
 }
 

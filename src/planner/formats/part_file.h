@@ -9,11 +9,12 @@
 
 namespace navvy::planner {
 
-/// Writes beside `path` and takes its place when it is whole; until then, and where anything fails, the old file
-/// stands.
+/// Writes beside `path` and takes its place when it is whole; until then, and where anything fails,
+/// the old file stands.
 class PartFile {
  public:
-  /// @throws FileError naming path and cause, as do all of these; also for what is there and is no plain file.
+  /// @throws FileError naming path and cause, as do all of these; also for what is there and is no
+  /// plain file.
   explicit PartFile(const std::string& path);
   /// Removes what was not committed.
   ~PartFile();

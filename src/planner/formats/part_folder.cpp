@@ -34,13 +34,16 @@ fs::path target_of(const std::string& path) {
 /// Where it is written: `target`.part/, which holds one folder.
 fs::path part_of(const fs::path& target) { return target.string() + ".part"; }
 
-/// All that lies in `folder` must be one of `files`, what a kill left of its writing, or a folder on the way to one.
-void require_ours(const std::string& path, const fs::path& folder, const std::vector<std::string>& files) {
+/// All that lies in `folder` must be one of `files`, what a kill left of its writing, or a folder
+/// on the way to one.
+void require_ours(const std::string& path, const fs::path& folder,
+                  const std::vector<std::string>& files) {
   std::error_code code;
   const fs::file_status status = fs::symlink_status(folder, code);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) fail(folder.string(), "it is there and no folder (name another)");
-  for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end; at.increment(code)) {
+  for (fs::recursive_directory_iterator at(folder, code), end; !code && at != end;
+       at.increment(code)) {
     const std::string name = at->path().lexically_relative(folder).string();
     const fs::file_status found = at->symlink_status(code);
     const bool ours = std::any_of(files.begin(), files.end(), [&](const std::string& file) {
@@ -48,9 +51,10 @@ void require_ours(const std::string& path, const fs::path& folder, const std::ve
       return fs::is_regular_file(found) && (name == file || name == file + ".part");
     });
     if (!ours)
-      throw InputError(Fault{Fault::Severity::kError, path, 0, "map", name,
-                             "lies in the folder '" + folder.string() + "' and is no file that this format writes",
-                             "name a new folder, or move what lies there away"});
+      throw InputError(Fault{
+          Fault::Severity::kError, path, 0, "map", name,
+          "lies in the folder '" + folder.string() + "' and is no file that this format writes",
+          "name a new folder, or move what lies there away"});
   }
   if (code) fail(path, code.message());
 }
@@ -98,8 +102,10 @@ void PartFolder::commit() {
   std::error_code code;
   if (!fs::exists(target_, code)) {
     fs::rename(place_, target_, code);
-  } else if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
-    // Some file systems exchange nothing: for a moment neither is there, and a kill then leaves both in the part.
+  } else if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) !=
+             0) {
+    // Some file systems exchange nothing: for a moment neither is there, and a kill then leaves
+    // both in the part.
     if (errno != EINVAL && errno != ENOSYS) fail(path_, std::strerror(errno));
     const fs::path old = part_ / (target_.filename().string() + ".old");
     fs::rename(target_, old, code);

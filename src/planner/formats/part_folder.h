@@ -8,12 +8,14 @@
 
 namespace navvy::planner {
 
-/// Writes to a folder of the same name in `path`.part/ and takes its place when it is whole; until then, and where
-/// anything fails, the old folder stands. A symbolic link stays: what it leads to is replaced.
+/// Writes to a folder of the same name in `path`.part/ and takes its place when it is whole; until
+/// then, and where anything fails, the old folder stands. A symbolic link stays: what it leads to
+/// is replaced.
 class PartFolder {
  public:
-  /// `files` are the names below `path` that are ours: a folder that holds any other file is not touched. Folders above
-  /// `path` are made. @throws InputError naming the file that is not ours, FileError naming path and cause.
+  /// `files` are the names below `path` that are ours: a folder that holds any other file is not
+  /// touched. Folders above `path` are made. @throws InputError naming the file that is not ours,
+  /// FileError naming path and cause.
   PartFolder(const std::string& path, std::vector<std::string> files);
   /// Removes what was not committed.
   ~PartFolder();
@@ -22,7 +24,8 @@ class PartFolder {
 
   /// Where to write: an empty folder, called as `path` is.
   std::string place() const { return place_.string(); }
-  /// Exchanges it for the old one, which goes. @throws as the constructor; the old folder stands then.
+  /// Exchanges it for the old one, which goes. @throws as the constructor; the old folder stands
+  /// then.
   void commit();
 
  private:

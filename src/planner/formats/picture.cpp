@@ -16,10 +16,12 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
-/// Brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN where a neighbour is missing.
+/// Brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN where a
+/// neighbour is missing.
 double shade(const TerrainMap& map, Layer surface, int ix, int iy) {
   const auto z = [&](int x, int y) {
-    return static_cast<double>(map.at(surface, std::clamp(x, 0, map.nx() - 1), std::clamp(y, 0, map.ny() - 1)));
+    return static_cast<double>(
+        map.at(surface, std::clamp(x, 0, map.nx() - 1), std::clamp(y, 0, map.ny() - 1)));
   };
   const auto slope = [&](double before, double here, double after) {
     // Beside a hole the known side alone.
@@ -28,7 +30,8 @@ double shade(const TerrainMap& map, Layer surface, int ix, int iy) {
     return (after - before) / (2 * map.cell());
   };
   const double here = z(ix, iy);
-  const Vec3 n = Vec3(-slope(z(ix - 1, iy), here, z(ix + 1, iy)), -slope(z(ix, iy - 1), here, z(ix, iy + 1)), 1);
+  const Vec3 n = Vec3(-slope(z(ix - 1, iy), here, z(ix + 1, iy)),
+                      -slope(z(ix, iy - 1), here, z(ix, iy + 1)), 1);
   // Its direction in W: x is east, y north.
   const Vec3 sun = Vec3(-1, 1, std::sqrt(2.0)).normalized();
   return here == here ? std::clamp(n.normalized().dot(sun), 0.0, 1.0) : here;
@@ -46,10 +49,13 @@ Colour between(const std::vector<Colour>& stops, double t) {
 
 /// Of a layer: dark to bright, with meaning where a layer has one.
 const std::vector<Colour>& stops_of(Layer layer) {
-  static const std::vector<Colour> plain = {{0.15, 0.11, 0.24}, {0.20, 0.29, 0.48}, {0.20, 0.50, 0.50},
-                                            {0.47, 0.68, 0.37}, {0.85, 0.82, 0.47}, {0.98, 0.96, 0.86}};
-  static const std::vector<Colour> good = {{0.72, 0.16, 0.14}, {0.91, 0.71, 0.28}, {0.36, 0.62, 0.34}};
-  static const std::vector<Colour> signed_ = {{0.16, 0.30, 0.62}, {0.94, 0.94, 0.92}, {0.70, 0.20, 0.15}};
+  static const std::vector<Colour> plain = {{0.15, 0.11, 0.24}, {0.20, 0.29, 0.48},
+                                            {0.20, 0.50, 0.50}, {0.47, 0.68, 0.37},
+                                            {0.85, 0.82, 0.47}, {0.98, 0.96, 0.86}};
+  static const std::vector<Colour> good = {
+      {0.72, 0.16, 0.14}, {0.91, 0.71, 0.28}, {0.36, 0.62, 0.34}};
+  static const std::vector<Colour> signed_ = {
+      {0.16, 0.30, 0.62}, {0.94, 0.94, 0.92}, {0.70, 0.20, 0.15}};
   return layer == Layer::kTraversability ? good : layer == Layer::kCutFill ? signed_ : plain;
 }
 
@@ -58,7 +64,8 @@ std::pair<double, double> range_of(Layer layer, const std::vector<float>& values
   if (layer == Layer::kTraversability || layer == Layer::kAwake) return {0, 1};
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const float v : values)
-    if (v == v) low = std::min(low, static_cast<double>(v)), high = std::max(high, static_cast<double>(v));
+    if (v == v)
+      low = std::min(low, static_cast<double>(v)), high = std::max(high, static_cast<double>(v));
   // A flat layer, or nothing known: one colour in the middle.
   if (!(low < high)) return {low - 0.5, low + 0.5};
   const double most = std::max(std::abs(low), std::abs(high));
@@ -66,13 +73,15 @@ std::pair<double, double> range_of(Layer layer, const std::vector<float>& values
   return layer == Layer::kCutFill ? std::pair{-most, most} : std::pair{low, high};
 }
 
-void require_one(const char* format, const std::vector<Layer>& layers, const std::string& path, bool fits) {
+void require_one(const char* format, const std::vector<Layer>& layers, const std::string& path,
+                 bool fits) {
   if (layers.size() == 1 && fits) return;
   std::string found;
   for (const Layer layer : layers) found += (found.empty() ? "" : ",") + info(layer).name;
-  throw InputError(Fault{Fault::Severity::kError, path, 0, format, found,
-                         fits ? "a picture shows one layer" : "shows a surface: elevation, elevation_start or target",
-                         "ask for one picture a layer, or for a GeoTIFF"});
+  throw InputError(Fault{
+      Fault::Severity::kError, path, 0, format, found,
+      fits ? "a picture shows one layer" : "shows a surface: elevation, elevation_start or target",
+      "ask for one picture a layer, or for a GeoTIFF"});
 }
 
 /// Which line lies over a column: the plan's number, 0 for none; empty where there are none.
@@ -86,8 +95,8 @@ Overlay overlay_of(const TerrainMap& map, const std::vector<PathLine>& lines) {
     for (int iy = c.y() - 1; iy <= c.y() + 1; ++iy)
       for (int ix = c.x() - 1; ix <= c.x() + 1; ++ix)
         if (map.contains(ix, iy))
-          out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix)] =
-              static_cast<std::uint8_t>(1 + (plan - 1) % 4);
+          out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) +
+              static_cast<std::size_t>(ix)] = static_cast<std::uint8_t>(1 + (plan - 1) % 4);
   };
   // Later ones over earlier ones; places lie closer than a column or are joined by half columns.
   for (const PathLine& line : lines)
@@ -102,7 +111,8 @@ Overlay overlay_of(const TerrainMap& map, const std::vector<PathLine>& lines) {
 
 /// `colour(ix, iy, out)` says whether the column is known.
 template <class Paint>
-void write_picture(const TerrainMap& map, const std::string& path, const Overlay& overlay, const Paint& colour) {
+void write_picture(const TerrainMap& map, const std::string& path, const Overlay& overlay,
+                   const Paint& colour) {
   static const std::array<Colour, 4> inks = {Colour{0.85, 0.10, 0.10}, Colour{0.10, 0.35, 0.90},
                                              Colour{0.05, 0.60, 0.25}, Colour{0.60, 0.20, 0.75}};
   // The picture's first row is the northern edge.
@@ -112,18 +122,19 @@ void write_picture(const TerrainMap& map, const std::string& path, const Overlay
     for (int ix = 0; ix < map.nx(); ++ix) {
       Colour rgb{};
       bool known = colour(ix, iy, rgb);
-      const std::size_t column =
-          static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) + static_cast<std::size_t>(ix);
+      const std::size_t column = static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) +
+                                 static_cast<std::size_t>(ix);
       if (!overlay.empty() && overlay[column] > 0) rgb = inks[overlay[column] - 1u], known = true;
       for (const double c : rgb)
-        pixels.push_back(known ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0))) : 0);
+        pixels.push_back(
+            known ? static_cast<std::uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0))) : 0);
       pixels.push_back(known ? 255 : 0);
     }
   write_file_atomically(path, png_bytes(PixelKind::kRgba, map.nx(), map.ny(), pixels));
 }
 
-void paint_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path,
-                     const Overlay& overlay) {
+void paint_hillshade(const TerrainMap& map, const std::vector<Layer>& layers,
+                     const std::string& path, const Overlay& overlay) {
   require_one("hillshade", layers, path, !layers.empty() && info(layers[0]).height);
   write_picture(map, path, overlay, [&](int ix, int iy, Colour& rgb) {
     const double light = shade(map, layers[0], ix, iy);
@@ -151,19 +162,23 @@ void paint_relief(const TerrainMap& map, const std::vector<Layer>& layers, const
 
 }  // namespace
 
-void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+void write_hillshade(const TerrainMap& map, const std::vector<Layer>& layers,
+                     const std::string& path) {
   paint_hillshade(map, layers, path, {});
 }
-void write_relief(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
+void write_relief(const TerrainMap& map, const std::vector<Layer>& layers,
+                  const std::string& path) {
   paint_relief(map, layers, path, {});
 }
 
-void write_picture_with_paths(const std::string& format, const TerrainMap& map, const std::vector<Layer>& layers,
-                              const std::string& path, const std::vector<PathLine>& lines) {
+void write_picture_with_paths(const std::string& format, const TerrainMap& map,
+                              const std::vector<Layer>& layers, const std::string& path,
+                              const std::vector<PathLine>& lines) {
   const Overlay overlay = overlay_of(map, lines);
   if (format == "hillshade") return paint_hillshade(map, layers, path, overlay);
   if (format == "relief") return paint_relief(map, layers, path, overlay);
-  throw InputError(Fault{Fault::Severity::kError, path, 0, "paths", format, "paths are drawn on hillshade and relief",
+  throw InputError(Fault{Fault::Severity::kError, path, 0, "paths", format,
+                         "paths are drawn on hillshade and relief",
                          "ask for one of those, or read the run's paths.csv"});
 }
 

@@ -23,8 +23,9 @@ void put(std::vector<char>& to, T value) {
 void write_ply(const TerrainMap& map, const std::vector<Layer>& layers, const std::string& path) {
   const int nx = map.nx(), ny = map.ny();
   if (map.rect().area() > 100'000'000)
-    throw InputError(Fault{Fault::Severity::kError, path, 0, "ply", std::to_string(map.rect().area()) + " columns",
-                           "at most 10^8", "ask for a GeoTIFF"});
+    throw InputError(Fault{Fault::Severity::kError, path, 0, "ply",
+                           std::to_string(map.rect().area()) + " columns", "at most 10^8",
+                           "ask for a GeoTIFF"});
   // Dense copies: the whole file is made in memory before it is written.
   const std::vector<float> z = map.copy(Layer::kElevation);
   std::vector<std::vector<float>> values;
@@ -53,17 +54,20 @@ void write_ply(const TerrainMap& map, const std::vector<Layer>& layers, const st
   // Counter-clockwise from above; the diagonal runs from least to greatest x and y.
   for (int iy = 0; iy + 1 < ny; ++iy)
     for (int ix = 0; ix + 1 < nx; ++ix) {
-      const auto k = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);
+      const auto k = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
+                     static_cast<std::size_t>(ix);
       const auto up = k + static_cast<std::size_t>(nx);
       triangle(vertex[k], vertex[k + 1], vertex[up + 1]);
       triangle(vertex[k], vertex[up + 1], vertex[up]);
     }
   // Counts are known only now.
   std::string head =
-      "ply\nformat binary_little_endian 1.0\ncomment metres in the world's frame, z up\nelement vertex " +
+      "ply\nformat binary_little_endian 1.0\ncomment metres in the world's frame, z up\nelement "
+      "vertex " +
       std::to_string(count) + "\nproperty double x\nproperty double y\nproperty double z\n";
   for (const Layer layer : layers) head += "property float " + info(layer).name + "\n";
-  head += "element face " + std::to_string(triangles) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  head += "element face " + std::to_string(triangles) +
+          "\nproperty list uchar int vertex_indices\nend_header\n";
   std::vector<char> bytes(head.begin(), head.end());
   bytes.insert(bytes.end(), vertices.begin(), vertices.end());
   bytes.insert(bytes.end(), faces.begin(), faces.end());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of NumPy arrays as excavation planners of the Terra kind take: one map, number 1, of small whole numbers.
+// A folder of NumPy arrays as excavation planners of the Terra kind take: one map, number 1, of
+// small whole numbers.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -26,22 +27,24 @@ void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
   for (int q = 0; q < n; ++q) {
     if (!std::isfinite(f[static_cast<std::size_t>(q)])) continue;
     const auto meet = [&](int p) {
-      return (f[static_cast<std::size_t>(q)] + static_cast<double>(q) * q - f[static_cast<std::size_t>(p)] -
-              static_cast<double>(p) * p) /
+      return (f[static_cast<std::size_t>(q)] + static_cast<double>(q) * q -
+              f[static_cast<std::size_t>(p)] - static_cast<double>(p) * p) /
              (2.0 * (q - p));
     };
-    while (count > 0 && meet(at[static_cast<std::size_t>(count - 1)]) <= from[static_cast<std::size_t>(count - 1)])
+    while (count > 0 && meet(at[static_cast<std::size_t>(count - 1)]) <=
+                            from[static_cast<std::size_t>(count - 1)])
       --count;
-    from[static_cast<std::size_t>(count)] =
-        count == 0 ? -std::numeric_limits<double>::infinity() : meet(at[static_cast<std::size_t>(count - 1)]);
+    from[static_cast<std::size_t>(count)] = count == 0
+                                                ? -std::numeric_limits<double>::infinity()
+                                                : meet(at[static_cast<std::size_t>(count - 1)]);
     at[static_cast<std::size_t>(count++)] = q;
   }
   for (int i = 0, k = 0; i < n; ++i) {
     while (k + 1 < count && from[static_cast<std::size_t>(k + 1)] < i) ++k;
     const int p = count > 0 ? at[static_cast<std::size_t>(k)] : 0;
-    out[static_cast<std::size_t>(i)] = count == 0
-                                           ? std::numeric_limits<double>::infinity()
-                                           : static_cast<double>(i - p) * (i - p) + f[static_cast<std::size_t>(p)];
+    out[static_cast<std::size_t>(i)] =
+        count == 0 ? std::numeric_limits<double>::infinity()
+                   : static_cast<double>(i - p) * (i - p) + f[static_cast<std::size_t>(p)];
   }
 }
 
@@ -65,7 +68,8 @@ std::vector<float> distances(const std::vector<std::int8_t>& marked, int nx, int
   pass(nx, ny, 1, width);
   std::vector<float> out;
   out.reserve(square.size());
-  for (const double d : square) out.push_back(std::isfinite(d) ? static_cast<float>(cell * std::sqrt(d)) : -1.0f);
+  for (const double d : square)
+    out.push_back(std::isfinite(d) ? static_cast<float>(cell * std::sqrt(d)) : -1.0f);
   return out;
 }
 
@@ -87,12 +91,15 @@ void write_terra(const TerrainMap& map, const std::vector<Layer>& layers, const 
   std::vector<std::int8_t> dig, target, occupied, dumpable;
   const std::vector<float> z = map.copy(Layer::kElevation), wanted = map.copy(Layer::kTarget),
                            good = map.copy(Layer::kTraversability);
-  // What the ground is off its design by less than a twentieth of a column's edge is as good as done.
+  // What the ground is off its design by less than a twentieth of a column's edge is as good as
+  // done.
   const double least = 0.05 * map.cell();
   for (std::size_t k = 0; k < z.size(); ++k) {
     const double rise = static_cast<double>(z[k]) - static_cast<double>(wanted[k]);
     // Comparisons with an unknown height are false: neutral.
-    const std::int8_t aim = rise > least ? std::int8_t{-1} : rise < -least ? std::int8_t{1} : std::int8_t{0};
+    const std::int8_t aim = rise > least    ? std::int8_t{-1}
+                            : rise < -least ? std::int8_t{1}
+                                            : std::int8_t{0};
     target.push_back(aim);
     dig.push_back(aim < 0 ? 1 : 0);
     occupied.push_back(good[k] > 0 ? 0 : 1);

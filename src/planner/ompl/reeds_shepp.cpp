@@ -28,8 +28,9 @@ using control::PlanePose;
 using Space = ob::ReedsSheppStateSpace;
 
 constexpr double kStep = 0.15;  // [m] between poses that are asked for
-// These four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that has not met by its
-// iterations is given up for a new one: growth costs more the larger the trees are.
+// These four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that
+// has not met by its iterations is given up for a new one: growth costs more the larger the trees
+// are.
 constexpr double kRange = 6;           // most growth of a tree at a time [m]
 constexpr int kTrees = 16;             // pairs of trees at most
 constexpr int kTreeIterations = 250;   // of a pair
@@ -60,7 +61,8 @@ void append(const Space& space, double radius, const ob::State* from, const ob::
                              : path.type_[i] == Space::RS_RIGHT ? -1 / radius
                                                                 : 0;
     // Two pieces of one arc are one.
-    if (!out.empty() && out.back().curvature == curvature && (out.back().length < 0) == (length < 0))
+    if (!out.empty() && out.back().curvature == curvature &&
+        (out.back().length < 0) == (length < 0))
       out.back().length += length;
     else
       out.push_back({length, curvature});
@@ -81,8 +83,9 @@ class Search {
     }
     space_->setBounds(bounds);
     info_ = std::make_shared<ob::SpaceInformation>(space_);
-    info_->setStateValidityChecker(
-        [this](const ob::State* state) { return space_->satisfiesBounds(state) && problem_.valid(pose_of(state)); });
+    info_->setStateValidityChecker([this](const ob::State* state) {
+      return space_->satisfiesBounds(state) && problem_.valid(pose_of(state));
+    });
     info_->setMotionValidator(std::make_shared<ob::ReedsSheppMotionValidator>(info_));
     info_->setStateValidityCheckingResolution(kStep / space_->getMaximumExtent());
     info_->setup();
@@ -92,7 +95,8 @@ class Search {
     ob::ScopedState<> start(space_), goal(space_);
     set(start.get(), problem_.start);
     set(goal.get(), problem_.goal);
-    if (!info_->isValid(start.get()) || !info_->checkMotion(start.get(), goal.get())) return std::nullopt;
+    if (!info_->isValid(start.get()) || !info_->checkMotion(start.get(), goal.get()))
+      return std::nullopt;
     std::vector<PathPiece> pieces;
     append(*space_, problem_.radius, start.get(), goal.get(), pieces);
     return Path(problem_.start, std::move(pieces));
@@ -109,8 +113,10 @@ class Search {
     trees.setRange(kRange);
     trees.setProblemDefinition(definition);
     trees.setup();
-    ob::IterationTerminationCondition enough(static_cast<unsigned>(std::min(left, kTreeIterations)));
-    const ob::PlannerStatus status = trees.solve(static_cast<ob::PlannerTerminationCondition>(enough));
+    ob::IterationTerminationCondition enough(
+        static_cast<unsigned>(std::min(left, kTreeIterations)));
+    const ob::PlannerStatus status =
+        trees.solve(static_cast<ob::PlannerTerminationCondition>(enough));
     left -= std::max(1, static_cast<int>(enough.getTimesCalled()));
     if (status != ob::PlannerStatus::EXACT_SOLUTION) return std::nullopt;
     og::PathGeometric way = *definition->getSolutionPath()->as<og::PathGeometric>();
@@ -134,10 +140,12 @@ class Search {
 }  // namespace
 
 std::optional<Path> plan_reeds_shepp(const ReedsSheppProblem& problem) {
-  // One source of seeds serves the whole process: between its setting and the last tree nobody else may draw.
+  // One source of seeds serves the whole process: between its setting and the last tree nobody else
+  // may draw.
   static std::mutex turns;
   const std::lock_guard<std::mutex> turn(turns);
-  // Libraries never print; the seeding of a source that has been used before would be told as a mistake.
+  // Libraries never print; the seeding of a source that has been used before would be told as a
+  // mistake.
   ompl::msg::noOutputHandler();
   ompl::RNG::setSeed(problem.seed);
   const Search search(problem);

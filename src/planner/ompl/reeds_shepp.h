@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only place with OMPL: Reeds-Shepp paths by rapidly exploring random trees. Exists only in builds with
-// NAVVY_WITH_OMPL.
+// The only place with OMPL: Reeds-Shepp paths by rapidly exploring random trees. Exists only in
+// builds with NAVVY_WITH_OMPL.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,16 @@ struct ReedsSheppProblem {
   std::function<bool(const control::PlanePose&)> valid;
 };
 
-/// Metres of way that a change of direction counts for when paths are compared: a stop, and wheels turned standing.
+/// Metres of way that a change of direction counts for when paths are compared: a stop, and wheels
+/// turned standing.
 inline constexpr double kCuspPrice = 3;
 
-/// The shortest Reeds-Shepp path [Reeds 1990] where that is valid. Else the cheapest of several that pairs of trees
-/// [Kuffner 2000] find with the iterations, each shortened by straight connections between its places. Poses are asked
-/// for every 0.15 m.
+/// The shortest Reeds-Shepp path [Reeds 1990] where that is valid. Else the cheapest of several
+/// that pairs of trees [Kuffner 2000] find with the iterations, each shortened by straight
+/// connections between its places. Poses are asked for every 0.15 m.
 ///
-/// Equal problems give equal paths, to the bit: nothing looks at the time, and the library's one source of seeds is set
-/// anew under a lock. May be called from several threads; they take turns.
+/// Equal problems give equal paths, to the bit: nothing looks at the time, and the library's one
+/// source of seeds is set anew under a lock. May be called from several threads; they take turns.
 std::optional<control::Path> plan_reeds_shepp(const ReedsSheppProblem& problem);
 
 }  // namespace navvy::planner

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// rosbag2's tables as ROS 2 Humble makes them; the metadata come last, when counts and times are known.
+// rosbag2's tables as ROS 2 Humble makes them; the metadata come last, when counts and times are
+// known.
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -17,10 +18,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTables =
     "CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);"
-    "CREATE TABLE metadata(id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata TEXT NOT NULL);"
+    "CREATE TABLE metadata(id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata "
+    "TEXT NOT NULL);"
     "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
     " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
-    "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,"
+    "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER "
+    "NOT NULL,"
     " data BLOB NOT NULL);"
     "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
     "INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');"
@@ -31,15 +34,17 @@ class BagFolder final : public Bag {
  public:
   explicit BagFolder(const std::string& path) : folder_(path) {
     // "out/bag/" is called "bag" too.
-    const std::string name = (folder_.has_filename() ? folder_ : folder_.parent_path()).filename().string();
+    const std::string name =
+        (folder_.has_filename() ? folder_ : folder_.parent_path()).filename().string();
     storage_ = name + "_0.db3";
     std::error_code failed;
     fs::create_directories(folder_, failed);
     if (failed) throw FileError("cannot make '" + path + "': " + failed.message());
     for (const auto& entry : fs::directory_iterator(folder_))
       if (entry.path().filename() != storage_ && entry.path().filename() != "metadata.yaml")
-        throw InputError(Fault{Fault::Severity::kError, path, 0, "bag", entry.path().filename().string(),
-                               "lies in the folder already", "name a new folder"});
+        throw InputError(Fault{Fault::Severity::kError, path, 0, "bag",
+                               entry.path().filename().string(), "lies in the folder already",
+                               "name a new folder"});
     // Without metadata nobody takes a half new folder for the old bag.
     fs::remove(folder_ / "metadata.yaml", failed);
     fs::remove(folder_ / storage_, failed);
@@ -53,8 +58,10 @@ class BagFolder final : public Bag {
     sqlite3_close(data_);
   }
 
-  void write(const std::string& topic, Kind kind, std::int64_t time_ns, const Bytes& message) override {
-    // Poses come fifty times a second: a transaction for each message would cost more than the step.
+  void write(const std::string& topic, Kind kind, std::int64_t time_ns,
+             const Bytes& message) override {
+    // Poses come fifty times a second: a transaction for each message would cost more than the
+    // step.
     if (messages_ > 0 && time_ns != now_) commit();
     if (sqlite3_get_autocommit(data_) != 0) run("BEGIN");
     now_ = time_ns;
@@ -70,7 +77,8 @@ class BagFolder final : public Bag {
       sqlite3_finalize(row);
       if (!done) fail();
     }
-    if (insert_ == nullptr) insert_ = prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)");
+    if (insert_ == nullptr)
+      insert_ = prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)");
     sqlite3_bind_int(insert_, 1, to.id);
     sqlite3_bind_int64(insert_, 2, time_ns);
     sqlite3_bind_blob64(insert_, 3, message.data(), message.size(), SQLITE_STATIC);
@@ -89,7 +97,8 @@ class BagFolder final : public Bag {
     insert_ = nullptr;
     const int closed = sqlite3_close(data_);
     data_ = nullptr;
-    if (closed != SQLITE_OK) throw FileError("cannot close '" + (folder_ / storage_).string() + "'");
+    if (closed != SQLITE_OK)
+      throw FileError("cannot close '" + (folder_ / storage_).string() + "'");
     write_file_atomically((folder_ / "metadata.yaml").string(), metadata());
   }
 
@@ -103,7 +112,8 @@ class BagFolder final : public Bag {
   [[noreturn]] void fail() const {
     const std::string cause = sqlite3_errmsg(data_);
     // What came before stays, and others may read it.
-    if (sqlite3_get_autocommit(data_) == 0) sqlite3_exec(data_, "ROLLBACK", nullptr, nullptr, nullptr);
+    if (sqlite3_get_autocommit(data_) == 0)
+      sqlite3_exec(data_, "ROLLBACK", nullptr, nullptr, nullptr);
     throw FileError("cannot write '" + (folder_ / storage_).string() + "': " + cause);
   }
   void run(const char* statements) {
@@ -122,15 +132,19 @@ class BagFolder final : public Bag {
   std::string metadata() const {
     const std::string start = std::to_string(first_), duration = std::to_string(last_ - first_);
     std::string out =
-        "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  duration:\n    nanoseconds: " +
+        "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  duration:\n  "
+        "  nanoseconds: " +
         duration + "\n  starting_time:\n    nanoseconds_since_epoch: " + start +
         "\n  message_count: " + std::to_string(messages_) + "\n  topics_with_message_count:\n";
     for (const auto& [name, topic] : topics_)
-      out += "    - topic_metadata:\n        name: " + name + "\n        type: " + type_name(topic.kind) +
-             "\n        serialization_format: cdr\n        offered_qos_profiles: \"\"\n      message_count: " +
+      out += "    - topic_metadata:\n        name: " + name +
+             "\n        type: " + type_name(topic.kind) +
+             "\n        serialization_format: cdr\n        offered_qos_profiles: \"\"\n      "
+             "message_count: " +
              std::to_string(topic.messages) + "\n";
-    out += "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - " + storage_ +
-           "\n  files:\n    - path: " + storage_ + "\n      starting_time:\n        nanoseconds_since_epoch: " + start +
+    out += "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - " +
+           storage_ + "\n  files:\n    - path: " + storage_ +
+           "\n      starting_time:\n        nanoseconds_since_epoch: " + start +
            "\n      duration:\n        nanoseconds: " + duration +
            "\n      message_count: " + std::to_string(messages_) + "\n";
     return out;
@@ -147,6 +161,8 @@ class BagFolder final : public Bag {
 
 }  // namespace
 
-std::unique_ptr<Bag> make_bag_folder(const std::string& folder) { return std::make_unique<BagFolder>(folder); }
+std::unique_ptr<Bag> make_bag_folder(const std::string& folder) {
+  return std::make_unique<BagFolder>(folder);
+}
 
 }  // namespace navvy::planner::ros

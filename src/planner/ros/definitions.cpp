@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the messages are made of, field by field: readers of an MCAP file know no type that its schemas do not tell.
+// What the messages are made of, field by field: readers of an MCAP file know no type that its
+// schemas do not tell.
 #include <map>
 
 #include "planner/ros/messages.h"
@@ -25,12 +26,15 @@ const Row kTypes[] = {
     {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
     {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
     {"geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
-    {"geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    {"geometry_msgs/Transform",
+     "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
     {"geometry_msgs/TransformStamped",
      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
-    {"grid_map_msgs/GridMapInfo", "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"},
+    {"grid_map_msgs/GridMapInfo",
+     "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"},
     {"grid_map_msgs/GridMap",
-     "std_msgs/Header header\ngrid_map_msgs/GridMapInfo info\nstring[] layers\nstring[] basic_layers\n"
+     "std_msgs/Header header\ngrid_map_msgs/GridMapInfo info\nstring[] layers\nstring[] "
+     "basic_layers\n"
      "std_msgs/Float32MultiArray[] data\nuint16 outer_start_index\nuint16 inner_start_index\n"},
     {"nav_msgs/MapMetaData",
      "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\n"
@@ -41,10 +45,12 @@ const Row kTypes[] = {
      "geometry_msgs/TwistWithCovariance twist\n"},
     {"sensor_msgs/PointField", "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
     {"sensor_msgs/PointCloud2",
-     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n"
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool "
+     "is_bigendian\n"
      "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
     {"sensor_msgs/JointState",
-     "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n"},
+     "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] "
+     "effort\n"},
     {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
     {"rosgraph_msgs/Clock", "builtin_interfaces/Time clock\n"},
 };
@@ -110,7 +116,8 @@ const std::string& definition(Kind kind) {
       std::string text = fields_of(short_name(static_cast<Kind>(i)));
       std::vector<std::string> parts;
       parts_of(text, parts);
-      for (const std::string& part : parts) text += std::string(80, '=') + "\nMSG: " + part + "\n" + fields_of(part);
+      for (const std::string& part : parts)
+        text += std::string(80, '=') + "\nMSG: " + part + "\n" + fields_of(part);
       out[static_cast<Kind>(i)] = text;
     }
     return out;

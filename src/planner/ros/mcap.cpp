@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MCAP is a magic, records of opcode, length and body, and the magic again. Numbers are little-endian, strings and
-// maps carry their length in 32 bits.
+// MCAP is a magic, records of opcode, length and body, and the magic again. Numbers are
+// little-endian, strings and maps carry their length in 32 bits.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -53,7 +53,8 @@ class Mcap final : public Bag {
     if (file_ != nullptr) std::fclose(file_);
   }
 
-  void write(const std::string& topic, Kind kind, std::int64_t time_ns, const Bytes& message) override {
+  void write(const std::string& topic, Kind kind, std::int64_t time_ns,
+             const Bytes& message) override {
     Topic& channel = channel_of(topic, kind);
     std::string body;
     put(body, channel.id);
@@ -108,7 +109,9 @@ class Mcap final : public Bag {
     std::uint64_t messages = 0;
   };
 
-  [[noreturn]] void fail() const { throw FileError("cannot write '" + path_ + "': " + std::strerror(errno)); }
+  [[noreturn]] void fail() const {
+    throw FileError("cannot write '" + path_ + "': " + std::strerror(errno));
+  }
   void append(const std::string& bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
     written_ += bytes.size();
@@ -124,7 +127,8 @@ class Mcap final : public Bag {
     const auto known = topics_.find(topic);
     if (known != topics_.end()) return known->second;
     // Number 0 means "no schema".
-    const auto [schema, is_new] = schemas_.try_emplace(kind, static_cast<std::uint16_t>(schemas_.size() + 1));
+    const auto [schema, is_new] =
+        schemas_.try_emplace(kind, static_cast<std::uint16_t>(schemas_.size() + 1));
     std::string body;
     if (is_new) {
       put(body, schema->second);

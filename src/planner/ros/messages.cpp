@@ -39,7 +39,8 @@ class Writer {
     return *this;
   }
   Writer& time(std::int64_t ns) {
-    return *this << static_cast<std::int32_t>(ns / 1'000'000'000) << static_cast<std::uint32_t>(ns % 1'000'000'000);
+    return *this << static_cast<std::int32_t>(ns / 1'000'000'000)
+                 << static_cast<std::uint32_t>(ns % 1'000'000'000);
   }
   Writer& header(std::int64_t ns) { return time(ns) << std::string(kFrame); }
   Writer& vector(const Vec3& v) { return *this << v.x() << v.y() << v.z(); }
@@ -51,7 +52,9 @@ class Writer {
     for (int i = 0; i < 36; ++i) *this << 0.0;
     return *this;
   }
-  Bytes bytes() { return {buffer_.getBuffer(), buffer_.getBuffer() + cdr_.getSerializedDataLength()}; }
+  Bytes bytes() {
+    return {buffer_.getBuffer(), buffer_.getBuffer() + cdr_.getSerializedDataLength()};
+  }
 
  private:
   FastBuffer buffer_;
@@ -65,18 +68,19 @@ Pose at(double x, double y) {
 }
 
 /// A message counts its bytes in 32 bits.
-void require_room(const TerrainMap& map, std::size_t layers) {
-  const double bytes =
-      static_cast<double>(map.rect().area()) * 4 * static_cast<double>(std::max<std::size_t>(layers, 1));
+void require_capacity(const TerrainMap& map, std::size_t layers) {
+  const double bytes = static_cast<double>(map.rect().area()) * 4 *
+                       static_cast<double>(std::max<std::size_t>(layers, 1));
   if (bytes < 2e9) return;
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "map message", std::to_string(bytes) + " bytes", "at most 2e9",
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "map message",
+                         std::to_string(bytes) + " bytes", "at most 2e9",
                          "ask for fewer layers, or for a GeoTIFF"});
 }
 
 }  // namespace
 
 Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int64_t time_ns) {
-  require_room(map, layers.size());
+  require_capacity(map, layers.size());
   const int nx = map.nx(), ny = map.ny();
   const double length_x = nx * map.cell(), length_y = ny * map.cell();
   Writer out;
@@ -92,7 +96,8 @@ Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int
   const auto rows = static_cast<std::uint32_t>(nx), columns = static_cast<std::uint32_t>(ny);
   std::vector<float> values(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   for (const Layer layer : layers) {
-    // Its matrix has x along rows and is kept column by column: x runs fastest here too, but both run downwards.
+    // Its matrix has x along rows and is kept column by column: x runs fastest here too, but both
+    // run downwards.
     const std::vector<float> ours = map.copy(layer);
     std::reverse_copy(ours.begin(), ours.end(), values.begin());
     out << std::uint32_t{2};
@@ -106,14 +111,16 @@ Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int
 }
 
 Bytes occupancy_grid(const TerrainMap& map, std::int64_t time_ns) {
-  require_room(map, 1);
+  require_capacity(map, 1);
   std::vector<std::int8_t> cells;
   for (const float t : map.copy(Layer::kTraversability))
-    cells.push_back(t == t ? static_cast<std::int8_t>(std::lround(100 * (1 - std::clamp(t, 0.0f, 1.0f))))
-                           : std::int8_t{-1});
+    cells.push_back(
+        t == t ? static_cast<std::int8_t>(std::lround(100 * (1 - std::clamp(t, 0.0f, 1.0f))))
+               : std::int8_t{-1});
   Writer out;
-  out.header(time_ns).time(time_ns) << static_cast<float>(map.cell()) << static_cast<std::uint32_t>(map.nx())
-                                    << static_cast<std::uint32_t>(map.ny());
+  out.header(time_ns).time(time_ns)
+      << static_cast<float>(map.cell()) << static_cast<std::uint32_t>(map.nx())
+      << static_cast<std::uint32_t>(map.ny());
   out.pose(at(map.origin().x(), map.origin().y())).sequence(cells);
   return out.bytes();
 }
@@ -122,7 +129,7 @@ Bytes point_cloud(const TerrainMap& map, const std::vector<Layer>& layers, std::
   std::vector<Layer> more;
   for (const Layer layer : layers)
     if (layer != Layer::kElevation) more.push_back(layer);
-  require_room(map, 3 + more.size());
+  require_capacity(map, 3 + more.size());
   const std::vector<float> z = map.copy(Layer::kElevation);
   std::vector<std::vector<float>> values;
   values.reserve(more.size());

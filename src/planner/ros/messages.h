@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of ROS 2 as CDR bytes, for bags that planners play without Navvy. The only folder with Fast-CDR and SQLite.
+// Messages of ROS 2 as CDR bytes, for bags that planners play without Navvy. The only folder with
+// Fast-CDR and SQLite.
 #pragma once
 
 #include <array>
@@ -20,21 +21,24 @@ enum class Kind { kGridMap, kOccupancyGrid, kPointCloud, kOdometry, kJointState,
 inline constexpr int kKinds = 7;
 /// "grid_map_msgs/msg/GridMap".
 const std::string& type_name(Kind kind);
-/// The message's definition with all that it is made of, as MCAP's schema encoding `ros2msg` wants it.
+/// The message's definition with all that it is made of, as MCAP's schema encoding `ros2msg` wants
+/// it.
 const std::string& definition(Kind kind);
 
 /// The frame that all of W is in.
 inline constexpr const char* kFrame = "map";
 
-// Times are simulated ones from the start of the run [ns]; lengths are in metres, angles in radians.
+// Times are simulated ones from the start of the run [ns]; lengths are in metres, angles in
+// radians.
 
-/// grid_map: pose is the map's centre; a layer's numbers begin at greatest x and greatest y and run first towards
-/// least x. `elevation` is the basic layer where it is asked for.
+/// grid_map: pose is the map's centre; a layer's numbers begin at greatest x and greatest y and run
+/// first towards least x. `elevation` is the basic layer where it is asked for.
 Bytes grid_map(const TerrainMap& map, const std::vector<Layer>& layers, std::int64_t time_ns);
-/// 100 (1 - traversability) rounded, -1 unknown; row-major from the lower-left column. The map must have it.
+/// 100 (1 - traversability) rounded, -1 unknown; row-major from the lower-left column. The map must
+/// have it.
 Bytes occupancy_grid(const TerrainMap& map, std::int64_t time_ns);
-/// A point (x y z as float32, relative to W) for each column whose elevation is known, row by row from least y, and a
-/// float32 field for each other layer.
+/// A point (x y z as float32, relative to W) for each column whose elevation is known, row by row
+/// from least y, and a float32 field for each other layer.
 Bytes point_cloud(const TerrainMap& map, const std::vector<Layer>& layers, std::int64_t time_ns);
 
 /// A body in W.

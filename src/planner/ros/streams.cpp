@@ -23,11 +23,16 @@ std::string topic_part(const std::string& name) {
 
 }  // namespace
 
-std::int64_t stamp(double time) { return time == time ? static_cast<std::int64_t>(std::llround(time * 1e9)) : 0; }
+std::int64_t stamp(double time) {
+  return time == time ? static_cast<std::int64_t>(std::llround(time * 1e9)) : 0;
+}
 
-void write_clock(Bag& bag, std::int64_t time_ns) { bag.write("/clock", Kind::kClock, time_ns, clock(time_ns)); }
+void write_clock(Bag& bag, std::int64_t time_ns) {
+  bag.write("/clock", Kind::kClock, time_ns, clock(time_ns));
+}
 
-void write_map(Bag& bag, const TerrainMap& map, const std::vector<Layer>& layers, std::int64_t time_ns) {
+void write_map(Bag& bag, const TerrainMap& map, const std::vector<Layer>& layers,
+               std::int64_t time_ns) {
   bag.write("/terrain/grid_map", Kind::kGridMap, time_ns, grid_map(map, layers, time_ns));
   bag.write("/terrain/points", Kind::kPointCloud, time_ns, point_cloud(map, layers, time_ns));
   if (std::find(layers.begin(), layers.end(), Layer::kTraversability) != layers.end())

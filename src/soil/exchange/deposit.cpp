@@ -9,19 +9,20 @@ namespace {
 
 // At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [docs/exchange.md, rest].
 constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
-/// Undercut walls and clods over a void stand for good; without an end to the wait they stay awake for good too [s].
+/// Undercut walls and clods over a void stand for good; without an end to the wait they stay awake
+/// for good too [s].
 constexpr double kHollowRest = 5;
 /// A tool this far above the soil leaves it free to settle [cells] [docs/exchange.md, deposit].
 constexpr double kToolAbove = 2;
 /// Volume of a block too thin to tell [cells]: a quarter cell over all its columns.
-constexpr double kLeastRoom = 4;
-/// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below 0.8 a column, and the
-/// number of particles over a column scatters by 0.65.
+constexpr double kLeastCapacity = 4;
+/// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below
+/// 0.8 a column, and the number of particles over a column scatters by 0.65.
 constexpr double kCliff = 1.5;
 /// Of the four neighbours so many at least are level with a column that belongs to a wall.
 constexpr int kInLine = 2;
-/// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and more [-]. A wall may
-/// carry spoil: this share of a column is enough.
+/// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and
+/// more [-]. A wall may carry spoil: this share of a column is enough.
 constexpr double kBonded = 0.5, kBondedShare = 0.25;
 /// Columns' shares of a block's volume are counted in this fraction of a cell.
 constexpr double kShareUnit = 1.0 / (1 << 20);
@@ -35,8 +36,8 @@ double square_speed(const Particle& p) {
 bool at_rest(const ColumnIndex& index, int block) {
   double mass = 0, sum = 0, most = 0;
   for (const std::uint32_t i : index.block(block)) {
-    // Squares are compared, so no root is taken for a particle; sums run in the index's order, which does not depend on
-    // the input's.
+    // Squares are compared, so no root is taken for a particle; sums run in the index's order,
+    // which does not depend on the input's.
     const double square = square_speed(index[i]);
     mass += index[i].mass;
     sum += index[i].mass * square;
@@ -46,21 +47,22 @@ bool at_rest(const ColumnIndex& index, int block) {
   return sum < kRestRms * kRestRms * mass && most < kRestMost * kRestMost;
 }
 
-// A tool keeps a block awake when it is near, when its zone would wake the block again, or when it touches a particle
-// of it.
-bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key, double top) {
+// A tool keeps a block awake when it is near, when its zone would wake the block again, or when it
+// touches a particle of it.
+bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key,
+                    double top) {
   const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
   const auto meets = [&](const heightfield::CellRect& r) {
     return r.x0 < x0 + kBlockCells && r.x1 > x0 && r.y0 < y0 + kBlockCells && r.y1 > y0;
   };
   for (const ToolZone& tool : zones) {
-    if (tool.seated || top + kToolAbove < tool.low) continue;
+    if (tool.supported || top + kToolAbove < tool.low) continue;
     // What rule A would wake again at once is not booked back either.
     if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
   }
   const auto stands = [&](int number) {
     return std::any_of(zones.begin(), zones.end(),
-                       [&](const ToolZone& tool) { return tool.seated && tool.tool == number; });
+                       [&](const ToolZone& tool) { return tool.supported && tool.tool == number; });
   };
   const int b = index.find(key);
   for (const std::uint32_t i : index.block(b))
@@ -72,7 +74,8 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
 }  // namespace
 
 void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
-  // The new list holds only blocks that rest now, so that one that was moved or has left starts from zero.
+  // The new list holds only blocks that rest now, so that one that was moved or has left starts
+  // from zero.
   RestTimes now;
   for (std::size_t b = 0; b < index.blocks().size(); ++b) {
     if (!at_rest(index, static_cast<int>(b))) continue;
@@ -83,8 +86,8 @@ void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
   rest.swap(now);
 }
 
-bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index, std::span<const ToolZone> zones,
-                 const RestTimes& rest, int block) {
+bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
+                 std::span<const ToolZone> zones, const RestTimes& rest, int block) {
   const PlanKey key = index.blocks()[static_cast<std::size_t>(block)];
   const auto found = rest.find(key);
   if (found == rest.end() || found->second < kRestTime) return false;
@@ -130,7 +133,8 @@ std::array<bool, 16> Depositor::cliffs(int block) const {
     const int ix = index_.grid().column_x(key, c), iy = index_.grid().column_y(key, c);
     if (!ground_.contains(ix, iy)) continue;
     const double here = surface(ix, iy);
-    // Beyond the site's edge nothing is known, so such neighbours count neither as drops nor as level.
+    // Beyond the site's edge nothing is known, so such neighbours count neither as drops nor as
+    // level.
     int drops = 0, level = 0;
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (!ground_.contains(ix + dx, iy + dy)) continue;
@@ -141,7 +145,8 @@ std::array<bool, 16> Depositor::cliffs(int block) const {
   return out;
 }
 
-// Integer shares of the block's columns that stand at no cliff; at least one is positive when soil lies over them.
+// Integer shares of the block's columns that stand at no cliff; at least one is positive when soil
+// lies over them.
 std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) const {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   std::array<std::int64_t, 16> out{};
@@ -149,7 +154,8 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   const PlanGrid& grid = index_.grid();
   for (std::size_t c = 0; c < 16; ++c) {
     const int place = static_cast<int>(c);
-    if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place))) continue;
+    if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place)))
+      continue;
     // Whole numbers, so that shares of mass add up exactly whatever their order.
     out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
     sum += out[c];
@@ -159,7 +165,8 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
   for (std::size_t c = 0; c < 16; ++c) {
     if (plan.cliff[c]) continue;
     const int place = static_cast<int>(c);
-    for (const std::uint32_t i : index_.column(grid.column_x(key, place), grid.column_y(key, place)))
+    for (const std::uint32_t i :
+         index_.column(grid.column_x(key, place), grid.column_y(key, place)))
       out[c] += index_[i].mass;
   }
   return out;
@@ -185,19 +192,22 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
 double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& plan) const {
   const double cell = ground_.cell();
   double state = 0, room = 0;
-  // In cells: kMassQuantum turns quanta into kilograms, the bank density into volume, and the cell's cube into cells.
+  // In cells: kMassQuantum turns quanta into kilograms, the bank density into volume, and the
+  // cell's cube into cells.
   for (const SoilShare& share : shares)
-    state += kMassQuantum * share.volume / (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
+    state += kMassQuantum * share.volume /
+             (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
   for (std::size_t c = 0; c < 16; ++c)
     if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
   // A few crumbs that the surface does not show are not crowded.
-  return room > kLeastRoom ? state / room : 1.0;
+  return room > kLeastCapacity ? state / room : 1.0;
 }
 
-// At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared out.
-void Depositor::book_column(int ix, int iy) {
+// At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared
+// out.
+void Depositor::deposit_column(int ix, int iy) {
   for (const SoilShare& share : soil_shares(index_, index_.column(ix, iy))) {
-    heightfield::Layer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
+    heightfield::SoilLayer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
     layer.mass = share.mass;
     ground_.put(ix, iy, layer);
   }
@@ -212,18 +222,20 @@ void Depositor::book(const Plan& plan, int block) {
   std::vector<std::uint32_t> pooled;
   std::vector<SharedColumn> columns;
   for (std::size_t c = 0; c < 16; ++c) {
-    const int ix = grid.column_x(key, static_cast<int>(c)), iy = grid.column_y(key, static_cast<int>(c));
+    const int ix = grid.column_x(key, static_cast<int>(c)),
+              iy = grid.column_y(key, static_cast<int>(c));
     columns.push_back({ix, iy, weight[c]});
     const Grains grains = index_.column(ix, iy);
     if (plan.cliff[c])
-      book_column(ix, iy);
+      deposit_column(ix, iy);
     else
       pooled.insert(pooled.end(), grains.begin(), grains.end());
   }
   const std::vector<SoilShare> found = soil_shares(index_, pooled);
   const double rise = crowding(found, plan);
   for (const SoilShare& share : found)
-    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, rise), share.mass, columns);
+    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, rise), share.mass,
+              columns);
 }
 
 }  // namespace navvy::soil

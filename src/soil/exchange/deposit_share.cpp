@@ -8,19 +8,22 @@
 namespace navvy::soil {
 namespace {
 
-/// Where particles crowd into less room than their state asks for (beside plates the tracked volume misses up to half
-/// of it), a block may rise this much above its surface; the rest is stored as density, down to the limit below.
-/// tuned: a blade drawn 2 m through sand leaves every block but the three it stood in within 0.85 .. 1.15.
+/// Where particles crowd into less room than their state asks for (beside plates the tracked volume
+/// misses up to half of it), a block may rise this much above its surface; the rest is stored as
+/// density, down to the limit below. tuned: a blade drawn 2 m through sand leaves every block but
+/// the three it stood in within 0.85 .. 1.15.
 constexpr double kMostRise = 1.15, kCrowded = 0.8;
 
 }  // namespace
 
-std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std::uint32_t> grains) {
+std::vector<SoilShare> soil_shares(const ColumnIndex& index,
+                                   std::span<const std::uint32_t> grains) {
   // Few soils meet in a block, so the list is searched.
   std::vector<SoilShare> out;
   for (const std::uint32_t i : grains) {
     const Particle& p = index[i];
-    auto share = std::find_if(out.begin(), out.end(), [&](const SoilShare& s) { return s.soil == p.soil; });
+    auto share =
+        std::find_if(out.begin(), out.end(), [&](const SoilShare& s) { return s.soil == p.soil; });
     if (share == out.end()) {
       out.push_back({p.soil});
       share = out.end() - 1;
@@ -30,20 +33,22 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index, std::span<const std
     share->shear += static_cast<double>(p.mass) * static_cast<double>(p.shear);
     share->height += static_cast<double>(p.mass) * height_in_cells(p);
   }
-  // What lay lower on average stays below; equal heights are told apart by the soil's number, so that the order is the
-  // same in every run.
+  // What lay lower on average stays below; equal heights are told apart by the soil's number, so
+  // that the order is the same in every run.
   std::sort(out.begin(), out.end(), [](const SoilShare& a, const SoilShare& b) {
-    const double za = a.height / static_cast<double>(a.mass), zb = b.height / static_cast<double>(b.mass);
+    const double za = a.height / static_cast<double>(a.mass),
+                 zb = b.height / static_cast<double>(b.mass);
     return za != zb ? za < zb : a.soil < b.soil;
   });
   return out;
 }
 
-heightfield::Layer layer_of(const SoilShare& share, double swell, double rise) {
+heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double rise) {
   const double mass = static_cast<double>(share.mass);
-  heightfield::Layer layer;
+  heightfield::SoilLayer layer;
   layer.soil = share.soil;
-  // The clamp is wide on purpose: a tighter one turns noise into volume [docs/exchange.md, decisions].
+  // The clamp is wide on purpose: a tighter one turns noise into volume
+  // [docs/exchange.md, decisions].
   double state = std::clamp(share.volume / mass, DENSEST_STATE, swell);
   if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
   layer.specific_volume = static_cast<float>(state);
@@ -51,10 +56,11 @@ heightfield::Layer layer_of(const SoilShare& share, double swell, double rise) {
   return layer;
 }
 
-void share_out(heightfield::Ground& ground, heightfield::Layer layer, std::int64_t mass,
+void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::int64_t mass,
                std::span<const SharedColumn> columns) {
   const auto largest = std::max_element(
-      columns.begin(), columns.end(), [](const SharedColumn& a, const SharedColumn& b) { return a.weight < b.weight; });
+      columns.begin(), columns.end(),
+      [](const SharedColumn& a, const SharedColumn& b) { return a.weight < b.weight; });
   std::int64_t sum = 0;
   for (const SharedColumn& column : columns) sum += column.weight;
   // The product may need more than 64 bits; in doubles it would lose quanta.

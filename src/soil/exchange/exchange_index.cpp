@@ -10,14 +10,14 @@
 namespace navvy::soil {
 namespace {
 
-/// Between centres, past which soil does not rest on what is below: one empty cell and half a particle above
-/// and below it [docs/exchange.md, deposit].
+/// Between centres, past which soil does not rest on what is below: one empty cell and half a
+/// particle above and below it [docs/exchange.md, deposit].
 constexpr double kMostGap = 1.5;
 constexpr double kHalfParticle = 0.25;  // [cells]
 constexpr std::size_t kColumnsPerBlock = kBlockCells * kBlockCells;
 
-// Both numbers may be negative; as 32 bits each they still tell blocks apart. The order of the packed key means
-// nothing.
+// Both numbers may be negative; as 32 bits each they still tell blocks apart. The order of the
+// packed key means nothing.
 std::uint64_t packed(const PlanKey& key) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.first)) << 32 |
          static_cast<std::uint32_t>(key.second);
@@ -25,7 +25,8 @@ std::uint64_t packed(const PlanKey& key) {
 
 }  // namespace
 
-ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground, PlanGrid grid)
+ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
+                         PlanGrid grid)
     : particles_(particles), ground_(ground), grid_(grid) {
   group();
   sort_columns();
@@ -33,7 +34,8 @@ ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield:
 }
 
 void ColumnIndex::group() {
-  // Blocks in order of first sight, then renumbered in rising order, so that the input's order leaves no trace.
+  // Blocks in order of first sight, then renumbered in rising order, so that the input's order
+  // leaves no trace.
   std::vector<std::uint32_t> home(particles_.size());
   std::vector<PlanKey> seen;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -41,8 +43,9 @@ void ColumnIndex::group() {
     const PlanKey key = grid_.block_of(ix, iy);
     const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
     if (is_new) seen.push_back(key);
-    home[i] = static_cast<std::uint32_t>(found->second) * static_cast<std::uint32_t>(kColumnsPerBlock) +
-              static_cast<std::uint32_t>(grid_.place(ix, iy));
+    home[i] =
+        static_cast<std::uint32_t>(found->second) * static_cast<std::uint32_t>(kColumnsPerBlock) +
+        static_cast<std::uint32_t>(grid_.place(ix, iy));
   }
   keys_ = seen;
   std::sort(keys_.begin(), keys_.end());
@@ -55,24 +58,27 @@ void ColumnIndex::group() {
   // Counting sort by column.
   begin_.assign(keys_.size() * kColumnsPerBlock + 1, 0);
   for (std::uint32_t& h : home) {
-    h = static_cast<std::uint32_t>(rank[h / kColumnsPerBlock] * kColumnsPerBlock + h % kColumnsPerBlock);
+    h = static_cast<std::uint32_t>(rank[h / kColumnsPerBlock] * kColumnsPerBlock +
+                                   h % kColumnsPerBlock);
     ++begin_[h + 1];
   }
   for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
   // Each column's particles stand together now, in the order of the input until sort_columns.
   order_.resize(particles_.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
-  for (std::size_t i = 0; i < home.size(); ++i) order_[next[home[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < home.size(); ++i)
+    order_[next[home[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 void ColumnIndex::sort_columns() {
-  // Two particles at one height are told apart by what they are, never by their place in the input. Ids tell a solver's
-  // particles apart; what follows only matters to callers that give none.
+  // Two particles at one height are told apart by what they are, never by their place in the input.
+  // Ids tell a solver's particles apart; what follows only matters to callers that give none.
   const auto rank = [&](std::uint32_t i) {
     const Particle& p = particles_[i];
     return std::tuple(p.id, p.x[0], p.x[1], p.mass, p.soil, p.j0, p.shear);
   };
-  std::vector<std::pair<double, std::uint32_t>> heights;  // of one column, so that most comparisons stay in the cache
+  // Of one column, so that most comparisons stay in the cache
+  std::vector<std::pair<double, std::uint32_t>> heights;
   for (std::size_t c = 0; c + 1 < begin_.size(); ++c) {
     heights.clear();
     for (std::uint32_t o = begin_[c]; o < begin_[c + 1]; ++o)
@@ -104,7 +110,8 @@ void ColumnIndex::build_piles() {
       pile.mass += p.mass;
       pile.height += kilograms(p.mass) * p.j0 / (soils[p.soil].bank_density * cell * cell * cell);
     }
-    // Particles may stand looser than their state says, and the surface is then where the highest ends.
+    // Particles may stand looser than their state says, and the surface is then where the highest
+    // ends.
     if (pile.mass > 0) pile.height = std::max(pile.height, pile.top + kHalfParticle - surface);
   }
 }

@@ -10,25 +10,28 @@
 namespace navvy::soil {
 namespace {
 
-constexpr double kLeastFriction = radians(0.25);  // a circle in the limit, where the formulas are 0 / 0
+// A circle in the limit, where the formulas are 0 / 0
+constexpr double kLeastFriction = radians(0.25);
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// gamma H / c of the spiral r = r0 exp((theta - from) tan phi) through the toe, from the crest's ray at `from` to the
-/// toe's at `to`: what cohesion dissipates over the work of the block's weight. Lengths in r0 [Chen 1975].
+/// gamma H / c of the spiral r = r0 exp((theta - from) tan phi) through the toe, from the crest's
+/// ray at `from` to the toe's at `to`: what cohesion dissipates over the work of the block's
+/// weight. Lengths in r0 [Chen 1975].
 double number_of(double tan_phi, double face, double from, double to) {
   const double grown = std::exp((to - from) * tan_phi);
   const double height = std::sin(to) * grown - std::sin(from);
-  const double crest =
-      std::sin(to - from) / std::sin(to) - std::sin(to + face) / (std::sin(to) * std::sin(face)) * height;
+  const double crest = std::sin(to - from) / std::sin(to) -
+                       std::sin(to + face) / (std::sin(to) * std::sin(face)) * height;
   if (!(height > 0) || !(crest > 0)) return kNone;
-  // Moments of the spiral's sector, less the triangles between the pole and the crest, and the pole and the face.
+  // Moments of the spiral's sector, less the triangles between the pole and the crest, and the pole
+  // and the face.
   const double t = 3 * tan_phi;
-  const double sector =
-      ((t * std::cos(to) + std::sin(to)) * grown * grown * grown - t * std::cos(from) - std::sin(from)) /
-      (3 * (1 + t * t));
+  const double sector = ((t * std::cos(to) + std::sin(to)) * grown * grown * grown -
+                         t * std::cos(from) - std::sin(from)) /
+                        (3 * (1 + t * t));
   const double above = crest / 6 * (2 * std::cos(from) - crest) * std::sin(from);
-  const double before =
-      grown / 6 * (std::sin(to - from) - crest * std::sin(to)) * (std::cos(from) - crest + std::cos(to) * grown);
+  const double before = grown / 6 * (std::sin(to - from) - crest * std::sin(to)) *
+                        (std::cos(from) - crest + std::cos(to) * grown);
   const double driving = sector - above - before;
   return driving > 0 ? (grown * grown - 1) * height / (2 * tan_phi * driving) : kNone;
 }
@@ -38,7 +41,8 @@ double number_of(double tan_phi, double face, double from, double to) {
 double stability_number(double friction_angle, double face) {
   if (face <= friction_angle) return kNone;
   const double tan_phi = std::tan(std::max(friction_angle, kLeastFriction));
-  // All spirals on a coarse lattice, then finer ones around the best: the number is flat around its least.
+  // All spirals on a coarse lattice, then finer ones around the best: the number is flat around its
+  // least.
   double least = kNone, best_from = 0.25 * kPi, best_to = 0.5 * kPi;
   double step = 0.1, from0 = 0.02, to0 = 0.04, from1 = 0.5 * kPi, to1 = kPi - 0.02;
   for (int level = 0; level < 5; ++level) {
@@ -54,16 +58,18 @@ double stability_number(double friction_angle, double face) {
   return least;
 }
 
-FaceHeights::FaceHeights(double friction_angle) : friction_angle_(friction_angle), inverse_(kFaces + 1) {
+FaceHeights::FaceHeights(double friction_angle)
+    : friction_angle_(friction_angle), inverse_(kFaces + 1) {
   // Its inverse goes to 0 at the friction angle, so that it can be read between the entries.
   for (int i = 0; i <= kFaces; ++i)
     inverse_[static_cast<std::size_t>(i)] =
-        1 / stability_number(friction_angle, friction_angle + (0.5 * kPi - friction_angle) * i / kFaces);
+        1 / stability_number(friction_angle,
+                             friction_angle + (0.5 * kPi - friction_angle) * i / kFaces);
 }
 
 double FaceHeights::inverse(double face) const {
-  const double at =
-      std::clamp((face - friction_angle_) / (0.5 * kPi - friction_angle_), 0.0, 1.0) * static_cast<double>(kFaces);
+  const double at = std::clamp((face - friction_angle_) / (0.5 * kPi - friction_angle_), 0.0, 1.0) *
+                    static_cast<double>(kFaces);
   const auto i = std::min(static_cast<std::size_t>(at), inverse_.size() - 2);
   return inverse_[i] + (at - static_cast<double>(i)) * (inverse_[i + 1] - inverse_[i]);
 }
@@ -72,8 +78,8 @@ double FaceHeights::height(double strength, double setback, double highest) cons
   if (!(strength > 0)) return 0;
   const auto stands = [&](double h) { return h * inverse(std::atan2(h, setback)) <= strength; };
   if (stands(highest)) return highest;
-  // The allowed height falls as the face steepens, so there is one crossing; 40 halvings of 100 m are below a
-  // nanometre.
+  // The allowed height falls as the face steepens, so there is one crossing; 40 halvings of 100 m
+  // are below a nanometre.
   double low = 0, high = highest;
   for (int i = 0; i < 40; ++i) (stands(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
   return low;

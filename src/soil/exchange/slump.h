@@ -13,28 +13,30 @@ namespace navvy::soil {
 
 /// Columns that slide, and the sweeps that move them.
 ///
-/// A column that failed slides down to the height of what it failed over; what it sheds lies loose and remoulded on its
-/// neighbours and slides on. Pairs of neighbours exchange soil in four colours, in integers, until no pair that slides
-/// is steeper than phi - 1 deg [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing
-/// jumps. Costs the sliding columns only.
+/// A column that failed slides down to the height of what it failed over; what it sheds lies loose
+/// and remoulded on its neighbours and slides on. Pairs of neighbours exchange soil in four
+/// colours, in integers, until no pair that slides is steeper than phi - 1 deg
+/// [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing jumps. Costs the
+/// sliding columns only.
 class Slump {
  public:
   /// Both must outlive it.
   Slump(heightfield::Ground& ground, const SlumpTable& table) : ground_(ground), table_(table) {}
 
-  /// Lets the columns from the high to the low one slide. They start at the next `run`. What slides already goes on,
-  /// down to the lower of the two heights.
+  /// Lets the columns from the high to the low one slide. They start at the next `run`. What slides
+  /// already goes on, down to the lower of the two heights.
   void fail(const OverSteep& found);
-  /// Runs the sweeps of `elapsed` seconds. `blocked` answers for a column whether it must stay as it is now. Returns
-  /// the number of columns that changed. Blocked columns neither give nor take, and wait: the soil of the ones above
-  /// stays until they are free or at rest.
+  /// Runs the sweeps of `elapsed` seconds. `blocked` answers for a column whether it must stay as
+  /// it is now. Returns the number of columns that changed. Blocked columns neither give nor take,
+  /// and wait: the soil of the ones above stays until they are free or at rest.
   template <class Blocked>
   int run(double elapsed, const Blocked& blocked);
 
   /// True when nothing slides: then `run` costs nothing.
   bool idle() const { return sliding_.empty(); }
 
-  /// What slides and how far, in the order of the columns. The owner opens the section that these are part of.
+  /// What slides and how far, in the order of the columns. The owner opens the section that these
+  /// are part of.
   /// @throws InputError for columns outside the site.
   void visit(Archive& a);
 
@@ -57,12 +59,12 @@ class Slump {
   std::map<PlanKey, Sliding> sliding_;
   double debt_ = 0;  ///< share of a sweep carried to the next check
   // Scratch, kept for its memory.
-  std::vector<heightfield::Layer> taken_;
+  std::vector<heightfield::SoilLayer> taken_;
 };
 
-// The four colours keep the pairs of one colour apart, so a sweep does not depend on the order within a colour; their
-// own order is fixed. A column that begins to slide during a sweep joins at the next one, as `keys` are those at its
-// start.
+// The four colours keep the pairs of one colour apart, so a sweep does not depend on the order
+// within a colour; their own order is fixed. A column that begins to slide during a sweep joins at
+// the next one, as `keys` are those at its start.
 template <class Blocked>
 int Slump::run(double elapsed, const Blocked& blocked) {
   std::set<PlanKey> changed;

@@ -9,13 +9,14 @@
 namespace navvy::soil {
 namespace {
 
-/// A drop must have grown by this since the start to count on ground that holds [cells]. tuned: above the mass
-/// quantum's and the float heights' rounding, below the shallowest rut that matters.
+/// A drop must have grown by this since the start to count on ground that holds [cells]. tuned:
+/// above the mass quantum's and the float heights' rounding, below the shallowest rut that matters.
 constexpr double kGrown = 0.01;
 /// The same where the low side is awake: where its highest particle lies jumps by half a cell.
-constexpr double kGrownAwake = 0.5;
+constexpr double kGrownActive = 0.5;
 // Both ways along axes and diagonals: the directions in which columns lie at whole steps.
-constexpr int kDirections[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+constexpr int kDirections[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
+                                   {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
 }  // namespace
 
@@ -28,13 +29,14 @@ void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIn
       for (int dx = -1; dx <= 1; ++dx) seen.insert({block.first + dy, block.second + dx});
   for (const PlanKey& key : seen) {
     auto& block = blocks_[key];
-    const bool awake = deposited.count(key) == 0;
+    const bool active = deposited.count(key) == 0;
     for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
       const int ix = grid_.column_x(key, c), iy = grid_.column_y(key, c);
-      // What still lies on the ground as particles counts where it is awake. Deposited blocks have none any more; the
-      // index is older than the deposit and would count them twice.
+      // What still lies on the ground as particles counts where it is awake. Deposited blocks have
+      // none any more; the index is older than the deposit and would count them twice.
       const double rest = (ground.height(ix, iy) - ground.datum()) / ground.cell();
-      block[static_cast<std::size_t>(c)] = static_cast<float>(rest + (awake ? index.pile_height(ix, iy) : 0.0));
+      block[static_cast<std::size_t>(c)] =
+          static_cast<float>(rest + (active ? index.pile_height(ix, iy) : 0.0));
     }
   }
 }
@@ -51,13 +53,13 @@ void StandingHeights::visit(Archive& a) { a("blocks", blocks_); }
 bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const {
   double high = 0, low = 0;
   const bool high_known = standing_.find(ix, iy, high), low_known = standing_.find(lx, ly, low);
-  // On ground that may fall (no hold) both ends must be known; on ground that holds the start heights stand in for what
-  // was never moved.
+  // On ground that may fall (no hold) both ends must be known; on ground that holds the start
+  // heights stand in for what was never moved.
   if (!hold_ && !(high_known && low_known)) return false;
   if (!high_known) high = (ground_.start_height(ix, iy) - ground_.datum()) / ground_.cell();
   if (!low_known) low = (ground_.start_height(lx, ly) - ground_.datum()) / ground_.cell();
-  const bool awake = top_[at(lx, ly)] > rest_[at(lx, ly)];
-  return drop <= high - low + (awake ? kGrownAwake : kGrown);
+  const bool active = top_[at(lx, ly)] > rest_[at(lx, ly)];
+  return drop <= high - low + (active ? kGrownActive : kGrown);
 }
 
 void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
@@ -66,11 +68,13 @@ void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
   y0_ = ty * kTile - SlumpTable::kReach;
   ground_.copy_heights({x0_, y0_, x0_ + kSide, y0_ + kSide}, rest_);
   // Heights of some thousand cells fit a float to better than a thousandth.
-  for (float& h : rest_) h = static_cast<float>((static_cast<double>(h) - ground_.datum()) / ground_.cell());
+  for (float& h : rest_)
+    h = static_cast<float>((static_cast<double>(h) - ground_.datum()) / ground_.cell());
   top_ = rest_;
   const PlanGrid& grid = index.grid();
   // Whole blocks are asked for, as most of a window holds no particles.
-  const PlanKey first = grid.block_of(x0_, y0_), last = grid.block_of(x0_ + kSide - 1, y0_ + kSide - 1);
+  const PlanKey first = grid.block_of(x0_, y0_),
+                last = grid.block_of(x0_ + kSide - 1, y0_ + kSide - 1);
   for (int by = first.first; by <= last.first; ++by)
     for (int bx = first.second; bx <= last.second; ++bx) {
       if (index.find({by, bx}) < 0) continue;
@@ -82,7 +86,8 @@ void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
     }
 }
 
-bool SlumpScan::held_by_tool(const OverSteep& found, std::span<const ToolZone> zones, double high) const {
+bool SlumpScan::held_by_tool(const OverSteep& found, std::span<const ToolZone> zones,
+                             double high) const {
   for (const ToolZone& tool : zones) {
     // A tool above the drop or below it holds nothing.
     if (tool.low >= high || tool.high <= found.low) continue;
@@ -97,7 +102,8 @@ bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const 
                      std::vector<OverSteep>& out) {
   const int lx = ix + dx * steps, ly = iy + dy * steps;
   const bool diagonal = dx != 0 && dy != 0;
-  const double high = static_cast<double>(rest_[at(ix, iy)]), low = static_cast<double>(top_[at(lx, ly)]);
+  const double high = static_cast<double>(rest_[at(ix, iy)]),
+               low = static_cast<double>(top_[at(lx, ly)]);
   // The quickest question first: most pairs stand far below the weakest drop.
   if (high - low <= limit_[diagonal][steps]) return false;
   if (!ground_.contains(ix, iy) || !ground_.contains(lx, ly)) return false;
@@ -105,7 +111,8 @@ bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const 
   // Before the layers are read, as that costs most.
   if (stood_before(ix, iy, lx, ly, high - low)) return false;
   ground_.column(ix, iy, layers_);
-  if ((high - low) * cell <= table_.start(layers_, low * cell, high * cell, steps, diagonal)) return false;
+  if ((high - low) * cell <= table_.start(layers_, low * cell, high * cell, steps, diagonal))
+    return false;
   const OverSteep found{ix, iy, dx, dy, steps, low};
   if (held_by_tool(found, zones, high)) return false;
   out.push_back(found);
@@ -115,7 +122,8 @@ bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const 
 void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
                      std::vector<OverSteep>& out) {
   read_window(tx, ty, index);
-  // The largest drop that the window can hold. Nothing is looked at beyond the distance where it could matter.
+  // The largest drop that the window can hold. Nothing is looked at beyond the distance where it
+  // could matter.
   const auto [least, unused] = std::minmax_element(top_.begin(), top_.end());
   const double range = static_cast<double>(*std::max_element(rest_.begin(), rest_.end()) - *least);
   int reach = 0;
@@ -139,7 +147,9 @@ void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const T
           if (look(ix, iy, dx, dy, l, zones, out)) break;
         // From outside, this column being the low one.
         for (int l = 1; l <= reach; ++l)
-          if (!inside(ix - l * dx, iy - l * dy) && look(ix - l * dx, iy - l * dy, dx, dy, l, zones, out)) break;
+          if (!inside(ix - l * dx, iy - l * dy) &&
+              look(ix - l * dx, iy - l * dy, dx, dy, l, zones, out))
+            break;
       }
 }
 

@@ -15,8 +15,8 @@ constexpr double kStartAbove = radians(2.0), kStopBelow = radians(1.0);
 /// A heap booked back from particles is this rough without being steep [cells].
 /// tuned: ExchangeDeposit.AHeapComesBackWithItsMassVolumeAndShape.
 constexpr double kRoughness = 0.2;
-/// Cohesion times specific volume, from loose and remoulded to intact, is tabulated in this many levels, the lower ones
-/// closer together, and rounded down.
+/// Cohesion times specific volume, from loose and remoulded to intact, is tabulated in this many
+/// levels, the lower ones closer together, and rounded down.
 constexpr int kLevels = 16;
 /// Higher faces than this are not asked for [m].
 constexpr double kHighest = 100;
@@ -25,7 +25,9 @@ constexpr double kHighest = 100;
 
 // Soil by soil, then level, distance and direction; `weakest_` is as long as one level.
 std::size_t SlumpTable::place(std::size_t soil, int level, int steps, bool diagonal) {
-  return ((soil * kLevels + static_cast<std::size_t>(level)) * kReach + static_cast<std::size_t>(steps - 1)) * 2 +
+  return ((soil * kLevels + static_cast<std::size_t>(level)) * kReach +
+          static_cast<std::size_t>(steps - 1)) *
+             2 +
          (diagonal ? 1 : 0);
 }
 
@@ -65,9 +67,12 @@ SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, doubl
       for (int steps = 1; steps <= kReach; ++steps)
         for (const bool diagonal : {false, true}) {
           const double distance = steps * cell * (diagonal ? std::sqrt(2.0) : 1.0);
-          const double dry = distance * std::tan(soil.friction_angle + kStartAbove) + kRoughness * cell;
-          // The face falls back by half a cell less than the columns' centres lie apart [docs/exchange.md, slump].
-          const double drop = std::max(dry, faces.height(strength, distance - 0.5 * cell, kHighest));
+          const double dry =
+              distance * std::tan(soil.friction_angle + kStartAbove) + kRoughness * cell;
+          // The face falls back by half a cell less than the columns' centres lie apart
+          // [docs/exchange.md, slump].
+          const double drop =
+              std::max(dry, faces.height(strength, distance - 0.5 * cell, kHighest));
           start_[place(s, level, steps, diagonal)] = drop;
           double& least = weakest_[place(0, 0, steps, diagonal)];
           least = std::min(least, drop);
@@ -76,28 +81,31 @@ SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, doubl
   }
 }
 
-double SlumpTable::start(std::uint16_t soil, float shear, float specific_volume, int steps, bool diagonal) const {
+double SlumpTable::start(std::uint16_t soil, float shear, float specific_volume, int steps,
+                         bool diagonal) const {
   const Strength& of = strengths_[soil];
-  // Loose soil weighs less: what counts is cohesion over unit weight, and bank density x gravity / specific volume is
-  // the latter. Cohesion grows towards the bank state, so nothing is below the level of loose soil by more than
-  // rounding.
+  // Loose soil weighs less: what counts is cohesion over unit weight, and bank density x gravity /
+  // specific volume is the latter. Cohesion grows towards the bank state, so nothing is below the
+  // level of loose soil by more than rounding.
   const double volume = std::max(0.0, static_cast<double>(specific_volume));
   const double product = cohesion(of, static_cast<double>(shear), volume) * volume;
   const double share = of.range > 0 ? std::clamp((product - of.low) / of.range, 0.0, 1.0) : 0.0;
-  const int level = std::min(static_cast<int>(std::sqrt(share) * (kLevels - 1) + 1e-9), kLevels - 1);
+  const int level =
+      std::min(static_cast<int>(std::sqrt(share) * (kLevels - 1) + 1e-9), kLevels - 1);
   return start_[place(soil, level, steps, diagonal)];
 }
 
-double SlumpTable::start(std::span<const heightfield::Layer> layers, double low, double high, int steps,
-                         bool diagonal) const {
+double SlumpTable::start(std::span<const heightfield::SoilLayer> layers, double low, double high,
+                         int steps, bool diagonal) const {
   // From the datum up, as layers are stored.
   double least = kHighest, bottom = 0;
-  for (const heightfield::Layer& layer : layers) {
+  for (const heightfield::SoilLayer& layer : layers) {
     const double top = bottom + kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                                     (soils_[layer.soil].bank_density * cell_ * cell_);
     // Only layers that the drop lays bare: what lies below the low column is held from the sides.
     if (top > low && bottom < high)
-      least = std::min(least, start(layer.soil, layer.plastic_shear, layer.specific_volume, steps, diagonal));
+      least = std::min(
+          least, start(layer.soil, layer.plastic_shear, layer.specific_volume, steps, diagonal));
     bottom = top;
   }
   return least;

@@ -12,7 +12,8 @@ inline double spline(double t) {
   return t < 0.5 ? 0.75 - t * t : t < 1.5 ? 0.5 * (1.5 - t) * (1.5 - t) : 0.0;
 }
 
-/// Its mean over the particles of a column `d` columns away: a column weighs as the 2 x 2 particles it would wake to.
+/// Its mean over the particles of a column `d` columns away: a column weighs as the 2 x 2 particles
+/// it would wake to.
 inline double column_weight(int d) { return 0.5 * (spline(d - 0.25) + spline(d + 0.25)); }
 
 }  // namespace navvy::soil

@@ -37,25 +37,26 @@ int BlockIndex::find(const BlockKey& key) const {
   return -1;
 }
 
-void BlockTable::build(std::vector<BlockKey> sorted_homes) {
-  homes = std::move(sorted_homes);
-  home_index.build(homes);
+void BlockTable::build(std::vector<BlockKey> sorted_keys) {
+  particle_blocks = std::move(sorted_keys);
+  particle_block_index.build(particle_blocks);
   active.clear();
-  active.reserve(homes.size() * 4);
+  active.reserve(particle_blocks.size() * 4);
   // All nodes that particles of the homes can reach before the next re-bin.
-  for (const BlockKey& home : homes)
+  for (const BlockKey& home : particle_blocks)
     for (int n = 0; n < 27; ++n) active.push_back(home + neighbour_offset(n));
   std::sort(active.begin(), active.end());
   active.erase(std::unique(active.begin(), active.end()), active.end());
   active_index.build(active);
 
-  neighbours.resize(27 * homes.size());
-  for (std::size_t h = 0; h < homes.size(); ++h)
+  neighbours.resize(27 * particle_blocks.size());
+  for (std::size_t h = 0; h < particle_blocks.size(); ++h)
     for (int n = 0; n < 27; ++n)
-      neighbours[27 * h + static_cast<std::size_t>(n)] = active_index.find(homes[h] + neighbour_offset(n));
+      neighbours[27 * h + static_cast<std::size_t>(n)] =
+          active_index.find(particle_blocks[h] + neighbour_offset(n));
   // Neighbour n of a home sees that home as its neighbour 26 - n.
   around.assign(27 * active.size(), -1);
-  for (std::size_t h = 0; h < homes.size(); ++h)
+  for (std::size_t h = 0; h < particle_blocks.size(); ++h)
     for (std::size_t n = 0; n < 27; ++n)
       around[27 * static_cast<std::size_t>(neighbours[27 * h + n]) + 26 - n] = static_cast<int>(h);
 }

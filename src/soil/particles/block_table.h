@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sparse table of blocks: which ones hold particles, which ones hold nodes, who is whose neighbour.
+// The sparse table of blocks: which ones hold particles, which ones hold nodes, who is whose
+// neighbour.
 #pragma once
 
 #include <array>
@@ -8,8 +9,8 @@
 
 namespace navvy::soil {
 
-/// Integer coordinates of a block in the grid frame G. Ordered by z, then y, then x, so that the order of sums does not
-/// depend on where on the site the soil lies.
+/// Integer coordinates of a block in the grid frame G. Ordered by z, then y, then x, so that the
+/// order of sums does not depend on where on the site the soil lies.
 struct BlockKey {
   std::int32_t x = 0, y = 0, z = 0;
   bool operator==(const BlockKey&) const = default;
@@ -34,16 +35,17 @@ class BlockIndex {
   std::size_t mask_ = 0;
 };
 
-/// Home blocks (with particles) and active blocks (homes and their 26 neighbours: all nodes particles can reach).
+/// Home blocks (with particles) and active blocks (homes and their 26 neighbours: all nodes
+/// particles can reach).
 struct BlockTable {
-  std::vector<BlockKey> homes;   ///< sorted
-  std::vector<BlockKey> active;  ///< sorted
-  std::vector<int> neighbours;   ///< 27 per home: index of the neighbour among active
-  std::vector<int> around;       ///< 27 per active: index of the neighbour among homes or -1
-  BlockIndex home_index, active_index;
+  std::vector<BlockKey> particle_blocks;  ///< sorted
+  std::vector<BlockKey> active;           ///< sorted
+  std::vector<int> neighbours;            ///< 27 per home: index of the neighbour among active
+  std::vector<int> around;  ///< 27 per active: index of the neighbour among homes or -1
+  BlockIndex particle_block_index, active_index;
 
   /// `homes` sorted and unique.
-  void build(std::vector<BlockKey> sorted_homes);
+  void build(std::vector<BlockKey> sorted_keys);
 };
 
 }  // namespace navvy::soil

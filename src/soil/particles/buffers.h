@@ -22,7 +22,8 @@ void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
 /// Makes room for `size` values, contents undefined: set kernel arguments again afterwards.
 template <class T>
 void ensure(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
-  if (buffer.size() < size || buffer.empty()) buffer = device::Buffer<T>(device, size + size / 2 + 1);
+  if (buffer.size() < size || buffer.empty())
+    buffer = device::Buffer<T>(device, size + size / 2 + 1);
 }
 
 /// The same, then writes the values; waits.

@@ -14,20 +14,25 @@ BlockFloor Floor::make_patch(int bx, int by) const {
   const int x0 = grid_.column_x({by, bx}, 0) - 1, y0 = grid_.column_y({by, bx}, 0) - 1;
   ground_->copy_heights({x0, y0, x0 + 5, y0 + 5}, columns);
   const auto height = [&](int ix, int iy) {
-    return (static_cast<double>(columns[static_cast<std::size_t>(ix + 5 * iy)]) - ground_->datum()) / ground_->cell();
+    return (static_cast<double>(columns[static_cast<std::size_t>(ix + 5 * iy)]) -
+            ground_->datum()) /
+           ground_->cell();
   };
   BlockFloor patch;
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x) {
-      const double around[] = {height(x, y), height(x + 1, y), height(x, y + 1), height(x + 1, y + 1)};
+      const double around[] = {height(x, y), height(x + 1, y), height(x, y + 1),
+                               height(x + 1, y + 1)};
       const int node = x + 4 * y;
-      patch.held[node] = static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
+      patch.held[node] =
+          static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
       for (int i = 0; i < 4; ++i) patch.around[node][i] = static_cast<float>(around[i]);
     }
   return patch;
 }
 
-// Patches are kept by column of blocks: all blocks above one another share it, and the ground changes in few places.
+// Patches are kept by column of blocks: all blocks above one another share it, and the ground
+// changes in few places.
 bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   const bool ground_changed = first_ || ground_->sequence() != sequence_;
   if (!ground_changed && !blocks_changed) return false;
@@ -51,7 +56,9 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
     auto found = used.find(key);
     if (found == used.end()) {
       const auto known = patches_.find(key);
-      found = used.emplace(key, known != patches_.end() ? known->second : make_patch(key.first, key.second)).first;
+      found = used.emplace(key, known != patches_.end() ? known->second
+                                                        : make_patch(key.first, key.second))
+                  .first;
     }
     // Heights from the block's own corner keep a float's precision.
     const float corner = static_cast<float>(kBlockCells * active[b].z);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes resting ground holds: nodes at or below the highest of the four columns around them plus a quarter cell.
+// Which nodes resting ground holds: nodes at or below the highest of the four columns around them
+// plus a quarter cell.
 #pragma once
 
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "soil/layout.h"
 #include "soil/particles/block_table.h"
 #include "soil/particles/plan_grid.h"
@@ -16,7 +17,8 @@ namespace navvy::soil {
 /// Nodes up to this far above the columns are held too [cells] [docs/soil.md, resting ground].
 inline constexpr double kHeldMargin = 0.25;
 
-/// Heights of held nodes per block, looked up from the ground only where the ground or the blocks changed.
+/// Heights of held nodes per block, looked up from the ground only where the ground or the blocks
+/// changed.
 class Floor {
  public:
   Floor(const heightfield::Ground& ground, PlanGrid grid) : ground_(&ground), grid_(grid) {}

@@ -15,24 +15,28 @@ GridToParticle::GridToParticle(device::Device& device)
       kernel_(program_, "grid_to_particle"),
       end_kernel_(program_, "grid_to_particle_end") {}
 
-void GridToParticle::set_blocks(const BlockTable& table) { upload(device_, neighbours_, table.neighbours); }
+void GridToParticle::set_blocks(const BlockTable& table) {
+  upload(device_, neighbours_, table.neighbours);
+}
 
 void GridToParticle::enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
-                             device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt, double part,
-                             double cell) {
+                             device::Buffer<std::int32_t>& used, device::Buffer<Report>& report,
+                             double dt, double part, double cell) {
   // The farthest way apart is one of a transfer: its steps share it.
   kernel_
-      .args(store.state(), store.capacity(), store.homes_buffer(), neighbours_, velocity, near.velocity1, near.slot,
-            near.split, used, report, static_cast<float>(dt), static_cast<float>(cell),
-            static_cast<float>(packed_mass(store.densest(), cell)),
+      .args(store.state(), store.capacity(), store.particle_blocks_buffer(), neighbours_, velocity,
+            near.velocity1, near.slot, near.split, used, report, static_cast<float>(dt),
+            static_cast<float>(cell), static_cast<float>(packed_mass(store.densest(), cell)),
             static_cast<float>(filled_mass(store.densest(), cell)),
-            static_cast<float>(closing_share() * std::min(1.0, part)), static_cast<float>(dt / crowding_shear()),
+            static_cast<float>(closing_share() * std::min(1.0, part)),
+            static_cast<float>(dt / crowding_shear()),
             static_cast<float>(farthest_apart() * std::min(1.0, part)))
-      .enqueue_groups(store.homes().size());
+      .enqueue_groups(store.particle_blocks().size());
 }
 
 void GridToParticle::enqueue_end(ParticleStore& store) {
-  end_kernel_.args(store.state(), store.capacity(), store.homes_buffer()).enqueue_groups(store.homes().size());
+  end_kernel_.args(store.state(), store.capacity(), store.particle_blocks_buffer())
+      .enqueue_groups(store.particle_blocks().size());
 }
 
 }  // namespace navvy::soil

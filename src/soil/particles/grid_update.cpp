@@ -27,20 +27,24 @@ void GridUpdate::set_blocks(const BlockTable& table, const std::vector<int>& nea
   ensure(device_, velocity_, table.active.size() * 4 * BLOCK_NODES);
 }
 
-void GridUpdate::set_floor(const std::vector<BlockFloor>& floors) { upload(device_, floors_, floors); }
+void GridUpdate::set_floor(const std::vector<BlockFloor>& floors) {
+  upload(device_, floors_, floors);
+}
 
-void GridUpdate::enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near, const Vec3& dv, bool hold) {
-  const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()), static_cast<float>(dv.z()),
-                                     0.0f};
+void GridUpdate::enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near,
+                         const Vec3& dv, bool hold) {
+  const std::array<float, 4> dv_f = {static_cast<float>(dv.x()), static_cast<float>(dv.y()),
+                                     static_cast<float>(dv.z()), 0.0f};
   far_kernel_
-      .args(far_list_, around_, store.homes_buffer(), scattered.tiles(), scattered.used(), floors_, velocity_, dv_f,
-            hold ? 1 : 0)
+      .args(far_list_, around_, store.particle_blocks_buffer(), scattered.tiles(), scattered.used(),
+            floors_, velocity_, dv_f, hold ? 1 : 0)
       .enqueue_groups(far_);
   // The near kernel leaves the floor to contact_apply: tools act before the ground holds.
   if (near.count == 0) return;
   near_kernel_
-      .args(near.list, around_, store.homes_buffer(), scattered.tiles(), scattered.used(), store.home_surface(),
-            near.split, near.before0, near.before1, near.surface, velocity_, near.velocity1, dv_f, hold ? 1 : 0)
+      .args(near.list, around_, store.particle_blocks_buffer(), scattered.tiles(), scattered.used(),
+            store.block_surface(), near.split, near.before0, near.before1, near.surface, velocity_,
+            near.velocity1, dv_f, hold ? 1 : 0)
       .enqueue_groups(static_cast<std::size_t>(near.count));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a transfer lasts: its weights, masses, lists and sides are held over several steps [docs/soil.md, transfer].
+// How long a transfer lasts: its weights, masses, lists and sides are held over several steps
+// [docs/soil.md, transfer].
 #pragma once
 
 #include <cmath>
@@ -8,11 +9,12 @@
 
 namespace navvy::soil {
 
-/// Cells that the fastest particle, or a tool, may go while a transfer holds; weights and near nodes are those of its
-/// start. tuned: `navvy lab throw`. Without it eight steps a transfer spoil thrown soil (volume 0.76 of its state).
+/// Cells that the fastest particle, or a tool, may go while a transfer holds; weights and near
+/// nodes are those of its start. tuned: `navvy lab throw`. Without it eight steps a transfer spoil
+/// thrown soil (volume 0.76 of its state).
 inline constexpr double kMostHeld = 0.2;
-/// Length of a transfer in units of cell / sound speed: four steps at a Courant number of 0.5. A transfer damps short
-/// waves; at a fixed length the damping is one per time, whatever the step.
+/// Length of a transfer in units of cell / sound speed: four steps at a Courant number of 0.5. A
+/// transfer damps short waves; at a fixed length the damping is one per time, whatever the step.
 inline constexpr double kTransferLength = 2;
 
 /// The transfer that is under way. Solver and double twin ask the same questions of it.
@@ -23,7 +25,8 @@ struct TransferInterval {
   double travel = 0;  ///< the same of a tool [cells]
   double speed = 0;   ///< fastest component of a particle's velocity after the last step [m/s]
 
-  /// Whether one more step of dt [s] may be held; `length` in s, `tool_speed` in m/s, `gravity` in m/s2.
+  /// Whether one more step of dt [s] may be held; `length` in s, `tool_speed` in m/s, `gravity` in
+  /// m/s2.
   bool holds(double dt, double length, double cell, double tool_speed, double gravity) const {
     // Rounded to whole steps: half a step more would be nearer to the length than none.
     if (!open || time + 0.5 * dt >= length) return false;

@@ -14,17 +14,19 @@ MassCount::MassCount(device::Device& device, std::size_t soils)
       program_(device, kernel_path(device, "mass_count")),
       kernel_(program_, "mass_count") {}
 
-void MassCount::make_room(std::size_t homes) {
+void MassCount::reserve(std::size_t particle_blocks) {
   // Unmapped before the kernel writes again, and before the buffer is replaced.
   sums_.reset();
-  ensure(device_, masses_, homes * soils_);
+  ensure(device_, masses_, particle_blocks * soils_);
 }
 
 void MassCount::queue(ParticleStore& store) {
-  make_room(store.homes().size());
-  kernel_.args(store.state(), store.capacity(), store.homes_buffer(), masses_, static_cast<int>(soils_))
-      .enqueue_groups(store.homes().size());
-  sums_.emplace(masses_.map_read_later(0, store.homes().size() * soils_));
+  reserve(store.particle_blocks().size());
+  kernel_
+      .args(store.state(), store.capacity(), store.particle_blocks_buffer(), masses_,
+            static_cast<int>(soils_))
+      .enqueue_groups(store.particle_blocks().size());
+  sums_.emplace(masses_.map_read_later(0, store.particle_blocks().size() * soils_));
 }
 
 std::vector<std::int64_t> MassCount::take() {

@@ -19,7 +19,7 @@ namespace {
 int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
 
 /// Moves a particle's block to that of its base node floor(x - 0.5).
-void find_home(Particle& p) {
+void find_particle_block(Particle& p) {
   for (int a = 0; a < 3; ++a) {
     const int base = static_cast<int>(std::floor(p.x[a] - 0.5f));
     const int d = base >= 0 ? base / kBlockCells : -((-base + kBlockCells - 1) / kBlockCells);
@@ -33,7 +33,8 @@ BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}
 /// Cell of the base node inside its home, x fastest.
 int cell_of(const Particle& p) {
   int cell = 0;
-  for (int a = 2; a >= 0; --a) cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
+  for (int a = 2; a >= 0; --a)
+    cell = kBlockCells * cell + static_cast<int>(std::floor(p.x[a] - 0.5f));
   return cell;
 }
 
@@ -47,8 +48,8 @@ void put_record(const Particle& p, float* state, std::size_t capacity, std::size
 #undef PUT_ONE
 #undef PUT_MANY
   words[FIELD_MASS * capacity] = std::bit_cast<float>(p.mass);
-  words[FIELD_TAG * capacity] =
-      std::bit_cast<float>(static_cast<std::int32_t>(p.soil) | static_cast<std::int32_t>(p.side) << 16);
+  words[FIELD_TAG * capacity] = std::bit_cast<float>(static_cast<std::int32_t>(p.soil) |
+                                                     static_cast<std::int32_t>(p.side) << 16);
   words[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
 }
 
@@ -70,14 +71,16 @@ Particle get_record(const float* state, std::size_t capacity, std::size_t slot) 
 }
 
 int slots_of(const std::vector<int>& counts) {
-  return std::accumulate(counts.begin(), counts.end(), 0, [](int sum, int count) { return sum + padded(count); });
+  return std::accumulate(counts.begin(), counts.end(), 0,
+                         [](int sum, int count) { return sum + padded(count); });
 }
 
 /// What a lane without a particle holds: the values at rest of particle_fields.h.
 Particle empty_lane() {
   Particle p;
 #define REST_ONE(NAME, member, rest) p.member = rest;
-#define REST_MANY(NAME, member, count, rest) std::fill(std::begin(p.member), std::end(p.member), rest);
+#define REST_MANY(NAME, member, count, rest) \
+  std::fill(std::begin(p.member), std::end(p.member), rest);
   FLOAT_FIELDS(REST_ONE, REST_MANY)
 #undef REST_ONE
 #undef REST_MANY
@@ -87,9 +90,10 @@ Particle empty_lane() {
 /// No site has blocks beyond: it has at most 2^30 columns a side.
 constexpr std::int32_t kFarthestBlock = (1 << 30) / kBlockCells;
 
-/// The particles of one home as they are hashed and saved: words as on the device, field after field, which are not
-/// copied: that alone would take a quarter of the time that hashing them takes.
-class HomeWords {
+/// The particles of one home as they are hashed and saved: words as on the device, field after
+/// field, which are not copied: that alone would take a quarter of the time that hashing them
+/// takes.
+class BlockWords {
  public:
   void visit(Archive& a) {
     a("block", block);
@@ -97,7 +101,8 @@ class HomeWords {
       a.item(f, [&] { a.loading() ? a("words", loaded_[f]) : a("words", fields_[f]); });
   }
   BlockKey key() const { return {block[0], block[1], block[2]}; }
-  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive the visit.
+  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive
+  /// the visit.
   void take(const float* first, std::size_t capacity, std::size_t count) {
     for (std::size_t f = 0; f < FIELD_COUNT; ++f) fields_[f] = {first + f * capacity, count};
   }
@@ -114,21 +119,23 @@ class HomeWords {
   std::vector<float> words_;  // of particles on the host
 };
 
-void HomeWords::take(std::span<const Particle> particles) {
+void BlockWords::take(std::span<const Particle> particles) {
   std::copy(std::begin(particles.front().block), std::end(particles.front().block), block.begin());
   words_.resize(FIELD_COUNT * particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) put_record(particles[i], words_.data(), particles.size(), i);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    put_record(particles[i], words_.data(), particles.size(), i);
   take(words_.data(), particles.size(), particles.size());
 }
 
 // Numbers that are not finite are let in: the snapshot of a run that broke shows where it did.
-void HomeWords::give(Archive& a, std::vector<Particle>& particles, std::size_t soils) {
+void BlockWords::give(Archive& a, std::vector<Particle>& particles, std::size_t soils) {
   const auto near = [](std::int32_t b) { return b >= -kFarthestBlock && b <= kFarthestBlock; };
   a.require(std::all_of(block.begin(), block.end(), near), "block", "lies off any site");
   const std::size_t count = loaded_[0].size();
   words_.clear();
   for (const std::vector<float>& field : loaded_) {
-    a.require(count > 0 && field.size() == count, "words", "must be those of as many particles in every field");
+    a.require(count > 0 && field.size() == count, "words",
+              "must be those of as many particles in every field");
     words_.insert(words_.end(), field.begin(), field.end());
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -146,42 +153,45 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
   assign({});
 }
 
-// Home h begins where the one before it ends, padded; without tools every home has one tile, its own number.
+// Home h begins where the one before it ends, padded; without tools every home has one tile, its
+// own number.
 void ParticleStore::lay_out(const std::vector<int>& counts) {
-  homes_.assign(table_.homes.size(), Home{});
+  particle_blocks_.assign(table_.particle_blocks.size(), ParticleBlock{});
   int slot = 0;
-  for (std::size_t h = 0; h < homes_.size(); ++h) {
-    homes_[h].start = slot;
-    homes_[h].count = counts[h];
-    homes_[h].tile = static_cast<int>(h);
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    particle_blocks_[h].start = slot;
+    particle_blocks_[h].count = counts[h];
+    particle_blocks_[h].tile = static_cast<int>(h);
     slot += padded(counts[h]);
   }
   count_ = std::accumulate(counts.begin(), counts.end(), 0);
 }
 
-void ParticleStore::upload_homes() {
-  homes_buffer_.write(homes_);
-  std::vector<std::array<std::int32_t, 4>> keys(homes_.size());
-  for (std::size_t h = 0; h < keys.size(); ++h) keys[h] = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z, 0};
-  home_keys_.write(keys);
+void ParticleStore::upload_particle_blocks() {
+  particle_blocks_buffer_.write(particle_blocks_);
+  std::vector<std::array<std::int32_t, 4>> keys(particle_blocks_.size());
+  for (std::size_t h = 0; h < keys.size(); ++h)
+    keys[h] = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+               table_.particle_blocks[h].z, 0};
+  block_keys_.write(keys);
 }
 
 // Tiles are numbered anew: a home near a shell has three in a row.
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   int tile = 0;
-  for (std::size_t h = 0; h < homes_.size(); ++h) {
-    homes_[h].tile = tile;
-    homes_[h].near = near[h];
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    particle_blocks_[h].tile = tile;
+    particle_blocks_[h].near = near[h];
     tile += near[h] != 0 ? 3 : 1;
   }
-  homes_buffer_.write(homes_);
+  particle_blocks_buffer_.write(particle_blocks_);
   return tile;
 }
 
 std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
-  for (Particle& p : particles) find_home(p);
-  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about takes three times as
-  // long.
+  for (Particle& p : particles) find_particle_block(p);
+  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about
+  // takes three times as long.
   struct Place {
     BlockKey home;
     int cell;
@@ -201,7 +211,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
 }
 
 // Room is made with some to spare: soil wakes in small portions.
-void ParticleStore::make_room(int side, int slots, int wanted) {
+void ParticleStore::reserve(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
   const int capacity = padded(std::max(wanted, 1024));
   state_[side] = device::Buffer<float>(device_, static_cast<std::size_t>(capacity) * FIELD_COUNT);
@@ -220,10 +230,10 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
   }
   // Room first, as in `rebin`: a store whose device is full holds what it held.
   const int slots = slots_of(counts);
-  fit(device_, homes_buffer_, keys.size());
-  fit(device_, home_keys_, keys.size());
-  fit(device_, home_surface_, keys.size());
-  make_room(now_, slots, slots + slots / 2);
+  fit(device_, particle_blocks_buffer_, keys.size());
+  fit(device_, block_keys_, keys.size());
+  fit(device_, block_surface_, keys.size());
+  reserve(now_, slots, slots + slots / 2);
   // Sorted particles of one home stand together, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
   lay_out(counts);
@@ -232,15 +242,17 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
     const auto view = state_[now_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
-    for (const Home& home : homes_) {
-      const auto start = static_cast<std::size_t>(home.start), n = static_cast<std::size_t>(home.count);
-      for (std::size_t i = 0; i < n; ++i) put_record(sorted[next++], view.data(), capacity, start + i);
+    for (const ParticleBlock& home : particle_blocks_) {
+      const auto start = static_cast<std::size_t>(home.start),
+                 n = static_cast<std::size_t>(home.count);
+      for (std::size_t i = 0; i < n; ++i)
+        put_record(sorted[next++], view.data(), capacity, start + i);
       for (std::size_t i = n; i < static_cast<std::size_t>(padded(home.count)); ++i)
         put_record(empty_lane(), view.data(), capacity, start + i);
     }
   }
-  upload_homes();
-  home_surface_.write(surfaces(sorted));
+  upload_particle_blocks();
+  block_surface_.write(surfaces(sorted));
 }
 
 std::vector<ContactSoil> ParticleStore::surfaces(const std::vector<Particle>& sorted) const {
@@ -248,12 +260,14 @@ std::vector<ContactSoil> ParticleStore::surfaces(const std::vector<Particle>& so
   constexpr std::array kWords{std::pair(&ContactSoil::friction, &SoilRow::tool_friction),
                               std::pair(&ContactSoil::adhesion, &SoilRow::adhesion),
                               std::pair(&ContactSoil::inv_density, &SoilRow::inv_density)};
-  std::vector<ContactSoil> out(homes_.size());
+  std::vector<ContactSoil> out(particle_blocks_.size());
   std::size_t next = 0;
-  for (std::size_t h = 0; h < homes_.size(); ++h) {
-    const auto count = static_cast<std::size_t>(homes_[h].count);
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    const auto count = static_cast<std::size_t>(particle_blocks_[h].count);
     for (const auto& [mean, of_soil] : kWords) {
-      const auto value = [&, word = of_soil](std::size_t i) { return soil_rows_[sorted[i].soil].*word; };
+      const auto value = [&, word = of_soil](std::size_t i) {
+        return soil_rows_[sorted[i].soil].*word;
+      };
       float more = 0;
       for (std::size_t i = next; i < next + count; ++i) more += value(i) - value(next);
       out[h].*mean = value(next) + more / static_cast<float>(count);
@@ -268,31 +282,34 @@ std::vector<Particle> ParticleStore::records() const {
   out.reserve(static_cast<std::size_t>(count_));
   if (count_ == 0) return out;
   const auto view = state_[now_].map_read();
-  for (std::size_t h = 0; h < homes_.size(); ++h)
-    for (int i = 0; i < homes_[h].count; ++i) {
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h)
+    for (int i = 0; i < particle_blocks_[h].count; ++i) {
       Particle p = get_record(view.data(), static_cast<std::size_t>(capacity_[now_]),
-                              static_cast<std::size_t>(homes_[h].start + i));
-      p.block[0] = table_.homes[h].x;
-      p.block[1] = table_.homes[h].y;
-      p.block[2] = table_.homes[h].z;
+                              static_cast<std::size_t>(particle_blocks_[h].start + i));
+      p.block[0] = table_.particle_blocks[h].x;
+      p.block[1] = table_.particle_blocks[h].y;
+      p.block[2] = table_.particle_blocks[h].z;
       out.push_back(p);
     }
   return out;
 }
 
 std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
-  // From half a cell above its key on a home holds what re-bins found there; between them it drifts by less than a
-  // cell.
+  // From half a cell above its key on a home holds what re-bins found there; between them it drifts
+  // by less than a cell.
   constexpr double kFrom = -1, kTo = kBlockCells + 2;
   std::vector<PointMass> out;
   if (count_ == 0) return out;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  for (std::size_t h = 0; h < homes_.size(); ++h) {
-    const Vec3 corner = kBlockCells * Vec3(table_.homes[h].x, table_.homes[h].y, table_.homes[h].z);
-    if (((corner.array() + kFrom) > high.array()).any() || ((corner.array() + kTo) < low.array()).any()) continue;
-    for (int i = 0; i < homes_[h].count; ++i) {
-      const float* words = view.data() + homes_[h].start + i;
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    const Vec3 corner = kBlockCells * Vec3(table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+                                           table_.particle_blocks[h].z);
+    if (((corner.array() + kFrom) > high.array()).any() ||
+        ((corner.array() + kTo) < low.array()).any())
+      continue;
+    for (int i = 0; i < particle_blocks_[h].count; ++i) {
+      const float* words = view.data() + particle_blocks_[h].start + i;
       PointMass point;
       for (std::size_t a = 0; a < 3; ++a)
         point.grid[static_cast<int>(a)] = corner[static_cast<int>(a)] +
@@ -307,7 +324,8 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
 
 double ParticleStore::densest() const {
   double out = 0;
-  for (const SoilRow& soil : soil_rows_) out = std::max(out, 1 / static_cast<double>(soil.inv_density));
+  for (const SoilRow& soil : soil_rows_)
+    out = std::max(out, 1 / static_cast<double>(soil.inv_density));
   return out;
 }
 
@@ -317,10 +335,11 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   std::vector<float> sums;
-  for (const Home& home : homes_) {
+  for (const ParticleBlock& home : particle_blocks_) {
     const auto n = static_cast<std::size_t>(home.count);
     const float* first = view.data() + home.start;
-    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the run is lost anyway.
+    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the
+    // run is lost anyway.
     sums.assign(n, 0.0f);
     for (std::size_t f = 0; f < FIELD_MASS; ++f)
       for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
@@ -339,7 +358,7 @@ std::vector<Particle> ParticleStore::drop_outside() {
   const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
   std::size_t next = 0;
-  for (const Home& home : homes_)
+  for (const ParticleBlock& home : particle_blocks_)
     for (int i = 0; i < home.count; ++i) {
       const bool out = codes[static_cast<std::size_t>(home.start + i)] == kRebinCodes - 1;
       (out ? left : stay).push_back(all[next++]);
@@ -350,28 +369,30 @@ std::vector<Particle> ParticleStore::drop_outside() {
 
 std::vector<Particle> ParticleStore::rebin() {
   if (count_ == 0) return {};
-  const std::size_t old_homes = homes_.size();
+  const std::size_t old_particle_blocks = particle_blocks_.size();
   const std::vector<int> counts =
-      rebin_.count({state_[now_], capacity_[now_], homes_buffer_}, old_homes, home_keys_, site_);
-  for (std::size_t h = 0; h < old_homes; ++h)
+      rebin_.count({state_[now_], capacity_[now_], particle_blocks_buffer_}, old_particle_blocks,
+                   block_keys_, site_);
+  for (std::size_t h = 0; h < old_particle_blocks; ++h)
     if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
   RebinPlan plan = plan_rebin(table_, counts);
   // Room first: without it the old order still stands.
   const int other = 1 - now_;
   const int slots = slots_of(plan.counts);
-  make_room(other, slots, std::max(slots + slots / 4, capacity_[now_]));
-  fit(device_, old_homes_buffer_, plan.keys.size());
-  fit(device_, home_keys_, plan.keys.size());
-  fit(device_, home_surface_, plan.keys.size());
-  rebin_.make_room(plan.keys.size(), static_cast<std::size_t>(slots));
+  reserve(other, slots, std::max(slots + slots / 4, capacity_[now_]));
+  fit(device_, old_particle_blocks_buffer_, plan.keys.size());
+  fit(device_, block_keys_, plan.keys.size());
+  fit(device_, block_surface_, plan.keys.size());
+  rebin_.reserve(plan.keys.size(), static_cast<std::size_t>(slots));
   // From here on nothing can fail but the device itself.
-  std::swap(homes_buffer_, old_homes_buffer_);
-  if (!(plan.keys == table_.homes)) table_.build(plan.keys);
+  std::swap(particle_blocks_buffer_, old_particle_blocks_buffer_);
+  if (!(plan.keys == table_.particle_blocks)) table_.build(plan.keys);
   lay_out(plan.counts);
-  upload_homes();
-  rebin_.move({state_[now_], capacity_[now_], old_homes_buffer_}, {state_[other], capacity_[other], homes_buffer_},
-              plan, soils_, home_surface_);
+  upload_particle_blocks();
+  rebin_.move({state_[now_], capacity_[now_], old_particle_blocks_buffer_},
+              {state_[other], capacity_[other], particle_blocks_buffer_}, plan, soils_,
+              block_surface_);
   now_ = other;
   return {};
 }
@@ -384,34 +405,36 @@ void ParticleStore::visit(Archive& a) {
     place(records);
     return;
   }
-  a.size("homes", homes_.size());
-  if (homes_.empty()) return;
+  a.size("homes", particle_blocks_.size());
+  if (particle_blocks_.empty()) return;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  HomeWords home;
-  for (std::size_t h = 0; h < homes_.size(); ++h) {
-    home.block = {table_.homes[h].x, table_.homes[h].y, table_.homes[h].z};
-    home.take(view.data() + homes_[h].start, capacity, static_cast<std::size_t>(homes_[h].count));
+  BlockWords home;
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    home.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+                  table_.particle_blocks[h].z};
+    home.take(view.data() + particle_blocks_[h].start, capacity,
+              static_cast<std::size_t>(particle_blocks_[h].count));
     a.item(h, [&] { home.visit(a); });
   }
 }
 
 void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_t soils) {
-  const auto end_of_home = [&](std::size_t from) {
+  const auto end_of_block = [&](std::size_t from) {
     std::size_t to = from;
     while (to < records.size() && key_of(records[to]) == key_of(records[from])) ++to;
     return to;
   };
-  std::uint64_t homes = 0;
-  for (std::size_t from = 0; from < records.size(); from = end_of_home(from)) ++homes;
-  homes = a.size("homes", homes);
+  std::uint64_t particle_blocks = 0;
+  for (std::size_t from = 0; from < records.size(); from = end_of_block(from)) ++particle_blocks;
+  particle_blocks = a.size("homes", particle_blocks);
   if (a.loading()) records.clear();
-  HomeWords home;
+  BlockWords home;
   BlockKey before;
   std::size_t from = 0;
-  for (std::uint64_t h = 0; h < homes; ++h) {
+  for (std::uint64_t h = 0; h < particle_blocks; ++h) {
     if (!a.loading()) {
-      const std::size_t to = end_of_home(from);
+      const std::size_t to = end_of_block(from);
       home.take(std::span(records).subspan(from, to - from));
       from = to;
     }

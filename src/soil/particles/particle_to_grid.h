@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "device/buffer.h"
-#include "device/program.h"
+#include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 
 namespace navvy::soil {
@@ -17,17 +17,18 @@ class ParticleToGrid {
   ParticleToGrid(device::Device& device, bool extended_law);
 
   /// Makes room for this many homes and tiles.
-  void set_blocks(std::size_t homes, int tiles);
-  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]; of a `hold` step only what stress adds to the
-  /// momentum of the nodes. Writes Report.broken of every home.
-  void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell, bool hold);
+  void set_blocks(std::size_t particle_blocks, int tiles);
+  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]; of a `hold` step only what
+  /// stress adds to the momentum of the nodes. Writes Report.broken of every home.
+  void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
+               bool hold);
 
   device::Buffer<float>& tiles() { return tiles_; }
   device::Buffer<std::int32_t>& used() { return used_; }
 
  private:
   device::Device& device_;
-  device::Program program_;
+  device::KernelProgram program_;
   device::Kernel kernel_;
   device::Buffer<float> tiles_;        ///< TILE_NODES float4s a tile: p [kg m/s], m [kg]
   device::Buffer<std::int32_t> used_;  ///< per home: bits of its tiles that were written

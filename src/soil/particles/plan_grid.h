@@ -5,32 +5,42 @@
 #include <cmath>
 #include <utility>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/particles/particle.h"
 
 namespace navvy::soil {
 
-/// Key of a column or of a 4 x 4 block of columns as (y, x): maps of it run in the order of the ground, x fastest.
+/// Key of a column or of a 4 x 4 block of columns as (y, x): maps of it run in the order of the
+/// ground, x fastest.
 using PlanKey = std::pair<int, int>;
 
-/// Column (x, y) of the site lies at the origin of the grid frame G (particle.h) and begins a block. Both are below a
-/// block's side and chosen so that the first machine starts at the same place in its block wherever it stands: the same
-/// dig a number of columns away is then the same to the bit.
+/// Column (x, y) of the site lies at the origin of the grid frame G (particle.h) and begins a
+/// block. Both are below a block's side and chosen so that the first machine starts at the same
+/// place in its block wherever it stands: the same dig a number of columns away is then the same to
+/// the bit.
 struct PlanGrid {
   int x = 0, y = 0;
 
   /// Block that holds column (ix, iy).
   PlanKey block_of(int ix, int iy) const {
-    const auto down = [](int i) { return i >= 0 ? i / kBlockCells : -((kBlockCells - 1 - i) / kBlockCells); };
+    const auto down = [](int i) {
+      return i >= 0 ? i / kBlockCells : -((kBlockCells - 1 - i) / kBlockCells);
+    };
     return {down(iy - y), down(ix - x)};
   }
   /// Column c of a block, 0 .. 15, x fastest.
-  int column_x(const PlanKey& block, int c) const { return x + kBlockCells * block.second + c % kBlockCells; }
-  int column_y(const PlanKey& block, int c) const { return y + kBlockCells * block.first + c / kBlockCells; }
+  int column_x(const PlanKey& block, int c) const {
+    return x + kBlockCells * block.second + c % kBlockCells;
+  }
+  int column_y(const PlanKey& block, int c) const {
+    return y + kBlockCells * block.first + c / kBlockCells;
+  }
   /// Column a particle is over, (ix, iy).
   std::pair<int, int> column_of(const Particle& p) const {
-    const auto cell = [&](int a) { return kBlockCells * p.block[a] + static_cast<int>(std::floor(p.x[a])); };
+    const auto cell = [&](int a) {
+      return kBlockCells * p.block[a] + static_cast<int>(std::floor(p.x[a]));
+    };
     return {x + cell(0), y + cell(1)};
   }
   /// Place of a column in its block, 0 .. 15.
@@ -43,7 +53,8 @@ struct PlanGrid {
 inline PlanGrid plan_grid(const scene::Scene& world, const heightfield::Ground& ground) {
   if (world.machines.empty()) return {};
   const Vec3& start = world.machines.front().X_WM.translation();
-  // Round figures lie on columns' edges: they must not fall to one side here and to the other there.
+  // Round figures lie on columns' edges: they must not fall to one side here and to the other
+  // there.
   constexpr double kAside = 0.3;
   const auto within = [&](double at, double corner) {
     const auto column = static_cast<int>(std::floor((at - corner) / ground.cell() + kAside));

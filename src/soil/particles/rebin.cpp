@@ -11,21 +11,22 @@ namespace navvy::soil {
 // Homes are found from flows and not from particles: the host sees 28 numbers a home.
 RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts) {
   RebinPlan plan;
-  for (std::size_t h = 0; h < table.homes.size(); ++h)
+  for (std::size_t h = 0; h < table.particle_blocks.size(); ++h)
     for (std::size_t n = 0; n < 27; ++n)
-      if (counts[kRebinCodes * h + n] > 0) plan.keys.push_back(table.homes[h] + neighbour_offset(static_cast<int>(n)));
+      if (counts[kRebinCodes * h + n] > 0)
+        plan.keys.push_back(table.particle_blocks[h] + neighbour_offset(static_cast<int>(n)));
   std::sort(plan.keys.begin(), plan.keys.end());
   plan.keys.erase(std::unique(plan.keys.begin(), plan.keys.end()), plan.keys.end());
 
-  // For each new home the old ones around it that send it something, in the fixed order of the codes: the order in
-  // which particles arrive does not depend on the device.
+  // For each new home the old ones around it that send it something, in the fixed order of the
+  // codes: the order in which particles arrive does not depend on the device.
   plan.sources.assign(27 * plan.keys.size(), -1);
   plan.counts.assign(plan.keys.size(), 0);
   for (std::size_t k = 0; k < plan.keys.size(); ++k)
     for (std::size_t n = 0; n < 27; ++n) {
       // What flows along n comes from the block on the other side.
       const BlockKey d = neighbour_offset(static_cast<int>(n)), key = plan.keys[k];
-      const int old = table.home_index.find({key.x - d.x, key.y - d.y, key.z - d.z});
+      const int old = table.particle_block_index.find({key.x - d.x, key.y - d.y, key.z - d.z});
       const int flow = old < 0 ? 0 : counts[kRebinCodes * static_cast<std::size_t>(old) + n];
       if (flow == 0) continue;
       plan.sources[27 * k + n] = old;
@@ -41,30 +42,36 @@ Rebin::Rebin(device::Device& device)
       gather_kernel_(program_, "rebin_gather"),
       move_kernel_(program_, "rebin_move") {}
 
-std::vector<int> Rebin::count(const StoredParticles& now, std::size_t homes,
+std::vector<int> Rebin::count(const StoredParticles& now, std::size_t particle_blocks,
                               const device::Buffer<std::array<std::int32_t, 4>>& keys,
                               const std::array<std::int32_t, 4>& site) {
-  std::vector<int> counts(kRebinCodes * homes);
-  if (homes == 0) return counts;
+  std::vector<int> counts(kRebinCodes * particle_blocks);
+  if (particle_blocks == 0) return counts;
   // Per slot and not per particle: the kernels index by slot.
   fit(device_, codes_, static_cast<std::size_t>(now.capacity));
   fit(device_, cells_, static_cast<std::size_t>(now.capacity));
   fit(device_, counts_, counts.size());
-  count_kernel_.args(now.state, now.capacity, now.homes, keys, codes_, cells_, counts_, site).enqueue_groups(homes);
+  count_kernel_
+      .args(now.state, now.capacity, now.particle_blocks, keys, codes_, cells_, counts_, site)
+      .enqueue_groups(particle_blocks);
   counts_.read(counts);
   return counts;
 }
 
-void Rebin::make_room(std::size_t homes, std::size_t slots) {
-  fit(device_, sources_, 27 * homes);
+void Rebin::reserve(std::size_t particle_blocks, std::size_t slots) {
+  fit(device_, sources_, 27 * particle_blocks);
   fit(device_, from_, slots);
 }
 
 void Rebin::move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
-                 const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& home_surface) {
+                 const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& block_surface) {
   sources_.write(plan.sources);
-  gather_kernel_.args(now.homes, codes_, cells_, counts_, next.homes, sources_, from_).enqueue_groups(plan.keys.size());
-  move_kernel_.args(now.state, now.capacity, codes_, from_, next.homes, next.state, next.capacity, soils, home_surface)
+  gather_kernel_
+      .args(now.particle_blocks, codes_, cells_, counts_, next.particle_blocks, sources_, from_)
+      .enqueue_groups(plan.keys.size());
+  move_kernel_
+      .args(now.state, now.capacity, codes_, from_, next.particle_blocks, next.state, next.capacity,
+            soils, block_surface)
       .enqueue_groups(plan.keys.size());
 }
 

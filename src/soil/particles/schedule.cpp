@@ -12,7 +12,8 @@ Schedule schedule_for(const device::Device& device) {
   const std::string wanted = text == nullptr ? "" : text;
   if (wanted == "lanes") return Schedule::kLanes;
   if (wanted == "groups") return Schedule::kGroups;
-  if (wanted.empty()) return device.info().kind == device::Kind::kGpu ? Schedule::kGroups : Schedule::kLanes;
+  if (wanted.empty())
+    return device.info().kind == device::Kind::kGpu ? Schedule::kGroups : Schedule::kLanes;
   Fault fault;
   fault.element = "NAVVY_SOIL_SCHEDULE";
   fault.value = wanted;
@@ -21,7 +22,8 @@ Schedule schedule_for(const device::Device& device) {
 }
 
 std::string kernel_path(const device::Device& device, const std::string& stage) {
-  return (schedule_for(device) == Schedule::kGroups ? "soil/groups/" : "soil/lanes/") + stage + ".cl";
+  return (schedule_for(device) == Schedule::kGroups ? "soil/groups/" : "soil/lanes/") + stage +
+         ".cl";
 }
 
 }  // namespace navvy::soil

@@ -11,34 +11,39 @@
 namespace navvy::soil {
 namespace {
 
-/// Viscosity of soil that does not yield, as a share of density x sound speed x cell [docs/soil.md, viscosity].
+/// Viscosity of soil that does not yield, as a share of density x sound speed x cell
+/// [docs/soil.md, viscosity].
 constexpr double kViscosityShare = 0.05;
-/// tuned: CohesiveBlade.FeelsTheWholeStrengthAtAnyCohesion and SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Clay of 150
-/// kPa is felt by 0.85 of its strength with a strain of 0.025, by 0.83 with 0.1.
+/// tuned: CohesiveBlade.FeelsTheWholeStrengthAtAnyCohesion and
+/// SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Clay of 150 kPa is felt by 0.85 of its strength with a
+/// strain of 0.025, by 0.83 with 0.1.
 constexpr double kMixingStrain = 0.025;
-/// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of bank instead of 1.23;
-/// 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22 (by time alone).
+/// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of
+/// bank instead of 1.23; 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22 (by time alone).
 constexpr double kFastestMixing = 0.02;  // [s]
-/// J is integrated and cannot see particles crowd: a scooped and dumped loam lay at 0.97 of its bank volume while its J
-/// said 1.24. So particles are moved apart where the nodes hold this much more than min(J, J0) says
-/// [docs/soil.md, crowding]. One-sided: beside a free surface or a plate nodes hold less than the soil's density.
-/// tuned: the plane-strain laboratory. A shear of 0.02 stirs heaps at rest, 0.2 leaves their core at 1.23 of its state.
+/// J is integrated and cannot see particles crowd: a scooped and dumped loam lay at 0.97 of its
+/// bank volume while its J said 1.24. So particles are moved apart where the nodes hold this much
+/// more than min(J, J0) says [docs/soil.md, crowding]. One-sided: beside a free surface or a plate
+/// nodes hold less than the soil's density. tuned: the plane-strain laboratory. A shear of 0.02
+/// stirs heaps at rest, 0.2 leaves their core at 1.23 of its state.
 constexpr double kPacked = 1.05, kCrowdingShear = 0.1;
 constexpr double kFarthestApart = 0.05;  ///< a tenth of the particles' spacing [cells a transfer]
-/// Soil that noise has opened closes by this share a transfer, over some twelve cells' way of a wave.
-/// tuned: CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. A third lands thrown sand at 1.065 of its
-/// volume in cells of 0.05 m, the whole of it at 1.092 (1.5 if what is far open closes too); clay of 150 kPa is felt by
-/// 0.87 of its strength with a third, 0.86 with a sixth, 0.66 with none.
+/// Soil that noise has opened closes by this share a transfer, over some twelve cells' way of a
+/// wave. tuned: CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. A third lands thrown
+/// sand at 1.065 of its volume in cells of 0.05 m, the whole of it at 1.092 (1.5 if what is far
+/// open closes too); clay of 150 kPa is felt by 0.87 of its strength with a third, 0.86 with a
+/// sixth, 0.66 with none.
 constexpr double kClosingShare = 1.0 / 6;
 constexpr double kNeverCompacts = 1e30;  ///< [Pa]
 constexpr double kGrainDensity = 2650;   ///< of quartz, for the inertial number [kg/m3]
 
-/// Radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates by b: there s_zz = -2/3 b q,
-/// and the cone of law.h would be narrower by this [docs/soil.md, dilatancy].
+/// Radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates by b: there
+/// s_zz = -2/3 b q, and the cone of law.h would be narrower by this [docs/soil.md, dilatancy].
 double radius_of_dilating(double sin_phi, double b) {
   const double a = 0.5 * sin_phi * (3 - sin_phi * sin_phi) * -(2 * b / 3) * (1 - 4 * b * b / 9);
   double r = 1;
-  for (int newton = 0; newton < 10; ++newton) r -= ((a * r - 1) * r * r + 1) / ((3 * a * r - 2) * r);
+  for (int newton = 0; newton < 10; ++newton)
+    r -= ((a * r - 1) * r * r + 1) / ((3 * a * r - 2) * r);
   return r;
 }
 
@@ -59,7 +64,8 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.alpha = std::sin(soil.friction_angle);
   // Without swell soil has no loose density.
   const bool swells = soil.swell > 1;
-  const double loose = swells ? std::min(soil.loose_cohesion, soil.residual_cohesion) : soil.residual_cohesion;
+  const double loose =
+      swells ? std::min(soil.loose_cohesion, soil.residual_cohesion) : soil.residual_cohesion;
   k.k_loose = loose * std::cos(soil.friction_angle);
   k.k_dense = (soil.residual_cohesion - loose) * std::cos(soil.friction_angle);
   k.k_bond = (soil.cohesion - soil.residual_cohesion) * std::cos(soil.friction_angle);
@@ -71,11 +77,13 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.viscosity = kViscosityShare * soil.bank_density * sound_speed(soil) * cell;
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
-  // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and Mohr-Coulomb's radius
-  // for phi [docs/soil.md, dilatancy].
-  const double sin_psi = std::sin(soil.dilatancy_angle), b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
+  // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and
+  // Mohr-Coulomb's radius for phi [docs/soil.md, dilatancy].
+  const double sin_psi = std::sin(soil.dilatancy_angle),
+               b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
   k.dilatancy = soil.swell > 1 ? b : 0;
-  const double cone = 1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3);
+  const double cone =
+      1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3);
   k.matched = cone / radius_of_dilating(k.alpha, k.dilatancy) - 1;
   k.alpha_fast = std::max(0.0, std::sin(soil.fast_friction_angle) - k.alpha);
   k.grain = soil.grain_diameter * std::sqrt(kGrainDensity);
@@ -93,7 +101,8 @@ double sound_speed(const scene::Soil& soil) {
 
 bool needs_extended_law(const std::vector<scene::Soil>& soils) {
   return std::any_of(soils.begin(), soils.end(), [](const scene::Soil& soil) {
-    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle || soil.compaction_pressure > 0;
+    return soil.dilatancy_angle > 0 || soil.fast_friction_angle > soil.friction_angle ||
+           soil.compaction_pressure > 0;
   });
 }
 

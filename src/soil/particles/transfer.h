@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step between particles and grid: scatter to tiles, tiles to node velocities, gather; over the steps of a transfer
-// nodes keep their velocities and particles their places [docs/soil.md, transfer]. A portable, unfused schedule: each
-// work-item writes only what it owns, every sum has a fixed order.
+// The step between particles and grid: scatter to tiles, tiles to node velocities, gather; over the
+// steps of a transfer nodes keep their velocities and particles their places
+// [docs/soil.md, transfer]. A portable, unfused schedule: each work-item writes only what it owns,
+// every sum has a fixed order.
 #pragma once
 
 #include <vector>
@@ -22,16 +23,17 @@ class Transfer {
   /// `extended_law`: see needs_extended_law.
   Transfer(device::Device& device, bool extended_law);
 
-  /// Takes over the block lists after a re-bin or a change of the near blocks. `near_slot` has one entry per active
-  /// block; `tiles` is what ParticleStore::set_near returned.
+  /// Takes over the block lists after a re-bin or a change of the near blocks. `near_slot` has one
+  /// entry per active block; `tiles` is what ParticleStore::set_near returned.
   void set_blocks(const ParticleStore& store, const std::vector<int>& near_slot, int tiles);
   void set_floor(const std::vector<BlockFloor>& floors) { grid_.set_floor(floors); }
 
-  /// Law and scatter, then node velocities after gravity: final in far blocks, before contact in near ones.
-  /// `hold`: not the first step of a transfer.
-  void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity, bool hold);
-  /// Queues gather of a step that is the share `part` of a transfer, 0: nothing is moved apart; the way of the
-  /// particles is booked.
+  /// Law and scatter, then node velocities after gravity: final in far blocks, before contact in
+  /// near ones. `hold`: not the first step of a transfer.
+  void scatter(ParticleStore& store, NearNodes& near, double dt, double cell, const Vec3& gravity,
+               bool hold);
+  /// Queues gather of a step that is the share `part` of a transfer, 0: nothing is moved apart; the
+  /// way of the particles is booked.
   void gather(ParticleStore& store, NearNodes& near, double dt, double part, double cell);
   /// Queues the transfer's end: particles go the way that was booked.
   void end(ParticleStore& store) { grid_to_particle_.enqueue_end(store); }
@@ -41,7 +43,7 @@ class Transfer {
     double push = 0;   ///< out of a plate [cells]
     std::uint64_t crossed = 0;
   };
-  Largest read_report(std::size_t homes) const;
+  Largest read_report(std::size_t particle_blocks) const;
 
   device::Buffer<float>& velocity() { return grid_.velocity(); }
   device::Buffer<Report>& report() { return report_; }

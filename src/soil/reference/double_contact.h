@@ -9,7 +9,8 @@ namespace navvy::soil::reference {
 #include "soil/contact_law.h"  // NOLINT: on purpose inside the namespace
 #include "soil/node.h"         // NOLINT: the same
 
-/// Impulse [N s] on a node of a plate that moves with `speed` [m/s] against the resting ground, without turning.
+/// Impulse [N s] on a node of a plate that moves with `speed` [m/s] against the resting ground,
+/// without turning.
 inline Vec3 impulse_on(const ContactNode& node, double opening, const Vec3& speed = Vec3::Zero()) {
   ContactBranch branch;
   return contact_impulse(&node, Vec3::Zero(), speed, opening, &branch);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dialect of kernels/README.md in doubles: what law, particle and node arithmetic of kernels/soil need to compile
-// as the double twin.
+// The dialect of kernels/README.md in doubles: what law, particle and node arithmetic of
+// kernels/soil need to compile as the double twin.
 #pragma once
 
 #include <cmath>

@@ -10,8 +10,9 @@
 namespace navvy::soil::reference {
 namespace {
 
-// The contact's reach from a plate's face, which the lattice of particles begins an eighth of a cell behind; its edge
-// as the solver ships it [docs/tools.md, contact shares]. A fractional lip lies 0.2 cells further in.
+// The contact's reach from a plate's face, which the lattice of particles begins an eighth of a
+// cell behind; its edge as the solver ships it [docs/tools.md, contact shares]. A fractional lip
+// lies 0.2 cells further in.
 constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.6, kEdgeRamp = 1, kFractionEdge = 0.8;
 constexpr double kFarInside = 1e3;         // from a plate's edges [cells]
 constexpr double kReferenceCourant = 0.4;  // of the step that weights are made independent of
@@ -30,15 +31,16 @@ struct Weights {
   }
 };
 
-/// Calls visit(node, weight, along x, along z) for the nine nodes around a particle, the last two from its base node.
+/// Calls visit(node, weight, along x, along z) for the nine nodes around a particle, the last two
+/// from its base node.
 template <class Visit>
 void for_nodes(PlaneStrain& plane, const Weights& at, const Visit& visit) {
   for (int b = 0; b < 3; ++b)
     for (int a = 0; a < 3; ++a) visit(plane.node(at.i + a, at.k + b), at.wx[a] * at.wz[b], a, b);
 }
 
-/// Weight of a fractional contact, n = dt / reference step: 1 - (1 - b)^n is replaced by b n / (1 + (n - 1) b), equal
-/// at b = 0 (with slope n), at b = 1 and for n = 1.
+/// Weight of a fractional contact, n = dt / reference step: 1 - (1 - b)^n is replaced by b n / (1 +
+/// (n - 1) b), equal at b = 0 (with slope n), at b = 1 and for n = 1.
 double fraction_weight(double clearance, double inset, double n, const Reach* reach) {
   const double b = contact_share(clearance, kFarInside, reach) * contact_along(inset, reach);
   return b * n / (1 + (n - 1) * b);
@@ -46,7 +48,8 @@ double fraction_weight(double clearance, double inset, double n, const Reach* re
 
 }  // namespace
 
-PlaneStrain::PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method, bool periodic)
+PlaneStrain::PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz,
+                         const PlaneMethod& method, bool periodic)
     : soil_(soil),
       law_(law_soil(soil, cell)),
       cell_(cell),
@@ -57,8 +60,8 @@ PlaneStrain::PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, c
       periodic_(periodic),
       nodes_(static_cast<std::size_t>(nx * nz)) {}
 
-void PlaneStrain::fill(double x0, double x1, double z0, double z1, const std::function<bool(double, double)>& inside,
-                       int per_side) {
+void PlaneStrain::fill(double x0, double x1, double z0, double z1,
+                       const std::function<bool(double, double)>& inside, int per_side) {
   const double apart = 1.0 / per_side;
   const auto across = static_cast<int>(std::lround((x1 - x0) / apart));
   const auto rows = static_cast<int>(std::lround((z1 - z0) / apart));
@@ -77,7 +80,8 @@ void PlaneStrain::fill(double x0, double x1, double z0, double z1, const std::fu
 void PlaneStrain::settle(const std::function<double(double)>& top) {
   const double k0 = soil_.poisson / (1 - soil_.poisson);
   for (PlanePoint& p : points) {
-    const double down = soil_.bank_density * gravity.y() * std::max(top(p.x) - p.z, 0.0) * cell_, side = k0 * down;
+    const double down = soil_.bank_density * gravity.y() * std::max(top(p.x) - p.z, 0.0) * cell_,
+                 side = k0 * down;
     const double pressure = -(down + 2 * side) / 3;
     p.j = 1 - pressure / law_.bulk;
     p.s[0] = p.s[1] = side + pressure;
@@ -114,7 +118,8 @@ void PlaneStrain::advance_law(PlanePoint& p, double dt, double* sigma) {
   const double slipped = p.shear;
   law_update(p.c, dt, &law_, &p, sigma);
   const double volume = p.mass / soil_.bank_density * p.j;
-  const double q = std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]) + p.s[5] * p.s[5]);
+  const double q =
+      std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]) + p.s[5] * p.s[5]);
   energy_.plastic += volume * q * (p.shear - slipped);
   p.pressure = -(sigma[0] + sigma[1] + sigma[2]) / 3;
 }
@@ -131,9 +136,12 @@ void PlaneStrain::scatter(double dt, bool first) {
     const Weights at(p);
     // The force alone is what the shared arithmetic makes of no velocity and no gradient.
     const double none[9] = {0}, still[3] = {0, 0, 0}, f[3] = {at.fx, 0, at.fz};
-    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, 1, dt, cell_, start, a);
-    const double cx = cell_ * p.c[0], cxz = cell_ * p.c[2], czx = cell_ * p.c[6], cz = cell_ * p.c[8];
-    moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz + 0.25 * (cx * cx + cxz * cxz + czx * czx + cz * cz));
+    affine_momentum(none, sigma, still, f, p.mass, p.mass / soil_.bank_density, p.j, 1, dt, cell_,
+                    start, a);
+    const double cx = cell_ * p.c[0], cxz = cell_ * p.c[2], czx = cell_ * p.c[6],
+                 cz = cell_ * p.c[8];
+    moving += 0.5 * p.mass *
+              (p.vx * p.vx + p.vz * p.vz + 0.25 * (cx * cx + cxz * cxz + czx * czx + cz * cz));
     for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
       if (first) {
         const double rx = i - at.fx, rz = k - at.fz;
@@ -148,22 +156,25 @@ void PlaneStrain::scatter(double dt, bool first) {
   kinetic_before_ = moving;
 }
 
-double PlaneStrain::room_at(int i, int k) const {
+double PlaneStrain::free_fraction_at(int i, int k) const {
   double room = kernel_share(k - floor);
   if (has_plate && k > plate.tip) room *= kernel_share(i - plate.x);
   if (wall_x0 >= 0) room *= kernel_share(i - wall_x0);
   if (wall_x1 >= 0) room *= kernel_share(wall_x1 - i);
-  return std::max(room, static_cast<double>(LEAST_ROOM));
+  return std::max(room, static_cast<double>(MIN_FREE_FRACTION));
 }
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
   const bool fraction = method_.contact == PlaneMethod::Contact::kFraction;
-  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0, 0, 0};
+  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0,
+                    0,      0};
   const double clearance = i - plate.x, inset = k - plate.tip;
   if (clearance < -3) return;
-  ContactNode at{Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, plate.friction, 0};
+  ContactNode at{
+      Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, plate.friction, 0};
   double weight = 1;
-  if (fraction) weight = fraction_weight(clearance, inset, dt / longest_step(kReferenceCourant), &reach);
+  if (fraction)
+    weight = fraction_weight(clearance, inset, dt / longest_step(kReferenceCourant), &reach);
   if (!fraction) at.share = contact_share(clearance, inset, &reach);
   if (!(weight > 0 && at.share > 0)) return;
   const Vec3 impulse = weight * impulse_on(at, 0, Vec3(plate.speed, 0, 0));
@@ -202,12 +213,13 @@ void PlaneStrain::update_nodes(double dt, bool first) {
       if (k <= floor + kHeldMargin) node.vx = node.vz = 0;
       node.moved_x += dt * node.vx;
       node.moved_z += dt * node.vz;
-      if (first) node.room = node.mass / room_at(i, k);
+      if (first) node.room = node.mass / free_fraction_at(i, k);
     }
 }
 
 void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
-  const double share = crowding(p.c, p.j, p.j0, p.density, packed_mass(1, 1), dt_interval / crowding_shear());
+  const double share =
+      crowding(p.c, p.j, p.j0, p.density, packed_mass(1, 1), dt_interval / crowding_shear());
   if (!(share > 0)) return;
   const Weights at(p);
   double mass = 0, lean_x = 0, lean_z = 0;
@@ -216,16 +228,18 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
     lean_x += w * node.room * (i - at.fx);
     lean_z += w * node.room * (k - at.fz);
   });
-  p.x += way_apart(share, lean_x, mass, farthest_apart());
-  p.z += way_apart(share, lean_z, mass, farthest_apart());
+  p.x += crowding_displacement(share, lean_x, mass, farthest_apart());
+  p.z += crowding_displacement(share, lean_z, mass, farthest_apart());
 }
 
 void PlaneStrain::gather(double dt, bool last) {
-  const double full = packed_mass(soil_.bank_density, cell_), filled = filled_mass(soil_.bank_density, cell_);
+  const double full = packed_mass(soil_.bank_density, cell_),
+               filled = filled_mass(soil_.bank_density, cell_);
   const double closing = std::min(1.0, dt / kClosingTime);
   double on_grid = 0, moving = 0, fastest = 0;
   if (last)
-    for (const Node& node : nodes_) on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
+    for (const Node& node : nodes_)
+      on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
   for (PlanePoint& p : points) {
     const Weights at(p);
     double v[2] = {0, 0}, moment[4] = {0, 0, 0, 0}, moved[2] = {0, 0}, room = 0;
@@ -265,7 +279,8 @@ void PlaneStrain::gather(double dt, bool last) {
   for (const PlanePoint& p : points) moving += 0.5 * p.mass * (p.vx * p.vx + p.vz * p.vz);
   energy_.transfer += on_grid - moving;
   for (const PlanePoint& p : points)
-    for (const int i : {0, 2, 6, 8}) energy_.transfer -= 0.125 * p.mass * cell_ * cell_ * p.c[i] * p.c[i];
+    for (const int i : {0, 2, 6, 8})
+      energy_.transfer -= 0.125 * p.mass * cell_ * cell_ * p.c[i] * p.c[i];
 }
 
 void PlaneStrain::step(double dt) {

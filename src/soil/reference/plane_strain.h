@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particle method in plane strain, in doubles and on the host, with ingredients that can be changed one by one.
+// The particle method in plane strain, in doubles and on the host, with ingredients that can be
+// changed one by one.
 //
-// A cure of the method is tried here in seconds before it is built into two schedules and the twin. Law, particle and
-// contact arithmetic are the kernels' own; what a cure adds stands in plane_strain.cpp until it proves itself.
+// A cure of the method is tried here in seconds before it is built into two schedules and the twin.
+// Law, particle and contact arithmetic are the kernels' own; what a cure adds stands in
+// plane_strain.cpp until it proves itself.
 #pragma once
 
 #include <array>
@@ -17,28 +19,31 @@ namespace navvy::soil::reference {
 
 /// What of the method may be changed; as it stands here it is the one that the cures began from.
 struct PlaneMethod {
-  /// kKinematic: full impulse, but a node that the plate covers in part need only keep up with its share of the plate's
-  /// speed [docs/tools.md, contact shares]. kFraction: the share is one of the impulse, made independent of the step,
-  /// as the kernels once had it; a slow plate leaks.
+  /// kKinematic: full impulse, but a node that the plate covers in part need only keep up with its
+  /// share of the plate's speed [docs/tools.md, contact shares]. kFraction: the share is one of the
+  /// impulse, made independent of the step, as the kernels once had it; a slow plate leaks.
   enum class Contact { kFraction, kKinematic };
-  /// Where particles crowd: kClosing takes it out of J, which pumps energy; kShear moves them apart by their shear rate
-  /// and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
+  /// Where particles crowd: kClosing takes it out of J, which pumps energy; kShear moves them apart
+  /// by their shear rate and leaves J alone [docs/soil.md, crowding]; kNone does nothing.
   enum class Crowding { kNone, kClosing, kShear };
 
-  /// Where soil is open: kIntegrated goes by J alone, which noise opens; kSeen closes what noise opens where the nodes
-  /// around it hold a closed soil's mass [docs/soil.md, opening].
+  /// Where soil is open: kIntegrated goes by J alone, which noise opens; kSeen closes what noise
+  /// opens where the nodes around it hold a closed soil's mass [docs/soil.md, opening].
   enum class Opening { kIntegrated, kSeen };
 
   Contact contact = Contact::kKinematic;
   Crowding crowding = Crowding::kClosing;
   Opening opening = Opening::kIntegrated;
   bool mixing = true;
-  /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every step.
+  /// Steps from transfer to transfer: positions, weights and masses are held meanwhile; 1: every
+  /// step.
   int hold = 1;
-  double most_motion = 0.2;  ///< a transfer comes early when the fastest particle has moved this far [cells]
+  /// A transfer comes early when the fastest particle has moved this far [cells].
+  double most_motion = 0.2;
 };
 
-/// A particle: the law's state, place [cells], velocity [m/s], gradient as in kernels/soil/point.h (x and z only).
+/// A particle: the law's state, place [cells], velocity [m/s], gradient as in kernels/soil/point.h
+/// (x and z only).
 struct PlanePoint : LawState {
   PlanePoint() : LawState{} {}
   double x = 0, z = 0, vx = 0, vz = 0;
@@ -65,20 +70,23 @@ struct PlaneEnergy {
 class PlaneStrain {
  public:
   /// `periodic`: what leaves at one end in x comes in at the other.
-  PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method, bool periodic = false);
+  PlaneStrain(const scene::Soil& soil, double cell, int nx, int nz, const PlaneMethod& method,
+              bool periodic = false);
 
   std::vector<PlanePoint> points;
   PlanePlate plate;
   bool has_plate = false;
-  double floor = 3;                   ///< [cells]
-  double wall_x0 = -1, wall_x1 = -1;  ///< smooth walls [cells]; < 0: none. The first ends at the plate's tip
-  Vec2 gravity{0, -kGravity};         ///< along x and z [m/s2]
+  double floor = 3;  ///< [cells]
+  /// Smooth walls [cells]; < 0: none. The first ends at the plate's tip.
+  double wall_x0 = -1, wall_x1 = -1;
+  Vec2 gravity{0, -kGravity};  ///< along x and z [m/s2]
   /// Called with node velocities after forces, before contact; for rigs that hold nodes themselves.
   std::function<void(PlaneStrain&, double dt)> on_nodes;
 
-  /// Particles on a lattice of `per_side` a cell in a box [cells], of those where `inside(x, z)` [cells].
-  void fill(double x0, double x1, double z0, double z1, const std::function<bool(double, double)>& inside,
-            int per_side = 2);
+  /// Particles on a lattice of `per_side` a cell in a box [cells], of those where `inside(x, z)`
+  /// [cells].
+  void fill(double x0, double x1, double z0, double z1,
+            const std::function<bool(double, double)>& inside, int per_side = 2);
   /// Stress of rest below a level surface `top(x)` [cells].
   void settle(const std::function<double(double)>& top);
 
@@ -106,7 +114,7 @@ class PlaneStrain {
   void meet_plate(Node& node, int i, int k, double dt);
   void gather(double dt, bool last);
   void spread(PlanePoint& p, double dt_interval);
-  double room_at(int i, int k) const;
+  double free_fraction_at(int i, int k) const;
 
   scene::Soil soil_;
   LawSoil law_;

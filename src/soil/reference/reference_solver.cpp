@@ -34,7 +34,8 @@ void for_nodes(const Weights& at, const Visit& visit) {
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
-        const double w = at.w[0][static_cast<std::size_t>(i)] * at.w[1][static_cast<std::size_t>(j)] *
+        const double w = at.w[0][static_cast<std::size_t>(i)] *
+                         at.w[1][static_cast<std::size_t>(j)] *
                          at.w[2][static_cast<std::size_t>(k)];
         visit(std::array<int, 3>{at.base[0] + i, at.base[1] + j, at.base[2] + k}, w, Vec3(i, j, k));
       }
@@ -53,7 +54,8 @@ Point from_particle(const Particle& particle) {
 #undef FROM_MANY
   for (int a = 0; a < 3; ++a) {
     p.x[a] += kBlockCells * particle.block[a];
-    p.home[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(std::floor(p.x[a] - 0.5) / kBlockCells));
+    p.home[static_cast<std::size_t>(a)] =
+        static_cast<int>(std::floor(std::floor(p.x[a] - 0.5) / kBlockCells));
     p.x[a] += p.moved[a];
   }
   p.mass = kilograms(particle.mass);
@@ -109,9 +111,10 @@ void ReferenceSolver::scatter(double dt, bool hold) {
     double sigma[6], start[3], a[9];
     advance_state(p.c, dt, &law, opening[i], mixing, most, &p, sigma);
     const Weights weights = weights_at(p.x - p.moved);
-    affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density, p.j, hold ? 0 : 1, dt,
-                    cell_, start, a);
-    // Momentum is linear around a particle: a node has that at the base node and its change over the way there.
+    affine_momentum(p.c, sigma, p.v.data(), weights.f.data(), p.mass, p.mass / soil.bank_density,
+                    p.j, hold ? 0 : 1, dt, cell_, start, a);
+    // Momentum is linear around a particle: a node has that at the base node and its change over
+    // the way there.
     const Vec3 base(start[0], start[1], start[2]);
     const Mat3 change = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(a);
     for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
@@ -129,10 +132,12 @@ void ReferenceSolver::update_grid(double dt, bool hold) {
     const bool empty = node.mass <= kMassQuantum, fixed = above <= kHeldMargin;
     const Vec3 before = hold ? node.velocity : Vec3(Vec3::Zero());
     node.velocity = Vec3::Zero();
-    if (!empty && !fixed) node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
-    if (contact && !empty && !fixed) node.velocity += contact(at, node.mass, node.velocity) / node.mass;
+    if (!empty && !fixed)
+      node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
+    if (contact && !empty && !fixed)
+      node.velocity += contact(at, node.mass, node.velocity) / node.mass;
     // Mass per room is what the particles ask for.
-    node.room_mass = node.mass / room_above(above);
+    node.free_fraction_mass = node.mass / free_fraction_above(above);
   }
 }
 
@@ -140,7 +145,8 @@ void ReferenceSolver::gather(double dt) {
   // Crowding is judged by the densest soil of the scene, see packed_mass.
   double densest = 0;
   for (const scene::Soil& soil : soils_) densest = std::max(densest, soil.bank_density);
-  const double full = packed_mass(densest, cell_), filled = filled_mass(densest, cell_), spread = dt / crowding_shear();
+  const double full = packed_mass(densest, cell_), filled = filled_mass(densest, cell_),
+               spread = dt / crowding_shear();
   const double closing = closing_share() * std::min(1.0, dt / transfer_length_);
   const double most = farthest_apart() * std::min(1.0, dt / transfer_length_);
   fastest_ = 0;
@@ -151,8 +157,8 @@ void ReferenceSolver::gather(double dt) {
     const Weights weights = weights_at(p.x - p.moved);
     for_nodes(weights, [&](const std::array<int, 3>& at, double w, const Vec3& place) {
       const Node& node = nodes_.at(at);
-      mass += w * node.room_mass;
-      lean += w * node.room_mass * (place - weights.f);
+      mass += w * node.free_fraction_mass;
+      lean += w * node.free_fraction_mass * (place - weights.f);
       v += w * node.velocity;
       moment += w * node.velocity * place.transpose();
     });
@@ -163,7 +169,8 @@ void ReferenceSolver::gather(double dt) {
     Vec3 way = (dt / cell_) * v;
     const double share = crowding(p.c, p.j, p.j0, mass, full, spread);
     p.j = seen_opening(p.j, p.j0, mass, filled, closing);
-    for (int axis = 0; axis < 3; ++axis) way[axis] += way_apart(share, lean[axis], mass, most);
+    for (int axis = 0; axis < 3; ++axis)
+      way[axis] += crowding_displacement(share, lean[axis], mass, most);
     p.x += way;
     p.moved += way;
     fastest_ = std::max(fastest_, way.cwiseAbs().maxCoeff() * cell_ / dt);

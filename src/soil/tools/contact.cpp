@@ -31,7 +31,8 @@ int Contact::add_tool(const scene::Shell& shell) {
   Registered tool;
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
   if (!tools_.empty())
-    tool.first_triangle = tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
+    tool.first_triangle =
+        tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
   tool.area_factor = plate_area_factor(*tool.geometry, settings_, cell_);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
@@ -40,8 +41,9 @@ int Contact::add_tool(const scene::Shell& shell) {
 template <class... Tail>
 void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
   kernel
-      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split, shells_.node_tool(),
-            shells_.node_shell(), nodes_.surface, shells_.tools(), only, reach_, static_cast<float>(cell_), tail...)
+      .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split,
+            shells_.node_tool(), shells_.node_shell(), nodes_.surface, shells_.tools(), only,
+            reach_, static_cast<float>(cell_), tail...)
       .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
@@ -67,14 +69,16 @@ void Contact::solve(Transfer& transfer, double dt) {
     }
   }
   // Then all tools at once, with their final twists.
-  launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(), nodes_.velocity1);
+  launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(),
+         nodes_.velocity1);
 }
 
 namespace {
 
 /// Sums of one tool over its nodes.
 struct Momentum {
-  Vec3 before = Vec3::Zero(), after = Vec3::Zero(), before_moment = Vec3::Zero(), after_moment = Vec3::Zero();
+  Vec3 before = Vec3::Zero(), after = Vec3::Zero(), before_moment = Vec3::Zero(),
+       after_moment = Vec3::Zero();
 };
 
 /// Adds what one field of a node says; r = arm from the tool's origin [m].
@@ -127,7 +131,9 @@ void Contact::book(std::span<ToolImpulse> impulses) {
       const std::size_t i = near * BLOCK_NODES + n;
       for (std::size_t s = 0; s < 2; ++s) {
         const ContactRecord& record = records[2 * i + s];
-        if (std::equal(std::begin(record.before), std::end(record.before), std::begin(record.after))) continue;
+        if (std::equal(std::begin(record.before), std::end(record.before),
+                       std::begin(record.after)))
+          continue;
         const auto m = static_cast<std::size_t>(motion_of[static_cast<std::size_t>(tool_of[i])]);
         // Where the node lies, in doubles: arms of moments are as exact as the impulses.
         const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
@@ -140,7 +146,8 @@ void Contact::book(std::span<ToolImpulse> impulses) {
   // What went into the tools against what the nodes lost: rounding only.
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     impulses[m].residual = impulses[m].J_W + (momentum[m].after - momentum[m].before);
-    impulses[m].residual_moment = impulses[m].L_W + (momentum[m].after_moment - momentum[m].before_moment);
+    impulses[m].residual_moment =
+        impulses[m].L_W + (momentum[m].after_moment - momentum[m].before_moment);
   }
 }
 

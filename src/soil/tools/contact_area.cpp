@@ -16,12 +16,13 @@ double segment_distance(const Vec3& p, const std::array<Vec3, 2>& s) {
   return (p - s[0] - t * d).norm();
 }
 
-/// Calls visit(point, area) for the middles of equal parts of a triangle, sides at most `longest` (or 1/64 of it).
+/// Calls visit(point, area) for the middles of equal parts of a triangle, sides at most `longest`
+/// (or 1/64 of it).
 template <class Visit>
 void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Visit& visit) {
   const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0];
-  const int n =
-      std::clamp(static_cast<int>(std::ceil(std::max({u.norm(), v.norm(), (u - v).norm()}) / longest)), 1, 64);
+  const int n = std::clamp(
+      static_cast<int>(std::ceil(std::max({u.norm(), v.norm(), (u - v).norm()}) / longest)), 1, 64);
   const double area = 0.5 * u.cross(v).norm() / (n * n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j) {
@@ -35,13 +36,16 @@ constexpr double kMostAreaFactor = 2;
 
 }  // namespace
 
-double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings, double cell) {
-  const reference::Reach r{settings.reach, settings.ramp, settings.edge, settings.edge_ramp, 0, 0, 0, 0, 0, 0, 0};
+double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings,
+                         double cell) {
+  const reference::Reach r{
+      settings.reach, settings.ramp, settings.edge, settings.edge_ramp, 0, 0, 0, 0, 0, 0, 0};
   double whole = 0, stood_for = 0;
   for (const ShellGeometry::Triangle& triangle : geometry.triangles())
     sample_triangle(triangle.corner, 0.25 * cell, [&](const Vec3& p, double area) {
       double inset = INFINITY;
-      for (const auto& rim : geometry.rims()) inset = std::min(inset, segment_distance(p, rim) / cell);
+      for (const auto& rim : geometry.rims())
+        inset = std::min(inset, segment_distance(p, rim) / cell);
       whole += area;
       stood_for += area * reference::contact_inner(std::min(inset, 1e3), &r);
     });

@@ -26,31 +26,34 @@ ShellFeature feature(const Vec3& normal, bool free) {
   return out;
 }
 
-/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a float at the far end of
-/// a tool, coarser than what a double loses a kilometre from the origin, so that the same dig elsewhere is the same
-/// dig.
+/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a
+/// float at the far end of a tool, coarser than what a double loses a kilometre from the origin, so
+/// that the same dig elsewhere is the same dig.
 constexpr double kSteps = 1 << 18;
 Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix() / kSteps; }
 
-/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of blocks. Where no ground
-/// reaches all coordinates share a block.
+/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of
+/// blocks. Where no ground reaches all coordinates share a block.
 int floor_div(double cells) {
   constexpr double kFarthestBlock = 1e8;  // its cells are an int, too
-  return static_cast<int>(
-      std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells), -kFarthestBlock, kFarthestBlock));
+  return static_cast<int>(std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells),
+                                     -kFarthestBlock, kFarthestBlock));
 }
 
-/// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets the given box.
-void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle, const BlockIndex& index,
-           Marks& marks) {
+/// Marks the triangle at every block of `index` whose box [low, high] (cells from its corner) meets
+/// the given box.
+void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle,
+           const BlockIndex& index, Marks& marks) {
   const BlockKey from = {floor_div(box_low.x() - high) + 1, floor_div(box_low.y() - high) + 1,
                          floor_div(box_low.z() - high) + 1};
-  const BlockKey to = {floor_div(box_high.x() - low), floor_div(box_high.y() - low), floor_div(box_high.z() - low)};
+  const BlockKey to = {floor_div(box_high.x() - low), floor_div(box_high.y() - low),
+                       floor_div(box_high.z() - low)};
   for (int z = from.z; z <= to.z; ++z)
     for (int y = from.y; y <= to.y; ++y)
       for (int x = from.x; x <= to.x; ++x) {
         const int block = index.find({x, y, z});
-        if (block >= 0) marks.set(static_cast<std::size_t>(block), static_cast<std::size_t>(triangle));
+        if (block >= 0)
+          marks.set(static_cast<std::size_t>(block), static_cast<std::size_t>(triangle));
       }
 }
 
@@ -73,7 +76,8 @@ void Contact::set_window(Registered& tool) const {
 }
 
 bool Contact::moves_same(std::span<const ToolMotion> motions) const {
-  const auto present = std::count_if(tools_.begin(), tools_.end(), [](const Registered& tool) { return tool.present; });
+  const auto present = std::count_if(tools_.begin(), tools_.end(),
+                                     [](const Registered& tool) { return tool.present; });
   return static_cast<std::size_t>(present) == motions.size() &&
          std::all_of(motions.begin(), motions.end(), [this](const ToolMotion& motion) {
            return tools_.at(static_cast<std::size_t>(motion.tool)).present;
@@ -82,7 +86,8 @@ bool Contact::moves_same(std::span<const ToolMotion> motions) const {
 
 void Contact::set_twists(std::span<const ToolMotion> motions) {
   motions_.assign(motions.begin(), motions.end());
-  for (const ToolMotion& motion : motions) tools_.at(static_cast<std::size_t>(motion.tool)).X_now = motion.X_WT;
+  for (const ToolMotion& motion : motions)
+    tools_.at(static_cast<std::size_t>(motion.tool)).X_now = motion.X_WT;
   if (nodes_.count == 0) return;
   std::vector<Tool> now;
   for (std::size_t t = 0; t < tools_.size(); ++t) now.push_back(tool_now(t));
@@ -100,7 +105,8 @@ void Contact::go_on(Transfer& transfer) {
   device_.finish();  // what was uploaded may be replaced by the next step
 }
 
-bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable& table, bool blocks_changed) {
+bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable& table,
+                          bool blocks_changed) {
   motions_.assign(motions.begin(), motions.end());
   for (Registered& tool : tools_) tool.present = false;
   for (const ToolMotion& motion : motions) {
@@ -122,7 +128,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
   return again;
 }
 
-void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& homes) const {
+void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const {
   // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
   const double far = settings_.band + settings_.margin;
   for (const Registered& tool : tools_) {
@@ -139,7 +145,8 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
       const int triangle = tool.first_triangle + piece.triangle;
       // Nodes of a block lie on 0..3, particles of a home on [0.5, 4.5) and what they drift.
       offer(low, high, 0.0, 3.0, triangle, table.active_index, nodes);
-      offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.home_index, homes);
+      offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.particle_block_index,
+            particle_blocks);
     }
   }
 }
@@ -147,44 +154,49 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& home
 void Contact::list_near(const BlockTable& table) {
   std::size_t triangles = 0;  // of all tools, which count on from one another
   for (const Registered& tool : tools_) triangles += tool.geometry->triangles().size();
-  Marks node_marks(table.active.size(), triangles), home_marks(table.homes.size(), triangles);
-  find_candidates(table, node_marks, home_marks);
+  Marks node_marks(table.active.size(), triangles),
+      particle_block_marks(table.particle_blocks.size(), triangles);
+  find_candidates(table, node_marks, particle_block_marks);
   near_slot_.assign(table.active.size(), -1);
-  near_homes_.assign(table.homes.size(), 0);
+  near_particle_blocks_.assign(table.particle_blocks.size(), 0);
   near_keys_.clear();
   // Candidate triangles per near block, in ascending order of blocks.
-  std::vector<std::int32_t> near_list, near_homes;
-  CandidateRows of_blocks, of_homes;
+  std::vector<std::int32_t> near_list, near_particle_blocks;
+  CandidateRows node_candidates, particle_candidates;
   for (std::size_t b = 0; b < table.active.size(); ++b) {
     if (!node_marks.any(b)) continue;
     near_slot_[b] = static_cast<int>(near_list.size());
     near_list.push_back(static_cast<int>(b));
     near_keys_.push_back(table.active[b]);
-    of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
-    node_marks.each(b,
-                    [&](std::size_t triangle) { of_blocks.triangles.push_back(static_cast<std::int32_t>(triangle)); });
+    node_candidates.first.push_back(static_cast<std::int32_t>(node_candidates.triangles.size()));
+    node_marks.each(b, [&](std::size_t triangle) {
+      node_candidates.triangles.push_back(static_cast<std::int32_t>(triangle));
+    });
   }
-  of_blocks.first.push_back(static_cast<std::int32_t>(of_blocks.triangles.size()));
+  node_candidates.first.push_back(static_cast<std::int32_t>(node_candidates.triangles.size()));
   // Without near blocks no kernel of contact runs, and no buffer needs room.
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
-  for (std::size_t h = 0; h < table.homes.size(); ++h) {
+  for (std::size_t h = 0; h < table.particle_blocks.size(); ++h) {
     // Near, too, when its tile reaches into a near block: split nodes ask for its three tiles.
-    bool near = home_marks.any(h);
+    bool near = particle_block_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
     if (!near) continue;
-    near_homes_[h] = 1;
-    near_homes.push_back(static_cast<std::int32_t>(h));
-    of_homes.first.push_back(static_cast<std::int32_t>(of_homes.triangles.size()));
-    home_marks.each(h,
-                    [&](std::size_t triangle) { of_homes.triangles.push_back(static_cast<std::int32_t>(triangle)); });
+    near_particle_blocks_[h] = 1;
+    near_particle_blocks.push_back(static_cast<std::int32_t>(h));
+    particle_candidates.first.push_back(
+        static_cast<std::int32_t>(particle_candidates.triangles.size()));
+    particle_block_marks.each(h, [&](std::size_t triangle) {
+      particle_candidates.triangles.push_back(static_cast<std::int32_t>(triangle));
+    });
   }
-  of_homes.first.push_back(static_cast<std::int32_t>(of_homes.triangles.size()));
+  particle_candidates.first.push_back(
+      static_cast<std::int32_t>(particle_candidates.triangles.size()));
 
   upload(device_, nodes_.list, near_list);
   upload(device_, nodes_.slot, near_slot_);
-  shells_.set_near(of_blocks, of_homes, near_homes);
+  shells_.set_near(node_candidates, particle_candidates, near_particle_blocks);
   const std::size_t nodes = near_list.size() * BLOCK_NODES;
   ensure(device_, nodes_.split, nodes);
   ensure(device_, nodes_.before0, 4 * nodes);
@@ -196,12 +208,14 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, touched_, near_list.size());
 }
 
-// Floats count from the window's corner, a block's, so that they are as exact far from the site's origin.
+// Floats count from the window's corner, a block's, so that they are as exact far from the site's
+// origin.
 Tool Contact::tool_now(std::size_t index) const {
   const Registered& tool = tools_[index];
   const scene::Shell& shell = tool.geometry->shell();
   Tool out{};
-  const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
+  const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y,
+                    kBlockCells * tool.window.z);
   out.window[0] = tool.window.x;
   out.window[1] = tool.window.y;
   out.window[2] = tool.window.z;
@@ -217,7 +231,8 @@ Tool Contact::tool_now(std::size_t index) const {
       out.twist[3 + a] = out.start[3 + a] = static_cast<float>(motion.v_WT[a]);
     }
     for (int r = 0; r < 6; ++r)
-      for (int c = 0; c < 6; ++c) out.inverse_mass[6 * r + c] = static_cast<float>(motion.inverse_mass(r, c));
+      for (int c = 0; c < 6; ++c)
+        out.inverse_mass[6 * r + c] = static_cast<float>(motion.inverse_mass(r, c));
   }
   return out;
 }
@@ -227,7 +242,8 @@ void Contact::upload_tools() {
   ToolShells shells;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const Registered& tool = tools_[t];
-    const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y, kBlockCells * tool.window.z);
+    const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y,
+                      kBlockCells * tool.window.z);
     const auto place = [&](const Vec3& p_T) { return snapped(to_grid(tool.X * p_T) - corner); };
     const Mat3 R = tool.X.linear();
     for (const ShellGeometry::Triangle& tri : tool.geometry->triangles()) {
@@ -273,9 +289,10 @@ void Contact::Registered::visit(Archive& a) {
   a("told", told);
   a("force_W", force_W);
   a("moment_W", moment_W);
-  a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for", "must be finite and not negative");
-  a.require(std::max(X_listed.translation().norm(), X.translation().norm()) < limits::kFarthest, "X_listed",
-            "must be a place on the site, as must X");
+  a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for",
+            "must be finite and not negative");
+  a.require(std::max(X_listed.translation().norm(), X.translation().norm()) < limits::kFarthest,
+            "X_listed", "must be a place on the site, as must X");
 }
 
 void Contact::visit(Archive& a) { a.fixed("tools", tools_); }

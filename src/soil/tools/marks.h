@@ -9,11 +9,12 @@
 
 namespace navvy::soil {
 
-/// Pairs (row, column) that arrive in any order and more than once, and leave sorted and once: cheaper than sorting
-/// them where columns are few.
+/// Pairs (row, column) that arrive in any order and more than once, and leave sorted and once:
+/// cheaper than sorting them where columns are few.
 class Marks {
  public:
-  Marks(std::size_t rows, std::size_t columns) : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
+  Marks(std::size_t rows, std::size_t columns)
+      : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
 
   void set(std::size_t row, std::size_t column) {
     bits_[row * words_ + column / 64] |= std::uint64_t{1} << (column % 64);

@@ -15,15 +15,16 @@ ShellQuery::ShellQuery(device::Device& device)
       particles_kernel_(program_, "shell_particles") {}
 
 // Rows are as many as near blocks and homes, and one more entry ends the last.
-void ShellQuery::set_near(const CandidateRows& of_blocks, const CandidateRows& of_homes,
-                          const std::vector<std::int32_t>& near_homes) {
-  near_homes_ = near_homes.size();
-  upload(device_, block_first_, of_blocks.first);
-  upload(device_, block_triangles_, of_blocks.triangles);
-  upload(device_, home_first_, of_homes.first);
-  upload(device_, home_triangles_, of_homes.triangles);
-  upload(device_, home_list_, near_homes);
-  const std::size_t nodes = (of_blocks.first.size() - 1) * BLOCK_NODES;
+void ShellQuery::set_near(const CandidateRows& node_candidates,
+                          const CandidateRows& particle_candidates,
+                          const std::vector<std::int32_t>& near_particle_blocks) {
+  near_particle_blocks_ = near_particle_blocks.size();
+  upload(device_, block_first_, node_candidates.first);
+  upload(device_, block_triangles_, node_candidates.triangles);
+  upload(device_, particle_first_, particle_candidates.first);
+  upload(device_, particle_triangles_, particle_candidates.triangles);
+  upload(device_, particle_block_list_, near_particle_blocks);
+  const std::size_t nodes = (node_candidates.first.size() - 1) * BLOCK_NODES;
   ensure(device_, node_tool_, nodes);
   ensure(device_, node_shell_, nodes);
 }
@@ -48,19 +49,22 @@ void ShellQuery::set_twists(std::vector<Tool> tools) {
 
 void ShellQuery::enqueue_nodes(Transfer& transfer, NearNodes& near, double band) {
   nodes_kernel_
-      .args(near.list, transfer.active_keys(), triangles_, rims_, static_cast<int>(now_.rims.size()), tools_,
-            block_first_, block_triangles_, static_cast<float>(band), near.split, node_tool_, node_shell_)
+      .args(near.list, transfer.active_keys(), triangles_, rims_,
+            static_cast<int>(now_.rims.size()), tools_, block_first_, block_triangles_,
+            static_cast<float>(band), near.split, node_tool_, node_shell_)
       .enqueue_groups(static_cast<std::size_t>(near.count));
 }
 
-void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band, double longest_push) {
+void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band,
+                         double longest_push) {
   // Neither kernel reads what the other writes; both see the poses of this step.
   enqueue_nodes(transfer, near, band);
   // Particles may be near a shell although no node of their own block is.
   particles_kernel_
-      .args(store.state(), store.capacity(), home_list_, store.homes_buffer(), store.home_keys(), triangles_, tools_,
-            home_first_, home_triangles_, static_cast<float>(band), static_cast<float>(longest_push), transfer.report())
-      .enqueue_groups(near_homes_);
+      .args(store.state(), store.capacity(), particle_block_list_, store.particle_blocks_buffer(),
+            store.block_keys(), triangles_, tools_, particle_first_, particle_triangles_,
+            static_cast<float>(band), static_cast<float>(longest_push), transfer.report())
+      .enqueue_groups(near_particle_blocks_);
 }
 
 }  // namespace navvy::soil

@@ -11,7 +11,8 @@
 namespace navvy::soil {
 namespace {
 
-[[noreturn]] void refuse(const scene::Shell& shell, const std::string& value, const std::string& rule) {
+[[noreturn]] void refuse(const scene::Shell& shell, const std::string& value,
+                         const std::string& rule) {
   Fault fault;
   fault.element = "shell[" + shell.name + "]/triangles";
   fault.value = value;
@@ -44,7 +45,8 @@ ShellGeometry::ShellGeometry(const scene::Shell& shell, double cell) : shell_(sh
   for (const auto& t : shell.triangles)
     for (const int v : t)
       if (v < 0 || v >= static_cast<int>(shell.vertices.size()))
-        refuse(shell, std::to_string(v), "vertex indices below " + std::to_string(shell.vertices.size()));
+        refuse(shell, std::to_string(v),
+               "vertex indices below " + std::to_string(shell.vertices.size()));
   find_normals();
   pieces_ = geometry::cut_to_pieces(shell, geometry::kShellPieceCells * cell);
   build_hull();
@@ -56,7 +58,8 @@ void ShellGeometry::find_normals() {
   std::map<int, bool> corner_free;
   for (const auto& index : shell_.triangles) {
     Triangle t;
-    for (std::size_t i = 0; i < 3; ++i) t.corner[i] = shell_.vertices[static_cast<std::size_t>(index[i])];
+    for (std::size_t i = 0; i < 3; ++i)
+      t.corner[i] = shell_.vertices[static_cast<std::size_t>(index[i])];
     const Vec3 area = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
     if (!(area.norm() > 1e-10)) refuse(shell_, "a triangle without area", "an area above 1e-10 m2");
     t.normal = area.normalized();
@@ -77,9 +80,11 @@ void ShellGeometry::find_normals() {
     }
     triangles_.push_back(t);
   }
-  // A body without free edges: nodes reach round its sharp edges as far as round a plate's free ones, and count less
-  // near them likewise; else it would act a cell larger on every side. Its particles stay outside as of any fold.
-  const bool closed = std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second.count == 1; });
+  // A body without free edges: nodes reach round its sharp edges as far as round a plate's free
+  // ones, and count less near them likewise; else it would act a cell larger on every side. Its
+  // particles stay outside as of any fold.
+  const bool closed = std::none_of(edges.begin(), edges.end(),
+                                   [](const auto& edge) { return edge.second.count == 1; });
   for (const auto& [key, use] : edges) {
     const bool free = use.count == 1;
     if (free) corner_free[key.first] = corner_free[key.second] = true;
@@ -100,13 +105,16 @@ void ShellGeometry::find_normals() {
 }
 
 void ShellGeometry::build_hull() {
-  // The mouth opens to where the faces look on the whole; a heap may stand a quarter of the shell's size over it.
+  // The mouth opens to where the faces look on the whole; a heap may stand a quarter of the shell's
+  // size over it.
   Vec3 mouth = Vec3::Zero();
-  for (const Triangle& t : triangles_) mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
+  for (const Triangle& t : triangles_)
+    mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
   const geometry::Box box = geometry::bounds(shell_);
   const double heap = mouth.norm() > 1e-9 ? 0.25 * (box.high - box.low).norm() : 0;
   std::vector<Vec3> points;
-  for (const Triangle& t : triangles_) points.insert(points.end(), t.corner.begin(), t.corner.end());
+  for (const Triangle& t : triangles_)
+    points.insert(points.end(), t.corner.begin(), t.corner.end());
   if (heap > 0)
     for (const auto& rim : rims_)
       for (const Vec3& p : rim) points.push_back(p + heap * mouth.normalized());
@@ -132,7 +140,8 @@ ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const
   };
   const auto look = [&](int n) {
     const Triangle& t = triangles_[static_cast<std::size_t>(n)];
-    // A triangle whose plane or sphere is farther than what was found has nothing to offer; the margin covers rounding.
+    // A triangle whose plane or sphere is farther than what was found has nothing to offer; the
+    // margin covers rounding.
     const double height = t.normal.dot(p - t.corner[0]);
     if (height * height > best * (1 + 1e-9)) return;
     const double reach = (std::sqrt(best) + t.radius) * (1 + 1e-9);
@@ -143,7 +152,11 @@ ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const
       inside = inside && t.normal.cross(along).dot(p - t.corner[i]) >= 0;
       double share = 0;
       const Vec3 c = closest_on_segment(p, t.corner[i], t.corner[(i + 1) % 3], share);
-      offer(c, share <= 0 ? t.corner_normal[i] : share >= 1 ? t.corner_normal[(i + 1) % 3] : t.edge_normal[i], n);
+      offer(c,
+            share <= 0   ? t.corner_normal[i]
+            : share >= 1 ? t.corner_normal[(i + 1) % 3]
+                         : t.edge_normal[i],
+            n);
     }
     if (inside) offer(p - height * t.normal, t.normal, n);
   };

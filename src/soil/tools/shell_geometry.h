@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shell prepared for the solver: pseudo-normals, free edges, small boxes for finding who is near, its hull.
+// A shell prepared for the solver: pseudo-normals, free edges, small boxes for finding who is near,
+// its hull.
 #pragma once
 
 #include <array>
@@ -25,8 +26,9 @@ class ShellGeometry {
     std::array<Vec3, 3> corner;
     Vec3 normal;
     Vec3 centre;
-    double radius;                                   ///< of the farthest corner from the centre [m]
-    std::array<Vec3, 3> edge_normal, corner_normal;  ///< pseudo-normals of edges ab bc ca and of corners
+    double radius;  ///< of the farthest corner from the centre [m]
+    /// Pseudo-normals of edges ab bc ca and of corners.
+    std::array<Vec3, 3> edge_normal, corner_normal;
     std::array<bool, 3> edge_free, corner_free;
   };
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -36,10 +38,11 @@ class ShellGeometry {
   using Piece = geometry::MeshPiece;
   const std::vector<Piece>& pieces() const { return pieces_; }
 
-  /// Signed distance of a point in T from the closest plate, positive in front [m]; the reference of the kernels'
-  /// query.
+  /// Signed distance of a point in T from the closest plate, positive in front [m]; the reference
+  /// of the kernels' query.
   double distance(const Vec3& p) const;
-  /// The same, faster when `closest` names a triangle that is likely the closest; becomes the one that is.
+  /// The same, faster when `closest` names a triangle that is likely the closest; becomes the one
+  /// that is.
   double distance(const Vec3& p, int& closest) const { return nearest(p, closest).distance; }
   /// The place of the plate that is closest to a point, in T.
   struct Nearest {

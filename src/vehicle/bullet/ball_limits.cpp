@@ -30,16 +30,19 @@ std::array<std::optional<BallStop>, 3> ball_stops(const Mat3& R, double cone, do
   return out;
 }
 
-BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone, double twist)
+BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone,
+                       double twist)
     : MultibodyRows(body, link, 3), R_CJ_(R_CJ), R_PJ_(R_PJ), cone_(cone), twist_(twist) {
   finalizeMultiDof();
 }
 
-void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                      btMultiBodyJacobianData& data,
                                       const btContactSolverInfo& info) {
   for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);
   const Mat3 R_PC = to_eigen(btMatrix3x3(m_bodyA->getParentToLocalRot(m_linkA).inverse()));
-  // From the joint's frame at the start to that of now; directions of the former, seen in the child's frame.
+  // From the joint's frame at the start to that of now; directions of the former, seen in the
+  // child's frame.
   const Mat3 R = R_PJ_.transpose() * R_PC * R_CJ_;
   const Mat3 to_child = R_CJ_ * R.transpose();
   const auto stops = ball_stops(R, cone_, twist_);

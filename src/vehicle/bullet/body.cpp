@@ -15,8 +15,8 @@ namespace {
 
 using JointType = scene::Joint::Type;
 
-/// What bears a body is expected as the mean over about this time [s]: soil gives impulses with a saw-tooth of some
-/// steps, and a blow once.
+/// What bears a body is expected as the mean over about this time [s]: soil gives impulses with a
+/// saw-tooth of some steps, and a blow once.
 constexpr double kBearingTime = 0.02;
 
 /// Frame at the centre of mass along the principal axes; `moments` gets the principal moments.
@@ -57,7 +57,8 @@ TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
   const Pose X_WI = X_WM * machine.links[0].X_ML * X_LI_[0];
   body_->setBasePos(to_bt(Vec3(X_WI.translation())));
   body_->setWorldToBaseRot(to_bt(Mat3(X_WI.linear())).inverse());
-  for (std::size_t j = 0; j < machine.joints.size(); ++j) set_position(static_cast<int>(j), machine.joints[j].initial);
+  for (std::size_t j = 0; j < machine.joints.size(); ++j)
+    set_position(static_cast<int>(j), machine.joints[j].initial);
 }
 
 void TreeBody::build(const scene::Machine& machine) {
@@ -78,7 +79,8 @@ void TreeBody::build(const scene::Machine& machine) {
     mass_[i] = link.mass;
     inertia_[i] = link.inertia;
     if (!(link.mass > 0) || !(moments[i].minCoeff() > 0))
-      refuse("link[" + link.name + "]", std::to_string(link.mass), "a moving link needs mass and inertia above zero");
+      refuse("link[" + link.name + "]", std::to_string(link.mass),
+             "a moving link needs mass and inertia above zero");
   }
   // Outward from the base, in the order of the joints.
   std::vector<int> order;
@@ -90,7 +92,8 @@ void TreeBody::build(const scene::Machine& machine) {
         fixed = fixed || (joint.type == JointType::kFixed && joint.child == 0);
         continue;
       }
-      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2) continue;
+      if (bullet_of_link_[index(joint.parent)] == -2 || bullet_of_link_[index(joint.child)] != -2)
+        continue;
       bullet_of_link_[index(joint.child)] = bullet_of_joint_[j] = static_cast<int>(order.size());
       order.push_back(static_cast<int>(j));
       grown = true;
@@ -100,7 +103,8 @@ void TreeBody::build(const scene::Machine& machine) {
     if (bullet_of_link_[i] == -2)
       refuse("link[" + machine.links[i].name + "]", "", "no joint connects this link to the base");
 
-  body_ = std::make_unique<btMultiBody>(static_cast<int>(order.size()), mass_[0], to_bt(moments[0]), fixed, false);
+  body_ = std::make_unique<btMultiBody>(static_cast<int>(order.size()), mass_[0], to_bt(moments[0]),
+                                        fixed, false);
   link_of_bullet_.assign(order.size(), 0);
   joint_of_bullet_ = order;
   pivot_I_.resize(order.size());
@@ -111,7 +115,8 @@ void TreeBody::build(const scene::Machine& machine) {
   // From here on Bullet's arrays of positions and velocities have their size.
   body_->finalizeMultiDof();
   leave_to_physics(*body_);
-  // For inertias about a joint: who hangs on it. Parents come before children, so one walk inward a link does.
+  // For inertias about a joint: who hangs on it. Parents come before children, so one walk inward a
+  // link does.
   outward_.resize(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     for (int up = static_cast<int>(k); up >= 0; up = body_->getParent(up))
@@ -127,9 +132,11 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
   const std::size_t child = index(joint.child), parent = index(joint.parent);
   const Pose X_PI = X_LI_[parent].inverse();
   // All Bullet wants is told from inertial frame to inertial frame, at joint position 0.
-  const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];  // child's frame in the parent's
+  // Child's frame in the parent's
+  const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];
   const Vec3 pivot_c = X_LI_[child].inverse() * Vec3(joint.X_LcJ.translation());
-  const Vec3 axis_c = X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
+  const Vec3 axis_c =
+      X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
   pivot_I_[index(k)] = pivot_c;
   const Vec3 pivot_p = X_IpIc * pivot_c;
   // Bullet turns from parent to child, a pose here places the child in its parent: the inverse.
@@ -175,7 +182,8 @@ void TreeBody::set_position(int joint, double q) {
 }
 
 void TreeBody::update_kinematics() const {
-  // Outward from the base, each link from its parent: Bullet keeps joint coordinates, not poses in W.
+  // Outward from the base, each link from its parent: Bullet keeps joint coordinates, not poses in
+  // W.
   if (kinematics_valid_) return;
   Frame& base = frames_[0];
   base.X_WI.linear() = to_eigen(btMatrix3x3(body_->getWorldToBaseRot().inverse()));
@@ -194,7 +202,8 @@ void TreeBody::update_kinematics() const {
     c.X_WI.translation() = p.X_WI.translation() + r;
     c.w_W = p.w_W;
     c.v_W = p.v_W + p.w_W.cross(r);
-    // Each freedom adds its spatial axis: top is angular, bottom the velocity of the child's centre by it.
+    // Each freedom adds its spatial axis: top is angular, bottom the velocity of the child's centre
+    // by it.
     const btMultibodyLink& link = body_->getLink(k);
     for (int d = 0; d < link.m_dofCount; ++d) {
       const double qd = body_->getJointVelMultiDof(k)[d];
@@ -208,8 +217,8 @@ void TreeBody::update_kinematics() const {
 void TreeBody::update_factors() const {
   if (factors_valid_) return;
   // A step of zero length refreshes the articulated inertias and moves nothing.
-  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_, false, false,
-                                                              false);
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_,
+                                                              false, false, false);
   factors_valid_ = true;
 }
 
@@ -217,7 +226,8 @@ LinkState TreeBody::link(int link) const {
   update_kinematics();
   const Frame& frame = frames_[index(link)];
   LinkState state;
-  // Back from the inertial frame to the frame of the model; the velocity goes along as of one rigid body.
+  // Back from the inertial frame to the frame of the model; the velocity goes along as of one rigid
+  // body.
   state.X_WL = frame.X_WI * X_LI_[index(link)].inverse();
   state.w_WL = frame.w_W;
   state.v_WL = frame.v_W + frame.w_W.cross(state.X_WL.translation() - frame.X_WI.translation());
@@ -288,7 +298,8 @@ void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3&
   }
 }
 
-void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const {
+void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                            double* work) const {
   update_kinematics();
   // Only freedoms between the base and this link move its points: the others do no work.
   std::fill_n(work, 6 + body_->getNumDofs(), 0.0);
@@ -303,13 +314,16 @@ void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Ve
     const Vec3 moment = L_W + (p_W - frame.X_WI.translation()).cross(J_W);
     const btMultibodyLink& part = body_->getLink(k);
     for (int d = 0; d < part.m_dofCount; ++d)
-      work[6 + part.m_dofOffset + d] = (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
-                                       (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
+      work[6 + part.m_dofOffset + d] =
+          (frame.X_WI.linear() * to_eigen(part.getAxisTop(d))).dot(moment) +
+          (frame.X_WI.linear() * to_eigen(part.getAxisBottom(d))).dot(J_W);
   }
 }
 
-void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const {
-  // Articulated response: the impulse's work on every freedom, divided by the tree's mass matrix without forming it.
+void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                       std::vector<double>& delta) const {
+  // Articulated response: the impulse's work on every freedom, divided by the tree's mass matrix
+  // without forming it.
   update_factors();
   const std::size_t size = 6 + index(body_->getNumDofs());
   std::vector<double> work(size);
@@ -318,12 +332,14 @@ void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p
   body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
-bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt) {
+bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                             double dt) {
   std::vector<double> delta;
   respond(link, J_W, L_W, p_W, delta);
   body_->applyDeltaVeeMultiDof(delta.data(), 1);
-  // Joints are held by rows that act before the next step's places: what soil does to them must meet those rows first,
-  // or a ram gives way under its load in every step. A body by itself has none.
+  // Joints are held by rows that act before the next step's places: what soil does to them must
+  // meet those rows first, or a ram gives way under its load in every step. A body by itself has
+  // none.
   const bool moves = dt > 0 && body_->getNumLinks() == 0;
   if (moves) {
     borne_.head<3>() += L_W + (p_W - center(0)).cross(J_W);
@@ -348,7 +364,8 @@ Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
       const double rate = velocity[index(6 + part.m_dofOffset + d)];
       const Vec3 top = rate * (at.X_WI.linear() * to_eigen(part.getAxisTop(d)));
       w += top;
-      v += rate * (at.X_WI.linear() * to_eigen(part.getAxisBottom(d))) + top.cross(origin - at.X_WI.translation());
+      v += rate * (at.X_WI.linear() * to_eigen(part.getAxisBottom(d))) +
+           top.cross(origin - at.X_WI.translation());
     }
   }
   Vec6 twist;
@@ -373,9 +390,10 @@ Mat6 TreeBody::inverse_mass(int link) const {
 void TreeBody::step_velocities(const Vec3& gravity, double dt) {
   // Gravity is a force here, so that it and all others go through one articulated step.
   body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
-  for (int k = 0; k < body_->getNumLinks(); ++k) body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
-  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_, scratch_m_, false, false,
-                                                              false);
+  for (int k = 0; k < body_->getNumLinks(); ++k)
+    body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
+  body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_,
+                                                              scratch_m_, false, false, false);
   kinematics_valid_ = false;
   // The solver is to see a body that is borne, or what rests on it falls with it until soil acts.
   const Vec6 borne = borne_;
@@ -391,7 +409,8 @@ void TreeBody::step_velocities(const Vec3& gravity, double dt) {
 }
 
 void TreeBody::step_positions(double dt) {
-  // What the solver found is added to the velocities, and those move the positions: semi-implicit Euler.
+  // What the solver found is added to the velocities, and those move the positions: semi-implicit
+  // Euler.
   body_->processDeltaVeeMultiDof2();
   // Soil gives what it gives by itself: it is told a body that it does not bear yet.
   if (!expected_.empty()) body_->applyDeltaVeeMultiDof(expected_.data(), -1);
@@ -439,7 +458,8 @@ std::vector<double> TreeBody::velocities() const {
   return {first, first + 6 + body_->getNumDofs()};
 }
 
-void TreeBody::place(const std::vector<double>& coordinates, const std::vector<double>& velocities) {
+void TreeBody::place(const std::vector<double>& coordinates,
+                     const std::vector<double>& velocities) {
   const double* q = coordinates.data();
   body_->setBasePos(btVector3(q[0], q[1], q[2]));
   body_->setWorldToBaseRot(btQuaternion(q[3], q[4], q[5], q[6]));
@@ -466,14 +486,17 @@ void TreeBody::visit(Archive& a) {
   a.fixed("velocities", qd);
   a("borne", borne_);
   a("bearing", bearing_);
-  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing", "nothing bears a machine that is not finite");
+  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing",
+            "nothing bears a machine that is not finite");
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };
-  const bool near = std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
+  const bool near =
+      std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
   a.require(near, "coordinates", "a machine has no finite place, or none near any site");
   a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates",
             "a machine's turn has a scale");
-  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "a machine has no finite velocity");
+  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities",
+            "a machine has no finite velocity");
   place(q, qd);
   // A snapshot lies between two steps: nothing is left of the last one's forces.
   expected_.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One machine as an articulated tree of Bullet [Featherstone 2008], seen in the machine's own link frames.
+// One machine as an articulated tree of Bullet [Featherstone 2008], seen in the machine's own link
+// frames.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -9,14 +10,15 @@
 
 #include "core/archive.h"
 #include "scene/machine.h"
-#include "vehicle/engine.h"
+#include "vehicle/physics_engine.h"
 
 namespace navvy::vehicle {
 
 /// Owns the btMultiBody of a machine.
 ///
-/// Bullet wants link frames at the centres of mass along the principal axes; this class keeps that to itself. It knows
-/// kinematics and momentum of the tree and answers impulses; it commands nothing.
+/// Bullet wants link frames at the centres of mass along the principal axes; this class keeps that
+/// to itself. It knows kinematics and momentum of the tree and answers impulses; it commands
+/// nothing.
 class TreeBody {
  public:
   /// @throws InputError for a joint that is no tree, or a moving link without mass or inertia.
@@ -58,19 +60,21 @@ class TreeBody {
 
   /// Adds a force [N] with moment [N m] about p_W for the next step.
   void add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W);
-  /// Changes velocities at once, exactly, as the articulated inertia is that of the present pose, and the place of a
-  /// body without joints by dt [s] times that change. Whether it moved. What moved it is expected of the next step,
-  /// too.
+  /// Changes velocities at once, exactly, as the articulated inertia is that of the present pose,
+  /// and the place of a body without joints by dt [s] times that change. Whether it moved. What
+  /// moved it is expected of the next step, too.
   bool apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
-  /// Virtual work of an impulse on each freedom, as Bullet orders them: base (angular, linear), then joints. `work`
-  /// holds 6 + their number. For a unit impulse without moment it is the row that tells a point's velocity along it.
-  void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double* work) const;
+  /// Virtual work of an impulse on each freedom, as Bullet orders them: base (angular, linear),
+  /// then joints. `work` holds 6 + their number. For a unit impulse without moment it is the row
+  /// that tells a point's velocity along it.
+  void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+                    double* work) const;
   /// Inverse articulated mass at the link's origin, (angular, linear), W axes.
   Mat6 inverse_mass(int link) const;
 
-  /// Gravity and added forces change the velocities by one explicit step. For the solver alone a body without joints
-  /// also has what bears it, the mean of the last impulses of steps (apply_impulse); step_positions takes it away
-  /// again.
+  /// Gravity and added forces change the velocities by one explicit step. For the solver alone a
+  /// body without joints also has what bears it, the mean of the last impulses of steps
+  /// (apply_impulse); step_positions takes it away again.
   void step_velocities(const Vec3& gravity, double dt);
   /// Takes all speed from it.
   void stop();
@@ -95,7 +99,8 @@ class TreeBody {
   /// Links outward from the base, in the order of the joints.
   void build(const scene::Machine& machine);
   void add_joint(const scene::Machine& machine, int joint, int bullet);
-  /// Base place and turn, then every joint's coordinates; the generalised velocity, as getVelocityVector has it.
+  /// Base place and turn, then every joint's coordinates; the generalised velocity, as
+  /// getVelocityVector has it.
   std::vector<double> coordinates() const;
   std::vector<double> velocities() const;
   void place(const std::vector<double>& coordinates, const std::vector<double>& velocities);
@@ -103,22 +108,24 @@ class TreeBody {
   void update_kinematics() const;
   void update_factors() const;
   /// Generalised velocity change by an impulse.
-  void respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, std::vector<double>& delta) const;
+  void respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
+               std::vector<double>& delta) const;
   /// Velocity of a link's origin that belongs to a generalised velocity, (angular, linear).
   Vec6 twist_of(int link, const std::vector<double>& velocity) const;
 
   std::unique_ptr<btMultiBody> body_;
   // Both ways between the machine's indices and Bullet's; Bullet's base is -1.
   std::vector<int> bullet_of_joint_, bullet_of_link_, link_of_bullet_, joint_of_bullet_;
-  // By link: inertial frame in the link, mass [kg], inertia about the centre in the link's axes [kg m2].
+  // By link: inertial frame in the link, mass [kg], inertia about the centre in the link's axes
+  // [kg m2].
   std::vector<Pose> X_LI_;
   std::vector<double> mass_;
   std::vector<Mat3> inertia_;
   std::vector<std::vector<int>> outward_;  // links outward of each Bullet link, itself included
   std::vector<Vec3> pivot_I_;              // joint origin in the child's Bullet frame
   double total_mass_ = 0;
-  // Of a body without joints, (angular about its centre, linear): impulse since the last step [N m s, N s], its mean
-  // as a force [N m, N], and the velocities that the solver has by that.
+  // Of a body without joints, (angular about its centre, linear): impulse since the last step
+  // [N m s, N s], its mean as a force [N m, N], and the velocities that the solver has by that.
   Vec6 borne_ = Vec6::Zero(), bearing_ = Vec6::Zero();
   std::vector<double> expected_;
   // Worked out when asked for; Bullet wants scratch memory of its own.

@@ -17,7 +17,8 @@ void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
   for (int i = 0; i <= m_LastHandleIndex; ++i)
     if (m_pHandles[i].m_clientObject) order_.push_back(i);
   const auto low = [&](int i) { return m_pHandles[i].m_aabbMin.x(); };
-  std::sort(order_.begin(), order_.end(), [&](int a, int b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
+  std::sort(order_.begin(), order_.end(),
+            [&](int a, int b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
   active_.clear();
   pairs_.clear();
   for (const int i : order_) {

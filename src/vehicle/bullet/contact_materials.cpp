@@ -9,12 +9,13 @@
 namespace navvy::vehicle {
 namespace {
 
-/// What is slower rests: contacts are found afresh in every step, so a body at rest trembles. tuned: BulletMaterials.*
+/// What is slower rests: contacts are found afresh in every step, so a body at rest trembles.
+/// tuned: BulletMaterials.*
 constexpr double kSliding = 0.05;  // [m/s]
 /// Slower blows do not rebound, or nothing would come to rest: Bullet's own threshold [m/s].
 constexpr double kBlow = 0.2;
 /// Time in which a soft contact gives way to a load [s]: it creeps there and does not swing.
-constexpr double kGivesWay = 0.05;
+constexpr double kYields = 0.05;
 /// A gap that no body closes in a step [m].
 constexpr double kFar = 1e3;
 
@@ -32,7 +33,8 @@ ContactMaterials::ContactMaterials(scene::Materials table) : table_(std::move(ta
       if (index_of(name) < 0) names_.push_back(name);
   for (const std::string& a : names_)
     for (const std::string& b : names_) pairs_.push_back(table_.pair(a, b));
-  soft_ = std::any_of(table_.pairs.begin(), table_.pairs.end(), [](const auto& pair) { return pair.softness > 0; });
+  soft_ = std::any_of(table_.pairs.begin(), table_.pairs.end(),
+                      [](const auto& pair) { return pair.softness > 0; });
   ground_ = index_of(table_.ground);
 }
 
@@ -46,7 +48,8 @@ void ContactMaterials::mark(BulletMachine& machine) const {
     const int link = machine.link_of(*collider);
     collider->setUserPointer(&machine);
     collider->setUserIndex(link);
-    collider->setUserIndex2(index_of(machine.scene().links[static_cast<std::size_t>(link)].material.name));
+    collider->setUserIndex2(
+        index_of(machine.scene().links[static_cast<std::size_t>(link)].material.name));
   }
 }
 
@@ -54,14 +57,17 @@ bool ContactMaterials::stands(const Side& side) {
   return side.machine == nullptr || (side.link == 0 && side.machine->tree().fixed_base());
 }
 
-ContactMaterials::Side ContactMaterials::side(const btCollisionObject& object, const btCollisionObject& ground) const {
+ContactMaterials::Side ContactMaterials::side(const btCollisionObject& object,
+                                              const btCollisionObject& ground) const {
   if (&object == &ground) return {ground_, nullptr, 0};
-  return {object.getUserIndex2(), static_cast<const BulletMachine*>(object.getUserPointer()), object.getUserIndex()};
+  return {object.getUserIndex2(), static_cast<const BulletMachine*>(object.getUserPointer()),
+          object.getUserIndex()};
 }
 
 const scene::MaterialPair* ContactMaterials::pair(const Side& a, const Side& b) const {
   if (a.material < 0 || b.material < 0) return nullptr;
-  return pairs_[static_cast<std::size_t>(a.material) * names_.size() + static_cast<std::size_t>(b.material)];
+  return pairs_[static_cast<std::size_t>(a.material) * names_.size() +
+                static_cast<std::size_t>(b.material)];
 }
 
 // Bullet's normal leads from body 1 to body 0.
@@ -69,23 +75,28 @@ void ContactMaterials::set(const scene::MaterialPair& pair, const Vec3& v, const
                            btManifoldPoint& point) const {
   const Vec3 n = to_eigen(point.m_normalWorldOnB);
   const double meets = -v.dot(n), deep = -point.getDistance();
-  point.m_combinedFriction = (v + meets * n).norm() > kSliding ? pair.kinetic_friction : pair.static_friction;
+  point.m_combinedFriction =
+      (v + meets * n).norm() > kSliding ? pair.kinetic_friction : pair.static_friction;
   if (!(pair.restitution > 0) || meets < kBlow) return;
-  // Bullet closes a gap and presses out an overlap within the same row, and both would change the rebound: a blow is
-  // struck in the first step that finds the bodies within each other, and then by nothing but their speed.
+  // Bullet closes a gap and presses out an overlap within the same row, and both would change the
+  // rebound: a blow is struck in the first step that finds the bodies within each other, and then
+  // by nothing but their speed.
   if (deep < 0) {
     point.setDistance(kFar);
     return;
   }
-  // The speed it had where the bodies met, and what it takes to be back there with its share of that.
-  const double fall = 2 * deep * std::max(0.0, -weight.dot(n)), met = std::max(0.0, meets * meets - fall);
+  // The speed it had where the bodies met, and what it takes to be back there with its share of
+  // that.
+  const double fall = 2 * deep * std::max(0.0, -weight.dot(n)),
+               met = std::max(0.0, meets * meets - fall);
   point.m_combinedRestitution = std::sqrt(pair.restitution * pair.restitution * met + fall) / meets;
   point.m_contactERP = 0;
   point.m_contactCFM = 0;
   point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP | BT_CONTACT_FLAG_HAS_CONTACT_CFM;
 }
 
-void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& ground, const Vec3& gravity) {
+void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& ground,
+                             const Vec3& gravity) {
   if (names_.empty()) return;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(i);
@@ -97,13 +108,15 @@ void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& 
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       btManifoldPoint& point = manifold->getContactPoint(p);
       const Vec3 p_W = to_eigen(point.getPositionWorldOnB());
-      set(*together, velocity_at(a.machine, a.link, p_W) - velocity_at(b.machine, b.link, p_W), weight, point);
+      set(*together, velocity_at(a.machine, a.link, p_W) - velocity_at(b.machine, b.link, p_W),
+          weight, point);
     }
   }
   if (soft_) soften(dispatcher, ground);
 }
 
-/// The table's softness is that of two bodies together: every point between them that bears gets its share.
+/// The table's softness is that of two bodies together: every point between them that bears gets
+/// its share.
 void ContactMaterials::soften(btDispatcher& dispatcher, const btCollisionObject& ground) {
   bearing_.clear();
   const auto for_soft_points = [&](const auto& visit) {
@@ -114,16 +127,18 @@ void ContactMaterials::soften(btDispatcher& dispatcher, const btCollisionObject&
       if (together == nullptr || !(together->softness > 0)) continue;
       int& bearing = bearing_[std::minmax(manifold->getBody0(), manifold->getBody1())];
       for (int p = 0; p < manifold->getNumContacts(); ++p)
-        if (manifold->getContactPoint(p).getDistance() < 0) visit(*together, bearing, manifold->getContactPoint(p));
+        if (manifold->getContactPoint(p).getDistance() < 0)
+          visit(*together, bearing, manifold->getContactPoint(p));
     }
   };
   for_soft_points([](const scene::MaterialPair&, int& bearing, btManifoldPoint&) { ++bearing; });
-  for_soft_points([](const scene::MaterialPair& together, const int& bearing, btManifoldPoint& point) {
-    if ((point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) return;  // a blow
-    point.m_combinedContactStiffness1 = 1 / (together.softness * bearing);
-    point.m_combinedContactDamping1 = kGivesWay * point.m_combinedContactStiffness1;
-    point.m_contactPointFlags |= BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
-  });
+  for_soft_points(
+      [](const scene::MaterialPair& together, const int& bearing, btManifoldPoint& point) {
+        if ((point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) return;  // a blow
+        point.m_combinedContactStiffness1 = 1 / (together.softness * bearing);
+        point.m_combinedContactDamping1 = kYields * point.m_combinedContactStiffness1;
+        point.m_contactPointFlags |= BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
+      });
 }
 
 }  // namespace navvy::vehicle

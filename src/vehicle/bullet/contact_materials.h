@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of materials between detection and solve: Bullet knows one number a body, how two touch is said contact by
-// contact.
+// Pairs of materials between detection and solve: Bullet knows one number a body, how two touch is
+// said contact by contact.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "scene/material.h"
-#include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/bullet_machine.h"
 
 namespace navvy::vehicle {
 
-/// Sets friction, rebound and softness of every contact whose two sides have a material [docs/machines.md, materials].
-/// Costs nothing without a table.
+/// Sets friction, rebound and softness of every contact whose two sides have a material
+/// [docs/machines.md, materials]. Costs nothing without a table.
 class ContactMaterials {
  public:
   explicit ContactMaterials(scene::Materials table);
@@ -41,8 +41,10 @@ class ContactMaterials {
   Side side(const btCollisionObject& object, const btCollisionObject& ground) const;
   /// The pair of a manifold; null where one of both has no material.
   const scene::MaterialPair* pair(const Side& a, const Side& b) const;
-  /// `v`: of body 0 against body 1 there [m/s]; `weight`: acceleration of body 0 against body 1 [m/s2].
-  void set(const scene::MaterialPair& pair, const Vec3& v, const Vec3& weight, btManifoldPoint& point) const;
+  /// `v`: of body 0 against body 1 there [m/s]; `weight`: acceleration of body 0 against body 1
+  /// [m/s2].
+  void set(const scene::MaterialPair& pair, const Vec3& v, const Vec3& weight,
+           btManifoldPoint& point) const;
   void soften(btDispatcher& dispatcher, const btCollisionObject& ground);
 
   scene::Materials table_;

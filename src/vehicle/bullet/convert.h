@@ -26,6 +26,8 @@ inline Mat3 to_eigen(const btMatrix3x3& m) {
   return R;
 }
 /// A pose as position and rotation; Bullet's basis has the same columns.
-inline btTransform to_bt(const Pose& X) { return btTransform(to_bt(Mat3(X.linear())), to_bt(Vec3(X.translation()))); }
+inline btTransform to_bt(const Pose& X) {
+  return btTransform(to_bt(Mat3(X.linear())), to_bt(Vec3(X.translation())));
+}
 
 }  // namespace navvy::vehicle

@@ -3,13 +3,16 @@
 
 namespace navvy::vehicle {
 
-DifferentialRow::DifferentialRow(btMultiBody* body, const std::vector<std::pair<int, double>>& weights)
+DifferentialRow::DifferentialRow(btMultiBody* body,
+                                 const std::vector<std::pair<int, double>>& weights)
     : MultibodyRows(body, weights.front().first, 1) {
   finalizeMultiDof();
-  for (const auto& [link, weight] : weights) jacobianA(0)[6 + m_bodyA->getLink(link).m_dofOffset] = weight;
+  for (const auto& [link, weight] : weights)
+    jacobianA(0)[6 + m_bodyA->getLink(link).m_dofOffset] = weight;
 }
 
-void DifferentialRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+void DifferentialRow::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                           btMultiBodyJacobianData& data,
                                            const btContactSolverInfo& info) {
   internalSetAppliedImpulse(0, 0);
   if (limit_ > 0) add_row(0, speed_, -limit_, limit_, rows, data, info);

@@ -18,17 +18,21 @@ void GroundShape::getAabb(const btTransform&, btVector3& low, btVector3& high) c
   high.setValue(kEverywhere, kEverywhere, kEverywhere);
 }
 
-void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVector3& low, const btVector3& high) const {
+void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVector3& low,
+                                      const btVector3& high) const {
   if (ground_ == nullptr) return;
   const terramechanics::GroundLattice lattice = ground_->lattice();
   // A body of a hundred metres meets a coarser ground rather than a million triangles.
   const double span = std::max(high.x() - low.x(), high.y() - low.y()) / lattice.spacing;
   const double step = lattice.spacing * std::max(1.0, std::ceil(span / kMostCells));
-  const auto cell_of = [&](double at, double node) { return static_cast<int>(std::floor((at - node) / step)); };
+  const auto cell_of = [&](double at, double node) {
+    return static_cast<int>(std::floor((at - node) / step));
+  };
   const int x0 = cell_of(low.x(), lattice.node.x()), x1 = cell_of(high.x(), lattice.node.x()) + 1;
   const int y0 = cell_of(low.y(), lattice.node.y()), y1 = cell_of(high.y(), lattice.node.y()) + 1;
   const auto place = [&](int ix, int iy) { return Vec2(lattice.node + step * Vec2(ix, iy)); };
-  // Most of a machine is well above the ground: one question for all of a body's box. Rounding is far below the margin.
+  // Most of a machine is well above the ground: one question for all of a body's box. Rounding is
+  // far below the margin.
   if (ground_->highest(place(x0, y0), place(x1, y1)) < low.z() - kRounding) return;
   const int nx = x1 - x0 + 1;
   height_.clear();
@@ -91,7 +95,8 @@ Vec3 GroundShape::outward(const Vec3& p_W, const Vec3& normal_W) const {
   if (!((neighbour - here).head<2>().dot(way) > 1e-9)) return n;
   const Vec3 ridge = n.cross(neighbour.normalized()).normalized();
   const double most = std::acos(std::clamp(n.dot(neighbour.normalized()), -1.0, 1.0));
-  const double angle = std::clamp(std::atan2(n.cross(normal_W).dot(ridge), n.dot(normal_W)), 0.0, most);
+  const double angle =
+      std::clamp(std::atan2(n.cross(normal_W).dot(ridge), n.dot(normal_W)), 0.0, most);
   return std::cos(angle) * n + std::sin(angle) * ridge.cross(n);
 }
 

@@ -8,12 +8,14 @@
 
 namespace navvy::vehicle {
 
-Hydraulics::Hydraulics(const scene::Machine& machine) : machine_(machine), of_joint_(machine.joints.size(), -1) {
+Hydraulics::Hydraulics(const scene::Machine& machine)
+    : machine_(machine), of_joint_(machine.joints.size(), -1) {
   // Cylinders in the order of the machine; a joint knows the one that acts on it.
   for (const scene::Cylinder& cylinder : machine.cylinders) {
     cylinders_.push_back({CylinderMap(machine, cylinder), {}, {}});
     int& slot = of_joint_[static_cast<std::size_t>(cylinders_.back().map.joint())];
-    if (slot >= 0) refuse("cylinder[" + cylinder.name + "]", cylinder.joint, "one cylinder a joint: use count");
+    if (slot >= 0)
+      refuse("cylinder[" + cylinder.name + "]", cylinder.joint, "one cylinder a joint: use count");
     slot = count() - 1;
   }
 }
@@ -34,12 +36,13 @@ double Hydraulics::oil(int cylinder, double velocity) const {
 
 OilDemand Hydraulics::demand(int cylinder, double opened, double effort, bool flows) const {
   OilDemand demand{oil(cylinder, opened), 0};
-  // The load's pressure is that share of the relief pressure which its effort is of the largest one, the way it goes;
-  // a load that helps has none.
+  // The load's pressure is that share of the relief pressure which its effort is of the largest
+  // one, the way it goes; a load that helps has none.
   const CylinderLimits& limits = at(cylinder).limits;
   const double most = opened > 0 ? limits.torque_positive : -limits.torque_negative;
   if (flows && effort * most > 0)
-    demand.pressure = std::min(effort / most, 1.0) * machine_.cylinders[static_cast<std::size_t>(cylinder)].pressure;
+    demand.pressure = std::min(effort / most, 1.0) *
+                      machine_.cylinders[static_cast<std::size_t>(cylinder)].pressure;
   return demand;
 }
 

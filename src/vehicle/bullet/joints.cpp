@@ -11,10 +11,12 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kBrakeGain = 10;  // [1/s] back to the place at which a brake took the joint
-constexpr double kSlips = 0.02;    // [rad/s|m/s] a braked joint that is faster slips through its brake
+// [rad/s|m/s] a braked joint that is faster slips through its brake
+constexpr double kSlips = 0.02;
 
 bool moves(const scene::Joint& joint) {
-  return joint.type == scene::Joint::Type::kRevolute || joint.type == scene::Joint::Type::kPrismatic;
+  return joint.type == scene::Joint::Type::kRevolute ||
+         joint.type == scene::Joint::Type::kPrismatic;
 }
 
 }  // namespace
@@ -33,23 +35,28 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
     actuators_[j].has_brake = joint.brake > 0 && moves(joint);
     // Fixed and ball joints have no servo, nor has a joint of the base to the world.
     const int k = tree.bullet_of_joint(static_cast<int>(j));
-    if (k >= 0 && joint.type == scene::Joint::Type::kBall && (joint.cone < kPi || joint.twist < kPi)) {
-      const Mat3 R_CJ = tree.inertial_frame(joint.child).linear().transpose() * joint.X_LcJ.linear();
+    if (k >= 0 && joint.type == scene::Joint::Type::kBall &&
+        (joint.cone < kPi || joint.twist < kPi)) {
+      const Mat3 R_CJ =
+          tree.inertial_frame(joint.child).linear().transpose() * joint.X_LcJ.linear();
       const Mat3 R_PC = tree.inertial_frame(joint.parent).linear().transpose() *
-                        joint_pose(machine, joint, 0).linear() * tree.inertial_frame(joint.child).linear();
-      balls_.push_back(
-          std::make_unique<BallLimits>(&tree.multibody(), k, R_CJ, Mat3(R_PC * R_CJ), joint.cone, joint.twist));
+                        joint_pose(machine, joint, 0).linear() *
+                        tree.inertial_frame(joint.child).linear();
+      balls_.push_back(std::make_unique<BallLimits>(&tree.multibody(), k, R_CJ, Mat3(R_PC * R_CJ),
+                                                    joint.cone, joint.twist));
     }
     if (k >= 0 && moves(joint))
-      constraints_[j] =
-          std::make_unique<ServoConstraint>(&tree.multibody(), k, joint.has_limits, joint.lower, joint.upper);
+      constraints_[j] = std::make_unique<ServoConstraint>(&tree.multibody(), k, joint.has_limits,
+                                                          joint.lower, joint.upper);
   }
   placed();
 }
 
-// Positions only change at the end of a step and by a snapshot, so this is all that linkages ever cost.
+// Positions only change at the end of a step and by a snapshot, so this is all that linkages ever
+// cost.
 void MachineJoints::placed() {
-  for (int c = 0; c < hydraulics_.count(); ++c) hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
+  for (int c = 0; c < hydraulics_.count(); ++c)
+    hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
 }
 
 void MachineJoints::set_brake(int joint, bool on) {
@@ -71,14 +78,16 @@ JointServo::Demand MachineJoints::hold(int joint, double dt) {
 }
 
 void MachineJoints::note_speeds() {
-  for (std::size_t j = 0; j < actuators_.size(); ++j) actuators_[j].speed_before = tree_.velocity(static_cast<int>(j));
+  for (std::size_t j = 0; j < actuators_.size(); ++j)
+    actuators_[j].speed_before = tree_.velocity(static_cast<int>(j));
 }
 
 JointLimits MachineJoints::limits(int joint) const {
   const scene::Joint& about = machine_.joints[static_cast<std::size_t>(joint)];
   const Actuator& a = (*this)[joint];
   JointLimits limits;
-  // The joint's own limits hold in any case: of its bearing, or of a motor that the model has no more of.
+  // The joint's own limits hold in any case: of its bearing, or of a motor that the model has no
+  // more of.
   limits.effort_positive = limits.effort_negative = about.effort;
   limits.speed_positive = limits.speed_negative = about.velocity;
   // A cylinder allows less, and not the same both ways: the rod takes its share of the bore.
@@ -113,15 +122,17 @@ double MachineJoints::share_oil(double dt) {
 }
 
 void MachineJoints::begin_step(double dt) {
-  // All valves open first, so that the pump knows what is asked of it; then every function gets its share.
+  // All valves open first, so that the pump knows what is asked of it; then every function gets its
+  // share.
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
     Actuator& a = actuators_[j];
     if (!constraints_[j] || is_drives(a)) continue;
     const int joint = static_cast<int>(j);
     a.limits = limits(joint);
     // Its valve stays closed.
-    a.opened =
-        a.braked ? 0 : a.servo.open(machine_.joints[j], a.limits, tree_.position(joint), tree_.velocity(joint), dt);
+    a.opened = a.braked ? 0
+                        : a.servo.open(machine_.joints[j], a.limits, tree_.position(joint),
+                                       tree_.velocity(joint), dt);
   }
   const double share = share_oil(dt);
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
@@ -129,17 +140,22 @@ void MachineJoints::begin_step(double dt) {
     const int joint = static_cast<int>(j);
     const scene::Joint& about = machine_.joints[j];
     Actuator& a = actuators_[j];
-    // The demand is a velocity within bounds of effort: one row of the solver, which finds the effort.
+    // The demand is a velocity within bounds of effort: one row of the solver, which finds the
+    // effort.
     const double qd = tree_.velocity(joint);
     if (!is_drives(a)) {
       // Joints without a cylinder (a swing motor) do not share the pump.
       const double oil = hydraulics_.of_joint(joint) >= 0 ? share : 1.0;
-      a.demand = a.braked ? hold(joint, dt) : a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
-      constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt, a.demand.effort_high * dt);
+      a.demand = a.braked ? hold(joint, dt)
+                          : a.servo.demand(about, a.limits, tree_.position(joint), qd, oil, dt);
+      constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt,
+                               a.demand.effort_high * dt);
     }
     // Viscous friction, no stronger than what stops the joint within the step.
-    const double damping = about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
-    tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint), a.demand.feed_forward - damping * qd);
+    const double damping =
+        about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
+    tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint),
+                                     a.demand.feed_forward - damping * qd);
   }
 }
 
@@ -153,13 +169,17 @@ void MachineJoints::end_step(double dt) {
     const int joint = static_cast<int>(j);
     const double q = tree_.position(joint), qd = tree_.velocity(joint);
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
-    work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);  // what a load gives back no pump recovers
+    // What a load gives back no pump recovers
+    work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);
     // The servo hears the row alone: a feed-forward never saturates it.
-    if (!a.braked) a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
+    if (!a.braked)
+      a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
     // What a load pushes back goes to the tank.
-    const double driven = a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
+    const double driven =
+        a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
     const int cylinder = hydraulics_.of_joint(joint);
-    if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0) oil += hydraulics_.oil(cylinder, qd);
+    if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0)
+      oil += hydraulics_.oil(cylinder, qd);
   }
   // What the valves let through may be less than what they asked for: told after the step.
   hydraulics_.pump().settle(oil);
@@ -179,12 +199,14 @@ JointState MachineJoints::state(int joint) const {
     const CylinderLimits& limits = hydraulics_.limits(cylinder);
     // The limit the way it pushes and moves now.
     const bool up = state.effort >= 0;
-    state.effort_limit = std::min(about.effort, up ? limits.torque_positive : limits.torque_negative);
-    state.velocity_limit =
-        std::min(about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
+    state.effort_limit =
+        std::min(about.effort, up ? limits.torque_positive : limits.torque_negative);
+    state.velocity_limit = std::min(
+        about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
     state.cylinder_length = geometry.length;
     // What a brake bears the cylinder does not.
-    state.cylinder_force = !a.braked && std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
+    state.cylinder_force =
+        !a.braked && std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
   }
   state.stalled = a.servo.stalled();
   state.braked = a.braked;
@@ -200,7 +222,8 @@ void Actuator::visit(Archive& a) {
     if (braked) a("held", held);
     a.require(std::isfinite(held), "held", "a brake holds its joint at no place");
   }
-  // The drive turns a wheel without its servo, which then goes by what it last had. Others get theirs in every step.
+  // The drive turns a wheel without its servo, which then goes by what it last had. Others get
+  // theirs in every step.
   if (!spins_wheel) return;
   a("limits", limits);
   a("opened", opened);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The joints of a machine in the Bullet engine: their servos, what limits them, and their rows in the solver.
+// The joints of a machine in the Bullet engine: their servos, what limits them, and their rows in
+// the solver.
 #pragma once
 
 #include <memory>
@@ -32,15 +33,17 @@ struct Actuator {
 
 /// Turns commands into rows of the solver and its answer into efforts, work and oil.
 ///
-/// Joints by their index in scene::Machine. A wheel's joint that the drive turns gets its row and torque from there
-/// (Actuator::demand); here it only gets its damping.
+/// Joints by their index in scene::Machine. A wheel's joint that the drive turns gets its row and
+/// torque from there (Actuator::demand); here it only gets its damping.
 class MachineJoints {
  public:
   /// Every joint holds its initial position. Machine and tree must outlive it.
   MachineJoints(const scene::Machine& machine, TreeBody& tree);
 
   Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
-  const Actuator& operator[](int joint) const { return actuators_.at(static_cast<std::size_t>(joint)); }
+  const Actuator& operator[](int joint) const {
+    return actuators_.at(static_cast<std::size_t>(joint));
+  }
   /// By joint, null where it is fixed or a ball.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
   /// Of those balls that have any.
@@ -48,7 +51,7 @@ class MachineJoints {
   /// Of a joint that moves.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
   /// The machine's, idle where it has none.
-  const Pump& pump() const { return hydraulics_.pump(); }
+  const HydraulicPump& pump() const { return hydraulics_.pump(); }
   /// Fastest turning of joints that the drive commands by position [rad/s].
   void set_drive_rate(double rate) { drive_rate_ = rate; }
 

@@ -5,12 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "vehicle/bullet/machine.h"
+#include "vehicle/bullet/bullet_machine.h"
 
 namespace navvy::vehicle {
 
-/// Each link with collision shapes or a shell is a body that stands, of a place and speed that are told step by step:
-/// to contacts a wall that moves. Its wheels push nothing: tyres are forces, and it feels none.
+/// Each link with collision shapes or a shell is a body that stands, of a place and speed that are
+/// told step by step: to contacts a wall that moves. Its wheels push nothing: tyres are forces, and
+/// it feels none.
 class Mover {
  public:
   /// @throws InputError, FileError for shapes that cannot be built.

@@ -10,9 +10,11 @@ constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks 
 
 }  // namespace
 
-MultibodyRows::MultibodyRows(btMultiBody* body, int link, int rows) : MultibodyRows(body, link, nullptr, -1, rows) {}
+MultibodyRows::MultibodyRows(btMultiBody* body, int link, int rows)
+    : MultibodyRows(body, link, nullptr, -1, rows) {}
 
-MultibodyRows::MultibodyRows(btMultiBody* body, int link, btMultiBody* other, int link_of_other, int rows)
+MultibodyRows::MultibodyRows(btMultiBody* body, int link, btMultiBody* other, int link_of_other,
+                             int rows)
     : btMultiBodyConstraint(body, other, link, link_of_other, rows, true, kConstraintType) {}
 
 void MultibodyRows::finalizeMultiDof() {
@@ -20,8 +22,9 @@ void MultibodyRows::finalizeMultiDof() {
   m_numDofsFinalized = m_jacSizeBoth;
 }
 
-void MultibodyRows::add_row(int row, double velocity, double low, double high, btMultiBodyConstraintArray& rows,
-                            btMultiBodyJacobianData& data, const btContactSolverInfo& info) {
+void MultibodyRows::add_row(int row, double velocity, double low, double high,
+                            btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) {
   btMultiBodySolverConstraint& c = rows.expandNonInitializing();
   // By these the solver writes the row's impulse back to us.
   c.m_orgConstraint = this;
@@ -37,9 +40,10 @@ void MultibodyRows::add_row(int row, double velocity, double low, double high, b
   c.m_contactNormal1 = c.m_contactNormal2 = zero;
   c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
   c.m_angularComponentA = c.m_angularComponentB = zero;
-  // The Jacobian is given, so normals are zero; no error term: `velocity` already holds what a gap allows.
-  fillMultiBodyConstraint(c, data, jacobianA(row), m_bodyB == nullptr ? nullptr : jacobianB(row), zero, zero, zero,
-                          zero, 0, info, low, high, true, 1, false, velocity);
+  // The Jacobian is given, so normals are zero; no error term: `velocity` already holds what a gap
+  // allows.
+  fillMultiBodyConstraint(c, data, jacobianA(row), m_bodyB == nullptr ? nullptr : jacobianB(row),
+                          zero, zero, zero, zero, 0, info, low, high, true, 1, false, velocity);
   c.m_solverBodyIdB = -1;  // nothing to push there
 }
 

@@ -8,9 +8,10 @@
 
 namespace navvy::vehicle {
 
-/// @throws InputError always: the element of the machine ("wheel", "link[name]"), the offending value (may be empty)
-/// and the rule it breaks.
-[[noreturn]] inline void refuse(const std::string& element, const std::string& value, const std::string& rule) {
+/// @throws InputError always: the element of the machine ("wheel", "link[name]"), the offending
+/// value (may be empty) and the rule it breaks.
+[[noreturn]] inline void refuse(const std::string& element, const std::string& value,
+                                const std::string& rule) {
   Fault fault;
   fault.element = element;
   fault.value = value;

@@ -15,7 +15,8 @@ constexpr int kRows = 3;           // a corner: up, along its sliding, across it
 }  // namespace
 
 RockContact::RockContact(TreeBody& tree, int link, std::vector<Vec3> corners)
-    : MultibodyRows(&tree.multibody(), tree.bullet_of_link(link), kRows * static_cast<int>(corners.size())),
+    : MultibodyRows(&tree.multibody(), tree.bullet_of_link(link),
+                    kRows * static_cast<int>(corners.size())),
       tree_(tree),
       link_(link),
       corners_(std::move(corners)),
@@ -30,7 +31,8 @@ void RockContact::aim(int row, const Vec3& p_W, const Vec3& along) {
   tree_.virtual_work(link_, along, Vec3::Zero(), p_W, jacobianA(row));
 }
 
-void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                       btMultiBodyJacobianData& data,
                                        const btContactSolverInfo& info) {
   const double dt = info.m_timeStep;
   const LinkState state = tree_.link(link_);
@@ -42,12 +44,14 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMulti
     const Vec3 p = state.X_WL * corners_[i];
     const Vec3 v = state.v_WL + state.w_WL.cross(p - state.X_WL.translation());
     const double gap = p.z() - height_;
-    // Only what could reach the rock in this step; joints may yet turn it by more than it moves now.
+    // Only what could reach the rock in this step; joints may yet turn it by more than it moves
+    // now.
     if (gap > 2 * dt * v.norm() + 0.01) {
       normal_[i] = 0;
       continue;
     }
-    // It may come down by the gap and no more; an overlap is pressed out slowly, or it would be a spring.
+    // It may come down by the gap and no more; an overlap is pressed out slowly, or it would be a
+    // spring.
     const double up = gap > 0 ? -gap / dt : std::min(-kPressOut * gap / dt, kSlowly);
     aim(row, p, Vec3::UnitZ());
     add_row(row, up, 0, 1e12, rows, data, info);
@@ -55,7 +59,8 @@ void RockContact::createConstraintRows(btMultiBodyConstraintArray& rows, btMulti
     if (!(normal_[i] > 0)) continue;
     // Along the sliding and across it, so that the box of bounds is close to Coulomb's circle.
     const Vec2 slide = v.head<2>();
-    const Vec3 ahead = slide.norm() > 1e-6 ? Vec3(slide.x(), slide.y(), 0).normalized() : Vec3::UnitX();
+    const Vec3 ahead =
+        slide.norm() > 1e-6 ? Vec3(slide.x(), slide.y(), 0).normalized() : Vec3::UnitX();
     const double bound = kFriction * normal_[i];
     aim(row + 1, p, ahead);
     aim(row + 2, p, Vec3::UnitZ().cross(ahead));
@@ -68,13 +73,15 @@ void RockContact::settle() {
   impulse_.setZero();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const int row = kRows * static_cast<int>(i);
-    for (int r = 0; r < kRows; ++r) impulse_ += getAppliedImpulse(row + r) * along_[static_cast<std::size_t>(row + r)];
+    for (int r = 0; r < kRows; ++r)
+      impulse_ += getAppliedImpulse(row + r) * along_[static_cast<std::size_t>(row + r)];
     normal_[i] = getAppliedImpulse(row);
   }
 }
 
 void RockContact::visit(Archive& a) {
-  // The corners' normal impulses bound the next step's friction. Another number of corners is another shell.
+  // The corners' normal impulses bound the next step's friction. Another number of corners is
+  // another shell.
   a.fixed("normal", normal_);
   a("impulse", impulse_);
 }

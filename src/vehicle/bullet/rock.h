@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Level rock below all soil, against the shells of a machine: constraint rows in the solver that moves the machine.
+// Level rock below all soil, against the shells of a machine: constraint rows in the solver that
+// moves the machine.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,12 @@
 
 namespace navvy::vehicle {
 
-/// Keeps the corners of one shell out of the rock; they slide on it with the friction of steel on rock.
+/// Keeps the corners of one shell out of the rock; they slide on it with the friction of steel on
+/// rock.
 ///
-/// Solved together with joints, tyres and contacts, so that a cylinder that presses on rock stalls and the machine
-/// lifts. Each corner's friction is bounded by its normal impulse of the step before: none in the first step of a
-/// touch, and after a blow too much for one.
+/// Solved together with joints, tyres and contacts, so that a cylinder that presses on rock stalls
+/// and the machine lifts. Each corner's friction is bounded by its normal impulse of the step
+/// before: none in the first step of a touch, and after a blow too much for one.
 class RockContact final : public MultibodyRows {
  public:
   /// @param corners in the link's frame [m]

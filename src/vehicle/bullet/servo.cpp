@@ -2,7 +2,8 @@
 #include "vehicle/bullet/servo.h"
 
 namespace navvy::vehicle {
-ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper)
+ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower,
+                                 double upper)
     : MultibodyRows(body, link, 3), has_limits_(has_limits), lower_(lower), upper_(upper) {
   finalizeMultiDof();
 }
@@ -16,7 +17,8 @@ void ServoConstraint::finalizeMultiDof() {
   jacobianA(2)[offset] = -1;
 }
 
-void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows,
+                                           btMultiBodyJacobianData& data,
                                            const btContactSolverInfo& info) {
   // A row that is not made in this step has no impulse to read afterwards.
   for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);

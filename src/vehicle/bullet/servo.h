@@ -6,15 +6,16 @@
 
 namespace navvy::vehicle {
 
-/// Motor of one revolute or prismatic joint. Reaches `velocity` within [low, high] impulse, and keeps the joint between
-/// its limits at any cost; the impulses are read back after the solver ran.
+/// Motor of one revolute or prismatic joint. Reaches `velocity` within [low, high] impulse, and
+/// keeps the joint between its limits at any cost; the impulses are read back after the solver ran.
 class ServoConstraint final : public MultibodyRows {
  public:
-  /// @param link Bullet's link of the joint; lower, upper: its stops [rad|m], looked at when `has_limits`.
+  /// @param link Bullet's link of the joint; lower, upper: its stops [rad|m], looked at when
+  /// `has_limits`.
   ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper);
 
-  /// For the coming step: velocity to reach [rad/s|m/s], bounds of the motor's impulse [N m s|N s]. Low = high: no
-  /// motor, the joint is free but for its stops.
+  /// For the coming step: velocity to reach [rad/s|m/s], bounds of the motor's impulse [N m s|N s].
+  /// Low = high: no motor, the joint is free but for its stops.
   void command(double velocity, double low, double high) {
     velocity_ = velocity;
     low_ = low;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/limits.h"
-#include "terramechanics/tyre_track.h"
+#include "terramechanics/tyre_strip.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -21,17 +21,20 @@ Disc& TyreBodies::disc(std::size_t machine, std::size_t wheel, const scene::Whee
   std::optional<Disc>& out = discs_[machine][wheel];
   // As wide as the track and as large as the tyre.
   if (!out) {
-    const double half = std::min(about.twin_spacing > 0 ? 0.5 * about.width : 0.25 * about.width, 0.45 * about.radius);
+    const double half = std::min(about.twin_spacing > 0 ? 0.5 * about.width : 0.25 * about.width,
+                                 0.45 * about.radius);
     out.emplace(about.radius, half);
   }
   return *out;
 }
 
-void TyreBodies::touch(const BulletMachine& own, Disc& disc, double friction, btCollisionWorld& world) {
+void TyreBodies::touch(const BulletMachine& own, Disc& disc, double friction,
+                       btCollisionWorld& world) {
   touches_.clear();
   for (const MetBody& body : bodies_.all()) {
     if (body.machine == &own) continue;
-    if (const auto at = MetBodies::touch(disc, body, friction, world)) touches_.push_back({*at, &body});
+    if (const auto at = ContactCandidates::touch(disc, body, friction, world))
+      touches_.push_back({*at, &body});
   }
 }
 
@@ -42,11 +45,13 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
     return;
   }
   const terramechanics::TyreMotion motion = own.wheels().motion(at);
-  const auto deepest = std::max_element(touches_.begin(), touches_.end(),
-                                        [](const Touch& a, const Touch& b) { return a.at.depth < b.at.depth; });
+  const auto deepest =
+      std::max_element(touches_.begin(), touches_.end(),
+                       [](const Touch& a, const Touch& b) { return a.at.depth < b.at.depth; });
   for (auto one = touches_.begin(); one != touches_.end(); ++one) {
     Vec2* bristle = one == deepest ? &at.body_bristle[track] : nullptr;
-    const Vec3 f = terramechanics::tyre_body_force(own.wheels().about(wheel), motion, one->at, dt, bristle);
+    const Vec3 f =
+        terramechanics::tyre_body_force(own.wheels().about(wheel), motion, one->at, dt, bristle);
     // To both, at one place: nothing is lost between them.
     own.tree().add_force(at.wheel_link, f, Vec3::Zero(), one->at.p_W);
     one->body->push(-f, one->at.p_W);
@@ -54,8 +59,8 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
   }
 }
 
-void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t wheel, btCollisionWorld& world,
-                           double dt) {
+void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t wheel,
+                           btCollisionWorld& world, double dt) {
   const scene::Wheel& about = own.wheels().about(wheel);
   const Pose X_WWheel = own.wheels().motion(own.wheels()[wheel]).X_WWheel;
   const double offset = terramechanics::track_offset(about);
@@ -69,14 +74,15 @@ void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t 
   }
 }
 
-void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world, double dt) {
+void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world,
+                      double dt) {
   if (meets_nobody(machines, movers)) return;
   bodies_.gather(machines, movers);
   for (std::size_t m = 0; m < machines.size(); ++m)
     for (std::size_t w = 0; w < machines[m]->wheels().size(); ++w) {
       machines[m]->wheels()[w].body_W.setZero();
       if (machines[m]->wheels().about(w).track)
-        belts_.push(*machines[m], m, w, bodies_, world, dt);
+        tracks_.push(*machines[m], m, w, bodies_, world, dt);
       else
         push_tyre(*machines[m], m, w, world, dt);
     }

@@ -25,7 +25,8 @@ Pose wheel_pose(const Pose& X_WC, const Vec3& axis_C, const Vec3& center_C) {
 
 }  // namespace
 
-MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : machine_(machine), tree_(tree) {
+MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
+    : machine_(machine), tree_(tree) {
   for (const scene::Wheel& about : machine.wheels) {
     MachineWheel wheel;
     wheel.spin_joint = machine.joint_index(about.joint);
@@ -48,48 +49,53 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree) : ma
       if (wheel.steer_joint < 0) refuse("wheel", about.steer_joint, "no joint of this name");
     }
     if (about.track) {
-      wheel.belt = terramechanics::BeltState::of(*about.track);
-      wheel.body_shear.assign(terramechanics::belt_stations(about, wheel.center_C).size(),
+      wheel.running_track = terramechanics::TrackState::of(*about.track);
+      wheel.body_shear.assign(terramechanics::track_stations(about, wheel.center_C).size(),
                               {Vec2::Zero(), Vec2::Zero()});
-      if (tree.bullet_of_joint(wheel.spin_joint) < 0) refuse("track", about.joint, "its sprocket cannot turn");
+      if (tree.bullet_of_joint(wheel.spin_joint) < 0)
+        refuse("track", about.joint, "its sprocket cannot turn");
     }
     wheels_.push_back(wheel);
   }
 }
 
 terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
-  // By the carrier: the wheel's own link spins, and a pose that spins says nothing of where ahead is.
+  // By the carrier: the wheel's own link spins, and a pose that spins says nothing of where ahead
+  // is.
   const LinkState carrier = tree_.link(wheel.carrier_link);
   terramechanics::TyreMotion motion;
   motion.X_WWheel = wheel_pose(carrier.X_WL, wheel.axis_C, wheel.center_C);
   motion.w_W = carrier.w_WL;
-  motion.v_W = carrier.v_WL + carrier.w_WL.cross(motion.X_WWheel.translation() - carrier.X_WL.translation());
+  motion.v_W =
+      carrier.v_WL + carrier.w_WL.cross(motion.X_WWheel.translation() - carrier.X_WL.translation());
   motion.spin = tree_.velocity(wheel.spin_joint);
   motion.spin_inertia = wheel.spin_inertia;
   return motion;
 }
 
 Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
-  // On the wheel's link: through the axle the force reaches the carrier, the moment about the axle only the wheel.
+  // On the wheel's link: through the axle the force reaches the carrier, the moment about the axle
+  // only the wheel.
   Vec3 impulse = Vec3::Zero();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     MachineWheel& wheel = wheels_[w];
     if (machine_.wheels[w].track) {
-      push_belt(w, ground, dt);
+      push_ground_track(w, ground, dt);
       impulse += dt * wheel.force.force_W;
       continue;
     }
     const terramechanics::TyreMotion now = motion(wheel);
     wheel.force = terramechanics::tyre_force(machine_.wheels[w], now, ground, dt, wheel.tyre);
-    tree_.add_force(wheel.wheel_link, wheel.force.force_W, wheel.force.moment_W, now.X_WWheel.translation());
+    tree_.add_force(wheel.wheel_link, wheel.force.force_W, wheel.force.moment_W,
+                    now.X_WWheel.translation());
     impulse += dt * wheel.force.force_W;
   }
   return impulse;
 }
 
-terramechanics::BeltMotion MachineWheels::belt_motion(const MachineWheel& wheel) const {
+terramechanics::TrackMotion MachineWheels::track_motion(const MachineWheel& wheel) const {
   const LinkState carrier = tree_.link(wheel.carrier_link);
-  terramechanics::BeltMotion motion;
+  terramechanics::TrackMotion motion;
   motion.X_WC = carrier.X_WL;
   motion.v_W = carrier.v_WL;
   motion.w_W = carrier.w_WL;
@@ -99,12 +105,14 @@ terramechanics::BeltMotion MachineWheels::belt_motion(const MachineWheel& wheel)
   return motion;
 }
 
-void MachineWheels::push_belt(std::size_t w, const terramechanics::GroundQuery& ground, double dt) {
+void MachineWheels::push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground,
+                                      double dt) {
   MachineWheel& wheel = wheels_[w];
-  const terramechanics::BeltForce force =
-      terramechanics::belt_force(machine_.wheels[w], belt_motion(wheel), ground, dt, wheel.belt);
-  // The carrier bears what acts on the lower run; what that does along the belt goes to the sprocket as a torque.
-  for (const terramechanics::BeltForce::Push& push : force.pushes)
+  const terramechanics::TrackForce force = terramechanics::track_force(
+      machine_.wheels[w], track_motion(wheel), ground, dt, wheel.running_track);
+  // The carrier bears what acts on the lower run; what that does along the belt goes to the
+  // sprocket as a torque.
+  for (const terramechanics::TrackForce::Push& push : force.pushes)
     tree_.add_force(wheel.carrier_link, push.f_W, Vec3::Zero(), push.p_W);
   tree_.multibody().addJointTorque(tree_.bullet_of_joint(wheel.spin_joint), force.torque);
   wheel.force = {};
@@ -113,10 +121,11 @@ void MachineWheels::push_belt(std::size_t w, const terramechanics::GroundQuery& 
   wheel.force.sinkage = force.sinkage;
 }
 
-std::vector<terramechanics::BeltPatch> MachineWheels::belt_patches(int i) const {
+std::vector<terramechanics::TrackPatch> MachineWheels::track_patches(int i) const {
   const auto w = static_cast<std::size_t>(i);
   if (!machine_.wheels.at(w).track) return {};
-  return terramechanics::belt_patches(machine_.wheels[w], belt_motion(wheels_[w]), wheels_[w].belt);
+  return terramechanics::track_patches(machine_.wheels[w], track_motion(wheels_[w]),
+                                       wheels_[w].running_track);
 }
 
 WheelState MachineWheels::state(int i) const {
@@ -143,7 +152,7 @@ void MachineWheel::visit(Archive& a) {
   a("force", force);
   a("held_spin", held_spin);
   a("braked", braked);
-  if (!belt.contacts.empty()) a.fixed("belt", belt.contacts);
+  if (!running_track.contacts.empty()) a.fixed("belt", running_track.contacts);
 }
 
 }  // namespace navvy::vehicle

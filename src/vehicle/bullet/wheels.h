@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wheels of a machine in the Bullet engine: where they are and what the ground does to their tyres.
+// The wheels of a machine in the Bullet engine: where they are and what the ground does to their
+// tyres.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "terramechanics/belt.h"
-#include "terramechanics/belt_body.h"
+#include "terramechanics/track.h"
+#include "terramechanics/track_body.h"
 #include "terramechanics/tyre.h"
 #include "vehicle/bullet/body.h"
 
@@ -25,25 +26,27 @@ struct MachineWheel {
   double held_spin = 0;             // angle at which the brake holds [rad]
   bool braked = false;
   // Of a crawler's sprocket: the belt on its rollers; no contacts of others.
-  terramechanics::BeltState belt;
+  terramechanics::TrackState running_track;
 
-  // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each track [m].
+  // Of bodies, which TyreBodies saves: their force in the last step [N], the grip's stretch on each
+  // track [m].
   Vec3 body_W = Vec3::Zero();
   std::array<Vec2, 2> body_bristle{Vec2::Zero(), Vec2::Zero()};
-  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle of what presses, in
-  // the carrier [m].
-  terramechanics::BeltBodyShear body_shear;
+  // Of bodies under a crawler's belt, likewise: how far shoes are sheared on them, and the middle
+  // of what presses, in the carrier [m].
+  terramechanics::TrackBodyShear body_shear;
   Vec3 body_p_C = Vec3::Zero();
 
   void visit(Archive& a);
 };
 
-/// Tyres push on the tree once a step, by terramechanics' law of the ground under them. What they meet of bodies is
-/// TyreBodies'; collision shapes of other links touch the ground in the engine's solver and are no wheels.
+/// Tyres push on the tree once a step, by terramechanics' law of the ground under them. What they
+/// meet of bodies is TyreBodies'; collision shapes of other links touch the ground in the engine's
+/// solver and are no wheels.
 class MachineWheels {
  public:
-  /// @throws InputError for a wheel whose joint is missing, is not revolute or hangs on the world. Machine and tree
-  /// must outlive it.
+  /// @throws InputError for a wheel whose joint is missing, is not revolute or hangs on the world.
+  /// Machine and tree must outlive it.
   MachineWheels(const scene::Machine& machine, TreeBody& tree);
 
   /// In the order of machine.wheels.
@@ -58,17 +61,17 @@ class MachineWheels {
   /// Pose (not spinning) and motion of a wheel's centre.
   terramechanics::TyreMotion motion(const MachineWheel& wheel) const;
   /// The same of a crawler's belt.
-  terramechanics::BeltMotion belt_motion(const MachineWheel& wheel) const;
+  terramechanics::TrackMotion track_motion(const MachineWheel& wheel) const;
   const scene::Wheel& about(std::size_t i) const { return machine_.wheels[i]; }
 
   /// For outputs and ruts: where it is now, what acted on it in the last step.
   WheelState state(int wheel) const;
   /// Where its belt presses, with the loads of the last step; none of a wheel without one.
-  std::vector<terramechanics::BeltPatch> belt_patches(int wheel) const;
+  std::vector<terramechanics::TrackPatch> track_patches(int wheel) const;
 
  private:
   /// Adds the forces on a crawler's belt, and its torque on the sprocket.
-  void push_belt(std::size_t w, const terramechanics::GroundQuery& ground, double dt);
+  void push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground, double dt);
 
   // Tyre data stay in the machine; a wheel here knows its place in the tree.
   const scene::Machine& machine_;

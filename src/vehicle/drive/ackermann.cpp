@@ -8,7 +8,8 @@
 namespace navvy::vehicle {
 namespace {
 
-// Wheels may be commanded across the machine, where no bicycle follows: bounds that no drive's own angles reach.
+// Wheels may be commanded across the machine, where no bicycle follows: bounds that no drive's own
+// angles reach.
 constexpr double kLeastShare = 0.05;
 constexpr double kSharpest = 20;    // tangent of a bicycle angle
 constexpr double kSameAxle = 0.01;  // [m]
@@ -32,14 +33,17 @@ SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle) {
 double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left) {
   const double t = std::tan(angle), half = 0.5 * drive.track / drive.wheelbase;
   // The left wheel is the inner one of a turn to the left.
-  return std::clamp(t / std::max(left ? 1 + half * t : 1 - half * t, kLeastShare), -kSharpest, kSharpest);
+  return std::clamp(t / std::max(left ? 1 + half * t : 1 - half * t, kLeastShare), -kSharpest,
+                    kSharpest);
 }
 
-AckermannLine::AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels)
+AckermannLine::AckermannLine(const scene::AckermannDrive& drive,
+                             const std::vector<DriveWheel>& wheels)
     : DriveLine(drive, {all_driven(wheels)}, drive.engine), drive_(drive), wheels_(wheels) {}
 
 Roll AckermannLine::roll(const DriveInput& input) const {
-  const double speed = input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
+  const double speed =
+      input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
   const double most = max_bicycle_angle(drive_);
   return {speed, speed * std::tan(std::clamp(input.steer, -most, most)) / drive_.wheelbase};
 }
@@ -62,12 +66,13 @@ Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
 }
 
 double AckermannLine::rolling_spin(const Roll& roll, const DriveWheel& wheel) const {
-  // The differential's cage: in a turn the outer wheel is faster by what the inner one is slower, which nobody asks of
-  // an engine without forces.
+  // The differential's cage: in a turn the outer wheel is faster by what the inner one is slower,
+  // which nobody asks of an engine without forces.
   return roll.speed / wheel.radius;
 }
 
-std::optional<double> AckermannLine::steer_angle(const DriveInput& input, const DriveWheel& wheel) const {
+std::optional<double> AckermannLine::steer_angle(const DriveInput& input,
+                                                 const DriveWheel& wheel) const {
   // Under the brake too: a standing machine turns its wheels for the next start.
   const SteerAngles steer = ackermann(drive_, input.steer);
   return wheel.left ? steer.left : steer.right;
@@ -82,7 +87,8 @@ std::vector<Coupled> AckermannLine::differentials() const {
   }
   std::sort(axles.rbegin(), axles.rend());
   std::vector<Coupled> out;
-  const auto add = [&](std::string name, const scene::Differential& about, const auto& one, const auto& other) {
+  const auto add = [&](std::string name, const scene::Differential& about, const auto& one,
+                       const auto& other) {
     const auto ones = std::count_if(wheels_.begin(), wheels_.end(), one);
     const auto others = std::count_if(wheels_.begin(), wheels_.end(), other);
     if (ones == 0 || others == 0) return;
@@ -97,11 +103,14 @@ std::vector<Coupled> AckermannLine::differentials() const {
       return w.driven && w.left == left && std::abs(w.x - x) < kSameAxle;
     };
     add(
-        "axle_" + std::to_string(a + 1), drive_.axles, [&](const DriveWheel& w) { return on(w, true); },
+        "axle_" + std::to_string(a + 1), drive_.axles,
+        [&](const DriveWheel& w) { return on(w, true); },
         [&](const DriveWheel& w) { return on(w, false); });
   }
   if (axles.size() > 1) {
-    const auto front = [&](const DriveWheel& w) { return w.driven && std::abs(w.x - axles[0]) < kSameAxle; };
+    const auto front = [&](const DriveWheel& w) {
+      return w.driven && std::abs(w.x - axles[0]) < kSameAxle;
+    };
     add("centre", drive_.centre, front, [&](const DriveWheel& w) { return w.driven && !front(w); });
   }
   return out;

@@ -14,11 +14,11 @@ namespace navvy::vehicle {
 struct SteerAngles {
   double left = 0, right = 0;
 };
-/// For a bicycle angle [rad] in the middle of the front axle, which is cut so that the inner wheel keeps within
-/// `drive.max_steer`. At one angle all wheels roll about one centre.
+/// For a bicycle angle [rad] in the middle of the front axle, which is cut so that the inner wheel
+/// keeps within `drive.max_steer`. At one angle all wheels roll about one centre.
 SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle);
-/// The other way round: tangent of the bicycle's angle by one wheel alone, the left or the right one, at `angle` [rad];
-/// bounded where the wheel stands across the machine and no bicycle follows.
+/// The other way round: tangent of the bicycle's angle by one wheel alone, the left or the right
+/// one, at `angle` [rad]; bounded where the wheel stands across the machine and no bicycle follows.
 double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left);
 /// Largest bicycle angle [rad]: the one at which the inner wheel is at `drive.max_steer`.
 double max_bicycle_angle(const scene::AckermannDrive& drive);
@@ -31,7 +31,8 @@ class AckermannLine : public DriveLine {
   Roll roll(const DriveInput& input) const override;
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
-  std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
+  std::optional<double> steer_angle(const DriveInput& input,
+                                    const DriveWheel& wheel) const override;
   double steer_rate() const override { return drive_.steer_rate; }
   std::vector<Coupled> differentials() const override;
 

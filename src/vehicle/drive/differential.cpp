@@ -21,8 +21,11 @@ SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& 
   return {share * (input.speed - turn), share * (input.speed + turn)};
 }
 
-DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels)
-    : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}), drive_(drive), wheels_(wheels) {}
+DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive,
+                                   const std::vector<DriveWheel>& wheels)
+    : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}),
+      drive_(drive),
+      wheels_(wheels) {}
 
 Roll DifferentialLine::roll(const DriveInput& input) const {
   if (input.brake) return {};
@@ -49,7 +52,8 @@ double DifferentialLine::rolling_spin(const Roll& roll, const DriveWheel& wheel)
   return (roll.speed + (wheel.left ? -0.5 : 0.5) * drive_.track * roll.yaw_rate) / wheel.radius;
 }
 
-std::optional<double> DifferentialLine::steer_angle(const DriveInput& input, const DriveWheel& wheel) const {
+std::optional<double> DifferentialLine::steer_angle(const DriveInput& input,
+                                                    const DriveWheel& wheel) const {
   (void)input, (void)wheel;
   return std::nullopt;
 }

@@ -3,7 +3,8 @@
 //
 //   v_left = v - w W/2,   v_right = v + w W/2
 //
-// v speed [m/s] and w yaw rate [rad/s] of the machine's frame, W track [m]; wheels spin at v_side / r while they roll.
+// v speed [m/s] and w yaw rate [rad/s] of the machine's frame, W track [m]; wheels spin at v_side /
+// r while they roll.
 #pragma once
 
 #include "vehicle/drive/drive_line.h"
@@ -14,12 +15,14 @@ namespace navvy::vehicle {
 struct SideSpeeds {
   double left = 0, right = 0;
 };
-/// For a command of speed and yaw rate. Where a side would have to exceed `drive.max_speed`, both are slowed by one
-/// share: the machine goes slower but on the arc asked for. The brake is not looked at.
+/// For a command of speed and yaw rate. Where a side would have to exceed `drive.max_speed`, both
+/// are slowed by one share: the machine goes slower but on the arc asked for. The brake is not
+/// looked at.
 SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& input);
 
-/// One governor a side; each moves half the machine with half the motor's force and power. The sides follow their own
-/// speeds, so between two commands the machine may leave the arc by what the sides' ramps differ.
+/// One governor a side; each moves half the machine with half the motor's force and power. The
+/// sides follow their own speeds, so between two commands the machine may leave the arc by what the
+/// sides' ramps differ.
 class DifferentialLine final : public DriveLine {
  public:
   DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels);
@@ -27,7 +30,8 @@ class DifferentialLine final : public DriveLine {
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   /// Nothing: it turns no wheels. Casters swivel by themselves.
-  std::optional<double> steer_angle(const DriveInput& input, const DriveWheel& wheel) const override;
+  std::optional<double> steer_angle(const DriveInput& input,
+                                    const DriveWheel& wheel) const override;
   double steer_rate() const override;
 
  private:

@@ -12,18 +12,22 @@
 namespace navvy::vehicle {
 namespace {
 
-// Of a crawler's travel motor to an error of speed [s]: the oil of a pump goes through it, and it shall turn a machine
-// whose belts resist with half its weight. With the time of wheels a robot asked for 0.5 rad/s has 0.1 after 8 s.
-constexpr double kBeltResponse = 0.05;
+// Of a crawler's travel motor to an error of speed [s]: the oil of a pump goes through it, and it
+// shall turn a machine whose belts resist with half its weight. With the time of wheels a robot
+// asked for 0.5 rad/s has 0.1 after 8 s.
+constexpr double kTrackResponse = 0.05;
 
 // One overload a kind: a new kind does not build until it has both.
-std::unique_ptr<DriveLine> line_of(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels) {
+std::unique_ptr<DriveLine> line_of(const scene::AckermannDrive& drive,
+                                   const std::vector<DriveWheel>& wheels) {
   return std::make_unique<AckermannLine>(drive, wheels);
 }
-std::unique_ptr<DriveLine> line_of(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels) {
+std::unique_ptr<DriveLine> line_of(const scene::DifferentialDrive& drive,
+                                   const std::vector<DriveWheel>& wheels) {
   return std::make_unique<DifferentialLine>(drive, wheels);
 }
-std::unique_ptr<DriveLine> line_of(const scene::LinkageDrive& drive, const std::vector<DriveWheel>& wheels) {
+std::unique_ptr<DriveLine> line_of(const scene::LinkageDrive& drive,
+                                   const std::vector<DriveWheel>& wheels) {
   return std::make_unique<LinkageLine>(drive, wheels);
 }
 
@@ -32,7 +36,8 @@ std::unique_ptr<DriveLine> line_of(const scene::LinkageDrive& drive, const std::
 std::vector<DriveWheel> drive_wheels(const scene::Machine& machine) {
   std::vector<DriveWheel> wheels;
   for (const scene::Wheel& wheel : machine.wheels) {
-    // Where nothing spins (a picture's wheel on a kinematic machine), the steered link tells the side.
+    // Where nothing spins (a picture's wheel on a kinematic machine), the steered link tells the
+    // side.
     int joint = machine.joint_index(wheel.joint);
     if (joint < 0) joint = machine.joint_index(wheel.steer_joint);
     Vec3 p = Vec3::Zero();
@@ -54,30 +59,33 @@ DriveLine::Group DriveLine::all_driven(const std::vector<DriveWheel>& wheels) {
 DriveLine::Group DriveLine::driven_side(const std::vector<DriveWheel>& wheels, bool left) {
   Group group;
   group.share = 0.5;
-  for (const DriveWheel& wheel : wheels) group.members.push_back(wheel.driven && wheel.left == left);
+  for (const DriveWheel& wheel : wheels)
+    group.members.push_back(wheel.driven && wheel.left == left);
   return group;
 }
 
 DriveLine::DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
-                     const std::optional<scene::DriveEngine>& engine)
+                     const std::optional<scene::CombustionEngine>& engine)
     : powertrain_(powertrain), groups_(std::move(groups)) {
   if (engine) engine_.emplace(*engine, powertrain.engine_power > 0);
 }
 
 std::vector<Coupled> DriveLine::coupled() const {
   std::vector<Coupled> out = differentials();
-  std::erase_if(out, [](const Coupled& one) { return one.about.kind == scene::Differential::Kind::kOpen; });
+  std::erase_if(
+      out, [](const Coupled& one) { return one.about.kind == scene::Differential::Kind::kOpen; });
   return out;
 }
 
-DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>& turns, double mass) {
+DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>& turns,
+                                double mass) {
   DrivenWheels wheels;
   for (std::size_t w = 0; w < turns.size(); ++w) {
     if (!group.members[w] || !turns[w].on_line) continue;
     wheels.spin += turns[w].spin;
     wheels.radius += turns[w].radius;
     wheels.spin_inertia += turns[w].spin_inertia;
-    if (turns[w].belt) wheels.response = kBeltResponse;
+    if (turns[w].running_track) wheels.response = kTrackResponse;
     ++wheels.count;
   }
   if (wheels.count == 0) return wheels;
@@ -88,7 +96,8 @@ DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>
   return wheels;
 }
 
-double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt, double pump_power) {
+double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt,
+                               double pump_power) {
   // The motor's force and power are shared out, the speed is every group's own.
   scene::Powertrain part = powertrain_;
   part.tractive_force *= group.share;
@@ -100,33 +109,34 @@ double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& w
   return each;
 }
 
-double DriveLine::engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels, double dt,
-                                double pump_power) {
+double DriveLine::engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels,
+                                double dt, double pump_power) {
   const double most = std::min(powertrain_.max_speed, engine_->fastest(input.gear) * wheels.radius);
   const double goal = std::clamp(input.speed, -most, most);
   // The reverser stands as is asked, or at speed 0 as it rolls.
-  const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin), cage = way * wheels.spin;
+  const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin),
+               carrier = way * wheels.spin;
   const double asked = group.governor.ask(goal, wheels, dt);
-  engine_->shift(input.gear, cage, way * asked * wheels.radius, dt);
-  const GearedEngine::Bounds most_torque = engine_->bounds(cage, pump_power);
-  if (engine_->about().kind == scene::DriveEngine::Kind::kSpeedSource) {
-    held_ = HeldCage{group.governor.asked() / wheels.radius, most_torque.high};
+  engine_->shift(input.gear, carrier, way * asked * wheels.radius, dt);
+  const GearedEngine::Bounds most_torque = engine_->bounds(carrier, pump_power);
+  if (engine_->about().kind == scene::CombustionEngine::Kind::kSpeedSource) {
+    held_ = HeldCarrier{group.governor.asked() / wheels.radius, most_torque.high};
     return 0;
   }
   double low = most_torque.low / wheels.radius, high = most_torque.high / wheels.radius;
   if (way < 0) low = -std::exchange(high, -low);
   const double torque = group.governor.give(asked, low, high, wheels, dt) * wheels.radius;
-  state_ = engine_->state(cage, way * torque, pump_power);
+  state_ = engine_->state(carrier, way * torque, pump_power);
   return torque / wheels.count;
 }
 
-void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
-                        std::vector<double>& torque, double pump_power) {
+void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass,
+                        double dt, std::vector<double>& torque, double pump_power) {
   // Group by group: one governor each, from the mean of its wheels.
   torque.assign(turns.size(), 0);
   held_.reset();
   if (powertrain_.engine_power <= 0) pump_power = 0;
-  state_ = engine_ ? engine_->state(0, 0, pump_power) : EngineState{0, 0, pump_power, 0};
+  state_ = engine_ ? engine_->state(0, 0, pump_power) : CombustionEngineState{0, 0, pump_power, 0};
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const DrivenWheels wheels = on_line(group, turns, mass);
@@ -136,28 +146,33 @@ void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& t
       group.governor.reset(wheels.spin * wheels.radius);
       continue;
     }
-    const double each = engine_ ? engine_torque(group, input, wheels, dt, pump_power)
-                                : motor_torque(group, group_speed(input, g), wheels, dt, pump_power);
+    const double each = engine_
+                            ? engine_torque(group, input, wheels, dt, pump_power)
+                            : motor_torque(group, group_speed(input, g), wheels, dt, pump_power);
     for (std::size_t w = 0; w < turns.size(); ++w)
       if (group.members[w] && turns[w].on_line) torque[w] = each;
   }
 }
 
-void DriveLine::settle(double cage, double torque) {
-  if (held_) state_ = engine_->state(cage, torque, 0);
+void DriveLine::settle(double carrier, double torque) {
+  if (held_) state_ = engine_->state(carrier, torque, 0);
 }
 
 void DriveLine::visit(Archive& a) {
   // A snapshot of another kind of drive has another number of them.
-  a.constant("governors", groups_.size(), "the drive has another number of governors than the scene's");
-  for (std::size_t g = 0; g < groups_.size(); ++g) a.item(g, [&] { a("governor", groups_[g].governor); });
+  a.constant("governors", groups_.size(),
+             "the drive has another number of governors than the scene's");
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    a.item(g, [&] { a("governor", groups_[g].governor); });
   if (engine_) a("engine", *engine_);
-  if (engine_ || powertrain_.engine_power > 0) a.unhashed("told only", [&] { a("engine_state", state_); });
+  if (engine_ || powertrain_.engine_power > 0)
+    a.unhashed("told only", [&] { a("engine_state", state_); });
 }
 
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine) {
   // The variant chooses; nothing else in the house asks for the kind.
-  return std::visit([&](const auto& kind) { return line_of(kind, drive_wheels(machine)); }, machine.drive);
+  return std::visit([&](const auto& kind) { return line_of(kind, drive_wheels(machine)); },
+                    machine.drive);
 }
 
 scene::AckermannDrive equivalent_bicycle(const scene::Drive& drive) {

@@ -10,20 +10,27 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kDwell = 1;        // [s] tuned: GearedEngine.ChoosesTheHighestGearThatPullsAndDoesNotHunt
+// [s] tuned: GearedEngine.ChoosesTheHighestGearThatPullsAndDoesNotHunt
+constexpr double kDwell = 1;
 constexpr double kSpare = 1.25;     // tuned: same
 constexpr double kAboveIdle = 1.1;  // [-] tuned: paper/ackermann changes up and back at 1
-constexpr double kDroop = 0.04;     // [-] above the governed speed, over which torque falls to nothing (U)
-constexpr double kDragFrom = 1.25;  // [-] of idle: below, the governor begins to carry the engine itself
+// [-] above the governed speed, over which torque falls to nothing (U)
+constexpr double kDroop = 0.04;
+// [-] of idle: below, the governor begins to carry the engine itself
+constexpr double kDragFrom = 1.25;
 
-bool sources(const scene::DriveEngine& engine) { return engine.kind == scene::DriveEngine::Kind::kSpeedSource; }
+bool sources(const scene::CombustionEngine& engine) {
+  return engine.kind == scene::CombustionEngine::Kind::kSpeedSource;
+}
 
 }  // namespace
 
-GearedEngine::GearedEngine(scene::DriveEngine about, bool drives_pump) : about_(std::move(about)), held_(kDwell) {
+GearedEngine::GearedEngine(scene::CombustionEngine about, bool drives_pump)
+    : about_(std::move(about)), held_(kDwell) {
   if (about_.gears.empty() || (!sources(about_) && about_.curve.size() < 2))
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "engine", "",
-                           "needs a gear and, unless it is a source of speed, two points of its torque curve", ""});
+    throw InputError(Fault{
+        Fault::Severity::kError, "", 0, "engine", "",
+        "needs a gear and, unless it is a source of speed, two points of its torque curve", ""});
   if (sources(about_)) return;
   slowest_ = drives_pump ? scene::rated_point(about_).speed : about_.curve.front().speed;
 }
@@ -55,16 +62,16 @@ double GearedEngine::drag(double shaft) const {
 
 double GearedEngine::engine_speed(double shaft) const { return std::max(slowest_, shaft); }
 
-double GearedEngine::pull(int gear, double cage) const {
-  return ratio(gear) * about_.efficiency * full_torque(engine_speed(ratio(gear) * cage));
+double GearedEngine::pull(int gear, double carrier) const {
+  return ratio(gear) * about_.efficiency * full_torque(engine_speed(ratio(gear) * carrier));
 }
 
-double GearedEngine::hold(int gear, double cage) const {
-  return ratio(gear) / about_.efficiency * drag(ratio(gear) * cage);
+double GearedEngine::hold(int gear, double carrier) const {
+  return ratio(gear) / about_.efficiency * drag(ratio(gear) * carrier);
 }
 
-bool GearedEngine::fits(int gear, double cage) const {
-  const double shaft = ratio(gear) * cage;
+bool GearedEngine::fits(int gear, double carrier) const {
+  const double shaft = ratio(gear) * carrier;
   // A gear that was just put in shall not have to be left at once.
   const double least = about_.curve.front().speed * (gear > gear_ ? kAboveIdle : 1);
   const double most = about_.curve.back().speed * (gear < gear_ ? 1 : 1 + kDroop);
@@ -72,19 +79,19 @@ bool GearedEngine::fits(int gear, double cage) const {
   return (gear == 1 || shaft >= least) && (gear == count() || shaft <= most);
 }
 
-void GearedEngine::shift(int command, double cage, double torque, double dt) {
+void GearedEngine::shift(int command, double carrier, double torque, double dt) {
   held_ = std::min(held_ + dt, kDwell);
   int next = gear_;
-  const auto has = [&](int gear) { return torque < 0 ? hold(gear, cage) : pull(gear, cage); };
+  const auto has = [&](int gear) { return torque < 0 ? hold(gear, carrier) : pull(gear, carrier); };
   if (command > 0 || sources(about_)) {
     next = std::clamp(command, 1, count());
-  } else if (held_ >= kDwell || !fits(gear_, cage)) {
-    // Upwards it is enough to give what there is now: while the machine is slower than asked, more is asked for than it
-    // takes to keep its speed.
+  } else if (held_ >= kDwell || !fits(gear_, carrier)) {
+    // Upwards it is enough to give what there is now: while the machine is slower than asked, more
+    // is asked for than it takes to keep its speed.
     const double up = kSpare * std::min(std::abs(torque), has(gear_));
     double most = -1;
     for (int gear = count(); gear > 0; --gear) {
-      if (!fits(gear, cage)) continue;
+      if (!fits(gear, carrier)) continue;
       if (has(gear) > most) next = gear, most = has(gear);
       if (has(gear) >= (gear > gear_ ? up : std::abs(torque))) break;
     }
@@ -93,21 +100,22 @@ void GearedEngine::shift(int command, double cage, double torque, double dt) {
   gear_ = next;
 }
 
-GearedEngine::Bounds GearedEngine::bounds(double cage, double pump_power) const {
+GearedEngine::Bounds GearedEngine::bounds(double carrier, double pump_power) const {
   const double r = ratio();
-  if (sources(about_)) return {-r / about_.efficiency * about_.max_torque, r * about_.efficiency * about_.max_torque};
-  const double speed = engine_speed(r * cage);
+  if (sources(about_))
+    return {-r / about_.efficiency * about_.max_torque, r * about_.efficiency * about_.max_torque};
+  const double speed = engine_speed(r * carrier);
   // Of the curve's torque what the pump leaves.
   const double torque = std::max(0.0, full_torque(speed) - pump_power / speed);
-  return {-hold(gear_, cage), r * about_.efficiency * torque};
+  return {-hold(gear_, carrier), r * about_.efficiency * torque};
 }
 
-EngineState GearedEngine::state(double cage, double torque, double pump_power) const {
-  EngineState out;
+CombustionEngineState GearedEngine::state(double carrier, double torque, double pump_power) const {
+  CombustionEngineState out;
   out.gear = gear_;
   const double loss = torque > 0 ? 1 / about_.efficiency : about_.efficiency;
   const double shaft = torque / ratio() * loss;
-  out.speed = sources(about_) ? ratio() * cage : engine_speed(ratio() * cage);
+  out.speed = sources(about_) ? ratio() * carrier : engine_speed(ratio() * carrier);
   out.torque = shaft + (out.speed > 0 ? pump_power / out.speed : 0);
   out.power = out.torque * out.speed;
   return out;

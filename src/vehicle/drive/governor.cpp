@@ -11,7 +11,8 @@ constexpr double kRamp = 1.5;          // [m/s2] travel pedal to speed (U)
 constexpr double kSpeedTime = 0.3;     // [s], that of wheels. tuned: BulletDrive.KeepsTheAskedSpeed
 constexpr double kIntegralTime = 1.0;  // [s] with it, and in proportion to others. tuned: same
 
-/// [N] for each [m/s] of error: suits the whole machine but stays stable for wheels that spin freely.
+/// [N] for each [m/s] of error: suits the whole machine but stays stable for wheels that spin
+/// freely.
 double gain_of(const DrivenWheels& wheels, double dt) {
   const double rim = wheels.spin_inertia / (wheels.radius * wheels.radius);
   return std::min(wheels.mass / wheels.response, 0.3 * rim / dt);
@@ -19,16 +20,18 @@ double gain_of(const DrivenWheels& wheels, double dt) {
 
 }  // namespace
 
-double SpeedGovernor::wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels,
-                                   double dt, double left) {
+double SpeedGovernor::wheel_torque(const scene::Powertrain& powertrain, double speed,
+                                   const DrivenWheels& wheels, double dt, double left) {
   if (wheels.count <= 0) return 0;
-  const double force = ask(std::clamp(speed, -powertrain.max_speed, powertrain.max_speed), wheels, dt);
+  const double force =
+      ask(std::clamp(speed, -powertrain.max_speed, powertrain.max_speed), wheels, dt);
   const double now = wheels.spin * wheels.radius;
   // Full power from a crawl on; at rest the tractive force rules.
   const double crawl = std::max(std::abs(now), 0.1);
   const double most = std::min(powertrain.tractive_force, powertrain.power / crawl);
   const double driving = std::min(most, left / crawl);
-  const double limited = give(force, now < 0 ? -driving : -most, now < 0 ? most : driving, wheels, dt);
+  const double limited =
+      give(force, now < 0 ? -driving : -most, now < 0 ? most : driving, wheels, dt);
   return limited * wheels.radius / wheels.count;
 }
 
@@ -39,13 +42,16 @@ double SpeedGovernor::ask(double speed, const DrivenWheels& wheels, double dt) {
   return wheels.mass * (asked_ - before) / dt + gain_of(wheels, dt) * error + integral_;
 }
 
-double SpeedGovernor::give(double force, double low, double high, const DrivenWheels& wheels, double dt) {
+double SpeedGovernor::give(double force, double low, double high, const DrivenWheels& wheels,
+                           double dt) {
   const double error = asked_ - wheels.spin * wheels.radius;
   const double limited = std::clamp(force, low, high);
   // Integrates only while it can act.
   if (force == limited || error * force < 0)
-    integral_ = std::clamp(
-        integral_ + gain_of(wheels, dt) / (wheels.response / kSpeedTime * kIntegralTime) * error * dt, low, high);
+    integral_ =
+        std::clamp(integral_ + gain_of(wheels, dt) /
+                                   (wheels.response / kSpeedTime * kIntegralTime) * error * dt,
+                   low, high);
   return limited;
 }
 

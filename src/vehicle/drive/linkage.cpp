@@ -7,20 +7,22 @@
 namespace navvy::vehicle {
 namespace {
 
-/// The other wheel's angle [rad] when the left one is at `left`; seen in a mirror, the left one's when the right one
-/// is.
+/// The other wheel's angle [rad] when the left one is at `left`; seen in a mirror, the left one's
+/// when the right one is.
 double across(const scene::LinkageDrive& drive, double left) {
   const double a = drive.arm, t = drive.tie_rod, half = 0.5 * drive.track;
   // Both arms with the wheels straight.
   const Vec2 straight = scene::steering_arm(drive), mirrored(straight.x(), -straight.y());
-  // The end of the left one, from the right king pin: the right end is `a` from there and `t` from the left end.
+  // The end of the left one, from the right king pin: the right end is `a` from there and `t` from
+  // the left end.
   const Vec2 end = Vec2(0, 2 * half) + Eigen::Rotation2Dd(left) * straight;
   const double cosine = (end.squaredNorm() + a * a - t * t) / (2 * a * end.norm());
   const double open = std::acos(std::clamp(cosine, -1.0, 1.0));
   // Of the two ways to close it, the one that goes on from straight wheels.
   const Vec2 from = Vec2(0, 2 * half) + straight;
   const double side = from.x() * mirrored.y() - from.y() * mirrored.x() < 0 ? -1 : 1;
-  const double angle = std::atan2(end.y(), end.x()) + side * open - std::atan2(mirrored.y(), mirrored.x());
+  const double angle =
+      std::atan2(end.y(), end.x()) + side * open - std::atan2(mirrored.y(), mirrored.x());
   return std::remainder(angle, 2 * kPi);
 }
 
@@ -32,16 +34,18 @@ SteerAngles angles_at(const scene::LinkageDrive& drive, double motor) {
 
 /// Of both wheels, the mean: wheels that disagree drag.
 double mean_tangent(const scene::LinkageDrive& drive, const SteerAngles& angles) {
-  return 0.5 * (bicycle_tangent(drive, angles.left, true) + bicycle_tangent(drive, angles.right, false));
+  return 0.5 *
+         (bicycle_tangent(drive, angles.left, true) + bicycle_tangent(drive, angles.right, false));
 }
 
 }  // namespace
 
 MotorRange motor_range(const scene::LinkageDrive& drive) {
-  // To the left the left wheel is the inner one, to the right the outer one, which turns less; in a linkage that is
-  // turned round it is the other way.
+  // To the left the left wheel is the inner one, to the right the outer one, which turns less; in a
+  // linkage that is turned round it is the other way.
   const double most = drive.max_steer, outer = across(drive, most);
-  return {-drive.gear_ratio * std::min(outer, most), drive.gear_ratio * (outer > most ? -across(drive, -most) : most)};
+  return {-drive.gear_ratio * std::min(outer, most),
+          drive.gear_ratio * (outer > most ? -across(drive, -most) : most)};
 }
 
 SteerAngles linkage_angles(const scene::LinkageDrive& drive, double motor) {
@@ -61,18 +65,22 @@ LinkageLine::LinkageLine(const scene::LinkageDrive& drive, const std::vector<Dri
     : AckermannLine(drive, wheels), drive_(drive) {}
 
 Roll LinkageLine::roll(const DriveInput& input) const {
-  const double speed = input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
-  return {speed, speed * mean_tangent(drive_, linkage_angles(drive_, input.steer)) / drive_.wheelbase};
+  const double speed =
+      input.brake ? 0 : std::clamp(input.speed, -drive_.max_speed, drive_.max_speed);
+  return {speed,
+          speed * mean_tangent(drive_, linkage_angles(drive_, input.steer)) / drive_.wheelbase};
 }
 
-std::optional<double> LinkageLine::steer_angle(const DriveInput& input, const DriveWheel& wheel) const {
+std::optional<double> LinkageLine::steer_angle(const DriveInput& input,
+                                               const DriveWheel& wheel) const {
   const SteerAngles steer = linkage_angles(drive_, input.steer);
   return wheel.left ? steer.left : steer.right;
 }
 
 scene::AckermannDrive bicycle_of(const scene::LinkageDrive& drive) { return drive; }
 
-// The tangent grows with the motor's position: halved until nothing is left to halve, the same in every run.
+// The tangent grows with the motor's position: halved until nothing is left to halve, the same in
+// every run.
 double command_of(const scene::LinkageDrive& drive, double bicycle, double speed) {
   (void)speed;
   const double wanted = std::tan(std::clamp(bicycle, -radians(89), radians(89)));

@@ -12,7 +12,7 @@
 #include "core/limits.h"
 #include "core/log.h"
 #include "folder.h"
-#include "geometry/solid.h"
+#include "geometry/solid_properties.h"
 
 namespace navvy::geometry {
 namespace {
@@ -34,7 +34,8 @@ class ReadObj : public ::testing::Test {
   /// Whether `text` is refused with that line of the file.
   ::testing::AssertionResult refuses(const std::string& text, int line) {
     const std::string found = fault(text);
-    if (found.find(path_ + ":" + std::to_string(line) + ":") != std::string::npos) return ::testing::AssertionSuccess();
+    if (found.find(path_ + ":" + std::to_string(line) + ":") != std::string::npos)
+      return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << found;
   }
 
@@ -54,7 +55,8 @@ TEST_F(ReadObj, KeepsVerticesInOrderAndCutsFacesIntoTriangles) {
 }
 
 TEST_F(ReadObj, TakesBackwardIndicesTextureIndicesAndEveryLineEnd) {
-  for (const char* face : {"f -4 -3 -2\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/1/1 3/1/1"}) {
+  for (const char* face :
+       {"f -4 -3 -2\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/1/1 3/1/1"}) {
     const TriangleMesh mesh = read(kSquare + "vt 0 0\nvn 0 0 1\n" + face);
     ASSERT_EQ(mesh.triangles.size(), 1u) << face;
     EXPECT_EQ(mesh.triangles[0], (std::array<int, 3>{0, 1, 2}));
@@ -72,8 +74,9 @@ TEST_F(ReadObj, RoundsToSinglePrecision) {
 }
 
 TEST_F(ReadObj, GivesEveryTriangleItsMaterial) {
-  write_file_atomically(folder_ / "paint.mtl",
-                        "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nd 0.5\nnewmtl spare\nKd 0 1 0\n");
+  write_file_atomically(
+      folder_ / "paint.mtl",
+      "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nd 0.5\nnewmtl spare\nKd 0 1 0\n");
   const TriangleMesh mesh = read("mtllib paint.mtl\n" + kSquare + "f 1 2 3\nusemtl red\nf 1 3 4\n");
   ASSERT_EQ(mesh.materials.size(), 2u) << "also the one nobody uses";
   EXPECT_EQ(mesh.materials[0].name, "red");
@@ -119,21 +122,26 @@ TEST_F(ReadObj, TakesAnEmptyFileForAnEmptyMeshAndRefusesAMissingOne) {
 }
 
 TEST_F(ReadObj, ReadsABodyWithItsVolume) {
-  const TriangleMesh tetrahedron = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const TriangleMesh tetrahedron =
+      read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   EXPECT_NEAR(solid_properties(tetrahedron).volume, 1.0 / 6, 1e-15);
 }
 
 TEST_F(ReadObj, OpensMaterialFilesInItsFolderOnlyAndOnlyPlainOnes) {
   for (const char* name : {"/dev/zero", "../paint.mtl", "a/../../paint.mtl", "/etc/passwd"})
-    EXPECT_NE(fault("mtllib " + std::string(name) + "\n" + kSquare + "f 1 2 3\n").find("must lie in the folder"),
+    EXPECT_NE(fault("mtllib " + std::string(name) + "\n" + kSquare + "f 1 2 3\n")
+                  .find("must lie in the folder"),
               std::string::npos)
         << name;
   ASSERT_EQ(::mkfifo((folder_ / "pipe.mtl").c_str(), 0600), 0);
   std::filesystem::create_symlink("/dev/zero", folder_ / "zero.mtl");
-  EXPECT_NE(fault("mtllib pipe.mtl\n" + kSquare + "f 1 2 3\n").find("it is a pipe"), std::string::npos);
-  EXPECT_NE(fault("mtllib zero.mtl\n" + kSquare + "f 1 2 3\n").find("it is a device"), std::string::npos);
+  EXPECT_NE(fault("mtllib pipe.mtl\n" + kSquare + "f 1 2 3\n").find("it is a pipe"),
+            std::string::npos);
+  EXPECT_NE(fault("mtllib zero.mtl\n" + kSquare + "f 1 2 3\n").find("it is a device"),
+            std::string::npos);
   write_file_atomically(folder_ / "large.mtl", std::string(limits::kMtlBytes + 1, '#'));
-  EXPECT_NE(fault("mtllib large.mtl\n" + kSquare + "f 1 2 3\n").find("more than 1048576 bytes"), std::string::npos);
+  EXPECT_NE(fault("mtllib large.mtl\n" + kSquare + "f 1 2 3\n").find("more than 1048576 bytes"),
+            std::string::npos);
   ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
   EXPECT_THROW(read_obj(folder_ / "pipe.obj"), InputError);
 }
@@ -148,11 +156,15 @@ TEST_F(ReadObj, BoundsWhatAFileMayAskFor) {
   EXPECT_TRUE(refuses(kSquare + "# " + std::string(limits::kObjLineBytes, 'x') + "\n", 5));
   EXPECT_TRUE(refuses("v 0 0 1e7\n", 1));
   EXPECT_TRUE(refuses(kSquare + repeated("f 1 2 3\n", limits::kObjTriangles + 1), 1'000'005));
-  EXPECT_NE(fault(repeated("v 0 0 0\n", limits::kObjVertices + 1)).find("at most 2000000 vertices"), std::string::npos);
-  EXPECT_NE(fault(repeated("g\n", limits::kObjStatements + 1)).find("at most 100000 lines of groups"),
+  EXPECT_NE(fault(repeated("v 0 0 0\n", limits::kObjVertices + 1)).find("at most 2000000 vertices"),
             std::string::npos);
-  EXPECT_NE(fault(repeated("mtllib a.mtl\n", limits::kMtlFiles + 1)).find("at most 16 mtllib"), std::string::npos);
-  EXPECT_NE(fault(std::string(limits::kObjBytes + 1, '\n')).find("more than 67108864 bytes"), std::string::npos);
+  EXPECT_NE(
+      fault(repeated("g\n", limits::kObjStatements + 1)).find("at most 100000 lines of groups"),
+      std::string::npos);
+  EXPECT_NE(fault(repeated("mtllib a.mtl\n", limits::kMtlFiles + 1)).find("at most 16 mtllib"),
+            std::string::npos);
+  EXPECT_NE(fault(std::string(limits::kObjBytes + 1, '\n')).find("more than 67108864 bytes"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the element rigs. Their gates stand in the rigs; what today's law makes of a triaxial sample is
-// checked for itself.
+// Small siblings of the element rigs. Their gates stand in the rigs; what today's law makes of a
+// triaxial sample is checked for itself.
 #include <cmath>
 
 #include "core/math.h"
@@ -21,9 +21,10 @@ TEST(LabTriaxial, CompressionAndExtensionMobiliseAnAngleBelowOrAboveThePlaneOne)
     return measured(run_rig("triaxial", {{"path", path}}), "mobilised friction angle");
   };
   const double compression = angle(0), extension = angle(1);
-  // The mean over the middle of a cube of 8 cells reads 0.3 to 0.4 deg more than the law itself, which tests of the law
-  // hold to a hundredth; of 6 cells 0.8. A cone in stress space matched at phi 35 in plane strain has 25.2 and 36.5
-  // deg; the surface of Matsuoka and Nakai 31.2 in both. Any law between them mobilises no less and no more.
+  // The mean over the middle of a cube of 8 cells reads 0.3 to 0.4 deg more than the law itself,
+  // which tests of the law hold to a hundredth; of 6 cells 0.8. A cone in stress space matched at
+  // phi 35 in plane strain has 25.2 and 36.5 deg; the surface of Matsuoka and Nakai 31.2 in both.
+  // Any law between them mobilises no less and no more.
   EXPECT_GT(compression, 24.5);
   EXPECT_LT(compression, 31.8);
   EXPECT_GT(extension, 30.6);

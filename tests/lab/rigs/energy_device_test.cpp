@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The account of the soil's energy [docs/soil.md, energy]: that it closes, and that keeping it changes no bit.
+// The account of the soil's energy [docs/soil.md, energy]: that it closes, and that keeping it
+// changes no bit.
 #include <gtest/gtest.h>
 
 #include "lab/run_rig.h"
@@ -16,10 +17,12 @@ TEST(LabEnergy, OfABladeIsWhatWasSuppliedAndChangesNoBit) {
   ASSERT_TRUE(report.energy);
   const soil::EnergyAccount& energy = *report.energy;
   EXPECT_GT(energy.tools, 50);  // 2.5 kN over 0.07 m with their rise: 81 J
-  // All terms are taken by themselves: 0.4 % is left, as stresses and velocities are half a step apart.
+  // All terms are taken by themselves: 0.4 % is left, as stresses and velocities are half a step
+  // apart.
   EXPECT_NEAR(energy.residual(), 0, 0.015 * energy.tools);
   EXPECT_LE(energy.dissipated(), energy.supplied());
-  for (const double spent : {energy.plastic, energy.viscous, energy.contact, energy.transfer, energy.mixing})
+  for (const double spent :
+       {energy.plastic, energy.viscous, energy.contact, energy.transfer, energy.mixing})
     EXPECT_GE(spent, 0);
   EXPECT_LE(energy.transfer, 0.05 * energy.tools);
   // The blade is smooth and presses its soil up: no gain from crowding beyond a thousandth.

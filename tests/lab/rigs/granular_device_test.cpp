@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the granular rigs, seconds each. The gates are the rigs' own; where a small sibling is outside its
-// gate the test says so, checks what holds, and docs/validation.md has the row as a miss.
+// Small siblings of the granular rigs, seconds each. The gates are the rigs' own; where a small
+// sibling is outside its gate the test says so, checks what holds, and docs/validation.md has the
+// row as a miss.
 #include "core/error.h"
 #include "core/math.h"
 #include "lab/run_rig.h"
@@ -9,13 +10,14 @@
 namespace navvy::lab {
 namespace {
 
-TEST(LabColumn, PlaneRunOutLiesInTheBandAndAHardFloorOutsideIt) {
+TEST(LabColumn, PlaneRunOutIsInTheBandAndAHardFloorOutsideIt) {
   const Report report = run_rig("column", {});  // 30 cells, as the band demands
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(measured(report, "particles through a plate"), 0);
   EXPECT_EQ(report.ledger_error, 0);
   // Negative control: nearly rigid sand must be told apart, already at 10 cells.
-  const Report control = run_rig("column", {{"l0", 0.5}}, [](lab::Setup& s) { s.soil.friction_angle = radians(59); });
+  const Report control =
+      run_rig("column", {{"l0", 0.5}}, [](lab::Setup& s) { s.soil.friction_angle = radians(59); });
   EXPECT_LT(measured(control, "run-out over L0"), 1.2);
   // Of which the gate itself says nothing, as it speaks of other sand and of more cells.
   EXPECT_EQ(misses(control), "");
@@ -23,7 +25,8 @@ TEST(LabColumn, PlaneRunOutLiesInTheBandAndAHardFloorOutsideIt) {
 }
 
 TEST(LabColumn, RoundColumnSpreadsToAllSides) {
-  // 12 cells of radius, where the band wants 30: the run-out falls short, as it does in the plane case.
+  // 12 cells of radius, where the band wants 30: the run-out falls short, as it does in the plane
+  // case.
   const Report report = run_rig("column", {{"shape", 1}, {"l0", 0.6}});
   EXPECT_GT(measured(report, "run-out over L0"), 0.7);
   EXPECT_LT(measured(report, "run-out over L0"), 1.5);
@@ -57,8 +60,8 @@ TEST(LabSlide, BlocksObeyCoulomb) {
   const Report report = run_rig("slide", {{"time", 0.6}});
   EXPECT_EQ(misses(report), "");
   // The force the plate feels is Coulomb's to the rounding of floats.
-  EXPECT_NEAR(measured(report, "soil block, shear without adhesion x area over normal force"), std::tan(radians(20)),
-              1e-3);
+  EXPECT_NEAR(measured(report, "soil block, shear without adhesion x area over normal force"),
+              std::tan(radians(20)), 1e-3);
 }
 
 TEST(LabThrow, SoilOpensFliesAndLands) {
@@ -93,7 +96,7 @@ TEST(LabRigs, SayWhatTheyMeasureAndRefuseNonsense) {
   EXPECT_THROW(find_rig("rest").run(setup), InputError);
 }
 
-TEST(Lab, RefusesGeometryThatMeansNothingAndTellsEveryFault) {
+TEST(Lab, RejectsMeaninglessGeometryAndReportsEveryFault) {
   lab::Setup setup = default_setup(find_rig("column"), test_device());
   EXPECT_NO_THROW(check(find_rig("column"), setup));
   setup.geometry["l0"] = -1;
@@ -106,7 +109,8 @@ TEST(Lab, RefusesGeometryThatMeansNothingAndTellsEveryFault) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.faults().size(), 4u) << error.what();
   }
-  for (const Rig& rig : rigs()) EXPECT_NO_THROW(check(rig, default_setup(rig, test_device()))) << rig.name;
+  for (const Rig& rig : rigs())
+    EXPECT_NO_THROW(check(rig, default_setup(rig, test_device()))) << rig.name;
 }
 
 }  // namespace

@@ -47,12 +47,16 @@ TEST(HeapSurface, OfABlockIsAQuarterCellAboveItsGrains) {
   const Vec3 size(1, 1, 0.6);
   const auto all = [](const Vec3&) { return true; };
   const double exact = mean_height(surface_of(lattice(size, 0, all), kCell, 0), size.head<2>());
-  std::printf("[ VALUE    ] bias of the surface over a lattice: %.3f cells\n", (exact - 0.6) / kCell);
-  // A ball of half a cell sinks by 0.15 cells in the middle of four grains of a lattice, by a third of it on average.
+  std::printf("[ VALUE    ] bias of the surface over a lattice: %.3f cells\n",
+              (exact - 0.6) / kCell);
+  // A ball of half a cell sinks by 0.15 cells in the middle of four grains of a lattice, by a third
+  // of it on average.
   EXPECT_NEAR(exact, 0.6, 0.07 * kCell);
-  // Shaken and strewn grains: the ball rolls on the highest of them, and falls between them as often.
+  // Shaken and strewn grains: the ball rolls on the highest of them, and falls between them as
+  // often.
   const double shaken = mean_height(surface_of(lattice(size, 0.5, all), kCell, 0), size.head<2>());
-  std::printf("[ VALUE    ] bias of the surface over shaken grains: %.3f cells\n", (shaken - 0.6) / kCell);
+  std::printf("[ VALUE    ] bias of the surface over shaken grains: %.3f cells\n",
+              (shaken - 0.6) / kCell);
   EXPECT_NEAR(shaken, 0.6, 0.05 * kCell);
   // Grains anywhere, without order.
   Random random(5);
@@ -61,7 +65,8 @@ TEST(HeapSurface, OfABlockIsAQuarterCellAboveItsGrains) {
   for (int i = 0; i < 8 * 600; ++i)
     strewn.push_back(Vec3(random.uniform(), random.uniform(), random.uniform()).cwiseProduct(size));
   const double loose = mean_height(surface_of(strewn, kCell, 0), size.head<2>());
-  std::printf("[ VALUE    ] bias of the surface over strewn grains: %.3f cells\n", (loose - 0.6) / kCell);
+  std::printf("[ VALUE    ] bias of the surface over strewn grains: %.3f cells\n",
+              (loose - 0.6) / kCell);
   EXPECT_NEAR(loose, 0.6, 0.05 * kCell);
 }
 
@@ -70,7 +75,9 @@ TEST(HeapSurface, FlankOfAHeapHasItsAngle) {
   const auto wedge = [&](const Vec3& p) { return p.z() < slope * (2 - std::abs(p.x() - 2)); };
   const HeapSurface flat = surface_of(lattice(Vec3(4, 0.5, 1.3), 0.3, wedge), kCell, 0);
   EXPECT_NEAR(degrees(flank_angle(flat, Vec2(2, 0.25), false, kCell)), 31, 0.7);
-  const auto cone = [&](const Vec3& p) { return p.z() < slope * (2 - (p.head<2>() - Vec2(2, 2)).norm()); };
+  const auto cone = [&](const Vec3& p) {
+    return p.z() < slope * (2 - (p.head<2>() - Vec2(2, 2)).norm());
+  };
   const HeapSurface round = surface_of(lattice(Vec3(4, 4, 1.3), 0.3, cone), kCell, 0);
   EXPECT_NEAR(degrees(flank_angle(round, Vec2(2, 2), true, kCell)), 31, 0.7);
   const double exact = kPi / 3 * 4 * slope * 2;

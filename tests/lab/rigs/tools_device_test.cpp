@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the tool rigs; the full sizes and half cells run in tests/validation/lab_tools_test.cpp.
+// Small siblings of the tool rigs; the full sizes and half cells run in
+// tests/validation/lab_tools_test.cpp.
 #include <cmath>
 
 #include "core/math.h"
@@ -19,15 +20,18 @@ TEST(LabBlade, SmoothWideBladeFeelsThePassivePressure) {
 TEST(LabBlade, FeelsTheSameAtHalfTheStep) {
   // Transfers last a fixed time [docs/soil.md, transfer]; with one in every step it is 7.7 %.
   const auto force = [](double courant) {
-    return measured(run_rig("blade", {{"courant", courant}, {"gate-percent", 0}}), "horizontal force");
+    return measured(run_rig("blade", {{"courant", courant}, {"gate-percent", 0}}),
+                    "horizontal force");
   };
   EXPECT_NEAR(force(0.25) / force(0.5), 1, 0.01);
 }
 
 TEST(LabBlade, CohesionAddsItsPart) {
-  // Farther than sand needs: at 500 times the cohesion E is soft, and the force still rises at 0.07 m.
-  const Report report = run_rig("blade", {{"from", 0.05}, {"travel", 0.12}},
-                                [](lab::Setup& s) { s.soil.cohesion = s.soil.residual_cohesion = 2000; });
+  // Farther than sand needs: at 500 times the cohesion E is soft, and the force still rises at 0.07
+  // m.
+  const Report report = run_rig("blade", {{"from", 0.05}, {"travel", 0.12}}, [](lab::Setup& s) {
+    s.soil.cohesion = s.soil.residual_cohesion = 2000;
+  });
   EXPECT_EQ(misses(report), "");
 }
 
@@ -41,13 +45,17 @@ TEST(LabBlade, FlatterBladeNeedsLessForce) {
 }
 
 TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
-  const Report report = run_rig(
-      "blade",
-      {{"rake-deg", 60}, {"depth", 0.15}, {"length", 0.3}, {"gate-percent", 0}, {"from", 0.2}, {"travel", 0.25}},
-      [](lab::Setup& s) {
-        s.cell = 0.05;
-        s.soil.tool_friction_angle = radians(25);
-      });
+  const Report report = run_rig("blade",
+                                {{"rake-deg", 60},
+                                 {"depth", 0.15},
+                                 {"length", 0.3},
+                                 {"gate-percent", 0},
+                                 {"from", 0.2},
+                                 {"travel", 0.25}},
+                                [](lab::Setup& s) {
+                                  s.cell = 0.05;
+                                  s.soil.tool_friction_angle = radians(25);
+                                });
   const Quantity* force = report.find("horizontal force at the end");
   ASSERT_NE(force, nullptr);
   EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // 6 cells of blade, 0.3 m/s
@@ -69,7 +77,7 @@ TEST(LabBlade, RoughUprightBladeIsHeldAgainstItsBoundsNotAgainstTheWedge) {
   ASSERT_NE(wedge, nullptr);
   EXPECT_TRUE(force->judged());
   EXPECT_NE(force->source.find("[Lancellotta 2002]"), std::string::npos);
-  EXPECT_FALSE(wedge->has_gate());
+  EXPECT_FALSE(wedge->has_tolerance());
   // The wedge is an upper bound: the gate ends below it.
   EXPECT_GT(wedge->expected, force->high);
   EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // three cells deep
@@ -84,9 +92,10 @@ TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
   ASSERT_NE(force, nullptr);
   EXPECT_FALSE(force->judged());
   // What is expected is the residual soil's; the intact one's stands beside it without a gate.
-  EXPECT_NEAR(force->expected, 0.5 * 16e2 * kGravity * 0.09 * 3.6902 + 2 * 500 * 0.3 * std::sqrt(3.6902), 1);
+  EXPECT_NEAR(force->expected,
+              0.5 * 16e2 * kGravity * 0.09 * 3.6902 + 2 * 500 * 0.3 * std::sqrt(3.6902), 1);
   ASSERT_NE(report.find("horizontal force, were the soil intact"), nullptr);
-  EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_gate());
+  EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_tolerance());
 }
 
 /// The series of that name; empty when there is none.
@@ -97,7 +106,9 @@ std::vector<double> travel_of(const Report& report) {
 }
 
 TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
-  const auto travel = [](double ramp) { return travel_of(run_rig("blade", {{"ramp", ramp}, {"travel", 0.04}})); };
+  const auto travel = [](double ramp) {
+    return travel_of(run_rig("blade", {{"ramp", ramp}, {"travel", 0.04}}));
+  };
   const std::vector<double> sudden = travel(0), ramped = travel(0.02);
   ASSERT_GT(sudden.size(), 10u);
   ASSERT_GT(ramped.size(), sudden.size());
@@ -111,7 +122,8 @@ TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
 
 TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
   // A small wall, for what the rig says and not for its force.
-  const std::map<std::string, double> small = {{"height", 0.4}, {"travel", -0.03}, {"wait", 0.05}, {"ahead", 1}};
+  const std::map<std::string, double> small = {
+      {"height", 0.4}, {"travel", -0.03}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
   const Report slow = run_rig("wall", small, coarse);
   EXPECT_GT(slow.simulated_time, 0.03 * 0.4 / 0.01);  // 0.01 m/s and a ramp
@@ -121,8 +133,9 @@ TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
   EXPECT_LT(run_rig("wall", quick, coarse).simulated_time, 0.5 * slow.simulated_time);
 }
 
-TEST(LabWall, TellsWhatSoilKeepsWhenTheWallStops) {
-  std::map<std::string, double> small = {{"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
+TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
+  std::map<std::string, double> small = {
+      {"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
   const char* const kept = "force it is held by / force before it stopped";
   EXPECT_EQ(run_rig("wall", small, coarse).find(kept), nullptr);
@@ -138,9 +151,9 @@ TEST(LabWall, TellsWhatSoilKeepsWhenTheWallStops) {
   EXPECT_GT(report.simulated_time, 0.05 + 0.04 / 0.1 + 0.3);
 }
 
-TEST(LabFooting, BearsFourTimesTheCohesionAtHalfTheCellsOfTheGate) {
-  // Ten cells of breadth read 0.85 of Prandtl's 5.14, twenty 0.96, which the gate asks for. With a transfer in every
-  // step ten read more: the transfers' viscosity bore the rest.
+TEST(LabFooting, CarriesFourTimesTheCohesionAtHalfTheCellsOfTheTolerance) {
+  // Ten cells of breadth read 0.85 of Prandtl's 5.14, twenty 0.96, which the gate asks for. With a
+  // transfer in every step ten read more: the transfers' viscosity bore the rest.
   const Report report = run_rig("footing", {}, [](lab::Setup& s) { s.cell = 0.1; });
   EXPECT_NEAR(measured(report, "Nc = pressure / c"), 4.36, 0.05 * 4.36);
   EXPECT_EQ(measured(report, "particles through the shell"), 0);
@@ -155,7 +168,8 @@ TEST(LabHold, WeightOfTheLoadIsFeltWithinOnePercent) {
 
 TEST(LabHold, ShellOfHalfTheLoadHangsStill) {
   for (const double share : {1.0, 0.5}) {
-    const Report report = run_rig("hold", {{"time", 2}, {"mass", 1400}, {"shell-mass", 700}, {"step-share", share}});
+    const Report report =
+        run_rig("hold", {{"time", 2}, {"mass", 1400}, {"shell-mass", 700}, {"step-share", share}});
     EXPECT_EQ(misses(report), "") << "step share " << share;
   }
 }
@@ -180,7 +194,8 @@ TEST(LabRigs, NamesAndParametersAreUnique) {
     EXPECT_FALSE(rig.drawing.empty()) << rig.name;
     EXPECT_NE(rig.experiment, nullptr) << rig.name;
     std::map<std::string, int> names;
-    for (const Parameter& parameter : rig.parameters) EXPECT_EQ(names[parameter.name]++, 0) << parameter.name;
+    for (const Parameter& parameter : rig.parameters)
+      EXPECT_EQ(names[parameter.name]++, 0) << parameter.name;
   }
 }
 

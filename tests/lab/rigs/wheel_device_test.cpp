@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wheel on particles, four cells of radius; the measured wheel runs in tests/validation/wheel_test.cpp.
+// A wheel on particles, four cells of radius; the measured wheel runs in
+// tests/validation/wheel_test.cpp.
 #include "core/error.h"
 #include "core/math.h"
 #include "lab/run_rig.h"
@@ -24,7 +25,7 @@ Report roll(double slip, double delta_degrees) {
                  });
 }
 
-TEST(LabWheel, BearsItsLoadAndPullsMoreTheMoreItSlips) {
+TEST(LabWheel, CarriesItsLoadAndPullsMoreTheMoreItSlips) {
   double before = -1e9;
   for (const double slip : {-0.5, 0.0, 0.5}) {  // a locked one would go on sinking
     const Report report = roll(slip, 20);
@@ -40,7 +41,8 @@ TEST(LabWheel, BearsItsLoadAndPullsMoreTheMoreItSlips) {
 
 TEST(LabWheel, SmoothWheelFeelsNoTorque) {
   const Report report = roll(0.5, 0);
-  EXPECT_NEAR(measured(report, "torque over radius x load"), 0, 0.02);  // facets of 7.5 degrees, no shear
+  // Facets of 7.5 degrees, no shear
+  EXPECT_NEAR(measured(report, "torque over radius x load"), 0, 0.02);
   EXPECT_LT(measured(report, "drawbar pull"), 0);
 }
 

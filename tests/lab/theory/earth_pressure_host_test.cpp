@@ -16,8 +16,8 @@ double kc(double phi_degrees, double delta_degrees) {
 }
 
 TEST(SlipLine, CohesionCoefficientsMatchTheirTable) {
-  // The exact field's, to three figures; the planar wedge has 3.46, 4.78, 6.96, 11.2. The last one by hand: the fan
-  // turns by 40.6 deg, p = 7.85 c.
+  // The exact field's, to three figures; the planar wedge has 3.46, 4.78, 6.96, 11.2. The last one
+  // by hand: the fan turns by 40.6 deg, p = 7.85 c.
   const double deltas[] = {0, 10, 20, 30}, coefficients[] = {3.46, 4.60, 5.78, 6.72};
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(kc(30, deltas[i]), coefficients[i], 6e-3) << deltas[i];
 }
@@ -66,7 +66,8 @@ TEST(LogSpiral, ReachesTheTablesOfCaquotAndKerisel) {
 
 TEST(LogSpiral, OfASmoothWallIsRankine) {
   for (const double phi : {20.0, 30.0, 40.0})
-    EXPECT_NEAR(passive_log_spiral(radians(phi), 0) / rankine_passive(radians(phi)), 1, 2e-3) << phi;
+    EXPECT_NEAR(passive_log_spiral(radians(phi), 0) / rankine_passive(radians(phi)), 1, 2e-3)
+        << phi;
 }
 
 TEST(LogSpiral, LiesBetweenTheLowerBoundAndThePlanarWedge) {
@@ -100,7 +101,9 @@ TEST(MatsuokaNakai, TriaxialAngleOfAPlaneStrainAngle) {
   EXPECT_NEAR(degrees(matsuoka_nakai_triaxial(radians(35))), 31.2, 0.05);
   // The two stress states lie on one surface: I1 I2 / I3 of both.
   const double phi = radians(27), s = std::sin(phi), t = std::sin(matsuoka_nakai_triaxial(phi));
-  const auto kappa = [](double a, double b, double c) { return (a + b + c) * (a * b + b * c + c * a) / (a * b * c); };
+  const auto kappa = [](double a, double b, double c) {
+    return (a + b + c) * (a * b + b * c + c * a) / (a * b * c);
+  };
   EXPECT_NEAR(kappa(1 + t, 1 - t, 1 - t), kappa(1 + s, 1, 1 - s), 1e-9);
   EXPECT_NEAR(kappa(1 + t, 1 + t, 1 - t), kappa(1 + s, 1, 1 - s), 1e-9);
   EXPECT_EQ(matsuoka_nakai_triaxial(0), 0);

@@ -31,7 +31,8 @@ TEST(Formulas, ActiveForceOfCohesiveSoilBeginsBelowTheCrack) {
   EXPECT_EQ(rankine_active_force(phi, c, gamma, 0.99 * crack), 0);
   // Below the crack the pressure is a triangle that starts at zero.
   const double h = 2.5;
-  EXPECT_NEAR(rankine_active_force(phi, c, gamma, h), 0.5 * gamma * rankine_active(phi) * std::pow(h - crack, 2), 1e-6);
+  EXPECT_NEAR(rankine_active_force(phi, c, gamma, h),
+              0.5 * gamma * rankine_active(phi) * std::pow(h - crack, 2), 1e-6);
 }
 
 TEST(Formulas, WedgeReproducesItsCheckValue) {
@@ -53,7 +54,8 @@ TEST(Formulas, SmoothUprightWedgeIsRankine) {
   blade.depth = 0.3;
   blade.unit_weight = 16000;
   blade.cohesion = 2000;
-  EXPECT_NEAR(reece_wedge(blade).horizontal, rankine_passive_force(blade.phi, 2000, 16000, 0.3), 1e-3);
+  EXPECT_NEAR(reece_wedge(blade).horizontal, rankine_passive_force(blade.phi, 2000, 16000, 0.3),
+              1e-3);
   EXPECT_NEAR(degrees(reece_wedge(blade).beta), 45 - 17.5, 1e-3);
 }
 
@@ -83,11 +85,13 @@ BladeCase dry_sand_cut(double rake_degrees, double depth) {
 
 TEST(Formulas, RidingLayerReproducesTheNineValuesOfItsTable) {
   const double rakes[] = {30, 45, 60}, depths[] = {0.05, 0.10, 0.15};
-  const double forces[3][3] = {{104, 259, 463}, {163, 400, 711}, {250, 605, 1064}};  // [Miedema 2014], blade 0.20 m
+  // [Miedema 2014], blade 0.20 m
+  const double forces[3][3] = {{104, 259, 463}, {163, 400, 711}, {250, 605, 1064}};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
       // Printed to 1 N, and with 0.3 N of inertia.
-      EXPECT_NEAR(riding_layer(dry_sand_cut(rakes[i], depths[k]), 0.2).horizontal, forces[i][k], 0.8);
+      EXPECT_NEAR(riding_layer(dry_sand_cut(rakes[i], depths[k]), 0.2).horizontal, forces[i][k],
+                  0.8);
 }
 
 TEST(Formulas, WedgeUnderLevelGroundIsReeceAndGrowsWithThePile) {
@@ -95,7 +99,8 @@ TEST(Formulas, WedgeUnderLevelGroundIsReeceAndGrowsWithThePile) {
   const double level = reece_wedge(blade).horizontal;
   // Strips 0.25 mm wide.
   EXPECT_NEAR(wedge_under(blade, 0.1, [](double) { return 0.1; }).horizontal / level, 1, 0.01);
-  EXPECT_GT(wedge_under(blade, 0.173, [](double x) { return x < 0.1 ? 0.173 : 0.1; }).horizontal, 1.3 * level);
+  EXPECT_GT(wedge_under(blade, 0.173, [](double x) { return x < 0.1 ? 0.173 : 0.1; }).horizontal,
+            1.3 * level);
 }
 
 TEST(Formulas, BearingCapacityMatchesItsTable) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small site for the exchange tests: flat ground of chosen soils, and books over columns and particles.
+// A small site for the exchange tests: flat ground of chosen soils, and books over columns and
+// particles.
 #pragma once
 
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include "heightfield/ground.h"
+#include "heightfield/layered_ground.h"
 #include "scene/scene.h"
 #include "soil/exchange/exchange.h"
 
@@ -54,12 +55,14 @@ inline heightfield::Ground make_ground(
 /// Ground, exchange and the particles between them, without a solver: particles lie where they are.
 struct Site {
   explicit Site(
-      std::vector<scene::Soil> soils, int nx = 48, int ny = 40, std::vector<scene::GroundLayer> layers = {},
+      std::vector<scene::Soil> soils, int nx = 48, int ny = 40,
+      std::vector<scene::GroundLayer> layers = {},
       heightfield::SurfaceSource surface = [](int, int) { return 0.0; })
       : world(make_world(std::move(soils))),
-        ground(make_ground(world, nx, ny,
-                           layers.empty() ? std::vector<scene::GroundLayer>{{world.soils[0].name, 9}} : layers,
-                           std::move(surface))),
+        ground(make_ground(
+            world, nx, ny,
+            layers.empty() ? std::vector<scene::GroundLayer>{{world.soils[0].name, 9}} : layers,
+            std::move(surface))),
         exchange(world, ground) {}
 
   static scene::Scene make_world(std::vector<scene::Soil> soils) {
@@ -88,7 +91,7 @@ struct Site {
     Exchange::Result sum;
     for (int n = static_cast<int>(std::lround(seconds / step)); n > 0; --n) {
       const Exchange::Result one = check(tools);
-      sum.woken_columns += one.woken_columns;
+      sum.activated_columns += one.activated_columns;
       sum.deposited_blocks += one.deposited_blocks;
       sum.slumped_columns += one.slumped_columns;
     }
@@ -110,13 +113,15 @@ struct Site {
     }
   }
   /// Columns and particles against the start, per soil; all zero when the books are closed.
-  std::vector<std::int64_t> open_books() const {
+  std::vector<std::int64_t> mass_errors() const {
     std::vector<std::int64_t> sum = ground.mass_change();
     for (std::size_t s = 0; s < inserted.size(); ++s) sum[s] -= inserted[s];
     for (const Particle& p : particles) sum[p.soil] += p.mass;
     return sum;
   }
-  std::vector<std::int64_t> closed() const { return std::vector<std::int64_t>(world.soils.size(), 0); }
+  std::vector<std::int64_t> closed() const {
+    return std::vector<std::int64_t>(world.soils.size(), 0);
+  }
   std::vector<float> heights() const {
     std::vector<float> out;
     ground.copy_heights({0, 0, ground.nx(), ground.ny()}, out);
@@ -133,8 +138,8 @@ struct Site {
 };
 
 /// A particle at rest at (x, y, z) in cells of the grid frame.
-inline Particle particle_at(const Site& site, double x, double y, double z, double volume_cells, float j0,
-                            std::uint16_t soil = 0) {
+inline Particle particle_at(const Site& site, double x, double y, double z, double volume_cells,
+                            float j0, std::uint16_t soil = 0) {
   Particle p;
   const double at[3] = {x, y, z};
   for (int a = 0; a < 3; ++a) {
@@ -145,14 +150,15 @@ inline Particle particle_at(const Site& site, double x, double y, double z, doub
   p.soil = soil;
   p.shear = 2;
   p.mass = static_cast<std::int32_t>(
-      mass_units(volume_cells * kCell * kCell * kCell * site.world.soils[soil].bank_density / static_cast<double>(j0)));
+      mass_units(volume_cells * kCell * kCell * kCell * site.world.soils[soil].bank_density /
+                 static_cast<double>(j0)));
   return p;
 }
 
 /// Soil where `inside(x, y, z)` (cells), 8 particles a cell on a lattice, jittered.
 inline std::vector<Particle> fill(const Site& site, const Vec3i& low, const Vec3i& high, float j0,
-                                  const std::function<bool(double, double, double)>& inside, double jitter = 0,
-                                  std::uint16_t soil = 0) {
+                                  const std::function<bool(double, double, double)>& inside,
+                                  double jitter = 0, std::uint16_t soil = 0) {
   std::vector<Particle> out;
   std::uint64_t state = 7;
   const auto noise = [&] {
@@ -164,7 +170,8 @@ inline std::vector<Particle> fill(const Site& site, const Vec3i& low, const Vec3
       for (int x = 2 * low.x(); x < 2 * high.x(); ++x) {
         const double cx = 0.5 * x + 0.25, cy = 0.5 * y + 0.25, cz = 0.5 * z + 0.25;
         if (inside(cx, cy, cz))
-          out.push_back(particle_at(site, cx + noise(), cy + noise(), cz + noise(), 0.125, j0, soil));
+          out.push_back(
+              particle_at(site, cx + noise(), cy + noise(), cz + noise(), 0.125, j0, soil));
       }
   return out;
 }

@@ -13,13 +13,13 @@ namespace {
 
 // Takes the soil above `height` off the columns with x < 24: a cliff that somebody dug.
 void cut(Site& site, double height) {
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < site.ground.ny(); ++iy)
     for (int ix = 0; ix < 24; ++ix) site.ground.take_above(ix, iy, height, taken);
 }
 
-// Slope [deg] of a cliff of 1 m that fell: between a quarter and three quarters of its height, and the steepest over 4
-// cells.
+// Slope [deg] of a cliff of 1 m that fell: between a quarter and three quarters of its height, and
+// the steepest over 4 cells.
 struct CliffSlope {
   double mean = 0, steepest = 0;
 };
@@ -32,7 +32,8 @@ CliffSlope slope_of(const Site& site) {
       if (a <= level && b > level) (level < -0.5 ? x_low : x_high) = ix + (level - a) / (b - a);
     if (ix + 4 < 48) steepest = std::max(steepest, site.ground.height(ix + 4, row) - a);
   }
-  return {degrees(std::atan2(0.5, (x_high - x_low) * kCell)), degrees(std::atan2(steepest, 4 * kCell))};
+  return {degrees(std::atan2(0.5, (x_high - x_low) * kCell)),
+          degrees(std::atan2(steepest, 4 * kCell))};
 }
 
 double unit_weight(const scene::Soil& soil) { return soil.bank_density * kGravity; }
@@ -52,8 +53,9 @@ TEST(ExchangeSlump, ACliffOfSandStopsNearItsFrictionAngle) {
   EXPECT_TRUE(site.particles.empty());
   EXPECT_EQ(site.ground.mass_change(), mass);
   const auto [angle, most] = slope_of(site);
-  std::printf("[ VALUE    ] cliff 1 m, phi 35: slope %.1f deg, steepest %.1f, at rest after %.1f s\n", angle, most,
-              last);
+  std::printf(
+      "[ VALUE    ] cliff 1 m, phi 35: slope %.1f deg, steepest %.1f, at rest after %.1f s\n",
+      angle, most, last);
   EXPECT_GT(angle, 34 - 0.6);  // stop phi - 1; half a degree of discrete columns
   EXPECT_LT(angle, 37 + 0.5);
   EXPECT_LT(most, 38.5);  // start phi + 2 and the roughness allowed
@@ -66,16 +68,17 @@ TEST(ExchangeSlump, ACliffEndsAtTheSameAngleHoweverOftenItIsLookedAt) {
     Site site({sand()});
     site.step = step;
     cut(site, -1);
-    const std::vector<std::int64_t> books = site.open_books();
+    const std::vector<std::int64_t> books = site.mass_errors();
     EXPECT_GT(site.checks(8).slumped_columns, 0);
     EXPECT_EQ(site.checks(2).slumped_columns, 0) << "not at rest after 8 s";
-    EXPECT_EQ(site.open_books(), books);
+    EXPECT_EQ(site.mass_errors(), books);
     angles.push_back(slope_of(site).mean);
-    print_value("cliff 1 m, slope with a check every " + std::to_string(step) + " s [deg]", angles.back(),
-                "all within 1", "[docs/validation.md, Slopes, walls and cuts]");
+    print_value("cliff 1 m, slope with a check every " + std::to_string(step) + " s [deg]",
+                angles.back(), "all within 1", "[docs/validation.md, Slopes, walls and cuts]");
   }
   const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-  EXPECT_LT(*most - *least, 1);  // [deg]; sweeps follow simulated time, the scan for over-steep columns each check
+  // [deg]; sweeps follow simulated time, the scan for over-steep columns each check
+  EXPECT_LT(*most - *least, 1);
 }
 
 TEST(ExchangeSlump, AConeStandsTwoDegreesBelowFrictionAndSlidesThreeAbove) {
@@ -83,7 +86,8 @@ TEST(ExchangeSlump, AConeStandsTwoDegreesBelowFrictionAndSlidesThreeAbove) {
     Site site({sand()}, 64, 64);
     for (int iy = 0; iy < 64; ++iy)
       for (int ix = 0; ix < 64; ++ix) {
-        const double h = 1.5 - std::hypot(ix - 31.5, iy - 31.5) * kCell * std::tan(radians(35 + above));
+        const double h =
+            1.5 - std::hypot(ix - 31.5, iy - 31.5) * kCell * std::tan(radians(35 + above));
         if (h > 0) site.ground.put(ix, iy, {0, mass_units(h * kCell * kCell * 1600), 1.0f, 9.0f});
       }
     const Exchange::Result result = site.checks(1);
@@ -100,7 +104,8 @@ TEST(ExchangeSlump, AVerticalCutStandsToTheLogSpiralsHeight) {
   const scene::Soil soil = loam();
   const FaceHeights faces(soil.friction_angle);
   const double critical = faces.height(soil.cohesion / unit_weight(soil), kCell / 2, 100);
-  // Vertical face: 3.83 c / gamma tan(45 + phi/2) [Chen 1975]; the half cell of setback gives it a little more.
+  // Vertical face: 3.83 c / gamma tan(45 + phi/2) [Chen 1975]; the half cell of setback gives it a
+  // little more.
   const double vertical = 3.83 * soil.cohesion / unit_weight(soil) * std::tan(radians(60));
   print_value("vertical cut [m]", critical, std::to_string(vertical), "[Chen 1975]");
   EXPECT_GT(critical, vertical);
@@ -131,8 +136,8 @@ TEST(ExchangeSlump, TheLogSpiralHasTheKnownNumbers) {
   const FaceHeights faces(radians(30));
   for (const double face : {37.0, 48.0, 61.0, 77.0}) {
     const double height = faces.height(0.1, 2 / std::tan(radians(face)), 100);
-    EXPECT_NEAR(stability_number(radians(30), std::atan2(height, 2 / std::tan(radians(face)))), height / 0.1,
-                0.01 * height / 0.1);
+    EXPECT_NEAR(stability_number(radians(30), std::atan2(height, 2 / std::tan(radians(face)))),
+                height / 0.1, 0.01 * height / 0.1);
   }
   EXPECT_EQ(faces.height(0, 1, 100), 0);
   EXPECT_EQ(faces.height(1e6, 1, 100), 100);
@@ -172,19 +177,19 @@ TEST(ExchangeSlump, GroundThatWasSteepHoldsUntilItIsTouched) {
   // A rut on top and mere reading do not matter; digging at the foot does.
   site.ground.compact_to(30, 20, 1.48);
   EXPECT_EQ(site.checks(0.5).slumped_columns, 0);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   site.ground.take_above(23, 20, -0.2, taken);
   EXPECT_GT(site.checks(0.5).slumped_columns, 0);
 }
 
-TEST(ExchangeSlump, OverSteepColumnsBesideAwakeSoilWakeInstead) {
+TEST(ExchangeSlump, OverSteepColumnsBesideActiveSoilActivateInstead) {
   Site site({sand()});
   cut(site, -1);
   site.wake({18, 18, 23, 22}, -1.2);
-  const std::vector<std::int64_t> before = site.open_books();
+  const std::vector<std::int64_t> before = site.mass_errors();
   const Exchange::Result result = site.check();
-  EXPECT_GT(result.woken_columns, 0);
-  EXPECT_EQ(site.open_books(), before);
+  EXPECT_GT(result.activated_columns, 0);
+  EXPECT_EQ(site.mass_errors(), before);
   EXPECT_LT(site.ground.height(24, 20), -0.9);
 }
 
@@ -193,7 +198,7 @@ TEST(ExchangeSlump, ColumnsSlideWhenNoParticleMayBeAdded) {
   world.solver.max_particles = 0;
   heightfield::Ground ground = make_ground(world, 48, 40, {{"sand", 9}});
   Exchange exchange(world, ground);
-  std::vector<heightfield::Layer> taken;
+  std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < 40; ++iy)
     for (int ix = 0; ix < 24; ++ix) ground.take_above(ix, iy, -1, taken);
   ToolRegion tool;  // stands beside the face

@@ -23,37 +23,42 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
       const Vec3 node(kBlockCells * key.x + (n & 3), kBlockCells * key.y + (n >> 2 & 3),
                       kBlockCells * key.z + (n >> 4));
       const Vec3 v = v0 + gradient * (kStageCell * (node - Vec3::Constant(40)));
-      for (int k = 0; k < 3; ++k) nodes[4 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
+      for (int k = 0; k < 3; ++k)
+        nodes[4 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
       nodes[4 * i + 3] = 1e-3f;  // loose: nothing is moved apart
     }
     stages.grid.velocity().write(nodes);
-    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
     const std::vector<Particle> before = stages.store.records();
     stages.enqueue_gather();
     const std::vector<Particle> after = stages.store.records();
     double fastest = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
       Vec3 x;
-      for (int a = 0; a < 3; ++a) x[a] = kBlockCells * before[i].block[a] + static_cast<double>(before[i].x[a]);
+      for (int a = 0; a < 3; ++a)
+        x[a] = kBlockCells * before[i].block[a] + static_cast<double>(before[i].x[a]);
       const Vec3 v = v0 + gradient * (kStageCell * (x - Vec3::Constant(40)));
       for (int a = 0; a < 3; ++a) {
-        // Float sums over 27 nodes of speeds below 2 m/s; the gradient is their difference over a cell.
+        // Float sums over 27 nodes of speeds below 2 m/s; the gradient is their difference over a
+        // cell.
         EXPECT_NEAR(static_cast<double>(after[i].v[a]), v[a], 2e-6);
         EXPECT_NEAR(static_cast<double>(after[i].x[a]),
                     static_cast<double>(before[i].x[a]) + kStageStep / kStageCell * v[a], 1e-6);
-        for (int b = 0; b < 3; ++b) EXPECT_NEAR(static_cast<double>(after[i].c[3 * a + b]), gradient(a, b), 2e-4);
+        for (int b = 0; b < 3; ++b)
+          EXPECT_NEAR(static_cast<double>(after[i].c[3 * a + b]), gradient(a, b), 2e-4);
       }
       EXPECT_EQ(after[i].j, before[i].j);
       fastest = std::max(fastest, v.cwiseAbs().maxCoeff());
     }
     double reported = 0;
-    for (const Report& report : stages.report.map_read(0, table.homes.size()))
+    for (const Report& report : stages.report.map_read(0, table.particle_blocks.size()))
       reported = std::max(reported, static_cast<double>(report.speed));
     EXPECT_NEAR(reported, fastest, 2e-6);
   }
 }
 
-// Nodes that hold more to the right: where that is crowded, what is sheared goes left and what is not stays.
+// Nodes that hold more to the right: where that is crowded, what is sheared goes left and what is
+// not stays.
 TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
   for (const double gradient : {0.0, 5.0, 1000.0}) {
     Stages stages(strewn(33));
@@ -63,12 +68,13 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
     for (std::size_t i = 0; i < BLOCK_NODES * table.active.size(); ++i) {
       const BlockKey key = table.active[i / BLOCK_NODES];
       const int n = static_cast<int>(i % BLOCK_NODES);
-      const double x = kBlockCells * key.x + (n & 3) - 40, y = kBlockCells * key.y + (n >> 2 & 3) - 40;
+      const double x = kBlockCells * key.x + (n & 3) - 40,
+                   y = kBlockCells * key.y + (n >> 2 & 3) - 40;
       nodes[4 * i] = static_cast<float>(gradient * kStageCell * y);  // v_x(y)
       nodes[4 * i + 3] = static_cast<float>(1.2 * full + slope * x);
     }
     stages.grid.velocity().write(nodes);
-    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
     const std::vector<Particle> before = stages.store.records();
     stages.enqueue_gather();
     const std::vector<Particle> after = stages.store.records();
@@ -76,13 +82,16 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
     for (std::size_t i = 0; i < before.size(); ++i) {
       const double x = kBlockCells * before[i].block[0] + static_cast<double>(before[i].x[0]) - 40;
       const double y = kBlockCells * before[i].block[1] + static_cast<double>(before[i].x[1]) - 40;
-      // |D| of a simple shear is the gradient; the variance of the quadratic B-spline is a quarter of a cell.
-      const double mass = 1.2 * full + slope * x, share = std::min(1.0, kStageStep * gradient / crowding_shear());
+      // |D| of a simple shear is the gradient; the variance of the quadratic B-spline is a quarter
+      // of a cell.
+      const double mass = 1.2 * full + slope * x,
+                   share = std::min(1.0, kStageStep * gradient / crowding_shear());
       double apart = std::max(-share * 0.25 * slope / mass, -0.25 * farthest_apart());
       if (static_cast<double>(before[i].j) * mass <= full) apart = 0;
       crowded += apart < 0;
       const double way = kStageStep * gradient * y + apart;
-      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]), way, 2e-6 * (1 + gradient));
+      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]), way,
+                  2e-6 * (1 + gradient));
       EXPECT_NEAR(static_cast<double>(after[i].x[2]), static_cast<double>(before[i].x[2]), 1e-6);
       // What is open here closes, as these nodes are heavy; no J goes below the density state.
       EXPECT_LE(after[i].j, before[i].j);
@@ -92,8 +101,8 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
   }
 }
 
-// Where the nodes hold a closed soil's mass, soil that is a little open closes by its share; what is far open has been
-// thrown and keeps its gaps, and light nodes leave all as it is.
+// Where the nodes hold a closed soil's mass, soil that is a little open closes by its share; what
+// is far open has been thrown and keeps its gaps, and light nodes leave all as it is.
 TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
   std::vector<Particle> soil = strewn(40);
   const float state = 1.1f, opened[] = {1.08f, 1.15f, 1.3f};
@@ -101,11 +110,12 @@ TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
   for (const double filled : {0.8, 1.0}) {  // of what counts as closed in this state
     Stages stages(soil);
     const BlockTable& table = stages.store.table();
-    const double mass = 1.01 * filled * filled_mass(stages.store.densest(), kStageCell) / static_cast<double>(state);
+    const double mass = 1.01 * filled * filled_mass(stages.store.densest(), kStageCell) /
+                        static_cast<double>(state);
     std::vector<float> nodes(stages.grid.velocity().size(), 0.0f);
     for (std::size_t i = 3; i < nodes.size(); i += 4) nodes[i] = static_cast<float>(mass);
     stages.grid.velocity().write(nodes);
-    stages.scatter.used().write(std::vector<std::int32_t>(table.homes.size(), 1));
+    stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
     const std::vector<Particle> before = stages.store.records();
     stages.enqueue_gather();
     const std::vector<Particle> after = stages.store.records();
@@ -114,7 +124,8 @@ TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
       const bool closes = filled >= 1 && before[i].j == opened[1];
       closed += closes;
       // Stages pass a quarter of a transfer.
-      const double way = closes ? 0.25 * closing_share() * static_cast<double>(opened[1] - state) : 0;
+      const double way =
+          closes ? 0.25 * closing_share() * static_cast<double>(opened[1] - state) : 0;
       EXPECT_NEAR(static_cast<double>(before[i].j - after[i].j), way, 1e-6);
       EXPECT_EQ(after[i].j0, before[i].j0);
     }

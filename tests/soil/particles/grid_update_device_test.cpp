@@ -28,7 +28,8 @@ TEST(GridUpdate, KeepsMomentumAndAddsGravityFarFromTheGround) {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     for (std::size_t n = 0; n < nodes.size(); n += 4) {
       const auto m = static_cast<double>(nodes[n + 3]);
-      for (std::size_t k = 0; k < 3; ++k) sum[static_cast<int>(k)] += m * static_cast<double>(nodes[n + k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        sum[static_cast<int>(k)] += m * static_cast<double>(nodes[n + k]);
       sum[3] += m;
     }
     Eigen::Vector4d expected = sum_of(particles);
@@ -38,20 +39,23 @@ TEST(GridUpdate, KeepsMomentumAndAddsGravityFarFromTheGround) {
   }
 }
 
-TEST(GridUpdate, HoldsNodesInTheGroundAndTellsMassPerRoomAboveIt) {
+TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
   // Ground through the middle of the strewn particles.
   const std::vector<Particle> particles = strewn(200);
   Stages open(particles), stages(particles, 40);
-  const std::vector<float> free_nodes = nodes_of(open, Vec3::Zero()), nodes = nodes_of(stages, Vec3::Zero());
+  const std::vector<float> free_nodes = nodes_of(open, Vec3::Zero()),
+                           nodes = nodes_of(stages, Vec3::Zero());
   const BlockTable& table = stages.store.table();
   int held = 0;
   for (std::size_t i = 0; i < nodes.size() / 4; ++i) {
-    const double above = kBlockCells * table.active[i / BLOCK_NODES].z + static_cast<double>(i % BLOCK_NODES / 16) - 40;
+    const double above = kBlockCells * table.active[i / BLOCK_NODES].z +
+                         static_cast<double>(i % BLOCK_NODES / 16) - 40;
     const auto mass = static_cast<double>(free_nodes[4 * i + 3]);
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_EQ(nodes[4 * i + k], above <= kHeldMargin ? 0.0f : free_nodes[4 * i + k]);
     // One float division more than without ground.
-    EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::room_above(above), mass, 1e-6 * mass);
+    EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::free_fraction_above(above), mass,
+                1e-6 * mass);
     held += mass > 0 && above <= kHeldMargin;
   }
   EXPECT_GT(held, 10);

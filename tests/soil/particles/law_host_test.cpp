@@ -24,7 +24,8 @@ struct Element : LawState {
   double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, sigma[6] = {0, 0, 0, 0, 0, 0};
   void step(double dt) { law_update(c, dt, &soil, this, sigma); }
   double q() const {  ///< root of the second deviator invariant
-    return std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+    return std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[3] * s[3] + s[4] * s[4] +
+                     s[5] * s[5]);
   }
   double pressure() const { return -(sigma[0] + sigma[1] + sigma[2]) / 3; }
 };
@@ -44,7 +45,8 @@ TEST(SoilLaw, SimpleShearMobilisesTheSineOfTheFrictionAngle) {
     e.c[1] = 0.5;  // dvx/dy
     for (int i = 0; i < 4000; ++i) e.step(1e-3);
     const double ratio = e.sigma[3] / -e.sigma[1];
-    print_value("tau / sigma_n at phi " + std::to_string(phi), ratio, std::to_string(std::sin(radians(phi))) + " +-3 %",
+    print_value("tau / sigma_n at phi " + std::to_string(phi), ratio,
+                std::to_string(std::sin(radians(phi))) + " +-3 %",
                 "simple shear without dilatancy [docs/validation.md, Element and law]");
     EXPECT_NEAR(ratio, std::sin(radians(phi)), 0.03 * std::sin(radians(phi)));
   }
@@ -119,9 +121,11 @@ TEST(SoilLaw, DensityStateGrowsOnlyToTheSwellAndOnlyAsFarAsTheVolumeAllows) {
   EXPECT_NEAR(open.j0, soil.swell, 1e-12);
 }
 
-/// Sheared in plane strain at a fixed normal stress on the plane of shear, as in a shear box: the height follows.
+/// Sheared in plane strain at a fixed normal stress on the plane of shear, as in a shear box: the
+/// height follows.
 struct ShearBox {
-  explicit ShearBox(const scene::Soil& soil, double normal) : e{law_soil(soil, 0.1)}, target(normal) {
+  explicit ShearBox(const scene::Soil& soil, double normal)
+      : e{law_soil(soil, 0.1)}, target(normal) {
     e.soil.viscosity = 0;
     e.j = 1 - normal / e.soil.bulk;
   }
@@ -138,7 +142,8 @@ struct ShearBox {
   }
   /// sin of the mobilised friction angle: radius / centre of Mohr's circle in the plane.
   double mobilised() const {
-    return std::hypot(0.5 * (e.sigma[0] - e.sigma[1]), e.sigma[3]) / (-0.5 * (e.sigma[0] + e.sigma[1]));
+    return std::hypot(0.5 * (e.sigma[0] - e.sigma[1]), e.sigma[3]) /
+           (-0.5 * (e.sigma[0] + e.sigma[1]));
   }
   Element e;
   double target = 0, volume = 0;
@@ -157,7 +162,8 @@ TEST(SoilLaw, DenseSoilDilatesByItsAngleAtItsFrictionAngleUntilItIsLoose) {
     print_value("volume / shear strain at psi " + std::to_string(psi), growth,
                 std::to_string(std::tan(std::asin(sin_now))) + " +-3 %", "tan psi, plane strain");
     EXPECT_NEAR(growth, std::tan(std::asin(sin_now)), 0.03 * growth);
-    print_value("sin of the mobilised angle", box.mobilised(), std::to_string(std::sin(radians(35))) + " +-1 %",
+    print_value("sin of the mobilised angle", box.mobilised(),
+                std::to_string(std::sin(radians(35))) + " +-1 %",
                 "plane-strain match with dilatancy");
     EXPECT_NEAR(box.mobilised(), std::sin(radians(35)), 0.01 * std::sin(radians(35)));
   }
@@ -238,15 +244,16 @@ TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
     e.c[1] = rate;
     for (int i = 0; i < 2000; ++i) e.step(1e-3 / std::max(1.0, rate));
     const double inertial = rate * soil.grain_diameter * std::sqrt(2650 / p);
-    const double wanted = std::sin(radians(30)) + (std::sin(radians(40)) - std::sin(radians(30))) * inertial /
-                                                      (inertial + soil.inertial_number);
-    print_value("q / p at I = " + std::to_string(inertial), e.q() / e.pressure(), std::to_string(wanted) + " +-0.1 %",
-                "mu(I) [Jop 2006] on sin phi");
+    const double wanted = std::sin(radians(30)) + (std::sin(radians(40)) - std::sin(radians(30))) *
+                                                      inertial / (inertial + soil.inertial_number);
+    print_value("q / p at I = " + std::to_string(inertial), e.q() / e.pressure(),
+                std::to_string(wanted) + " +-0.1 %", "mu(I) [Jop 2006] on sin phi");
     EXPECT_NEAR(e.q() / e.pressure(), wanted, 1e-3 * wanted);
   }
 }
 
-/// Sheared in proportion to the diagonal `rates` [1/s], which sum up to 0, at a constant pressure until it flows.
+/// Sheared in proportion to the diagonal `rates` [1/s], which sum up to 0, at a constant pressure
+/// until it flows.
 Element sheared(const scene::Soil& soil, double pressure, const Vec3& rates) {
   Element e{law_soil(soil, 0.1)};
   e.soil.viscosity = 0;
@@ -263,15 +270,16 @@ double mobilised_degrees(const Element& e) {
 }
 
 TEST(SoilLaw, TriaxialStatesMobiliseTheAngleOfMatsuokaAndNakai) {
-  // I1 I2 / I3 of the plane-strain state fixes the surface; triaxial states of either sign with the same value have
-  // tan^2 phi_t = (I1 I2 / I3 - 9) / 8.
+  // I1 I2 / I3 of the plane-strain state fixes the surface; triaxial states of either sign with the
+  // same value have tan^2 phi_t = (I1 I2 / I3 - 9) / 8.
   for (const double phi : {30.0, 35.0, 40.0}) {
     const double s = std::sin(radians(phi)), kappa = (9 - 3 * s * s) / (1 - s * s);
     const double expected = std::atan(std::sqrt((kappa - 9) / 8)) * 180 / kPi;
     const Element compressed = sheared(plain_sand(phi), 20e3, Vec3(0.1, 0.1, -0.2));
     const Element extended = sheared(plain_sand(phi), 20e3, Vec3(-0.1, -0.1, 0.2));
     const std::string gate = std::to_string(expected) + " +-0.2", source = "[Matsuoka 1974]";
-    const std::string name = ", phi " + std::to_string(phi).substr(0, 2) + ", mobilised angle [deg]";
+    const std::string name =
+        ", phi " + std::to_string(phi).substr(0, 2) + ", mobilised angle [deg]";
     print_value("triaxial compression" + name, mobilised_degrees(compressed), gate, source);
     print_value("triaxial extension" + name, mobilised_degrees(extended), gate, source);
     EXPECT_NEAR(mobilised_degrees(compressed), expected, 0.2);
@@ -293,7 +301,9 @@ TEST(SoilLaw, StressesBetweenTriaxialStatesKeepTheInvariantsOfMatsuokaAndNakai) 
     const Element e = sheared(plain_sand(phi), 20e3, Vec3(0.1, lean, -0.1 - lean));
     const double a = -e.sigma[0], b = -e.sigma[1], c = -e.sigma[2];
     // Of three Newton steps; the excess over 9 is what friction makes.
-    EXPECT_NEAR((a + b + c) * (a * b + b * c + c * a) / (a * b * c) - 9, expected - 9, 1e-3 * (expected - 9)) << lean;
+    EXPECT_NEAR((a + b + c) * (a * b + b * c + c * a) / (a * b * c) - 9, expected - 9,
+                1e-3 * (expected - 9))
+        << lean;
   }
 }
 
@@ -362,12 +372,14 @@ TEST(SoilLaw, TurningWithoutStrainTurnsTheStress) {
 
 TEST(Mixing, GoesByStrainAndNoFasterThanItsTime) {
   const LawSoil soil = law_soil(plain_sand(35), 0.1);
-  // J after a step of `dt` at a simple shear of `rate`, of a particle that is open by 0.2 in a cell open by 0.1.
+  // J after a step of `dt` at a simple shear of `rate`, of a particle that is open by 0.2 in a cell
+  // open by 0.1.
   const auto after = [&](double rate, double dt, double opening) {
     LawState state{{0, 0, 0, 0, 0, 0}, 1.2, 1, 0};
     const double c[9] = {0, rate, 0, 0, 0, 0, 0, 0, 0};
     double sigma[6];
-    reference::advance_state(c, dt, &soil, opening, dt / mixing_strain(), most_mixing(dt), &state, sigma);
+    reference::advance_state(c, dt, &soil, opening, dt / mixing_strain(), most_mixing(dt), &state,
+                             sigma);
     return state.j;
   };
   EXPECT_EQ(after(0, 1e-3, 1.1), 1.2) << "soil at rest keeps what it has";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The schedule of work-groups against that of lanes, with a tool in the soil; both run on every device.
+// The schedule of work-groups against that of lanes, with a tool in the soil; both run on every
+// device.
 #include "soil/particles/schedule.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +45,8 @@ struct Outcome {
   std::int64_t ledger = 0;
 };
 
-/// An open box with its lip in a bed of two soils, cutting and turning; `inverse_mass` > 0: it yields.
+/// An open box with its lip in a bed of two soils, cutting and turning; `inverse_mass` > 0: it
+/// yields.
 Outcome dig(const char* schedule, int steps, double inverse_mass = 0) {
   const With with(schedule);
   scene::Soil loam = rig::sand(28);
@@ -73,7 +75,8 @@ Outcome dig(const char* schedule, int steps, double inverse_mass = 0) {
     motion.X_WT.translation() += dt * motion.v_WT;
     out.impulse += impulse.J_W;
     out.moment += impulse.L_W;
-    if (impulse.scale > 0) out.residual = std::max(out.residual, impulse.residual.norm() / impulse.scale);
+    if (impulse.scale > 0)
+      out.residual = std::max(out.residual, impulse.residual.norm() / impulse.scale);
   }
   out.particles = rig.solver().particles();
   out.digest = rig.digest();
@@ -98,10 +101,12 @@ Difference difference(const Outcome& a, const Outcome& b) {
     double far = 0;
     for (int k = 0; k < 3; ++k) {
       const double shift = kBlockCells * (p.block[k] - q.block[k]);
-      far = std::max(far, std::abs(shift + static_cast<double>(p.x[k]) - static_cast<double>(q.x[k])));
+      far = std::max(far,
+                     std::abs(shift + static_cast<double>(p.x[k]) - static_cast<double>(q.x[k])));
       out.v = std::max(out.v, static_cast<double>(std::abs(p.v[k] - q.v[k])));
     }
-    for (int k = 0; k < 6; ++k) out.s = std::max(out.s, static_cast<double>(std::abs(p.s[k] - q.s[k])));
+    for (int k = 0; k < 6; ++k)
+      out.s = std::max(out.s, static_cast<double>(std::abs(p.s[k] - q.s[k])));
     out.x = std::max(out.x, far);
     out.mean_x += far / static_cast<double>(a.particles.size());
   }
@@ -112,7 +117,8 @@ TEST(SoilSchedule, BothAgreeAfterOneStepToRounding) {
   for (const double inverse_mass : {0.0, 0.01}) {
     const Outcome lanes = dig("lanes", 1, inverse_mass), groups = dig("groups", 1, inverse_mass);
     const Difference d = difference(lanes, groups);
-    print_value("schedules after one step with a tool, positions [cells]", d.x, "< 2e-6", "float ulp of 4 cells");
+    print_value("schedules after one step with a tool, positions [cells]", d.x, "< 2e-6",
+                "float ulp of 4 cells");
     EXPECT_LT(d.x, 2e-6);
     EXPECT_LT(d.v, 1e-5);  // sums of a node in another order
     EXPECT_LT(d.s, 0.1);
@@ -137,7 +143,8 @@ TEST(SoilSchedule, BothAgreeOverADigWithRebins) {
 }
 
 TEST(SoilSchedule, GroupsRepeatBitForBitAndAreNotTheLanes) {
-  const Outcome first = dig("groups", 60, 0.01), again = dig("groups", 60, 0.01), lanes = dig("lanes", 60, 0.01);
+  const Outcome first = dig("groups", 60, 0.01), again = dig("groups", 60, 0.01),
+                lanes = dig("lanes", 60, 0.01);
   EXPECT_GT(first.rebins, 0u);
   EXPECT_EQ(first.digest, again.digest);
   EXPECT_NE(first.digest, lanes.digest);  // or the variable would do nothing
@@ -156,7 +163,8 @@ TEST(SoilSchedule, IsChosenByTheDeviceUnlessTheVariableSaysOtherwise) {
   }
   {
     const With with("");
-    EXPECT_EQ(schedule_for(device), device.info().kind == device::Kind::kGpu ? Schedule::kGroups : Schedule::kLanes);
+    EXPECT_EQ(schedule_for(device),
+              device.info().kind == device::Kind::kGpu ? Schedule::kGroups : Schedule::kLanes);
   }
   const With with("both");
   EXPECT_THROW(schedule_for(device), InputError);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One stage of the transfer at a time: particles in a store, no tools, the ground far below or where the test wants it.
+// One stage of the transfer at a time: particles in a store, no tools, the ground far below or
+// where the test wants it.
 #pragma once
 
 #include <cmath>
@@ -45,7 +46,8 @@ struct Stages {
         gather(rig::Rig::device()) {
     store.assign(particles);
     const BlockTable& table = store.table();
-    scatter.set_blocks(table.homes.size(), store.set_near(std::vector<std::uint8_t>(table.homes.size(), 0)));
+    scatter.set_blocks(table.particle_blocks.size(),
+                       store.set_near(std::vector<std::uint8_t>(table.particle_blocks.size(), 0)));
     grid.set_blocks(table, std::vector<int>(table.active.size(), -1));
     gather.set_blocks(table);
     std::vector<BlockFloor> floors(table.active.size());
@@ -56,9 +58,9 @@ struct Stages {
         for (float& height : floors[b].around[n]) height = level;
       }
     grid.set_floor(floors);
-    report = device::Buffer<Report>(rig::Rig::device(), table.homes.size() + 1);
-    near.slot =
-        device::Buffer<std::int32_t>(rig::Rig::device(), std::vector<std::int32_t>(table.active.size() + 1, -1));
+    report = device::Buffer<Report>(rig::Rig::device(), table.particle_blocks.size() + 1);
+    near.slot = device::Buffer<std::int32_t>(
+        rig::Rig::device(), std::vector<std::int32_t>(table.active.size() + 1, -1));
     // Never read without near blocks, but arguments of the kernels.
     near.split = device::Buffer<std::int32_t>(rig::Rig::device(), 1);
     near.velocity1 = device::Buffer<float>(rig::Rig::device(), 16);
@@ -67,7 +69,8 @@ struct Stages {
   void enqueue_grid(const Vec3& dv) { grid.enqueue(store, scatter, near, dv, false); }
   /// And the transfer's end.
   void enqueue_gather() {
-    gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, 0.25, kStageCell);
+    gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, 0.25,
+                   kStageCell);
     gather.enqueue_end(store);
   }
 
@@ -84,15 +87,17 @@ struct Stages {
 inline Eigen::Vector4d sum_of(const std::vector<float>& nodes, std::size_t count) {
   Eigen::Vector4d out = Eigen::Vector4d::Zero();
   for (std::size_t n = 0; n < count; ++n)
-    for (int k = 0; k < 4; ++k) out[k] += static_cast<double>(nodes[4 * n + static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 4; ++k)
+      out[k] += static_cast<double>(nodes[4 * n + static_cast<std::size_t>(k)]);
   return out;
 }
 
 inline Eigen::Vector4d sum_of(const std::vector<Particle>& particles) {
   Eigen::Vector4d out = Eigen::Vector4d::Zero();
   for (const Particle& p : particles)
-    out += kilograms(p.mass) *
-           Eigen::Vector4d(static_cast<double>(p.v[0]), static_cast<double>(p.v[1]), static_cast<double>(p.v[2]), 1);
+    out += kilograms(p.mass) * Eigen::Vector4d(static_cast<double>(p.v[0]),
+                                               static_cast<double>(p.v[1]),
+                                               static_cast<double>(p.v[2]), 1);
   return out;
 }
 

@@ -15,24 +15,30 @@ struct Mean {
     squares += x * x;
   }
   double mean() const { return n > 0 ? sum / n : 0; }
-  double deviation() const { return n > 0 ? std::sqrt(std::max(squares / n - mean() * mean(), 0.0)) : 0; }
+  double deviation() const {
+    return n > 0 ? std::sqrt(std::max(squares / n - mean() * mean(), 0.0)) : 0;
+  }
 };
 
 }  // namespace
 
-BladeResult push_blade(const scene::Soil& soil, double cell, double courant, const PlaneMethod& method,
-                       const PlaneBlade& blade) {
-  // Soil reaches one depth below the tip, three ahead of the travel and six cells behind, where it ends at the tip.
+BladeResult push_blade(const scene::Soil& soil, double cell, double courant,
+                       const PlaneMethod& method, const PlaneBlade& blade) {
+  // Soil reaches one depth below the tip, three ahead of the travel and six cells behind, where it
+  // ends at the tip.
   const double depth = blade.depth / cell, floor = 3, back = 6;
-  const double below = std::ceil(2 * depth - 1e-9), tip = floor + below - depth, top = floor + below;
+  const double below = std::ceil(2 * depth - 1e-9), tip = floor + below - depth,
+               top = floor + below;
   const double front = std::ceil((blade.travel + 3 * blade.depth) / cell), start = 3 + back;
-  PlaneStrain plane(soil, cell, static_cast<int>(start + front) + 6, static_cast<int>(top + 2 * depth) + 12, method);
+  PlaneStrain plane(soil, cell, static_cast<int>(start + front) + 6,
+                    static_cast<int>(top + 2 * depth) + 12, method);
   plane.floor = floor;
   plane.wall_x0 = 3;
   plane.wall_x1 = start + front;
   plane.has_plate = true;
   plane.plate = {start, tip, 0, blade.friction, 0};
-  plane.fill(3, start + front, floor, top, [&](double x, double z) { return z < tip || x > start + 0.1; });
+  plane.fill(3, start + front, floor, top,
+             [&](double x, double z) { return z < tip || x > start + 0.1; });
   plane.settle([&](double x) { return x > start ? top : tip; });
 
   const double dt = plane.longest_step(courant);
@@ -40,7 +46,9 @@ BladeResult push_blade(const scene::Soil& soil, double cell, double courant, con
   double travel = 0, highest = 0;
   int steps = 0;
   while (travel < blade.travel) {
-    plane.plate.speed = blade.speed * (blade.ramp > 0 ? std::min(1.0, (travel + 1e-3 * blade.ramp) / blade.ramp) : 1);
+    plane.plate.speed =
+        blade.speed *
+        (blade.ramp > 0 ? std::min(1.0, (travel + 1e-3 * blade.ramp) / blade.ramp) : 1);
     plane.step(dt);
     ++steps;
     plane.plate.x += dt * plane.plate.speed / cell;
@@ -63,8 +71,8 @@ BladeResult push_blade(const scene::Soil& soil, double cell, double courant, con
           static_cast<double>(steps) / plane.transfers()};
 }
 
-double shear_ratio(const scene::Soil& soil, double cell, double courant, const PlaneMethod& method, double speed,
-                   double normal_stress, double strain) {
+double shear_ratio(const scene::Soil& soil, double cell, double courant, const PlaneMethod& method,
+                   double speed, double normal_stress, double strain) {
   const int length = 8, rows = 10;
   const double floor = 4, top = floor + rows;
   PlaneStrain plane(soil, cell, length, rows + 14, method, true);
@@ -108,8 +116,8 @@ double shear_ratio(const scene::Soil& soil, double cell, double courant, const P
   return sheared / pressed;
 }
 
-RestResult rest_bed(const scene::Soil& soil, double cell, double courant, const PlaneMethod& method, double height,
-                    double time) {
+RestResult rest_bed(const scene::Soil& soil, double cell, double courant, const PlaneMethod& method,
+                    double height, double time) {
   const double floor = 3, top = floor + height / cell;
   PlaneStrain plane(soil, cell, 8, static_cast<int>(top) + 8, method, true);
   plane.floor = floor;
@@ -122,9 +130,11 @@ RestResult rest_bed(const scene::Soil& soil, double cell, double courant, const 
   for (const PlanePoint& p : plane.points) {
     squares += p.vx * p.vx + p.vz * p.vz;
     const double under = (top - p.z) * cell;
-    if (under > 2 * cell) stress.add((p.pressure - p.s[2]) / (soil.bank_density * kGravity * under));
+    if (under > 2 * cell)
+      stress.add((p.pressure - p.s[2]) / (soil.bank_density * kGravity * under));
   }
-  return {stress.mean(), stress.deviation(), std::sqrt(squares / static_cast<double>(plane.points.size()))};
+  return {stress.mean(), stress.deviation(),
+          std::sqrt(squares / static_cast<double>(plane.points.size()))};
 }
 
 double wave_kept_by_transfer(double cells) {
@@ -154,7 +164,8 @@ double wave_kept_by_transfer(double cells) {
     p.vz = 1e-6 * std::sin(wave * p.x);
     p.c[6] = 1e-6 * wave * std::cos(wave * p.x);
   }
-  // The first transfer brings velocity and gradient to the ratio that the method keeps; the second one is the figure.
+  // The first transfer brings velocity and gradient to the ratio that the method keeps; the second
+  // one is the figure.
   for (int n = 0; n < 20; ++n) plane.step(1e-6);
   const double before = amplitude();
   for (int n = 0; n < 10; ++n) plane.step(1e-6);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plane-strain laboratory says of the method and of its cures. Each run takes a tenth of a second.
+// What the plane-strain laboratory says of the method and of its cures. Each run takes a tenth of a
+// second.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +42,8 @@ PlaneMethod fractional() {
   return out;
 }
 
-/// Transfers every fourth step, crowding undone by shear, opening as the nodes show it: the method of the kernels now.
+/// Transfers every fourth step, crowding undone by shear, opening as the nodes show it: the method
+/// of the kernels now.
 PlaneMethod cured() {
   PlaneMethod out;
   out.crowding = PlaneMethod::Crowding::kShear;
@@ -50,8 +52,8 @@ PlaneMethod cured() {
   return out;
 }
 
-double blade_over_rankine(const scene::Soil& soil, const PlaneMethod& method, double cell, double speed,
-                          double courant = 0.5) {
+double blade_over_rankine(const scene::Soil& soil, const PlaneMethod& method, double cell,
+                          double speed, double courant = 0.5) {
   PlaneBlade blade;
   blade.speed = speed;
   return push_blade(soil, cell, courant, method, blade).over_rankine;
@@ -74,12 +76,14 @@ TEST(PlaneStrain, ShearCellMobilisesItsFrictionAtEverySpeedAndItsStaticShareWher
   scene::Soil plain = sand();
   plain.static_friction_share = 0;
   for (const double speed : {0.6, 0.05})
-    EXPECT_NEAR(shear_ratio(plain, 0.1, 0.5, PlaneMethod(), speed, 3000, 0.3) / sin_phi, 1, 0.01) << speed;
-  // A metre high: 0.6 /s is flow, but for particles that stand for a moment where transfers are many; 0.02 /s has up to
-  // 0.8 of the share, less where it slips along few rows.
+    EXPECT_NEAR(shear_ratio(plain, 0.1, 0.5, PlaneMethod(), speed, 3000, 0.3) / sin_phi, 1, 0.01)
+        << speed;
+  // A metre high: 0.6 /s is flow, but for particles that stand for a moment where transfers are
+  // many; 0.02 /s has up to 0.8 of the share, less where it slips along few rows.
   EXPECT_NEAR(shear_ratio(sand(), 0.1, 0.5, cured(), 0.6, 3000, 0.3) / sin_phi, 1, 0.01);
   const double slow = shear_ratio(sand(), 0.1, 0.5, PlaneMethod(), 0.02, 3000, 0.1) / sin_phi;
-  print_value("shear cell at 0.02 /s: tau / sigma over sin phi", slow, "1 .. 1.1", "[docs/soil.md, static friction]");
+  print_value("shear cell at 0.02 /s: tau / sigma over sin phi", slow, "1 .. 1.1",
+              "[docs/soil.md, static friction]");
   EXPECT_GT(slow, 1.01);
   EXPECT_LT(slow, 1.1);
 }
@@ -87,7 +91,8 @@ TEST(PlaneStrain, ShearCellMobilisesItsFrictionAtEverySpeedAndItsStaticShareWher
 TEST(PlaneStrain, BedAtRestCarriesItsWeight) {
   for (const PlaneMethod& method : {PlaneMethod(), cured()}) {
     const RestResult out = rest_bed(sand(), 0.1, 0.5, method, 1, 2);
-    EXPECT_NEAR(out.stress, 1, 0.02);  // two cells below the surface; at 0.2 m a cell is half of the stress
+    // Two cells below the surface; at 0.2 m a cell is half of the stress
+    EXPECT_NEAR(out.stress, 1, 0.02);
     EXPECT_LT(out.speed, 5e-3);
   }
 }
@@ -95,10 +100,12 @@ TEST(PlaneStrain, BedAtRestCarriesItsWeight) {
 TEST(PlaneStrain, AFractionalContactLeaksWhenTheToolIsSlowAndTheKernelsHardly) {
   // With it the same blade feels a third less at 0.05 than at 0.3 m/s.
   const auto slow_over_fast = [](const PlaneMethod& method) {
-    return blade_over_rankine(sand(), method, 0.1, 0.05) / blade_over_rankine(sand(), method, 0.1, 0.3);
+    return blade_over_rankine(sand(), method, 0.1, 0.05) /
+           blade_over_rankine(sand(), method, 0.1, 0.3);
   };
   const double fraction = slow_over_fast(fractional()), kernels = slow_over_fast(PlaneMethod());
-  print_value("smooth blade, fractional contact: force at 0.05 / at 0.3 m/s", fraction, "1", "[Rankine 1857]");
+  print_value("smooth blade, fractional contact: force at 0.05 / at 0.3 m/s", fraction, "1",
+              "[Rankine 1857]");
   print_value("smooth blade, method of the kernels: the same", kernels, "1", "[Rankine 1857]");
   EXPECT_LT(fraction, 0.75);
   EXPECT_GT(kernels, 0.8);
@@ -108,7 +115,8 @@ TEST(PlaneStrain, CuredForcesAreRankinesAtAnySpeed) {
   double least = 10, most = 0, sum = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
     const double force = blade_over_rankine(sand(), cured(), 0.05, speed);
-    print_value("smooth blade, cured, cells of 0.05 m, " + std::to_string(speed).substr(0, 4) + " m/s: force / Rankine",
+    print_value("smooth blade, cured, cells of 0.05 m, " + std::to_string(speed).substr(0, 4) +
+                    " m/s: force / Rankine",
                 force, "1", "[Rankine 1857]");
     least = std::min(least, force);
     most = std::max(most, force);
@@ -123,9 +131,10 @@ TEST(PlaneStrain, CuredForcesDoNotDependOnTheStep) {
   half.hold = 8;  // the same time from transfer to transfer
   const double whole_step = blade_over_rankine(sand(), cured(), 0.1, 0.3);
   const double half_step = blade_over_rankine(sand(), half, 0.1, 0.3, 0.25);
-  const double kernels =
-      blade_over_rankine(sand(), PlaneMethod(), 0.1, 0.3, 0.25) / blade_over_rankine(sand(), PlaneMethod(), 0.1, 0.3);
-  print_value("smooth blade, cured: force at half the step / at the step", half_step / whole_step, "1", "the step");
+  const double kernels = blade_over_rankine(sand(), PlaneMethod(), 0.1, 0.3, 0.25) /
+                         blade_over_rankine(sand(), PlaneMethod(), 0.1, 0.3);
+  print_value("smooth blade, cured: force at half the step / at the step", half_step / whole_step,
+              "1", "the step");
   print_value("smooth blade, method of the kernels: the same", kernels, "1", "the step");
   EXPECT_NEAR(half_step / whole_step, 1, 0.01);
   EXPECT_GT(kernels, 1.04);
@@ -141,8 +150,10 @@ TEST(PlaneStrain, CuredClayIsFeltByASlowBlade) {
     return push_blade(clay, 0.1, 0.5, method, blade).force;
   };
   const double fraction = at(fractional(), 0.05) / at(fractional(), 0.5);
-  const double kernels = at(PlaneMethod(), 0.05) / at(PlaneMethod(), 0.5), now = at(cured(), 0.05) / at(cured(), 0.5);
-  print_value("clay of 50 kPa, fractional contact: force at 0.05 / at 0.5 m/s", fraction, "1", "[Reece 1964]");
+  const double kernels = at(PlaneMethod(), 0.05) / at(PlaneMethod(), 0.5),
+               now = at(cured(), 0.05) / at(cured(), 0.5);
+  print_value("clay of 50 kPa, fractional contact: force at 0.05 / at 0.5 m/s", fraction, "1",
+              "[Reece 1964]");
   print_value("clay of 50 kPa, method of the kernels: the same", kernels, "1", "[Reece 1964]");
   print_value("clay of 50 kPa, cured: the same", now, "1", "[Reece 1964]");
   EXPECT_LT(fraction, 0.6);
@@ -158,8 +169,10 @@ TEST(PlaneStrain, ClayKeepsItsStrengthWhereItIsOpenOnlyAsItsNodesShow) {
   by_itself.opening = PlaneMethod::Opening::kIntegrated;
   const double lost = push_blade(clay, 0.1, 0.5, by_itself, blade).over_rankine;
   const double kept = push_blade(clay, 0.1, 0.5, cured(), blade).over_rankine;
-  print_value("clay of 150 kPa after 0.4 m, opening by J alone: force / Rankine", lost, "1", "[docs/soil.md, opening]");
-  print_value("clay of 150 kPa after 0.4 m, opening seen by the nodes: the same", kept, "1", "[docs/soil.md, opening]");
+  print_value("clay of 150 kPa after 0.4 m, opening by J alone: force / Rankine", lost, "1",
+              "[docs/soil.md, opening]");
+  print_value("clay of 150 kPa after 0.4 m, opening seen by the nodes: the same", kept, "1",
+              "[docs/soil.md, opening]");
   EXPECT_LT(lost, 0.6);
   EXPECT_GT(kept, 0.85);
   EXPECT_LT(kept, 1.1);
@@ -170,9 +183,9 @@ TEST(PlaneStrain, GivesUpNoMoreThanItsToolPutsIn) {
   for (const double speed : {0.05, 0.6}) {
     blade.speed = speed;
     const BladeResult out = push_blade(sand(), 0.1, 0.5, cured(), blade);
-    print_value(
-        "smooth blade, cured, " + std::to_string(speed).substr(0, 4) + " m/s: lost in transfers / work of the tool",
-        out.transfer, "0", "energy");
+    print_value("smooth blade, cured, " + std::to_string(speed).substr(0, 4) +
+                    " m/s: lost in transfers / work of the tool",
+                out.transfer, "0", "energy");
     EXPECT_LT(out.dissipated, 1) << speed;
     EXPECT_LT(out.transfer, 0.05) << speed;
     EXPECT_GT(out.transfer, 0) << speed;

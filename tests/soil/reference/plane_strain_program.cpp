@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// plane_strain RIG [key=value ...]: the plane-strain laboratory by hand. `plane_strain help` names rigs and keys.
+// plane_strain RIG [key=value ...]: the plane-strain laboratory by hand. `plane_strain help` names
+// rigs and keys.
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -16,11 +17,13 @@ using soil::reference::PlaneMethod;
 const char* const kHelp =
     "plane_strain RIG [key=value ...]\n"
     "Rigs, a line each time:\n"
-    "  blade   upright plate: depth (0.3 m), speed (0.15 m/s), from, travel (0.03, 0.07 m), delta (0 deg), ramp (0 m)\n"
+    "  blade   upright plate: depth (0.3 m), speed (0.15 m/s), from, travel (0.03, 0.07 m), delta "
+    "(0 deg), ramp (0 m)\n"
     "  shear   shear cell: speed (0.3 m/s), stress (3000 Pa), strain (0.5)\n"
     "  rest    bed at rest: height (1 m), time (3 s)\n"
     "  wave    share of a shear wave that one transfer keeps: cells (8)\n"
-    "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), loose (a fifth of it),\n"
+    "Soil: density (1600), e (1e6 Pa), nu (0.3), phi (35 deg), c (0 Pa), residual (as c), loose (a "
+    "fifth of it),\n"
     "swell (1.25), static (0.1). cell (0.1 m), courant (0.5).\n"
     "Method: contact=kinematic|fraction, crowding=closing|shear|none,\n"
     "opening=integrated|seen, mixing=1|0, hold=1 (steps a transfer), motion=0.2 (cells at most).\n"
@@ -98,20 +101,23 @@ int main(int argc, char** argv) {
     blade.ramp = number("ramp", 0);
     const r::BladeResult out = r::push_blade(soil, cell, courant, method(), blade);
     std::printf(
-        "speed %.3f m/s: %.0f N/m, over Rankine %.3f, scatter %.1f %%; of the work dissipated %.2f, of the tool's in "
+        "speed %.3f m/s: %.0f N/m, over Rankine %.3f, scatter %.1f %%; of the work dissipated "
+        "%.2f, of the tool's in "
         "transfers %.3f; "
         "densest %.2f; steps a transfer %.1f\n",
-        blade.speed, out.force, out.over_rankine, 100 * out.scatter, out.dissipated, out.transfer, out.crowding,
-        out.steps_a_transfer);
+        blade.speed, out.force, out.over_rankine, 100 * out.scatter, out.dissipated, out.transfer,
+        out.crowding, out.steps_a_transfer);
   } else if (rig == "shear") {
     const double speed = number("speed", 0.3);
     std::printf("speed %.3f m/s: tau / sigma %.4f, sin phi %.4f\n", speed,
-                r::shear_ratio(soil, cell, courant, method(), speed, number("stress", 3000), number("strain", 0.5)),
+                r::shear_ratio(soil, cell, courant, method(), speed, number("stress", 3000),
+                               number("strain", 0.5)),
                 std::sin(soil.friction_angle));
   } else if (rig == "rest") {
-    const r::RestResult out = r::rest_bed(soil, cell, courant, method(), number("height", 1), number("time", 3));
-    std::printf("stress / weight %.4f, scatter %.2f %%, speed %.3f mm/s\n", out.stress, 100 * out.scatter,
-                1e3 * out.speed);
+    const r::RestResult out =
+        r::rest_bed(soil, cell, courant, method(), number("height", 1), number("time", 3));
+    std::printf("stress / weight %.4f, scatter %.2f %%, speed %.3f mm/s\n", out.stress,
+                100 * out.scatter, 1e3 * out.speed);
   } else if (rig == "wave") {
     std::printf("kept by a transfer: %.5f\n", r::wave_kept_by_transfer(number("cells", 8)));
   } else {

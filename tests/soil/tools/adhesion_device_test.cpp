@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adhesion of soil on tools: the kernel against its double twin, a plate slid on soil against the closed form.
+// Adhesion of soil on tools: the kernel against its double twin, a plate slid on soil against the
+// closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "lab/shapes.h"
+#include "lab/rig_shapes.h"
 #include "soil/reference/double_contact.h"
 #include "soil/reference/reference_solver.h"
 #include "soil/rig.h"
@@ -45,7 +46,8 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   rig.solver().insert(block);
   block = rig.solver().particles();
 
-  reference::ReferenceSolver twin({soil}, cell, Vec3(0, 0, -kGravity), [](int, int) { return -10.0; });
+  reference::ReferenceSolver twin({soil}, cell, Vec3(0, 0, -kGravity),
+                                  [](int, int) { return -10.0; });
   for (const Particle& p : block) twin.points.push_back(reference::from_particle(p));
   const ContactSettings s;
   const reference::Reach reach{s.reach,
@@ -67,9 +69,11 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
     node.mu = std::tan(soil.tool_friction_angle);
     node.share = reference::contact_share(clearance, inset, &reach);
     if (!(node.share > 0)) return Vec3(Vec3::Zero());
-    const double fill = mass / (soil.bank_density * cell * cell * cell * reference::room_above(clearance));
+    const double fill =
+        mass / (soil.bank_density * cell * cell * cell * reference::free_fraction_above(clearance));
     node.settling = reference::contact_settling(clearance, fill, -node.n.z(), &reach);
-    const double area = factor * reference::contact_touch(fill) * reference::contact_area(clearance, inset, &reach);
+    const double area =
+        factor * reference::contact_touch(fill) * reference::contact_area(clearance, inset, &reach);
     node.stick = reference::contact_stick(soil.adhesion, area, &reach);
     const Vec3 j = reference::impulse_on(node, reach.opening);
     on_soil += j;
@@ -78,15 +82,18 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   twin.step(kDt);
   ToolImpulse impulse;
   rig.solver().step(kDt, std::span(&motion, 1), std::span(&impulse, 1));
-  print_value("impulse along the plate, kernel / twin", impulse.J_W.x() / -on_soil.x(), "1 +-1e-4", "double twin");
-  // Float sums of some hundred nodes; a node at the branch between sticking and sliding changes nothing of the force.
+  print_value("impulse along the plate, kernel / twin", impulse.J_W.x() / -on_soil.x(), "1 +-1e-4",
+              "double twin");
+  // Float sums of some hundred nodes; a node at the branch between sticking and sliding changes
+  // nothing of the force.
   EXPECT_NEAR(impulse.J_W.x(), -on_soil.x(), 1e-4 * on_soil.norm());
   EXPECT_NEAR(impulse.J_W.z(), -on_soil.z(), 1e-4 * on_soil.norm());
   const auto after = rig.solver().particles();
   double worst = 0;
   for (std::size_t i = 0; i < after.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
-      worst = std::max(worst, std::abs(static_cast<double>(after[i].v[axis]) - twin.points[i].v[axis]));
+      worst =
+          std::max(worst, std::abs(static_cast<double>(after[i].v[axis]) - twin.points[i].v[axis]));
   EXPECT_LT(worst, 1e-5);  // [m/s], float rounding of speeds of 2 m/s
 }
 
@@ -117,7 +124,8 @@ Slid slide(const scene::Soil& soil, double pressure, double share = 1) {
     rig.solver().step(kDt, std::span(&motion, 1), std::span(&impulse, 1));
     motion.v_WT.z() += impulse.J_W.z() / mass;
     motion.X_WT.translation() += kDt * motion.v_WT;
-    if (impulse.scale > 0) out.residual = std::max(out.residual, impulse.residual.norm() / impulse.scale);
+    if (impulse.scale > 0)
+      out.residual = std::max(out.residual, impulse.residual.norm() / impulse.scale);
     if (i < from) continue;
     out.shear -= impulse.J_W.x() / (kDt * (steps - from));
     out.push += impulse.J_W.z() / (kDt * (steps - from));
@@ -129,11 +137,13 @@ TEST(Adhesion, APlateSlidOnSoilFeelsAdhesionTimesAreaPlusCoulomb) {
   struct Case {
     double adhesion, delta, pressure;
   };
-  for (const Case& c : {Case{1000, 0, 2000}, Case{1000, 20, 2000}, Case{3000, 20, 2000}, Case{1000, 20, 500}}) {
+  for (const Case& c :
+       {Case{1000, 0, 2000}, Case{1000, 20, 2000}, Case{3000, 20, 2000}, Case{1000, 20, 500}}) {
     const Slid slid = slide(sticky(c.adhesion, c.delta), c.pressure);
     const double expected = c.adhesion * 0.48 + std::tan(radians(c.delta)) * slid.push;
-    print_value("plate on soil, a " + std::to_string(c.adhesion) + " Pa, delta " + std::to_string(c.delta) +
-                    ", pressure " + std::to_string(c.pressure) + ", shear",
+    print_value("plate on soil, a " + std::to_string(c.adhesion) + " Pa, delta " +
+                    std::to_string(c.delta) + ", pressure " + std::to_string(c.pressure) +
+                    ", shear",
                 slid.shear, std::to_string(expected) + " N +-5 %", "a A + N tan delta");
     // 5 %: the last rows of nodes at the plate's edges come and go as it slides.
     EXPECT_NEAR(slid.shear / expected, 1, 0.05);

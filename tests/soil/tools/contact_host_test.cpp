@@ -22,7 +22,8 @@ Reach shipped() {
   return {s.reach, s.ramp, s.edge, s.edge_ramp, 1, s.opening, s.settling, s.falling, 0, 0, -1};
 }
 
-/// Sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length` x (wide) with two free edges.
+/// Sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length` x (wide)
+/// with two free edges.
 double area_of(double length, double offset, double across) {
   const Reach r = shipped();
   double sum = 0;
@@ -34,20 +35,22 @@ double area_of(double length, double offset, double across) {
   return sum;
 }
 
-TEST(ContactLaw, AreasOfNodesSumUpToThePlateWhereverItLies) {
-  // Exact on a lattice along the plate's axes: hats and ramps as wide as a cell add up to one. Two edges must not share
-  // a node: from 2 x 2.3 cells on.
+TEST(ContactLaw, NodeAreasSumUpToThePlateWhereverItIs) {
+  // Exact on a lattice along the plate's axes: hats and ramps as wide as a cell add up to one. Two
+  // edges must not share a node: from 2 x 2.3 cells on.
   for (const double length : {5.0, 7.3, 12.0})
     for (const double offset : {0.0, 0.31, 0.5, 0.77})
       for (const double across : {0.0, 0.2, 0.5, 0.93})
-        EXPECT_NEAR(area_of(length, offset, across), length, 1e-12) << length << " " << offset << " " << across;
+        EXPECT_NEAR(area_of(length, offset, across), length, 1e-12)
+            << length << " " << offset << " " << across;
 }
 
 TEST(ContactLaw, CornersAreMadeUpForByThePlatesFactor) {
   // 8 x 6 cells, nodes at any place: corners take an eighth of the area, the factor gives it back.
   const double cell = 0.1, length = 8, width = 6;
   scene::Shell plate;
-  plate.vertices = {{0, 0, 0}, {0.1 * length, 0, 0}, {0.1 * length, 0.1 * width, 0}, {0, 0.1 * width, 0}};
+  plate.vertices = {
+      {0, 0, 0}, {0.1 * length, 0, 0}, {0.1 * length, 0.1 * width, 0}, {0, 0.1 * width, 0}};
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
   const double factor = plate_area_factor(ShellGeometry(plate, cell), ContactSettings{}, cell);
   EXPECT_GT(factor, 1.05);
@@ -74,7 +77,8 @@ TEST(ContactLaw, ANodeThatHasAreaHasAShare) {
 }
 
 TEST(ContactLaw, ShearIsAdhesionPlusCoulombUntilItSticks) {
-  ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0, 0.4, 0.3};  // a share changes none of it
+  // A share changes none of it
+  ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0, 0.4, 0.3};
   double opening = 0;
   const Vec3 sliding = impulse_on(node, opening);
   EXPECT_NEAR(sliding.z(), 0.2, 1e-12);
@@ -83,7 +87,8 @@ TEST(ContactLaw, ShearIsAdhesionPlusCoulombUntilItSticks) {
   EXPECT_NEAR(impulse_on(node, opening).x(), -2 * 0.1, 1e-12) << "sticks: no more than stops it";
   node.v = Vec3(1, 0, 0.1);
   opening = 0.05;
-  EXPECT_EQ(impulse_on(node, opening), Vec3(Vec3::Zero())) << "no pull, and no shear once it lets go";
+  EXPECT_EQ(impulse_on(node, opening), Vec3(Vec3::Zero()))
+      << "no pull, and no shear once it lets go";
   node.v.z() = 0.04;
   EXPECT_NEAR(impulse_on(node, opening).x(), -0.3, 1e-12) << "adhesion needs no push";
   EXPECT_EQ(impulse_on(node, opening).z(), 0);
@@ -98,9 +103,11 @@ TEST(ContactLaw, ACoveredPartOfANodeKeepsUpWithItsShareOfAnAdvancingPlate) {
   ContactNode node{Vec3(0, 0, 0.2), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0, advance).z(), 0, 1e-15);
   node.v.z() = 0.1;
-  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.1, 1e-12) << "the whole mass, up to the share of the speed";
+  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.1, 1e-12)
+      << "the whole mass, up to the share of the speed";
   node.share = 1;
-  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.4, 1e-12) << "covered whole: the plate's speed";
+  EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.4, 1e-12)
+      << "covered whole: the plate's speed";
 }
 
 TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
@@ -110,34 +117,40 @@ TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
   EXPECT_NEAR(impulse_on(node, 0, Vec3(0.7, 0, 0)).z(), 2 * 0.3, 1e-12) << "sideways is no advance";
 }
 
-TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAPlateThatStandsAndBearsItsWholeLoadMeanwhile) {
-  // 0.02 m/s are left to the node; what is more is taken from its whole mass, however slowly it came.
+TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAStandingPlateThatCarriesItsWholeLoad) {
+  // 0.02 m/s are left to the node; what is more is taken from its whole mass, however slowly it
+  // came.
   ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0.02, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.28, 1e-12);
   node.v.z() = -0.02;
   EXPECT_NEAR(impulse_on(node, 0).z(), 0, 1e-15);
-  EXPECT_NEAR(impulse_on(node, 0, Vec3(0, 0, 0.5)).z(), 2 * (0.2 + 0.02), 1e-12) << "a plate that advances: its share";
+  EXPECT_NEAR(impulse_on(node, 0, Vec3(0, 0, 0.5)).z(), 2 * (0.2 + 0.02), 1e-12)
+      << "a plate that advances: its share";
   const Reach r = shipped();
   for (const double down : {0.0, -1.0}) {
-    EXPECT_EQ(reference::contact_settling(r.h - 0.5 * r.ramp, 0.02, down, &r), 0) << "soil at the plate stands";
+    EXPECT_EQ(reference::contact_settling(r.h - 0.5 * r.ramp, 0.02, down, &r), 0)
+        << "soil at the plate stands";
     EXPECT_EQ(reference::contact_settling(r.h + 0.5 * r.ramp, 0, down, &r), r.settling);
-    // It would take the soil's pressure off a plate that stands, and from under one that is slower than it settles.
+    // It would take the soil's pressure off a plate that stands, and from under one that is slower
+    // than it settles.
     EXPECT_NEAR(reference::contact_settling(r.h + 0.5 * r.ramp, 2.0 / 3, down, &r), 0, 1e-12)
         << "where there is no room to";
   }
 }
 
-TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotBearIt) {
-  // A load in a bucket and soil before a blade are held whatever the node has (above): they would leak at their
-  // surface.
+TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotSupportIt) {
+  // A load in a bucket and soil before a blade are held whatever the node has (above): they would
+  // leak at their surface.
   const Reach r = shipped();
   const double at = r.h - 0.5 * r.ramp, end = r.h + 0.5 * r.ramp, both = r.settling + r.falling;
-  EXPECT_EQ(reference::contact_settling(at, 2.0 / 3, 1, &r), 0) << "soil half as large again as in the bank";
+  EXPECT_EQ(reference::contact_settling(at, 2.0 / 3, 1, &r), 0)
+      << "soil half as large again as in the bank";
   EXPECT_NEAR(reference::contact_settling(at, 0, 1, &r), both, 1e-12);
   EXPECT_NEAR(reference::contact_settling(end, 0.64, 1, &r), both, 1e-12);
   EXPECT_NEAR(reference::contact_settling(end, 0.91, 1, &r), 0, 1e-12)
       << "soil up to the plate: no room to settle into";
-  EXPECT_LT(reference::contact_settling(at, 0.6, 1, &r), 0.02 * both) << "what almost bears is settled onto slowly";
+  EXPECT_LT(reference::contact_settling(at, 0.6, 1, &r), 0.02 * both)
+      << "what almost bears is settled onto slowly";
 }
 
 TEST(ContactLaw, FrictionOfAPartlyCoveredNodeIsThatOfItsPush) {
@@ -146,18 +159,22 @@ TEST(ContactLaw, FrictionOfAPartlyCoveredNodeIsThatOfItsPush) {
   const Vec3 impulse = impulse_on(node, 0, advance);
   EXPECT_NEAR(impulse.x(), -0.25 * impulse.z(), 1e-12);
   node.mu = 1e3;
-  EXPECT_NEAR(impulse_on(node, 0, advance).x(), -2, 1e-12) << "the slip along the plate is stopped, not more";
+  EXPECT_NEAR(impulse_on(node, 0, advance).x(), -2, 1e-12)
+      << "the slip along the plate is stopped, not more";
 }
 
 TEST(ContactLaw, TheSlopeThatTheTwoWaySolveTakesIsThatOfTheImpulse) {
-  // Across the branches: nodes covered whole and in part, sticking and sliding, plates that advance and recede.
+  // Across the branches: nodes covered whole and in part, sticking and sliding, plates that advance
+  // and recede.
   const double step = 1e-6;
   for (const double share : {0.3, 1.0})
     for (const double speed : {0.4, -0.4})
       for (const double mu : {0.0, 1e3}) {
         const ContactNode node{Vec3(0.2, 0, -0.6), Vec3::Zero(), Vec3::UnitZ(), 2, share, 0, mu, 0};
         reference::ContactBranch branch;
-        const auto at = [&](const Vec3& v) { return reference::contact_impulse(&node, Vec3::Zero(), v, 0, &branch); };
+        const auto at = [&](const Vec3& v) {
+          return reference::contact_impulse(&node, Vec3::Zero(), v, 0, &branch);
+        };
         const Vec3 plate(0, 0, speed);
         const Vec3 along = (at(plate + Vec3(step, 0, 0)) - at(plate)) / step;
         const Vec3 across = (at(plate + Vec3(0, 0, step)) - at(plate)) / step;

@@ -21,11 +21,14 @@ struct Bed {
   lab::HeapSurface surface;
   double cell = 0;
 
-  /// Particles a cell under the surface of square columns of the half edge `half` [m] around `centres`; 8 in the bank.
+  /// Particles a cell under the surface of square columns of the half edge `half` [m] around
+  /// `centres`; 8 in the bank.
   double crowding(const std::vector<Vec2>& centres, double half) const {
     double count = 0, height = 0, points = 0;
     for (const Vec2& centre : centres) {
-      const auto inside = [&](const Vec2& at) { return (at - centre).cwiseAbs().maxCoeff() < half; };
+      const auto inside = [&](const Vec2& at) {
+        return (at - centre).cwiseAbs().maxCoeff() < half;
+      };
       for (const Vec3& grain : grains) count += inside(grain.head<2>()) ? 1 : 0;
       for (int iy = 0; iy < surface.ny; ++iy)
         for (int ix = 0; ix < surface.nx; ++ix)
@@ -36,12 +39,14 @@ struct Bed {
   }
 };
 
-/// Sheets over the whole plan of the box, half a cell thick, one behind the other at 1 m/s, each grain a little aside.
+/// Sheets over the whole plan of the box, half a cell thick, one behind the other at 1 m/s, each
+/// grain a little aside.
 void pour(Rig& rig, const Vec3& floor, double inside, const std::function<void(double)>& run) {
   Random random(1);
   const double half = inside - 0.25 * rig.cell(), mouth = 0.7, thick = rig.cell() / 2;
   for (int sheet = 0; sheet < 12; ++sheet) {
-    auto soil = rig.fill({floor + Vec3(-half, -half, mouth), floor + Vec3(half, half, mouth + thick)});
+    auto soil =
+        rig.fill({floor + Vec3(-half, -half, mouth), floor + Vec3(half, half, mouth + thick)});
     for (Particle& p : soil) {
       for (float& x : p.x) x += static_cast<float>(random.uniform(-0.1, 0.1));
       p.v[2] = -1;
@@ -79,21 +84,25 @@ TEST(SoilCorner, OfABoxOfPlatesKeepsTheVolumeOfItsSoil) {
   // Two places of the plates between the grid's planes.
   for (const Vec3& floor : {Vec3(10.013, 10.007, 1.5), Vec3(10.046, 9.961, 1.473)}) {
     const Bed bed = poured_box(floor);
-    // Columns of 2 x 2 cells, half the spacing of grains off the faces, where a lattice at rest begins.
+    // Columns of 2 x 2 cells, half the spacing of grains off the faces, where a lattice at rest
+    // begins.
     const double half = bed.cell, off = kEdge / 2 - 0.015 - 0.25 * bed.cell - half;
     const double middle = bed.crowding({Vec2::Zero()}, 0.3);
-    const double corner = bed.crowding({{off, off}, {off, -off}, {-off, off}, {-off, -off}}, half) / middle;
+    const double corner =
+        bed.crowding({{off, off}, {off, -off}, {-off, off}, {-off, -off}}, half) / middle;
     const double wall = bed.crowding({{off, 0}, {-off, 0}, {0, off}, {0, -off}}, half) / middle;
     print_value("particles a cell, corner / middle of a poured box", corner, "1 +-10 %",
                 "1.4 without treatment [docs/validation.md, Swell, pouring and heaps]");
-    print_value("same, beside a wall / middle", wall, "1 +-10 %", "[docs/validation.md, Swell, pouring and heaps]");
+    print_value("same, beside a wall / middle", wall, "1 +-10 %",
+                "[docs/validation.md, Swell, pouring and heaps]");
     print_value("same, middle", middle, "8 in the bank", "not gated");
-    // No place may hold more than the bank: that is crowding. Grains are counted in columns of 4 cells: about 200 in
-    // the four corners.
+    // No place may hold more than the bank: that is crowding. Grains are counted in columns of 4
+    // cells: about 200 in the four corners.
     EXPECT_LT(corner * middle, 1.05 * 8);
     EXPECT_LT(wall * middle, 1.05 * 8);
-    // Against the middle it was within 10 % while J was closed. Poured soil now lies looser in the middle (6.3 and 6.8
-    // of 8) than at one of the two places' walls: an open miss of the gate above, kept from growing.
+    // Against the middle it was within 10 % while J was closed. Poured soil now lies looser in the
+    // middle (6.3 and 6.8 of 8) than at one of the two places' walls: an open miss of the gate
+    // above, kept from growing.
     EXPECT_NEAR(corner, 1, 0.17);
     EXPECT_NEAR(wall, 1, 0.17);
   }

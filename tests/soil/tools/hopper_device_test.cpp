@@ -11,14 +11,16 @@ namespace {
 
 using rig::Rig;
 
-/// A square funnel without a floor: outlet of this width at z = 0, walls out to `mouth` at z = `cone`, upright to
-/// `top`. Its inside is its front.
+/// A square funnel without a floor: outlet of this width at z = 0, walls out to `mouth` at z =
+/// `cone`, upright to `top`. Its inside is its front.
 scene::Shell funnel(double outlet, double mouth, double cone, double top) {
   scene::Shell s;
   s.name = "hopper";
-  const std::array<std::array<double, 2>, 3> rings{{{outlet / 2, 0}, {mouth / 2, cone}, {mouth / 2, top}}};
+  const std::array<std::array<double, 2>, 3> rings{
+      {{outlet / 2, 0}, {mouth / 2, cone}, {mouth / 2, top}}};
   for (const auto& [half, z] : rings)
-    for (const auto& [x, y] : {std::array{-1, -1}, std::array{1, -1}, std::array{1, 1}, std::array{-1, 1}})
+    for (const auto& [x, y] :
+         {std::array{-1, -1}, std::array{1, -1}, std::array{1, 1}, std::array{-1, 1}})
       s.vertices.emplace_back(half * x, half * y, z);
   for (int ring = 0; ring < 2; ++ring)
     for (int i = 0; i < 4; ++i) {
@@ -37,7 +39,8 @@ TEST(SoilHopper, HoldsItsLoadUntilTheGateSlidesAway) {
   std::array<ToolImpulse, 2> impulses;
   motions[0].tool = rig.solver().add_tool(funnel(0.6, 1.2, 0.5, 1.0));
   motions[0].X_WT = make_pose(10, 10, 1.5);
-  motions[1].tool = rig.solver().add_tool(lab::plate(1.4, 1.2));  // 0.4 m beyond the outlet on either side
+  // 0.4 m beyond the outlet on either side
+  motions[1].tool = rig.solver().add_tool(lab::plate(1.4, 1.2));
   motions[1].X_WT = make_pose(10, 10, 1.49);
   rig.solver().insert(rig.fill({Vec3(9.5, 9.5, 2.05), Vec3(10.5, 10.5, 2.45)}));
   const double mass = rig.solver().payload(motions[0].tool, motions[0].X_WT);
@@ -63,7 +66,8 @@ TEST(SoilHopper, HoldsItsLoadUntilTheGateSlidesAway) {
   motions[1].v_WT = Vec3::Zero();
   run(2.5);
   const double left = rig.solver().payload(motions[0].tool, motions[0].X_WT);
-  print_value("left in the open hopper [kg]", left, "< 1 % of " + std::to_string(mass), "steep, smooth walls");
+  print_value("left in the open hopper [kg]", left, "< 1 % of " + std::to_string(mass),
+              "steep, smooth walls");
   EXPECT_LT(left, 0.01 * mass);
   EXPECT_EQ(rig.solver().ledger().error(), 0);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);

@@ -37,8 +37,8 @@ TEST(ShellGeometry, FindsTheSameDistanceFromEveryGuess) {
 }
 
 TEST(ShellGeometry, SharpFoldsOfAClosedBodyCountAsEdgesAndNoOthersDo) {
-  // A box whose outside is its front: twelve edges, not the six diagonals of its faces. Turned inside out, as the
-  // inside of a tank, none; with its lid open the four of the rim.
+  // A box whose outside is its front: twelve edges, not the six diagonals of its faces. Turned
+  // inside out, as the inside of a tank, none; with its lid open the four of the rim.
   scene::Shell box = lab::closed_box(1.0, 0.8, 0.6);
   EXPECT_EQ(ShellGeometry(box, 0.1).rims().size(), 12u);
   for (auto& triangle : box.triangles) std::swap(triangle[1], triangle[2]);
@@ -69,7 +69,7 @@ TEST(ShellGeometry, PiecesCoverTheShellWithoutGapsAndStaySmall) {
   EXPECT_NEAR(area, 0.8 + 2 * 0.6 * 1.8, 1e-9);
 }
 
-TEST(ShellGeometry, HoldsWhatLiesInsideAndHeapedOverTheMouth) {
+TEST(ShellGeometry, HoldsSoilInsideAndHeapedOverTheMouth) {
   const ShellGeometry box(rig::open_box(1.0, 0.8, 0.6), 0.1);
   EXPECT_TRUE(box.holds(Vec3(0, 0, 0.3)));
   EXPECT_TRUE(box.holds(Vec3(0, 0, 0.75)));  // in the heap

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools in the particle soil: bucket, blade, light plate. All small and coarse; finer siblings run in ./dev validate.
+// Tools in the particle soil: bucket, blade, light plate. All small and coarse; finer siblings run
+// in ./dev validate.
 #include <gtest/gtest.h>
 
 #include "soil/rig.h"
@@ -19,11 +20,14 @@ struct Driver {
   void step(double dt) {
     rig.solver().step(dt, std::span(&motion, 1), std::span(&impulse, 1));
     if (impulse.scale > 0) worst = std::max(worst, impulse.residual.norm() / impulse.scale);
-    if (impulse.scale_moment > 0) worst = std::max(worst, impulse.residual_moment.norm() / impulse.scale_moment);
+    if (impulse.scale_moment > 0)
+      worst = std::max(worst, impulse.residual_moment.norm() / impulse.scale_moment);
     sum += impulse.J_W;
     time += dt;
     const double angle = motion.w_WT.norm() * dt;
-    if (angle > 0) motion.X_WT.linear() = Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
+    if (angle > 0)
+      motion.X_WT.linear() =
+          Eigen::AngleAxisd(angle, motion.w_WT.normalized()) * motion.X_WT.linear();
     motion.X_WT.translation() += motion.v_WT * dt;
   }
   /// Mean force on the tool over `seconds` [N].
@@ -41,7 +45,8 @@ struct Driver {
 };
 
 /// Soil laid into an open box that stands at p with this pitch [rad].
-std::vector<Particle> load_of(const Rig& rig, const Pose& X, double length, double width, double height) {
+std::vector<Particle> load_of(const Rig& rig, const Pose& X, double length, double width,
+                              double height) {
   std::vector<Particle> out;
   const double h = rig.cell() / 2, wall = 0.04;
   for (double z = wall; z < height; z += h)
@@ -81,8 +86,8 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
   bucket.run(1.2);
   bucket.motion.w_WT = Vec3::Zero();
   bucket.run(0.9);
-  print_value("left in the tipped bucket [kg]", rig.solver().payload(0, bucket.motion.X_WT), "< 1 % of 500 kg",
-              "[docs/validation.md, Buckets and carried loads]");
+  print_value("left in the tipped bucket [kg]", rig.solver().payload(0, bucket.motion.X_WT),
+              "< 1 % of 500 kg", "[docs/validation.md, Buckets and carried loads]");
   EXPECT_LT(rig.solver().payload(0, bucket.motion.X_WT), 0.01 * weight / kGravity);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_EQ(rig.solver().ledger().error(), 0);
@@ -119,8 +124,9 @@ TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
   EXPECT_LT(bucket.worst, 1e-5);
 }
 
-/// Two upright side plates, `gap` apart, joined by a plate across: seen from above an H. Inside, and ahead of the plate
-/// across, is the front, so that soil behind that one has the back of it and the front of the sides.
+/// Two upright side plates, `gap` apart, joined by a plate across: seen from above an H. Inside,
+/// and ahead of the plate across, is the front, so that soil behind that one has the back of it and
+/// the front of the sides.
 scene::Shell crossed_channel(double length, double gap, double height) {
   scene::Shell s;
   s.name = "channel";
@@ -134,7 +140,8 @@ scene::Shell crossed_channel(double length, double gap, double height) {
     s.triangles.push_back({a, c, d});
   };
   for (const int x : {0, 1}) {
-    quad(corner(x, 0, 0), corner(x, 0, 1), corner(x + 1, 0, 1), corner(x + 1, 0, 0));  // looks along +y
+    // Looks along +y
+    quad(corner(x, 0, 0), corner(x, 0, 1), corner(x + 1, 0, 1), corner(x + 1, 0, 0));
     quad(corner(x, 1, 0), corner(x + 1, 1, 0), corner(x + 1, 1, 1), corner(x, 1, 1));  // along -y
   }
   quad(corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1));  // along +x
@@ -149,7 +156,8 @@ TEST(SoilTool, SoilBehindAPlateThatLeavesItIsNotPushedThroughThePlatesBesideIt) 
   std::vector<Particle> soil;
   for (const double z : {0.55, 0.6, 0.65})
     for (const double y : {0.155, 0.18, 0.205})
-      soil.push_back(rig.particle(channel.motion.X_WT * Vec3(-0.12, y, z), std::pow(rig.cell() / 2, 3)));
+      soil.push_back(
+          rig.particle(channel.motion.X_WT * Vec3(-0.12, y, z), std::pow(rig.cell() / 2, 3)));
   rig.solver().insert(soil);
   const auto aside = [&] {
     double out = 0;
@@ -162,8 +170,8 @@ TEST(SoilTool, SoilBehindAPlateThatLeavesItIsNotPushedThroughThePlatesBesideIt) 
   channel.motion.v_WT = Vec3(1.5, 0, 0);
   channel.run(0.1);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
-  // Nothing acts aside; what a kernel reaches of plates that pass by without touching is nothing. Pushed out through a
-  // side they would be at 0.2 m.
+  // Nothing acts aside; what a kernel reaches of plates that pass by without touching is nothing.
+  // Pushed out through a side they would be at 0.2 m.
   EXPECT_LT(aside(), before + 1e-3);
 }
 
@@ -184,32 +192,39 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
   std::vector<Particle> all = rig.fill(bed, true), cut;
   for (const Particle& p : all) {  // a trench stands open behind the blade
     const Vec3 at = rig.position(p);
-    if (at.x() > face || at.z() < -depth || std::abs(at.y() - 10) > width / 2 + 0.1) cut.push_back(p);
+    if (at.x() > face || at.z() < -depth || std::abs(at.y() - 10) > width / 2 + 0.1)
+      cut.push_back(p);
   }
   const double thickness = GetParam().thickness;
-  const scene::Shell tool = thickness > 0 ? lab::closed_box(thickness, width, 0.6) : rig::blade(width, 0.6);
+  const scene::Shell tool =
+      thickness > 0 ? lab::closed_box(thickness, width, 0.6) : rig::blade(width, 0.6);
   Driver driver(rig, tool, make_pose(face - 0.015 - thickness / 2, 10, -depth, 0, 0, 0));
   rig.solver().insert(cut);
   driver.motion.v_WT = Vec3(speed, 0, 0);
   driver.run(0.03 / speed);
   const Vec3 force = driver.run(0.04 / speed);  // mean over 0.03 .. 0.07 m of travel
   const double kp = (1 + std::sin(soil.friction_angle)) / (1 - std::sin(soil.friction_angle));
-  const double rankine =
-      width * (0.5 * soil.bank_density * kGravity * depth * depth * kp + 2 * soil.cohesion * depth * std::sqrt(kp));
-  print_value("blade at 0.05 m of travel, c " + std::to_string(GetParam().cohesion) + ", thickness " +
-                  std::to_string(thickness),
-              -force.x(), std::to_string(rankine) + " N +-20 %", "[Rankine 1857] passive, smooth wide blade");
-  // 20 %: the gate is 15 % for a wide blade at fine cells; this one is 5.3 depths wide and 3 cells deep.
+  const double rankine = width * (0.5 * soil.bank_density * kGravity * depth * depth * kp +
+                                  2 * soil.cohesion * depth * std::sqrt(kp));
+  print_value("blade at 0.05 m of travel, c " + std::to_string(GetParam().cohesion) +
+                  ", thickness " + std::to_string(thickness),
+              -force.x(), std::to_string(rankine) + " N +-20 %",
+              "[Rankine 1857] passive, smooth wide blade");
+  // 20 %: the gate is 15 % for a wide blade at fine cells; this one is 5.3 depths wide and 3 cells
+  // deep.
   EXPECT_NEAR(-force.x() / rankine, 1, 0.2);
   if (thickness == 0)
-    EXPECT_LT(std::abs(force.z()), 1e-3 * std::abs(force.x()));  // smooth; a block stands on its floor
+    // Smooth; a block stands on its floor
+    EXPECT_LT(std::abs(force.z()), 1e-3 * std::abs(force.x()));
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_LT(driver.worst, 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Smooth, BladeTest, testing::Values(BladeCase{0, 0, 0}, BladeCase{2000, 0, 0}));
+INSTANTIATE_TEST_SUITE_P(Smooth, BladeTest,
+                         testing::Values(BladeCase{0, 0, 0}, BladeCase{2000, 0, 0}));
 // Closed tools, thicker and thinner than a cell.
-INSTANTIATE_TEST_SUITE_P(Block, BladeTest, testing::Values(BladeCase{0, 0, 0.25}, BladeCase{0, 0, 0.06}));
+INSTANTIATE_TEST_SUITE_P(Block, BladeTest,
+                         testing::Values(BladeCase{0, 0, 0.25}, BladeCase{0, 0, 0.06}));
 
 TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
   const Box bed{Vec3(9.4, 9.4, -0.4), Vec3(10.6, 10.6, 0)};
@@ -236,14 +251,16 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
     driver.motion.v_WT += Vec3(0, 0, -kGravity * dt);
     ToolMotion& m = driver.motion;
     rig.solver().step(dt, std::span(&m, 1), std::span(&driver.impulse, 1));
-    driver.worst = std::max(driver.worst, driver.impulse.residual.norm() / std::max(driver.impulse.scale, 1e-9));
+    driver.worst = std::max(driver.worst,
+                            driver.impulse.residual.norm() / std::max(driver.impulse.scale, 1e-9));
     Vec6 impulse;
     impulse << driver.impulse.L_W, driver.impulse.J_W;
     const Vec6 change = inverse * impulse;
     m.w_WT += change.head<3>();
     m.v_WT += change.tail<3>();
     const double angle = m.w_WT.norm() * dt;
-    if (angle > 0) m.X_WT.linear() = Eigen::AngleAxisd(angle, m.w_WT.normalized()) * m.X_WT.linear();
+    if (angle > 0)
+      m.X_WT.linear() = Eigen::AngleAxisd(angle, m.w_WT.normalized()) * m.X_WT.linear();
     m.X_WT.translation() += m.v_WT * dt;
     const Vec3 w = R.transpose() * m.w_WT;
     most = std::max(most, 0.5 * mass * m.v_WT.squaredNorm() + 0.5 * w.dot(inertia.cwiseProduct(w)) +
@@ -264,7 +281,8 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   rig.solver().insert(soil);
   const double load = mass_of(soil), mass = 0.3 * load, dt = 1.6e-3;
   const Vec3 inertia = mass / 12 * Vec3(1.0, 1.36, 1.64);
-  // A servo of 2 Hz for mass and load together carries their weight; it holds translation and rotation.
+  // A servo of 2 Hz for mass and load together carries their weight; it holds translation and
+  // rotation.
   const double omega = 2 * kPi * 2, stiffness = (mass + load) * omega * omega,
                damping = 2 * 0.7 * (mass + load) * omega;
   const double arm2 = 0.3;  // radius of gyration squared of bucket and load [m2]
@@ -274,8 +292,8 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   for (int i = 0; i < 1000; ++i) {
     const Mat3 R = m.X_WT.linear();
     const Eigen::AngleAxisd turn(R * home.linear().transpose());
-    const Vec3 force =
-        -stiffness * (m.X_WT.translation() - home.translation()) - damping * m.v_WT + Vec3(0, 0, load * kGravity);
+    const Vec3 force = -stiffness * (m.X_WT.translation() - home.translation()) - damping * m.v_WT +
+                       Vec3(0, 0, load * kGravity);
     const Vec3 torque = -arm2 * (stiffness * turn.angle() * turn.axis() + damping * m.w_WT);
     Mat6 inverse = Mat6::Zero();
     inverse.topLeftCorner<3, 3>() = R * inertia.cwiseInverse().asDiagonal() * R.transpose();
@@ -285,11 +303,13 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
     m.w_WT += inverse.topLeftCorner<3, 3>() * torque * dt;
     m.inverse_mass = inverse;
     rig.solver().step(dt, std::span(&m, 1), std::span(&driver.impulse, 1));
-    driver.worst = std::max(driver.worst, driver.impulse.residual.norm() / std::max(driver.impulse.scale, 1e-9));
+    driver.worst = std::max(driver.worst,
+                            driver.impulse.residual.norm() / std::max(driver.impulse.scale, 1e-9));
     m.v_WT += driver.impulse.J_W / mass;
     m.w_WT += inverse.topLeftCorner<3, 3>() * driver.impulse.L_W;
     const double angle = m.w_WT.norm() * dt;
-    if (angle > 0) m.X_WT.linear() = Eigen::AngleAxisd(angle, m.w_WT.normalized()) * m.X_WT.linear();
+    if (angle > 0)
+      m.X_WT.linear() = Eigen::AngleAxisd(angle, m.w_WT.normalized()) * m.X_WT.linear();
     m.X_WT.translation() += m.v_WT * dt;
     if (i < 600) continue;
     rms += ((m.v_WT - v_before) / dt).squaredNorm();
@@ -351,7 +371,8 @@ TEST(SoilTool, APlateCompactsSoftSoilForGood) {
     rebound[soft] = mean_state() / state[soft];
     EXPECT_EQ(rig.solver().ledger().error(), 0);
   }
-  print_value("density state under the plate, soft soil", state[1], "< 0.97, 1 in hard soil", "compaction");
+  print_value("density state under the plate, soft soil", state[1], "< 0.97, 1 in hard soil",
+              "compaction");
   EXPECT_NEAR(state[0], 1, 1e-3);
   EXPECT_LT(state[1], 0.97);
   EXPECT_NEAR(rebound[1], 1, 0.01);
@@ -360,14 +381,16 @@ TEST(SoilTool, APlateCompactsSoftSoilForGood) {
 TEST(SoilTool, ABedDoesNotCarryWhatABucketInsideItHolds) {
   Rig rig({rig::sand()});
   const PlacedTool bed{rig.solver().add_tool(rig::open_box(2.4, 2, 1)), make_pose(10, 10, 1)};
-  const PlacedTool bucket{rig.solver().add_tool(rig::open_box(0.8, 0.8, 0.6)), make_pose(10, 10, 1.3)};
+  const PlacedTool bucket{rig.solver().add_tool(rig::open_box(0.8, 0.8, 0.6)),
+                          make_pose(10, 10, 1.3)};
   rig.solver().insert(rig.fill({Vec3(9.7, 9.7, 1.4), Vec3(10.3, 10.3, 1.7)}));
   const double held = rig.solver().payload(bucket.tool, bucket.X_WT);
   ASSERT_GT(held, 100);
   EXPECT_EQ(rig.solver().payload(bed.tool, bed.X_WT), held) << "by itself the bed counts it too";
   EXPECT_EQ(rig.solver().payload(bed.tool, bed.X_WT, std::span(&bucket, 1)), 0);
   rig.solver().insert(rig.fill({Vec3(9, 9.5, 1.1), Vec3(9.4, 10.5, 1.3)}));
-  EXPECT_GT(rig.solver().payload(bed.tool, bed.X_WT, std::span(&bucket, 1)), 100) << "what lies beside it is the bed's";
+  EXPECT_GT(rig.solver().payload(bed.tool, bed.X_WT, std::span(&bucket, 1)), 100)
+      << "what lies beside it is the bed's";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dig step as a scene describes it; dig_reach.cpp looks at its targets, digging.h carries it out.
+// The dig step as a scene describes it; dig_reach.cpp looks at its targets, digging.h carries it
+// out.
 #include "control/activities/dig/dig.h"
 
 #include "control/activities/dig/digging.h"
@@ -29,9 +30,10 @@ Dig Dig::read(const scene::StepSource& source) {
       .finish();
   if (cycles > 0) step.max_cycles = cycles;
   // What inverse kinematics needs; the swing joint is asked for by the operator.
-  const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() && !machine->arm.stick.empty() &&
-                   !machine->arm.bucket.empty();
-  source.require(can, "dig needs a machine with <navvy:bucket> and <navvy:arm> (boom, stick, bucket)");
+  const bool can = machine && !machine->buckets.empty() && !machine->arm.boom.empty() &&
+                   !machine->arm.stick.empty() && !machine->arm.bucket.empty();
+  source.require(can,
+                 "dig needs a machine with <navvy:bucket> and <navvy:arm> (boom, stick, bucket)");
   source.on_site("from_m", step.from);
   source.on_site("to_m", step.to);
   source.on_site("dump_at_m", step.dump_at);
@@ -45,6 +47,8 @@ Dig Dig::read(const scene::StepSource& source) {
   return step;
 }
 
-std::unique_ptr<Activity> Dig::activity(Workplace& place) const { return std::make_unique<Digging>(place, *this); }
+std::unique_ptr<Activity> Dig::activity(OperatorContext& place) const {
+  return std::make_unique<Digging>(place, *this);
+}
 
 }  // namespace navvy::control

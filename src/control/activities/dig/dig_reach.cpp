@@ -13,12 +13,14 @@ namespace navvy::control {
 namespace {
 
 constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
-constexpr double kNearest = 3.0;      // end of the trench to the swing axis: clear of wheels and undercarriage [m]
-constexpr double kWiderCut = 0.1;     // than the bucket [m]
-constexpr double kSpoilClear = 0.5;   // dump point to the trench's edge [m]
+// End of the trench to the swing axis: clear of wheels and undercarriage [m]
+constexpr double kNearest = 3.0;
+constexpr double kWiderCut = 0.1;    // than the bucket [m]
+constexpr double kSpoilClear = 0.5;  // dump point to the trench's edge [m]
 constexpr const char* kMoveOrTurn = "move the target or turn the machine";
 
-/// One dig at one place of the machine. Stops at a line beside the swing axis: everything else would be wrong, too.
+/// One dig at one place of the machine. Stops at a line beside the swing axis: everything else
+/// would be wrong, too.
 class DigReach {
  public:
   DigReach(const Dig& dig, ReachCheck& check)
@@ -28,7 +30,8 @@ class DigReach {
     const TrenchLine line = trench_line(dig_, X_WS_);
     // A bucket cannot be moved aside within a line: one cut is one bucket wide.
     if (dig_.width > arm_.bucket().width + kWiderCut)
-      check_.fault("dig/width", metres(dig_.width), "the bucket cuts " + metres(arm_.bucket().width),
+      check_.fault("dig/width", metres(dig_.width),
+                   "the bucket cuts " + metres(arm_.bucket().width),
                    "dig a trench one bucket wide, or several side by side");
     if (line.offset > kMostOffset) {
       // Where the rear axle had to stand to look along the line from the same distance.
@@ -47,7 +50,8 @@ class DigReach {
                    "the trench must stay " + metres(kNearest) + " clear of it",
                    "end it farther away or stand farther back");
     check_.require_swing(arm_, "dig/line", line.swing, kMoveOrTurn);
-    for (const auto& [name, p] : {std::pair{"dig/far end", line.far}, std::pair{"dig/near end", line.near}}) {
+    for (const auto& [name, p] :
+         {std::pair{"dig/far end", line.far}, std::pair{"dig/near end", line.near}}) {
       // Over the ground before it goes down, and on the finished floor.
       require_tip(name, p, check_.surface.height(p.x(), p.y()) + kClear);
       require_tip(name, p, check_.surface.height(p.x(), p.y()) - dig_.depth);
@@ -55,11 +59,13 @@ class DigReach {
     require_dump();
     // Distance of the dump point from the line between the ends, not beyond them.
     const Vec2 along = line.near - line.far;
-    const double share = std::clamp((dig_.dump_at - line.far).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double share =
+        std::clamp((dig_.dump_at - line.far).dot(along) / along.squaredNorm(), 0.0, 1.0);
     const double away = (dig_.dump_at - line.far - share * along).norm();
     if (away < 0.5 * dig_.width + kSpoilClear)
       check_.fault("dig/dump_at", metres(away) + " from the trench's line",
-                   "spoil must fall " + metres(kSpoilClear) + " clear of the trench's edge", "dump farther aside");
+                   "spoil must fall " + metres(kSpoilClear) + " clear of the trench's edge",
+                   "dump farther aside");
   }
 
  private:
@@ -73,7 +79,8 @@ class DigReach {
       return arm_.inverse_nearest(pose, q);
     };
     if (possible(at.reach)) return;
-    // How far it would have been possible at that height, found by trying: the message shall help to place the machine.
+    // How far it would have been possible at that height, found by trying: the message shall help
+    // to place the machine.
     double least = 0, most = 0;
     for (double r = 0.5; r < arm_.longest() + 2; r += 0.02) {
       if (!possible(r)) continue;
@@ -81,9 +88,10 @@ class DigReach {
       most = r;
     }
     check_.fault(element,
-                 metres(at.reach) + " from the swing axis at height " + metres(z) + " (" + metres(at.height) +
-                     " over the swing ring)",
-                 most > 0 ? "at that height the bucket's tip reaches from " + metres(least) + " to " + metres(most)
+                 metres(at.reach) + " from the swing axis at height " + metres(z) + " (" +
+                     metres(at.height) + " over the swing ring)",
+                 most > 0 ? "at that height the bucket's tip reaches from " + metres(least) +
+                                " to " + metres(most)
                           : "the tip never gets to that height",
                  at.reach > most ? "stand nearer, or dig less deep or far" : "stand farther back");
   }
@@ -100,8 +108,9 @@ class DigReach {
     if (any && possible > dig_.dump_height - 0.026) return;
     if (any) {
       check_.fault("dig/dump_height", metres(dig_.dump_height),
-                   "with a level bucket " + metres(at.reach) + " from the swing axis the tip opens at most " +
-                       metres(possible) + " over the ground",
+                   "with a level bucket " + metres(at.reach) +
+                       " from the swing axis the tip opens at most " + metres(possible) +
+                       " over the ground",
                    "dump lower, nearer or farther; on a map, --at another place");
       return;
     }
@@ -113,17 +122,18 @@ class DigReach {
       if (most == 0) least = r;
       most = r;
     }
-    check_.fault(
-        "dig/dump_at", metres(at.reach) + " from the swing axis",
-        most > 0 ? "a level bucket can be opened from " + metres(least) + " to " + metres(most) + " in that direction"
-                 : "the ground there is " + metres(at.height) +
-                       " over the swing ring: a level bucket can be opened over it nowhere in that direction",
-        "move the dump point or the machine; on a map, --at another place");
+    check_.fault("dig/dump_at", metres(at.reach) + " from the swing axis",
+                 most > 0 ? "a level bucket can be opened from " + metres(least) + " to " +
+                                metres(most) + " in that direction"
+                          : "the ground there is " + metres(at.height) +
+                                " over the swing ring: a level bucket can be opened over it "
+                                "nowhere in that direction",
+                 "move the dump point or the machine; on a map, --at another place");
   }
 
   const Dig& dig_;
   ReachCheck& check_;
-  const Arm arm_;
+  const ArmKinematics arm_;
   const Pose X_WS_;  // frame of the swing axis
 };
 

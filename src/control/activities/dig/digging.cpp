@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump; and when the trench is done.
+// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump; and when the
+// trench is done.
 #include "control/activities/dig/digging.h"
 
 #include <algorithm>
@@ -12,35 +13,40 @@
 namespace navvy::control {
 namespace {
 
-// Of the heaped capacity, when the curl begins; the lip cuts on while it curls, which adds a tenth. Fuller buckets
-// carry more (0.55: loads of 520 kg instead of 400), but drip on the way, and heaps that go up rub the trench's walls.
-// tuned: on the trench, 0.45 / 0.50 lose 0.7 / 0.9 % on the way and over-dig 7.3 / 9.1 %; with half the patience for
-// drips 0.45 / 0.50 / 0.55 lose 1.1 / 1.2 / 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
+// Of the heaped capacity, when the curl begins; the lip cuts on while it curls, which adds a tenth.
+// Fuller buckets carry more (0.55: loads of 520 kg instead of 400), but drip on the way, and heaps
+// that go up rub the trench's walls. tuned: on the trench, 0.45 / 0.50 lose 0.7 / 0.9 % on the way
+// and over-dig 7.3 / 9.1 %; with half the patience for drips 0.45 / 0.50 / 0.55 lose 1.1 / 1.2 /
+// 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
 constexpr double kFill = 0.45;
-constexpr double kLiftClear = 0.6;    // lowest point over the ground before the machine swings [m]
-constexpr double kHeldUp = 0.4;       // of a slice: raised by more on the whole drag's mean, the next slice is thinner
+constexpr double kLiftClear = 0.6;  // lowest point over the ground before the machine swings [m]
+// Of a slice: raised by more on the whole drag's mean, the next slice is thinner
+constexpr double kHeldUp = 0.4;
 constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
-// On the last floor a scoop that brings less is not made a second time: a high wall sheds as much again and again.
-constexpr double kCrumbs = 0.15;
+// On the last floor a scoop that brings less is not made a second time: a high wall sheds as much
+// again and again.
+constexpr double kLooseParticles = 0.15;
 constexpr int kMostEmpty = 3;  // empty scoops in a row that end the dig
-// What a heaped bucket loses by itself falls back into the trench: so much less [share] within so long [s], for at most
-// so long after the lift [s]. Then a bucket with a fair load [share of a full one] swings more gently [share of the
-// usual rate].
+// What a heaped bucket loses by itself falls back into the trench: so much less [share] within so
+// long [s], for at most so long after the lift [s]. Then a bucket with a fair load
+// [share of a full one] swings more gently [share of the usual rate].
 constexpr double kDrip = 0.001, kStill = 0.8, kDripPatience = 4;
 constexpr double kHeavy = 0.3, kGently = 0.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
-constexpr double kBeyond = 0.3;  // a scoop's start may lie so far out of reach [m]: drives end 0.15 m off
+// A scoop's start may lie so far out of reach [m]: drives end 0.15 m off
+constexpr double kBeyond = 0.3;
 constexpr double kRest = 2.0;    // [s] for loose soil to come to rest before the end
 constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Of the design volume: with more left a trench is not done [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
 constexpr int kMostCleanUps = 2;
-constexpr double kCleanEnough = 0.02;   // share of the design volume that may stay on the floor
-constexpr double kHeapRadius = 0.6;     // around the dump point [m]
-constexpr double kArmAfterSwing = 0.4;  // on the way back the arm comes down after this share of the swing
+constexpr double kCleanEnough = 0.02;  // share of the design volume that may stay on the floor
+constexpr double kHeapRadius = 0.6;    // around the dump point [m]
+// On the way back the arm comes down after this share of the swing
+constexpr double kArmAfterSwing = 0.4;
 
 /// Highest ground around a point [m].
 double heap_height(const SurfaceView& surface, const Vec2& p) {
@@ -57,7 +63,7 @@ double heap_height(const SurfaceView& surface, const Vec2& p) {
 template <class Use>
 auto with_surface(const Observation& seen, Use use) {
   if (seen.surface) return use(*seen.surface);
-  const GroundSurface resting(*seen.ground);
+  const GroundSurfaceView resting(*seen.ground);
   return use(static_cast<const SurfaceView&>(resting));
 }
 
@@ -70,7 +76,8 @@ void Digging::begin(const Observation& seen) {
   const Vec2 middle = 0.5 * (dig_.from + dig_.to);
   const Vec2i cell = ground.column_at(middle.x(), middle.y());
   const auto& soils = ground.setup().soils;
-  const std::size_t kind = ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
+  const std::size_t kind =
+      ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
   const scene::Soil soil = kind < soils.size() ? soils[kind] : scene::Soil{};
   m.scoop_volume = kFill * arm_.bucket().capacity / soil.swell;
   m.full_mass = m.scoop_volume * soil.bank_density;
@@ -84,13 +91,15 @@ void Digging::begin(const Observation& seen) {
 
 bool Digging::plan_scoop(const Observation& seen) {
   // Nothing is dug for ever: both limits end the dig whatever the plan still sees.
-  if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty) return false;
+  if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
+    return false;
   Scoop scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.next(surface); });
   m.cleaning = 0;
-  // What fell back lies along the whole floor, too thin for a scoop of the plan: it is swept up once or twice.
+  // What fell back lies along the whole floor, too thin for a scoop of the plan: it is swept up
+  // once or twice.
   if (!scoop.any && m.clean_ups < kMostCleanUps) {
-    const double rest =
-        with_surface(seen, [&](const SurfaceView& surface) { return plan_.volume_above(surface, dig_.depth); });
+    const double rest = with_surface(
+        seen, [&](const SurfaceView& surface) { return plan_.volume_above(surface, dig_.depth); });
     if (rest > kCleanEnough * plan_.design_volume()) {
       m.cleaning = 1;
       scoop = plan_.clean_up();
@@ -107,7 +116,8 @@ bool Digging::plan_scoop(const Observation& seen) {
 bool Digging::beyond_reach(const Scoop& scoop) const {
   const Vec2 p = plan_.point(scoop.start);
   const SwingPoint at =
-      swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), plan_.start_height(scoop.start) - scoop.level));
+      swing_point(m.stance.swing_frame(arm_),
+                  Vec3(p.x(), p.y(), plan_.start_height(scoop.start) - scoop.level));
   // Nearer or farther by what is let pass it would do.
   for (const double off : {0.0, -kBeyond, kBeyond}) {
     BucketPose pose{at.reach + off, at.height, at.level(with_cut(arm_, kPlunge))};
@@ -120,19 +130,22 @@ bool Digging::beyond_reach(const Scoop& scoop) const {
 void Digging::go_to_scoop(Phase next, const Observation& seen) {
   m.s = m.scoop_start;
   const Vec2 p = plan_.point(m.s);
-  // While it swings back the bucket stays above the trench's edges and what was spilt on them; then it goes down.
+  // While it swings back the bucket stays above the trench's edges and what was spilt on them; then
+  // it goes down.
   const double ground = with_surface(seen, [&](const SurfaceView& surface) {
     return next == kReturn ? plan_.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
   });
   const double z = std::max(ground, plan_.start_height(m.s) - m.scoop_level) + kClear;
   m.held_since = 0;
-  m.move.start(place_, m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge)), seen, {1.0, kArmAfterSwing});
+  m.move.start(place_, m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge)), seen,
+               {1.0, kArmAfterSwing});
   enter(next);
 }
 
 void Digging::start_lift(const Observation& seen) {
   const Vec2 p = plan_.point(m.s);
-  const double ground = with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
+  const double ground =
+      with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
   // The lowest part of the level bucket clears the ground, not its tip.
   const double z = std::max(ground, plan_.start_height(m.s)) + kLiftClear + arm_.below_tip(kCarry);
   const SwingPoint tip = swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), z));
@@ -154,20 +167,24 @@ bool Digging::drips(const Observation& seen) {
 
 void Digging::start_swing(const Observation& seen) {
   // The heap grows from cycle to cycle: the bucket opens over what lies there now.
-  const double heap =
-      with_surface(seen, [&](const SurfaceView& surface) { return heap_height(surface, dig_.dump_at); });
-  const SwingPoint over = swing_point(m.stance.swing_frame(arm_), Vec3(dig_.dump_at.x(), dig_.dump_at.y(), heap));
+  const double heap = with_surface(
+      seen, [&](const SurfaceView& surface) { return heap_height(surface, dig_.dump_at); });
+  const SwingPoint over =
+      swing_point(m.stance.swing_frame(arm_), Vec3(dig_.dump_at.x(), dig_.dump_at.y(), heap));
   ArmAngles q = place_.arm_angles();
   double clearance = 0;
-  if (!dump_pose(arm_, m.stance.swing_frame(arm_), dig_.dump_at, heap, dig_.dump_height, q, clearance)) {
+  if (!dump_pose(arm_, m.stance.swing_frame(arm_), dig_.dump_at, heap, dig_.dump_height, q,
+                 clearance)) {
     place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
     q = place_.arm_angles();
   }
   // The short way round; with limits the only way.
-  const double swing = arm_.swing_limited()
-                           ? over.swing
-                           : place_.handover.q[0] + std::remainder(over.swing - place_.handover.q[0], 2 * kPi);
-  m.move.start(place_, with_arm(swing, q), seen, {seen.payload > kHeavy * m.full_mass ? kGently : 1.0, 0});
+  const double swing =
+      arm_.swing_limited()
+          ? over.swing
+          : place_.handover.q[0] + std::remainder(over.swing - place_.handover.q[0], 2 * kPi);
+  m.move.start(place_, with_arm(swing, q), seen,
+               {seen.payload > kHeavy * m.full_mass ? kGently : 1.0, 0});
   enter(kSwing);
 }
 
@@ -179,7 +196,8 @@ void Digging::start_dump(const Observation& seen) {
 void Digging::thin_slices() {
   // A boulder raises the path for a part of the drag, soil that is too strong for all of it.
   if (m.cleaning != 0 || m.held_up <= kHeldUp * plan_.slice() * (m.scoop_start - m.s)) return;
-  if (plan_.thin()) place_.warn("the soil holds the bucket: slices of " + metres(plan_.slice()) + " from now on");
+  if (plan_.thin())
+    place_.warn("the soil holds the bucket: slices of " + metres(plan_.slice()) + " from now on");
 }
 
 bool Digging::dump(const Observation& seen) {
@@ -197,13 +215,15 @@ void Digging::shake(const Observation& seen) {
   const double since = phase_time() - m.move.duration();
   if (since <= 0 || seen.payload < kEmpty * m.full_mass) return;
   const double stroke = kShake * std::sin(kShakeRate * since);
-  place_.handover.q[3] = std::clamp(m.move.target(3) - std::abs(stroke), arm_.lower(2), arm_.upper(2));
+  place_.handover.q[3] =
+      std::clamp(m.move.target(3) - std::abs(stroke), arm_.lower(2), arm_.upper(2));
 }
 
 void Digging::look_round(const Observation& seen) {
   // Bucket half closed, out of the way, while what is loose comes to rest.
   ArmAngles q = place_.arm_angles();
-  q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm_.forward(q).angle, 2 * kPi), arm_.lower(2), arm_.upper(2));
+  q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm_.forward(q).angle, 2 * kPi),
+                    arm_.lower(2), arm_.upper(2));
   m.move.start(place_, with_arm(place_.handover.q[0], q), seen, {1.0, 0});
   enter(kLook);
 }
@@ -226,33 +246,41 @@ bool Digging::end_cycle(const Observation& seen) {
 }
 
 bool Digging::conclude(const Observation& seen) {
-  const TrenchState now = with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
-  const std::string left = number_text(now.left, "m3") + " of " + number_text(plan_.design_volume(), "m3") +
-                           " are left, half of the length is " + metres(now.depth) + " deep or more of " +
-                           metres(dig_.depth);
+  const TrenchState now =
+      with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
+  const std::string left = number_text(now.left, "m3") + " of " +
+                           number_text(plan_.design_volume(), "m3") +
+                           " are left, half of the length is " + metres(now.depth) +
+                           " deep or more of " + metres(dig_.depth);
   const bool undone = now.left > kUndone * plan_.design_volume();
   if (m.empty_scoops >= kMostEmpty && undone)
-    return fall_short(StepState::kStalled, "three empty scoops in a row: nothing more comes into the bucket; " + left);
+    return fall_short(StepState::kStalled,
+                      "three empty scoops in a row: nothing more comes into the bucket; " + left);
   // Whoever orders a number of cycles wants these, not the trench.
   if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
     remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);
-  } else if (const Scoop next = with_surface(seen, [&](const SurfaceView& s) { return plan_.next(s); });
+  } else if (const Scoop next =
+                 with_surface(seen, [&](const SurfaceView& s) { return plan_.next(s); });
              next.any && beyond_reach(next)) {
     const Vec2 p = plan_.point(next.start);
-    const SwingPoint at = swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), plan_.start_height(next.start)));
-    return fall_short(StepState::kOutOfReach, "the machine no longer stands where it began: the next scoop at " +
-                                                  place_text(p) + " is " + metres(at.reach) +
-                                                  " from the swing axis, out of the bucket's reach; " + left);
+    const SwingPoint at =
+        swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), plan_.start_height(next.start)));
+    return fall_short(StepState::kOutOfReach,
+                      "the machine no longer stands where it began: the next scoop at " +
+                          place_text(p) + " is " + metres(at.reach) +
+                          " from the swing axis, out of the bucket's reach; " + left);
   } else if (undone && cycles() >= kMostCycles) {
-    return fall_short(StepState::kOutOfTime, "not done after " + std::to_string(kMostCycles) + " cycles; " + left);
+    return fall_short(StepState::kOutOfTime,
+                      "not done after " + std::to_string(kMostCycles) + " cycles; " + left);
   } else if (undone) {
     return fall_short(StepState::kBlocked, "what is left could not be dug; " + left);
   }
   return true;
 }
 
-std::vector<Figure> Digging::account(const Observation& seen) const {
-  const TrenchState now = with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
+std::vector<Measurement> Digging::account(const Observation& seen) const {
+  const TrenchState now =
+      with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
   return {{"cycles", static_cast<double>(cycles())},
           {"design_volume_m3", plan_.design_volume()},
           {"volume_left_m3", now.left},
@@ -304,9 +332,12 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
     case kSwing:
       if (!move(seen)) break;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
-      // A pass along the whole floor may well bring little; a scoop that does shows soil that cannot be dug.
-      if (m.cleaning == 0 && seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kCrumbs) * m.full_mass)
-        with_surface(seen, [&](const SurfaceView& surface) { plan_.refuse(surface, m.soil_start); });
+      // A pass along the whole floor may well bring little; a scoop that does shows soil that
+      // cannot be dug.
+      if (m.cleaning == 0 &&
+          seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kLooseParticles) * m.full_mass)
+        with_surface(seen,
+                     [&](const SurfaceView& surface) { plan_.refuse(surface, m.soil_start); });
       tell(CycleEvent::kDumpStart);
       start_dump(seen);
       break;

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/arm_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace navvy::control {
+namespace {
+
+/// Index of the joint that the model names for a role; the loader cannot ask for it, as not every
+/// program digs.
+int require_joint(const scene::Machine& machine, const std::string& name, const char* role) {
+  const int index = name.empty() ? -1 : machine.joint_index(name);
+  if (index < 0)
+    throw InputError(
+        Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:arm", name,
+              std::string("the machine has no ") + role + " joint, which a digging program needs",
+              "name it in the model, or leave dig, swing and dump out of the program"});
+  return index;
+}
+
+}  // namespace
+
+ArmKinematics::ArmKinematics(const scene::Machine& machine) {
+  swing_ = require_joint(machine, machine.arm.swing, "swing");
+  joints_ = {require_joint(machine, machine.arm.boom, "boom"),
+             require_joint(machine, machine.arm.stick, "stick"),
+             require_joint(machine, machine.arm.bucket, "bucket")};
+  if (machine.buckets.empty())
+    throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:bucket",
+                           "", "the machine has no bucket", "describe one in the model"});
+  // Several buckets on one machine are not driven: the first digs.
+  bucket_data_ = machine.buckets.front();
+  const auto joint = [&](int i) -> const scene::Joint& {
+    return machine.joints[static_cast<std::size_t>(i)];
+  };
+  const auto link = [&](int i) -> const scene::Link& {
+    return machine.links[static_cast<std::size_t>(i)];
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const scene::Joint& j = joint(joints_[i]);
+    lower_[i] = j.has_limits ? j.lower : -kPi;
+    upper_[i] = j.has_limits ? j.upper : kPi;
+  }
+  const scene::Joint& swing = joint(swing_);
+  // A swing ring without limits turns without end.
+  swing_limited_ = swing.has_limits;
+  swing_lower_ = swing.lower;
+  swing_upper_ = swing.upper;
+  upper_link_ = swing.child;
+  // All joints at zero: pins lie in the swing plane, at the joints' frames.
+  const auto pin = [&](int j) {
+    return Vec3((link(joint(j).child).X_ML * joint(j).X_LcJ).translation());
+  };
+  const Pose X_MS = link(swing.child).X_ML * swing.X_LcJ;
+  X_BS_ = link(0).X_ML.inverse() * X_MS;
+  const Vec3 p0 = X_MS.inverse() * pin(joints_[0]), p1 = X_MS.inverse() * pin(joints_[1]),
+             p2 = X_MS.inverse() * pin(joints_[2]);
+  // The arm is a chain of three bars in the swing plane: lengths between the pins, angles of the
+  // bucket's tip and edge.
+  const int bucket_link = machine.link_index(bucket_data_.link);
+  const Vec3 tip = X_MS.inverse() * (link(bucket_link).X_ML * bucket_data_.p_tip);
+  pin_reach_ = p0.x();
+  pin_height_ = p0.z();
+  boom_ = (p1 - p0).norm();
+  stick_ = (p2 - p1).norm();
+  bucket_ = (tip - p2).norm();
+  tip_angle_ = std::atan2(tip.z() - p2.z(), tip.x() - p2.x());
+  const Vec3 cut =
+      X_MS.linear().transpose() * (link(bucket_link).X_ML.linear() * bucket_data_.cut_direction);
+  cut_angle_ = std::atan2(cut.z(), cut.x()) - tip_angle_;
+  // The shell's outline seen from the side, turned so that the line pin to tip is level.
+  for (const scene::Shell& shell : machine.shells) {
+    if (shell.name != bucket_data_.shell) continue;
+    const Pose X_SL = X_MS.inverse() * link(machine.link_index(shell.link)).X_ML;
+    const Eigen::Rotation2Dd level(-tip_angle_);
+    for (const Vec3& v : shell.vertices) {
+      const Vec3 d = X_SL * v - tip;
+      profile_.push_back(level * Vec2(d.x(), d.z()));
+    }
+    for (const auto& triangle : shell.triangles)
+      for (std::size_t i = 0; i < 3; ++i)
+        profile_edges_.push_back({triangle[i], triangle[(i + 1) % 3]});
+    break;
+  }
+}
+
+// Only corners can be lowest or farthest out; edges matter where they are cut off at a height.
+double ArmKinematics::below_tip(double angle) const {
+  const double c = std::cos(angle), s = std::sin(angle);
+  double lowest = 0;
+  for (const Vec2& v : profile_) lowest = std::min(lowest, s * v.x() + c * v.y());
+  return -lowest;
+}
+
+BucketPose ArmKinematics::forward(const ArmAngles& q) const {
+  // Angles of boom, stick and the line pin to tip over S's plane: joints add up along the chain.
+  const double a = q[0], b = a + q[1], c = b + q[2] + tip_angle_;
+  return {pin_reach_ + boom_ * std::cos(a) + stick_ * std::cos(b) + bucket_ * std::cos(c),
+          pin_height_ + boom_ * std::sin(a) + stick_ * std::sin(b) + bucket_ * std::sin(c), c};
+}
+
+double ArmKinematics::beyond_tip(double angle, double height) const {
+  const Eigen::Rotation2Dd turn(angle);
+  double farthest = 0;
+  for (const auto& edge : profile_edges_) {
+    Vec2 a = turn * profile_[static_cast<std::size_t>(edge[0])],
+         b = turn * profile_[static_cast<std::size_t>(edge[1])];
+    if (a.y() > b.y()) std::swap(a, b);
+    // Only what lies in the ground counts: an edge is cut where it comes out of it.
+    if (a.y() > height) continue;
+    farthest = std::max(farthest, a.x());
+    if (b.y() > height) b = a + (height - a.y()) / (b.y() - a.y()) * (b - a);
+    farthest = std::max(farthest, b.x());
+  }
+  return farthest;
+}
+
+bool ArmKinematics::inverse(const BucketPose& pose, ArmAngles& q) const {
+  // The bucket pin in the plane of the boom's foot; then two bars of known length, elbow up, by the
+  // law of cosines.
+  const double x = pose.reach - bucket_ * std::cos(pose.angle) - pin_reach_;
+  const double z = pose.height - bucket_ * std::sin(pose.angle) - pin_height_;
+  const double c = (x * x + z * z - boom_ * boom_ - stick_ * stick_) / (2 * boom_ * stick_);
+  // Stretched or folded quite is out of reach as well: there the joints would move without bound.
+  if (!(c > -1 && c < 1)) return false;
+  const double elbow = std::acos(c);
+  q[1] = -elbow;
+  q[0] = std::atan2(z, x) + std::atan2(stick_ * std::sin(elbow), boom_ + stick_ * c);
+  q[2] = pose.angle - tip_angle_ - q[0] - q[1];
+  // The bucket's angle may be given a turn off.
+  while (q[2] > upper_[2]) q[2] -= 2 * kPi;
+  while (q[2] < lower_[2]) q[2] += 2 * kPi;
+  // Rounding must not throw out a pose at the very limit, such as the one it stands in.
+  constexpr double kSlack = 1e-9;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (q[i] < lower_[i] - kSlack || q[i] > upper_[i] + kSlack) return false;
+  return true;
+}
+
+bool ArmKinematics::inverse_nearest(BucketPose& pose, ArmAngles& q) const {
+  const double wish = pose.angle, step = radians(2);
+  if (inverse(pose, q)) return true;
+  for (int i = 1; i <= 60; ++i)
+    for (const double sign : {1.0, -1.0}) {
+      pose.angle = wish + sign * i * step;
+      if (!inverse(pose, q)) continue;
+      // The limit lies in the last step; without the bisection the joints would move in jerks of 2
+      // deg.
+      double good = pose.angle, bad = pose.angle - sign * step;
+      while (std::abs(good - bad) > 1e-6) {
+        pose.angle = 0.5 * (good + bad);
+        (inverse(pose, q) ? good : bad) = pose.angle;
+      }
+      pose.angle = good;
+      return inverse(pose, q);
+    }
+  pose.angle = wish;
+  return false;
+}
+
+}  // namespace navvy::control

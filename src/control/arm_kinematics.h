@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Geometry of an excavator's arm in the plane of its swing.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+#include "scene/machine.h"
+
+namespace navvy::control {
+
+/// Where the bucket is in the swing plane: frame S of the swing axis (origin on the axis, z along
+/// it).
+struct BucketPose {
+  double reach = 0;   ///< tip's distance from the swing axis [m]
+  double height = 0;  ///< tip above S's origin [m]
+  /// Of the line pin to tip above the horizontal, outward positive [rad]; -pi/2 points down.
+  double angle = 0;
+};
+
+/// Joint angles of boom, stick and bucket [rad].
+using ArmAngles = std::array<double, 3>;
+
+/// Inverse and forward kinematics of boom, stick and bucket; elbow up. Pitch joints turn about -y.
+class ArmKinematics {
+ public:
+  /// @throws InputError naming the missing joint role.
+  explicit ArmKinematics(const scene::Machine& machine);
+
+  /// Where the tip is at these joint angles, limits or not.
+  BucketPose forward(const ArmAngles& q) const;
+  /// The joint angles of a pose; false when it is out of reach or limits, `q` is undefined then.
+  bool inverse(const BucketPose& pose, ArmAngles& q) const;
+  /// Same with the bucket angle nearest to the wish that is possible, within 120 deg; `pose.angle`
+  /// is changed to it. Continuous where the limit is: the angle is found to 1e-6 rad.
+  bool inverse_nearest(BucketPose& pose, ArmAngles& q) const;
+  /// How far the shell's lowest point hangs below the tip when the bucket is at `angle` [m], >= 0.
+  double below_tip(double angle) const;
+  /// How far the part of the shell less than `height` [m] above the tip stands outward of it [m],
+  /// >= 0.
+  double beyond_tip(double angle, double height) const;
+  /// Pin to tip [m].
+  double bucket_length() const { return bucket_; }
+  /// Farthest the tip can be from the boom's pin [m].
+  double longest() const { return boom_ + stick_ + bucket_; }
+
+  // Indices and limits as in scene::Machine, for whoever commands the joints.
+  int swing_joint() const { return swing_; }
+  /// Boom, stick, bucket.
+  const std::array<int, 3>& joints() const { return joints_; }
+  /// The link that swings with the arm.
+  int upper_link() const { return upper_link_; }
+  /// Pose of S in the base link (links[0]) at zero swing.
+  const Pose& X_BS() const { return X_BS_; }
+  /// Direction of the cutting edge relative to the line pin to tip [rad].
+  double cut_angle() const { return cut_angle_; }
+  const scene::Bucket& bucket() const { return bucket_data_; }
+  /// Limits of boom (0), stick (1), bucket (2) [rad]; half a turn either way where the joint has
+  /// none.
+  double lower(int i) const { return lower_[static_cast<std::size_t>(i)]; }
+  double upper(int i) const { return upper_[static_cast<std::size_t>(i)]; }
+  /// Without limits the upper structure turns round and round: the bounds mean nothing then.
+  bool swing_limited() const { return swing_limited_; }
+  double swing_lower() const { return swing_lower_; }
+  double swing_upper() const { return swing_upper_; }
+
+ private:
+  // Indices into scene::Machine::joints and links.
+  int swing_ = -1, upper_link_ = -1;
+  std::array<int, 3> joints_{};
+  std::array<double, 3> lower_{}, upper_{};
+  bool swing_limited_ = false;
+  double swing_lower_ = 0, swing_upper_ = 0;
+  Pose X_BS_ = Pose::Identity();
+  // Lengths [m] of the bars between the pins, the last one to the bucket's tip.
+  double pin_reach_ = 0, pin_height_ = 0;  // boom foot in S
+  double boom_ = 0, stick_ = 0, bucket_ = 0;
+  double cut_angle_ = 0, tip_angle_ = 0;
+  scene::Bucket bucket_data_;
+  // The shell in the swing plane, bucket at angle 0: vertices from the tip [m], edges between them.
+  std::vector<Vec2> profile_;
+  std::vector<std::array<int, 2>> profile_edges_;
+};
+
+}  // namespace navvy::control

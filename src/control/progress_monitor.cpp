@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/progress_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/reach.h"
+
+namespace navvy::control {
+namespace {
+
+// A machine that has moved by less than this within the patience does not get on. The patience is
+// that of a driver who sees nothing happen, longer for drives so slow that they need it.
+constexpr double kMoved = 0.05, kTurned = radians(2);  // [m], [rad]
+constexpr double kPatience = 5;                        // [s]
+// Tyres that push sideways with this share of the weight push against something: on any slope, with
+// nothing else in touch, their forces add up to the weight's opposite, which is upright.
+constexpr double kPush = 0.03;
+
+}  // namespace
+
+void ProgressMonitor::begin(const PlanePose& at) {
+  anchor_ = Vec3(at.p.x(), at.p.y(), at.yaw);
+  stuck_ = rolled_ = 0;
+  push_.setZero();
+}
+
+StepState ProgressMonitor::look(const Observation& seen, const scene::Machine& machine,
+                                double speed, double left, double dt, std::string& reason) {
+  const PlanePose at = plane_pose(seen.X_WB);
+  const bool moved = (at.p - anchor_.head<2>()).norm() > kMoved ||
+                     std::abs(std::remainder(at.yaw - anchor_.z(), 2 * kPi)) > kTurned;
+  if (moved) begin(at);
+  stuck_ += dt;
+  push_ += dt * seen.tyre_force;
+  // Of the fastest driven wheel: an open differential turns one side alone.
+  double fastest = 0, weight = 0;
+  for (const scene::Wheel& wheel : machine.wheels) {
+    const int joint = wheel.driven ? machine.joint_index(wheel.joint) : -1;
+    if (joint >= 0)
+      fastest = std::max(
+          fastest, wheel.radius * std::abs(seen.joints[static_cast<std::size_t>(joint)].velocity));
+  }
+  rolled_ += dt * fastest;
+  if (stuck_ < std::max(kPatience, 4 * kMoved / std::abs(speed))) return StepState::kRunning;
+  for (const scene::Link& link : machine.links) weight += link.mass * kGravity;
+  const double push = push_.head<2>().norm() / stuck_;
+  const std::string stood =
+      "it has stood for " + number_text(stuck_, "s") + ", " + metres(left) + " from the target";
+  if (push > kPush * weight) {
+    reason =
+        stood + ": something holds it while its tyres push with " + number_text(push / 1000, "kN");
+    return StepState::kBlocked;
+  }
+  reason = stood + (rolled_ > kMoved ? ": its wheels have spun for " + metres(rolled_)
+                                     : ": the drive does not turn its wheels");
+  return StepState::kStalled;
+}
+
+}  // namespace navvy::control

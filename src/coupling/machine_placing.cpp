@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/machine_placing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "vehicle/kinematics.h"
+
+namespace navvy::coupling {
+namespace {
+
+/// The points of the wheels that touch the machine's own ground plane, its x and y axes, when it
+/// stands at X_WM [m].
+std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
+  std::vector<double> q;
+  for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
+  const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, base_pose(machine, X_WM), q);
+  const Vec3 up = X_WM.linear().col(2);
+  std::vector<Vec3> out;
+  for (const scene::Wheel& wheel : machine.wheels) {
+    const int joint = machine.joint_index(wheel.joint);
+    if (joint < 0) continue;
+    if (wheel.track) {
+      const int carrier = machine.joints[static_cast<std::size_t>(joint)].parent;
+      for (const Vec3& p : wheel.track->lower_run())
+        out.push_back(X_WL[static_cast<std::size_t>(carrier)] * p);
+      continue;
+    }
+    const int link = machine.joints[static_cast<std::size_t>(joint)].child;
+    out.push_back(X_WL[static_cast<std::size_t>(link)].translation() - wheel.radius * up);
+  }
+  return out;
+}
+
+}  // namespace
+
+Pose base_pose(const scene::Machine& machine, const Pose& X_WM) {
+  return machine.links.empty() ? X_WM : X_WM * machine.links[0].X_ML;
+}
+
+Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
+  Pose X_WM = placed.X_WM;
+  if (!placed.on_ground) return X_WM;
+  // As the machine would stand by itself: level, on the ground below its origin, turned about the
+  // vertical only.
+  const Vec3 origin(X_WM.translation().x(), X_WM.translation().y(),
+                    ground.sample(X_WM.translation().x(), X_WM.translation().y()));
+  const Vec3 ahead = X_WM.linear().col(0);
+  Pose standing =
+      make_pose(origin.x(), origin.y(), origin.z(), 0, 0, std::atan2(ahead.y(), ahead.x()));
+  X_WM.translation().z() += origin.z();
+  const std::vector<Vec3> feet = contacts(placed.machine, standing);
+  if (feet.size() < 3) return X_WM;
+  // Plane h = a + b x + c y through the ground's height over the feet, x and y from the origin.
+  Mat3 normal_matrix = Mat3::Zero();
+  Vec3 right = Vec3::Zero();
+  double highest = 0;
+  for (const Vec3& foot : feet) {
+    const Vec3 row(1, foot.x() - origin.x(), foot.y() - origin.y());
+    const double step = ground.sample(foot.x(), foot.y()) - foot.z();
+    normal_matrix += row * row.transpose();
+    right += step * row;
+    highest = std::max(highest, std::abs(step));
+  }
+  if (highest < 1e-9 || std::abs(normal_matrix.determinant()) < 1e-9) return X_WM;
+  const Vec3 plane = normal_matrix.ldlt().solve(right);
+  const Vec3 up = Vec3(-plane.y(), -plane.z(), 1).normalized();
+  const Mat3 tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix();
+  standing.linear() = tilt * standing.linear();
+  double raise = -std::numeric_limits<double>::infinity();
+  for (const Vec3& foot : contacts(placed.machine, standing))
+    raise = std::max(raise, ground.sample(foot.x(), foot.y()) - foot.z());
+  // What the scene asks for on top of that: its height over the ground, its roll and pitch.
+  X_WM.linear() = tilt * X_WM.linear();
+  X_WM.translation().z() += raise;
+  return X_WM;
+}
+
+}  // namespace navvy::coupling

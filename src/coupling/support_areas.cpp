@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coupling/support_areas.h"
+
+#include <algorithm>
+
+#include "terramechanics/tyre_strip.h"
+
+namespace navvy::coupling {
+namespace {
+
+void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
+               soil::SupportArea footing, std::vector<soil::SupportArea>& support_areas) {
+  const Pose& X = wheel.X_WWheel;
+  // Round in every direction of its way: however the machine leans, its lowest point is plumb below
+  // the axle.
+  footing.ahead_W = Vec3(X.linear()(0, 0), X.linear()(1, 0), 0).normalized();
+  footing.left_W = X.linear().col(1);
+  footing.radius = tyre.radius;
+  footing.v_W = wheel.v_W;
+  if (tyre.twin_spacing > 0) {
+    for (const double side : {-0.5, 0.5}) {
+      footing.p_W = X * Vec3(0, side * tyre.twin_spacing, 0);
+      support_areas.push_back(footing);
+    }
+    return;
+  }
+  footing.p_W = X.translation();
+  support_areas.push_back(footing);
+}
+
+/// One for the idler, one for the run from the first roller to the last, one for the sprocket.
+void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier,
+               const Vec3& p_WSprocket, soil::SupportArea footing,
+               std::vector<soil::SupportArea>& support_areas) {
+  const scene::Track& track = *wheel.track;
+  const Pose& X = carrier.X_WL;
+  footing.ahead_W = X.linear().col(0);
+  footing.left_W = X.linear().col(1);
+  const auto add = [&](const Vec3& p_W, double radius, double half_run) {
+    footing.p_W = p_W;
+    footing.v_W = carrier.v_WL + carrier.w_WL.cross(p_W - X.translation());
+    footing.radius = radius + track.thickness;
+    footing.half_run = half_run;
+    support_areas.push_back(footing);
+  };
+  const Vec3 &first = track.rollers.front(), &last = track.rollers.back();
+  add(X * track.p_idler, track.idler_radius, 0);
+  add(X * Vec3(0.5 * (first + last)), track.roller_radius, 0.5 * (first - last).norm());
+  add(p_WSprocket, wheel.radius, 0);
+}
+
+}  // namespace
+
+void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
+                       int index, int wheel, double load, double ready,
+                       std::vector<soil::SupportArea>& support_areas) {
+  const scene::Wheel& about = machine.wheels[static_cast<std::size_t>(wheel)];
+  const vehicle::WheelState state = engine.wheel(index, wheel);
+  soil::SupportArea footing;
+  footing.half_width = 0.5 * about.width;
+  footing.ready = ready;
+  if (!about.track) {
+    footing.give =
+        std::clamp(load / about.stiffness, 0.0, terramechanics::kMaxDeflection * about.radius);
+    add_tyres(about, state, footing, support_areas);
+    return;
+  }
+  const scene::Joint& joint =
+      machine.joints[static_cast<std::size_t>(machine.joint_index(about.joint))];
+  footing.give = std::max(0.0, state.force_W.z() / about.stiffness);
+  add_track(about, engine.link(index, joint.parent), state.X_WWheel.translation(), footing,
+            support_areas);
+}
+
+}  // namespace navvy::coupling

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way from a scene to a ground: check the numbers, take the surface from shapes or from a map,
+// settle it if asked.
+#include "heightfield/make_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "heightfield/procedural.h"
+#include "heightfield/settle.h"
+#ifdef NAVVY_WITH_GDAL
+#include "heightfield/gdal/import.h"
+#endif
+
+namespace navvy::heightfield {
+namespace {
+
+// Settled slopes end a little under the friction angle, so that the running simulation leaves them
+// alone.
+constexpr double kSettleMargin = radians(1.0);
+constexpr double kThinnest = 0.01;  // [m] of soil over a rock that the scene gives
+
+[[noreturn]] void fail(const scene::Scene& world, const std::string& element,
+                       const std::string& value, const std::string& rule,
+                       const std::string& remedy) {
+  throw InputError(Fault{Fault::Severity::kError, world.file, 0, element, value, rule, remedy});
+}
+
+// Friction angle of the soil that lies on top of the site.
+double surface_friction(const scene::Scene& world) {
+  for (const scene::GroundLayer& layer : world.ground.layers)
+    if (const int i = world.soil_index(layer.soil); i >= 0) return world.soils[i].friction_angle;
+  return scene::Soil().friction_angle;
+}
+
+void check_size(const scene::Scene& world) {
+  const Vec2& size = world.ground.size;
+  const double cell = world.solver.cell;
+  if (!std::isfinite(cell) || !(cell > 0))
+    fail(world, "soil cell", std::to_string(cell), "must be a finite length > 0 m",
+         "0.05 to 0.2 m is usual");
+  // 2^30 columns a side is what an int index holds with room to spare.
+  if (!size.allFinite() || !(size.minCoeff() > 0) || size.maxCoeff() / cell > (1 << 30))
+    fail(world, "terrain/size", std::to_string(size.x()) + " " + std::to_string(size.y()),
+         "must be two finite lengths > 0 m", "give the extent of the site in metres");
+  if (!std::isfinite(world.ground.depth) || !(world.ground.depth > 0))
+    fail(world, "terrain/depth", std::to_string(world.ground.depth),
+         "must be a finite length > 0 m", "a few metres of soil below the deepest dig");
+}
+
+// Replaces the source by its settled copy.
+void settle_site(const scene::Scene& world, Ground::Setup& setup) {
+  if (static_cast<std::int64_t>(setup.nx) * setup.ny > kMostSettledColumns)
+    fail(world, "terrain/steep", "settle",
+         "needs the whole surface in memory: at most " + std::to_string(kMostSettledColumns) +
+             " columns, this site has " +
+             std::to_string(static_cast<std::int64_t>(setup.nx) * setup.ny),
+         "choose a smaller size, a larger cell or steep = hold");
+  // The one case in which a whole surface is kept; shared by whoever copies the source.
+  auto dense = std::make_shared<DenseSurface>();
+  dense->nx = setup.nx;
+  dense->ny = setup.ny;
+  dense->cell = setup.cell;
+  dense->height.resize(static_cast<std::size_t>(setup.nx) * setup.ny);
+  for (int iy = 0; iy < setup.ny; ++iy)
+    for (int ix = 0; ix < setup.nx; ++ix) dense->at(ix, iy) = setup.surface(ix, iy);
+  if (settle(*dense, std::max(surface_friction(world) - kSettleMargin, 0.0)) < 0)
+    log_warning(
+        "terrain: slopes above repose had not come to rest; the rest of them is held until "
+        "touched");
+  setup.surface = [dense](int ix, int iy) { return dense->at(ix, iy); };
+}
+
+void make_procedural(const scene::Scene& world, Ground::Setup& setup) {
+  const ProceduralSurface surface(world.ground, surface_friction(world));
+  const Vec2 origin = setup.origin;
+  const double cell = setup.cell;
+  setup.surface = [surface, origin, cell](int ix, int iy) {
+    return surface(origin.x() + (ix + 0.5) * cell, origin.y() + (iy + 0.5) * cell);
+  };
+  // The datum holds for all columns, so it is bounded over the whole site, centre to centre.
+  const Vec2 half = Vec2::Constant(cell / 2);
+  const double lowest =
+      surface.lower_bound(origin + half, origin + cell * Vec2(setup.nx, setup.ny) - half);
+  setup.datum = bedrock(world, lowest);
+  // No file coordinates: exports are in W.
+  setup.easting = origin.x();
+  setup.northing = origin.y();
+}
+
+}  // namespace
+
+double bedrock(const scene::Scene& world, double lowest) {
+  if (!world.ground.has_rock) return lowest - world.ground.depth;
+  if (world.ground.rock > lowest - kThinnest)
+    fail(world, "terrain/rock", std::to_string(world.ground.rock),
+         "the plane that is the rock must lie below all of the surface, whose lowest is " +
+             std::to_string(lowest) + " m",
+         "lower the plane by its <pose>, or remove it and give depth_m");
+  return world.ground.rock;
+}
+
+int site_columns(double length, double cell) {
+  // A length that is a whole number of cells but for rounding is not given one more.
+  const int n = static_cast<int>(std::ceil(length / cell - 1e-6));
+  return std::max((n + 3) / 4 * 4, 4);
+}
+
+Ground make_ground(const scene::Scene& world, std::string* report) {
+  // Sizes first: everything else is counted in columns.
+  check_size(world);
+  const scene::StartGround& ground = world.ground;
+  Ground::Setup setup;
+  setup.cell = world.solver.cell;
+  setup.nx = site_columns(ground.size.x(), setup.cell);
+  setup.ny = site_columns(ground.size.y(), setup.cell);
+  // The middle of the site is W (0, 0) unless the scene says otherwise.
+  setup.origin =
+      ground.has_origin ? ground.origin : Vec2(-0.5 * setup.cell * Vec2(setup.nx, setup.ny));
+  setup.soils = world.soils;
+  setup.layers = ground.layers;
+  setup.patches = ground.patches;
+  if (ground.file.empty()) {
+    make_procedural(world, setup);
+    if (report != nullptr) report->clear();
+  } else {
+#ifdef NAVVY_WITH_GDAL
+    const TerrainReport found = import_terrain(world, setup);
+    if (const std::string warning = found.warning(); !warning.empty()) log_warning(warning);
+    if (report != nullptr) *report = found.text();
+#else
+    fail(world, "terrain/file", ground.file, "this build reads no terrain files",
+         "build with -DNAVVY_WITH_GDAL=ON (Debian package libgdal-dev) or describe the ground by "
+         "shapes");
+#endif
+  }
+  // Last, as it needs the finished surface.
+  if (ground.steep == scene::SteepGround::kSettle) settle_site(world, setup);
+  return Ground(std::move(setup));
+}
+
+}  // namespace navvy::heightfield

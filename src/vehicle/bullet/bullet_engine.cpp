@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines as Bullet multibodies in one collision world.
+//
+// The step is put together here instead of in btMultiBodyDynamicsWorld: no islands are split, no
+// contact outlives its step, and who sleeps is state (rest.h), so a step depends on the saved state
+// alone.
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "vehicle/bullet/broad_phase.h"
+#include "vehicle/bullet/bullet_machine.h"
+#include "vehicle/bullet/contact_materials.h"
+#include "vehicle/bullet/convert.h"
+#include "vehicle/bullet/ground_shape.h"
+#include "vehicle/bullet/hitch_rows.h"
+#include "vehicle/bullet/mover.h"
+#include "vehicle/bullet/refuse.h"
+#include "vehicle/bullet/tyre_bodies.h"
+
+namespace navvy::vehicle {
+namespace {
+
+// What moves meets the ground, what stands, and each other; what stands meets nothing else.
+constexpr int kGroundGroup = 1, kMachineGroup = 2, kStandingGroup = 4;
+constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueIsTheAnalyticOne
+constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
+constexpr int kMostShapes = 16384;  // links with shapes of all machines together; 130 bytes each
+// A machine this far below the surface has fallen through it: no ground is as thick as that over a
+// body [m].
+constexpr double kLost = 10;
+constexpr std::uint32_t kVersion = 7;
+
+/// A hitch with its two machines.
+struct Coupled {
+  BulletMachine* parent;
+  BulletMachine* child;
+  std::unique_ptr<HitchRows> rows;
+
+  /// What hangs on another does not sleep: it would be held by nothing.
+  void keep_awake() const {
+    if (!rows->closed()) return;
+    parent->disturb();
+    child->disturb();
+  }
+};
+
+/// Who may meet whom: as their groups say, but for what is hitched, whose drawbars lie in each
+/// other.
+class OverlapFilter final : public btOverlapFilterCallback {
+ public:
+  explicit OverlapFilter(const std::vector<Coupled>& hitches) : hitches_(hitches) {}
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+    if ((a->m_collisionFilterGroup & b->m_collisionFilterMask) == 0 ||
+        (b->m_collisionFilterGroup & a->m_collisionFilterMask) == 0)
+      return false;
+    const void* one = static_cast<const btCollisionObject*>(a->m_clientObject)->getUserPointer();
+    const void* other = static_cast<const btCollisionObject*>(b->m_clientObject)->getUserPointer();
+    for (const Coupled& hitch : hitches_)
+      if (hitch.rows->closed() && ((one == hitch.parent && other == hitch.child) ||
+                                   (one == hitch.child && other == hitch.parent)))
+        return false;
+    return true;
+  }
+
+ private:
+  const std::vector<Coupled>& hitches_;
+};
+
+class BulletEngine final : public PhysicsEngine {
+ public:
+  BulletEngine(const Vec3& gravity, const scene::Materials& materials)
+      : gravity_(gravity),
+        materials_(materials),
+        dispatcher_(&configuration_),
+        broadphase_(kMostShapes),
+        world_(&dispatcher_, &broadphase_, &configuration_) {
+    // A plate's flat face or a hull's bears on more than the one point that Bullet finds deepest.
+    configuration_.setConvexConvexMultipointIterations();
+    ground_.setCollisionShape(&ground_shape_);
+    ground_.setWorldTransform(btTransform::getIdentity());
+    ground_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
+    // Bullet multiplies friction of both bodies: the machine's counts alone.
+    ground_.setFriction(1);
+    ground_.setRestitution(0);
+    // Two that do not stir do not meet: a body that sleeps asks nothing of the ground.
+    ground_.forceActivationState(ISLAND_SLEEPING);
+    world_.addCollisionObject(&ground_, kGroundGroup, kMachineGroup);
+    world_.setForceUpdateAllAabbs(false);
+    info_.m_numIterations = kIterations;
+    info_.m_leastSquaresResidualThreshold = kResidual;
+    info_.m_splitImpulse = false;
+    // No warm start, no shuffling
+    info_.m_solverMode = SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
+    info_.m_globalCfm = 0;
+  }
+
+  ~BulletEngine() override {
+    // The world keeps bare pointers: they leave it before their owners go.
+    for (const auto& machine : machines_)
+      for (btMultiBodyLinkCollider* collider : machine->all_colliders())
+        world_.removeCollisionObject(collider);
+    for (const Mover& mover : movers_)
+      for (const auto& body : mover.bodies())
+        for (btMultiBodyLinkCollider* collider : body->all_colliders())
+          world_.removeCollisionObject(collider);
+    world_.removeCollisionObject(&ground_);
+  }
+
+  int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
+    require_capacity(machine);
+    machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
+    add_shapes(*machines_.back());
+    // The order in which rows are given to the solver is part of the result: joints, balls,
+    // differentials, then rock, by machine.
+    for (const auto& servo : machines_.back()->servos())
+      if (servo) constraints_.push_back(servo.get());
+    for (const auto& ball : machines_.back()->balls()) constraints_.push_back(ball.get());
+    for (const auto& differential : machines_.back()->differentials())
+      constraints_.push_back(differential.get());
+    for (const auto& rock : machines_.back()->rock()) {
+      rock->set_height(rock_height_);
+      constraints_.push_back(rock.get());
+    }
+    return static_cast<int>(machines_.size()) - 1;
+  }
+  int machine_count() const override { return static_cast<int>(machines_.size()); }
+
+  int add_mover(const scene::Machine& machine) override {
+    require_capacity(machine);
+    movers_.emplace_back(machine);
+    for (const auto& body : movers_.back().bodies()) add_shapes(*body);
+    return static_cast<int>(movers_.size()) - 1;
+  }
+  void move(int mover, const std::vector<LinkState>& links) override {
+    Mover& one = movers_.at(static_cast<std::size_t>(mover));
+    one.move(links);
+    // Where it has come to rest the world would not look again.
+    for (const auto& body : one.bodies())
+      for (btMultiBodyLinkCollider* collider : body->all_colliders())
+        world_.updateSingleAabb(collider);
+  }
+
+  int add_hitch(const scene::Hitch& hitch, int parent, int child) override {
+    hitches_.push_back({&at(parent), &at(child),
+                        std::make_unique<HitchRows>(hitch, at(parent).tree(), at(child).tree())});
+    constraints_.push_back(hitches_.back().rows.get());
+    world_.getPairCache()->setOverlapFilterCallback(&filter_);
+    return static_cast<int>(hitches_.size()) - 1;
+  }
+  void set_hitch(int hitch, bool closed) override {
+    hitches_.at(static_cast<std::size_t>(hitch)).rows->set(closed);
+  }
+  HitchState hitch(int hitch) const override {
+    return hitches_.at(static_cast<std::size_t>(hitch)).rows->state();
+  }
+
+  void set_joint(int machine, int joint, const JointInput& input) override {
+    at(machine).set_joint(joint, input);
+  }
+  void set_drive(int machine, const DriveInput& input) override { at(machine).set_drive(input); }
+  void set_brake(int machine, int joint, bool on) override { at(machine).set_brake(joint, on); }
+  DriveInput drive(int machine) const override { return at(machine).drive(); }
+  void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W,
+                     const Vec3& p_W) override {
+    at(machine).apply_impulse(link, J_W, L_W, p_W, 0);
+  }
+  void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W,
+                             const Vec3& p_W, double dt) override {
+    at(machine).apply_impulse(link, J_W, L_W, p_W, dt);
+  }
+  void add_force(int machine, int link, const Vec3& f_W, const Vec3& p_W) override {
+    at(machine).add_force(link, f_W, p_W);
+  }
+
+  void step(double dt, const GroundQuery& ground) override {
+    if (!(dt > 0))
+      throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+    for (const Coupled& hitch : hitches_) hitch.keep_awake();
+    // Forces and rows first, then contacts at the poses of the step's start, one solve for all,
+    // then positions.
+    for (auto& machine : machines_) machine->begin_step(ground, dt);
+    tyre_bodies_.push(machines_, movers_, world_, dt);
+    ground_shape_.set_ground(&ground);
+    detect();
+    turn_ground_contacts();
+    ground_shape_.set_ground(nullptr);
+    // Detection looks at poses alone. Materials ask who rests, before forces give everything a
+    // speed.
+    materials_.apply(dispatcher_, ground_, gravity_);
+    for (auto& machine : machines_) machine->accelerate(gravity_, dt);
+    solve(dt);
+    for (const Coupled& hitch : hitches_) hitch.rows->end_step(dt);
+    for (auto& machine : machines_) {
+      if (machine->asleep()) continue;
+      machine->end_step(ground, contact_impulse(*machine), dt);
+      // A broken run stops here, where step and machine are known, before its numbers spread.
+      const Vec3 p = machine->tree().center(0);
+      if (!p.allFinite() || !machine->tree().momentum().allFinite())
+        throw SimulationError("vehicle: machine '" + machine->scene().name +
+                              "' has no finite place any more");
+      if (!machine->tree().fixed_base() && p.z() < ground.height(p.x(), p.y()) - kLost)
+        throw SimulationError(
+            "vehicle: machine '" + machine->scene().name + "' has fallen through the ground at x " +
+            std::to_string(p.x()) + " m, y " + std::to_string(p.y()) +
+            " m; it needs wheels or collision shapes that hold it, above the ground at the start");
+    }
+    forget_contacts();
+  }
+
+  void set_rock(double height) override {
+    rock_height_ = height;
+    for (auto& machine : machines_)
+      for (const auto& rock : machine->rock()) rock->set_height(height);
+  }
+
+  JointState joint(int machine, int joint) const override { return at(machine).joint(joint); }
+  LinkState link(int machine, int link) const override { return at(machine).tree().link(link); }
+  WheelState wheel(int machine, int wheel) const override { return at(machine).wheel(wheel); }
+  std::vector<terramechanics::TrackPatch> track_patches(int machine, int wheel) const override {
+    return at(machine).track_patches(wheel);
+  }
+  Vec3 rock_impulse(int machine, int shell) const override {
+    return at(machine).rock_impulse(shell);
+  }
+  PumpState pump(int machine) const override { return at(machine).pump(); }
+  CombustionEngineState drive_engine(int machine) const override { return at(machine).engine(); }
+  Mat6 inverse_mass(int machine, int link) const override {
+    return at(machine).tree().inverse_mass(link);
+  }
+  Vec3 momentum(int machine) const override { return at(machine).tree().momentum(); }
+  double work(int machine) const override { return at(machine).work(); }
+  Vec3 ground_impulse(int machine) const override { return at(machine).ground_impulse(); }
+  Vec3 external_impulse(int machine) const override { return at(machine).external_impulse(); }
+
+  void visit(Archive& a) override {
+    a.section("bullet", kVersion, [&] {
+      a.constant("machines", machines_.size(),
+                 "the snapshot holds another number of machines than the scene");
+      for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
+      tyre_bodies_.visit(a, machines_, movers_);
+      for (std::size_t h = 0; h < hitches_.size(); ++h)
+        a.item(h, [&] { hitches_[h].rows->visit(a); });
+    });
+    // What does not stir is not looked at in a step.
+    if (a.loading())
+      for (const auto& machine : machines_)
+        for (btMultiBodyLinkCollider* collider : machine->all_colliders())
+          world_.updateSingleAabb(collider);
+  }
+
+ private:
+  BulletMachine& at(int machine) { return *machines_.at(static_cast<std::size_t>(machine)); }
+  const BulletMachine& at(int machine) const {
+    return *machines_.at(static_cast<std::size_t>(machine));
+  }
+
+  void require_capacity(const scene::Machine& machine) const {
+    if (world_.getNumCollisionObjects() +
+            static_cast<int>(machine.links.size() + machine.shells.size()) >
+        kMostShapes)
+      refuse("machine[" + machine.name + "]", std::to_string(machine.links.size()) + " links",
+             "a world holds at most " + std::to_string(kMostShapes) + " links of all machines");
+  }
+  /// Its links' shapes and its shells' plates to the world.
+  void add_shapes(BulletMachine& machine) {
+    const auto& colliders = machine.colliders();
+    for (std::size_t l = 0; l < colliders.size(); ++l) {
+      if (!colliders[l]) continue;
+      const bool stands = l == 0 && machine.tree().fixed_base();
+      world_.addCollisionObject(
+          colliders[l].get(), stands ? kStandingGroup : kMachineGroup,
+          stands ? kMachineGroup : kGroundGroup | kMachineGroup | kStandingGroup);
+    }
+    for (const auto& plates : machine.steel()) {
+      const bool stands = plates->m_link < 0 && machine.tree().fixed_base();
+      world_.addCollisionObject(plates.get(), stands ? kStandingGroup : kMachineGroup,
+                                stands ? kMachineGroup : kMachineGroup | kStandingGroup);
+    }
+    materials_.mark(machine);
+  }
+
+  void solve(double dt) {
+    // One group for the whole world: no islands, so nobody's result depends on who is near.
+    info_.m_timeStep = dt;
+    for (auto& machine : machines_) machine->tree().multibody().setCompanionId(-1);
+    for (const Mover& mover : movers_)
+      for (const auto& body : mover.bodies()) body->tree().multibody().setCompanionId(-1);
+    btAlignedObjectArray<btCollisionObject*>& objects = world_.getCollisionObjectArray();
+    const int manifolds = dispatcher_.getNumManifolds();
+    solver_.solveMultiBodyGroup(
+        &objects[0], objects.size(),
+        manifolds > 0 ? dispatcher_.getInternalManifoldPointer() : nullptr, manifolds, nullptr, 0,
+        constraints_.data(), static_cast<int>(constraints_.size()), info_, nullptr, &dispatcher_);
+  }
+
+  /// All contacts of this step. Who is woken has neighbours and ground of its own to meet, so pairs
+  /// are looked for again.
+  void detect() {
+    world_.updateAabbs();
+    do world_.computeOverlappingPairs();
+    while (wake_neighbours());
+    dispatcher_.dispatchAllCollisionPairs(broadphase_.getOverlappingPairCache(),
+                                          world_.getDispatchInfo(), &dispatcher_);
+  }
+  /// Wakes what lies still and has something that does not as near as its box: says whether there
+  /// was any.
+  bool wake_neighbours() {
+    bool woken = false;
+    const btBroadphasePairArray& pairs =
+        broadphase_.getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i) {
+      const auto* one = static_cast<const btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
+      const auto* other = static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
+      if (one->isActive() == other->isActive()) continue;
+      if (other->isActive()) std::swap(one, other);
+      // What stands does not wake, and the ground is no machine.
+      auto* machine = static_cast<BulletMachine*>(other->getUserPointer());
+      if (machine == nullptr || !machine->asleep()) continue;
+      machine->wake(static_cast<const BulletMachine*>(one->getUserPointer())->still());
+      woken = true;
+    }
+    return woken;
+  }
+
+  /// Gives each contact with the ground a normal that the ground has there.
+  void turn_ground_contacts() {
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+      btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
+      const bool second = manifold->getBody1() == &ground_;
+      if (!second && manifold->getBody0() != &ground_) continue;
+      for (int p = 0; p < manifold->getNumContacts(); ++p) {
+        btManifoldPoint& point = manifold->getContactPoint(p);
+        // Bullet's normal leads from its body 1 to its body 0.
+        const double sign = second ? 1 : -1;
+        const Vec3 p_W =
+            to_eigen(second ? point.getPositionWorldOnB() : point.getPositionWorldOnA());
+        point.m_normalWorldOnB =
+            to_bt(Vec3(sign * ground_shape_.outward(p_W, sign * to_eigen(point.m_normalWorldOnB))));
+      }
+    }
+  }
+
+  /// Impulse of the ground on a machine's shapes in this step [N s].
+  Vec3 contact_impulse(BulletMachine& machine) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+      const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
+      // Bullet's normal points towards its body 0; the sign follows from which of the two is the
+      // ground.
+      const bool first = manifold->getBody1() == &ground_;
+      if (!first && manifold->getBody0() != &ground_) continue;
+      const auto* body =
+          btMultiBodyLinkCollider::upcast(first ? manifold->getBody0() : manifold->getBody1());
+      if (!body || body->m_multiBody != &machine.tree().multibody()) continue;
+      for (int p = 0; p < manifold->getNumContacts(); ++p) {
+        const btManifoldPoint& point = manifold->getContactPoint(p);
+        const btVector3 J = point.m_normalWorldOnB * point.m_appliedImpulse +
+                            point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+                            point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+        sum += (first ? 1.0 : -1.0) * to_eigen(J);
+      }
+    }
+    return sum;
+  }
+
+  /// Drops every pair and manifold, so that the next step starts from the state alone.
+  void forget_contacts() {
+    // Without a memory of contacts there is no warm start, and none is wanted: see the top.
+    btOverlappingPairCache* cache = broadphase_.getOverlappingPairCache();
+    while (cache->getNumOverlappingPairs() > 0) {
+      btBroadphasePair& pair =
+          cache->getOverlappingPairArray()[cache->getNumOverlappingPairs() - 1];
+      cache->removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, &dispatcher_);
+    }
+  }
+
+  Vec3 gravity_;
+  ContactMaterials materials_;
+  // In the order in which each needs the one before it.
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  SweepBroadphase broadphase_;
+  btCollisionWorld world_;
+  btMultiBodyConstraintSolver solver_;
+  btContactSolverInfo info_;
+  GroundShape ground_shape_;
+  btCollisionObject ground_;
+  TyreBodies tyre_bodies_;
+  std::vector<std::unique_ptr<BulletMachine>> machines_;
+  std::vector<Mover> movers_;
+  std::vector<Coupled> hitches_;
+  OverlapFilter filter_{hitches_};
+  std::vector<btMultiBodyConstraint*> constraints_;
+  double rock_height_ = -1e6;  // far below, until told
+};
+
+}  // namespace
+
+std::unique_ptr<PhysicsEngine> make_bullet_engine(const Vec3& gravity,
+                                                  const scene::Materials& materials) {
+  return std::make_unique<BulletEngine>(gravity, materials);
+}
+
+}  // namespace navvy::vehicle

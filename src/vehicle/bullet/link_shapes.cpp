@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/link_shapes.h"
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConeShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btCylinderShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleMesh.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/error.h"
+#include "geometry/obj/read_obj.h"
+#include "vehicle/bullet/convert.h"
+
+namespace navvy::vehicle {
+namespace {
+
+[[noreturn]] void refuse(const scene::Collision& collision, const std::string& value,
+                         const std::string& rule) {
+  Fault fault;
+  fault.element = "collision[" + collision.name + "]";
+  fault.value = value;
+  fault.rule = rule;
+  throw InputError(fault);
+}
+
+/// Convex hull of the vertices of an OBJ file, whether faces use them or not.
+std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
+  const scene::Geometry& g = collision.geometry;
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices)
+    hull->addPoint(to_bt(Vec3(g.scale.cwiseProduct(v))), false);
+  if (hull->getNumPoints() < 4)
+    refuse(collision, g.mesh_file, "the mesh needs at least four vertices");
+  hull->optimizeConvexHull();
+  hull->recalcLocalAabb();
+  return hull;
+}
+
+/// The triangles of a mesh that never moves, from both sides. The shape reads them from `keep`.
+std::unique_ptr<btCollisionShape> make_triangles(
+    const scene::Collision& collision,
+    std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
+  const scene::Geometry& g = collision.geometry;
+  const geometry::TriangleMesh mesh = geometry::read_obj(g.mesh_file);
+  auto triangles = std::make_unique<btTriangleMesh>(true, false);
+  const auto corner = [&](std::size_t t, std::size_t i) {
+    return to_bt(Vec3(g.scale.cwiseProduct(mesh.corner(t, i))));
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    triangles->addTriangle(corner(t, 0), corner(t, 1), corner(t, 2));
+  if (mesh.triangles.empty()) refuse(collision, g.mesh_file, "the mesh has no triangle");
+  keep.push_back(std::move(triangles));
+  return std::make_unique<btBvhTriangleMeshShape>(keep.back().get(), true);
+}
+
+std::unique_ptr<btCollisionShape> make_shape(
+    const scene::Collision& collision, bool stands,
+    std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
+  using Kind = scene::Geometry::Kind;
+  const scene::Geometry& g = collision.geometry;
+  switch (g.kind) {
+    case Kind::kBox:
+      return std::make_unique<btBoxShape>(to_bt(Vec3(0.5 * g.size)));
+    case Kind::kCylinder:
+      return std::make_unique<btCylinderShapeZ>(btVector3(g.radius, g.radius, 0.5 * g.length));
+    case Kind::kSphere:
+      return std::make_unique<btSphereShape>(g.radius);
+    case Kind::kCone:
+      return std::make_unique<btConeShapeZ>(g.radius, g.length);
+    case Kind::kCapsule:
+      return std::make_unique<btCapsuleShapeZ>(g.radius, g.length);
+    case Kind::kMesh:
+      return stands ? make_triangles(collision, keep) : make_hull(collision);
+    case Kind::kPlane:
+      break;
+  }
+  refuse(collision, "plane",
+         "no body collides as a plane: in a scene it is the rock under the ground");
+}
+
+/// Steel of a shell against bodies without a material (U): about 0.5 on a stone that has the usual
+/// 0.8.
+constexpr double kSteelFriction = 0.6;
+
+}  // namespace
+
+LinkShape make_steel(const scene::Shell& shell) {
+  LinkShape out;
+  out.compound = std::make_unique<btCompoundShape>();
+  out.friction = kSteelFriction;
+  for (std::size_t t = 0; t < shell.triangles.size(); ++t) {
+    auto plate = std::make_unique<btConvexHullShape>();
+    for (std::size_t i = 0; i < 3; ++i) plate->addPoint(to_bt(shell.corner(t, i)), false);
+    plate->setMargin(shell.half_thickness);
+    plate->recalcLocalAabb();
+    out.compound->addChildShape(btTransform::getIdentity(), plate.get());
+    out.parts.push_back(std::move(plate));
+  }
+  return out;
+}
+
+LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands) {
+  LinkShape out;
+  if (link.collisions.empty()) return out;
+  out.compound = std::make_unique<btCompoundShape>();
+  out.friction = 0;
+  for (const scene::Collision& collision : link.collisions) {
+    out.parts.push_back(make_shape(collision, stands, out.meshes));
+    out.parts.back()->setMargin(std::min(0.02, out.parts.back()->getMargin()));
+    out.compound->addChildShape(to_bt(Pose(X_IL * collision.X_LC)), out.parts.back().get());
+    out.friction = std::max(out.friction, collision.friction);
+  }
+  return out;
+}
+
+}  // namespace navvy::vehicle
