@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy check`, `devices`, `channels`: commands that only tell.
+// `navvy check`, `devices`, `channels`: commands that only report.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
@@ -25,7 +25,7 @@
 namespace navvy::cli {
 namespace {
 
-/// Says what follows from a machine's file without standing in it.
+/// Prints values that follow from a machine's file.
 void print_derived(const std::string& name, const scene::Machine& machine) {
   for (const std::string& one : machine.derived)
     std::printf("'%s': %s\n", name.c_str(), one.c_str());
@@ -33,11 +33,10 @@ void print_derived(const std::string& name, const scene::Machine& machine) {
 
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   std::size_t errors = 0, warnings = 0;
-  // What libraries warn of while they try a start counts like any other: once, and on standard
-  // output.
-  std::set<std::string> told;
+  // Warnings that libraries log during the check are printed once and counted.
+  std::set<std::string> logged;
   set_log_sink([&](LogLevel level, const std::string& text) {
-    if (level < LogLevel::kWarning || !told.insert(text).second) return;
+    if (level < LogLevel::kWarning || !logged.insert(text).second) return;
     std::cout << (print_its_severity(text) ? "" : "warning: ") << text << "\n";
     ++warnings;
   });
@@ -50,9 +49,9 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
       ++errors;
       continue;
     }
-    // One pass over all files: a user fixes every fault in one go.
+    // All files are checked, so that a user can correct all faults at once.
     std::optional<scene::Scene> world;
-    // Machine and soil files are checked by themselves and give no world.
+    // Machine and soil files are checked alone and give no scene.
     std::optional<scene::Machine> machine;
     scene_io::FaultCount count;
     std::vector<Fault> faults =
@@ -70,7 +69,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
       std::move(start.faults.begin(), start.faults.end(), std::back_inserter(faults));
     }
     for (std::size_t i = 0; i < faults.size(); ++i) {
-      // On standard output: it is what was asked for.
+      // Faults go to standard output, as they are the result.
       std::cout << faults[i].text() << "\n";
       if (i >= counted) ++(faults[i].severity == Fault::Severity::kError ? errors : warnings);
     }
@@ -84,19 +83,17 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
 }
 
 int devices() {
-  // On standard output, for scripts.
   const auto list = device::list_devices();
   for (const auto& info : list) std::cout << info.text() << "\n";
-  // None at all is a failure, with a message that helps.
   if (!list.empty()) return kOk;
-  // Picking from an empty list says what to install.
+  // Without any device the construction throws, with a message that says what to install.
   device::Device none;
   return kDevice;
 }
 
 int channels(const SceneOptions& options) {
   device::Device device(options.device);
-  // The channels of a scene are those of its machines: it has to be built, but not run.
+  // Channels depend on the machines, so the world is built but not run.
   const sim::World world(options.load(), device);
   std::fputs(sim::channel_list(world).c_str(), stdout);
   return kOk;
@@ -105,7 +102,7 @@ int channels(const SceneOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Action& action) {
-  // Options outlive the parse in a shared pointer that the action keeps.
+  // The action keeps the options alive after parsing.
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("check",
                                          "validate scene, machine or soil files without running "
@@ -127,7 +124,7 @@ void add_channels(CLI::App& app, Action& action) {
   auto options = std::make_shared<SceneOptions>();
   CLI::App* command = app.add_subcommand(
       "channels", "list the named inputs and outputs of a scene (--control stdio)");
-  // The same options as a run: overrides may add or rename machines.
+  // Takes the options of a run, as overrides may add or rename machines.
   options->add_to(*command);
   command->callback([options, &action] { action = [options] { return channels(*options); }; });
 }

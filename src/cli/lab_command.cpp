@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy lab`: one experiment on soil, its result as a table and as JSON.
+// `navvy lab`: runs experiments on soil and prints their results as a table or JSON.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -25,34 +25,36 @@
 namespace navvy::cli {
 namespace {
 
-/// What the parser fills; soil and geometry are worked out only when the command runs, so that a
-/// fault of one is not hidden behind a fault of the other.
+/// Options as parsed. Soil and geometry are evaluated when the command runs, so that faults of one
+/// do not hide those of the other.
 struct LabOptions {
   std::string rig, device, json, plot, soil;
   lab::Experiment experiment;
-  std::vector<std::string> settings;  ///< NAME=VALUE of scene::soil_values
+  std::vector<std::string> settings;  ///< NAME=VALUE
   bool quiet = false;
 };
 
-constexpr std::size_t kWidth = 100;      ///< of the help [characters]
-constexpr std::size_t kHelpColumn = 30;  ///< where the parser begins an option's description
+/// Width of the help [characters].
+constexpr std::size_t kWidth = 100;
+/// Column at which the parser begins the description of an option.
+constexpr std::size_t kHelpColumn = 30;
 
-constexpr char kJoint = '\x1f';  ///< in a text to be wrapped: a space at which no line may break
+/// Stands for a space at which no line may break.
+constexpr char kJoint = '\x1f';
 
-/// `text` with its spaces joined, to stay on one line.
+/// Returns `text` with spaces at which no line may break.
 std::string joined(std::string text) {
   std::replace(text.begin(), text.end(), ' ', kJoint);
   return text;
 }
 
-/// Breaks text between words; `between` stands between two lines and ends with the second one's
-/// indent.
+/// Breaks text between words. `between` separates two lines and contains the indent of the second.
 std::string wrapped(const std::string& text, std::size_t width, const std::string& between = "\n") {
   std::string out;
   std::size_t column = 0, at = 0;
   while (at < text.size()) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
-    // A word longer than the line stands on a line of its own.
+    // A word that is too long gets a line of its own.
     if (column > 0 && column + 1 + end - at > width) {
       out += between;
       column = between.size() - between.find('\n') - 1;
@@ -68,7 +70,7 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
   return out;
 }
 
-/// An option's description, broken so that it stays right of the parser's column of names.
+/// Returns the description of an option, wrapped to the right of the column of names.
 std::string described(const std::string& text) { return wrapped(text, kWidth - kHelpColumn); }
 
 int list_rigs() {
@@ -89,11 +91,11 @@ std::string did_you_mean(const std::vector<std::string>& names, const std::strin
   return "did you mean '" + nearest_name(names, wanted) + "'?";
 }
 
-/// Runs every combination of the lists, or the one experiment. A missed gate is a result like any
-/// other, but has a status of its own for scripts.
+/// Runs all combinations of the lists, or the one experiment. Results outside their acceptance
+/// range give an exit status of their own, for scripts.
 int run_rig(LabOptions options) {
   const lab::Rig& rig = lab::find_rig(options.rig);
-  // Before the runs, which may take an hour.
+  // The runs may take an hour, so the files are checked first.
   for (const std::string& file : {options.json, options.plot})
     if (!file.empty()) require_writable(file);
   device::Device device(options.device);
@@ -126,7 +128,7 @@ int run_rig(LabOptions options) {
   return missed ? kOutOfTolerance : kOk;
 }
 
-/// Names an option that the rig does not have, with the nearest that it has.
+/// Refuses an option that the rig does not have, and names the nearest.
 [[noreturn]] void refuse(const CLI::App& command, const std::string& extra) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) names.push_back(option->get_name());
@@ -135,7 +137,7 @@ int run_rig(LabOptions options) {
                 did_you_mean(names, extra.substr(0, extra.find('='))));
 }
 
-/// What the help says of a parameter: all of it follows from the parameter itself.
+/// Returns the help text of a parameter, which follows from its declaration.
 std::string description(const lab::Parameter& parameter) {
   std::string out = parameter.help + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
   for (const lab::Choice& choice : parameter.choices)
@@ -145,14 +147,14 @@ std::string description(const lab::Parameter& parameter) {
   return out;
 }
 
-/// What may stand behind the option's name.
+/// Returns the type of an option's value for the help.
 std::string type_name(const lab::Parameter& parameter) {
   std::string out;
   for (const lab::Choice& choice : parameter.choices) out += (out.empty() ? "" : "|") + choice.word;
   return !out.empty() ? out : parameter.range.whole ? "INT" : "FLOAT";
 }
 
-/// Arguments of an example with every option joined to its value.
+/// Joins each option of an example with its value, so that no line breaks between them.
 std::string in_pairs(std::string arguments) {
   arguments = joined(std::move(arguments));
   for (std::size_t at = 0;
@@ -161,8 +163,8 @@ std::string in_pairs(std::string arguments) {
   return arguments;
 }
 
-/// The rig in words and the ways of running it, below the options. A command's lines end as a shell
-/// wants them, ready to be copied.
+/// Returns the description and examples of a rig, for the end of its help. Examples are wrapped
+/// with the shell's continuation, ready to be copied.
 std::string footer(const lab::Rig& rig) {
   std::string out = "\n" + wrapped(rig.drawing, kWidth);
   for (const lab::Example& example : rig.examples)
@@ -176,7 +178,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
              Action& action) {
   CLI::App* command = parent.add_subcommand(rig.name, rig.summary);
   command->footer(footer(rig));
-  // An unknown option is refused by us, with the nearest known one.
+  // Unknown options are refused by `refuse`, with the nearest name.
   command->allow_extras();
   for (const lab::Parameter& parameter : rig.parameters)
     command
@@ -191,7 +193,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
         ->group("Geometry and procedure");
   command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")
       ->group("Soil");
-  // All rigs share the options of the soil; only one rig is run.
+  // All rigs share the options of the soil, as only one rig runs.
   for (const lab::SoilOption& value : lab::soil_options())
     command
         ->add_option(std::string("--") + value.name, options->experiment.soil_values[value.name],
@@ -247,8 +249,7 @@ void add_lab(CLI::App& app, Action& action) {
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();
-    // `navvy lab` alone lists the rigs; a word behind it that is no rig is refused with the
-    // nearest.
+    // `navvy lab` alone lists the rigs. An unknown word is refused with the nearest name.
     action = [extras] {
       if (!extras.empty()) lab::find_rig(extras.front());
       return list_rigs();

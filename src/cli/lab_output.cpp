@@ -16,7 +16,7 @@
 namespace navvy::cli {
 namespace {
 
-/// Keys of the JSON name the quantity and its unit, as scene files do: "farthest motion", "mm" ->
+/// Returns the JSON key of a quantity with its unit, as in scene files: "farthest motion", "mm" ->
 /// "farthest_motion_mm".
 std::string key(const std::string& name, const std::string& unit) {
   std::string out;
@@ -25,22 +25,22 @@ std::string key(const std::string& name, const std::string& unit) {
   return out;
 }
 
-/// JSON knows no NaN: a quantity that could not be measured is null.
+/// Returns a number, or null for a quantity that could not be measured: JSON has no NaN.
 nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
-/// Every number under its name in scene files.
+/// Returns all numbers of a soil under their names in scene files.
 nlohmann::json soil_json(const scene::Soil& soil) {
   nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
   for (const scene::SoilValue& v : scene::soil_values()) out[v.name] = v.written(soil);
   return out;
 }
 
-/// Empty where there is no number.
+/// Returns a number as text; empty for NaN.
 std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_text(value); }
 
-/// Supplied, kept and spent, in joules; then what the sums do not explain.
+/// Prints supplied, stored and dissipated energy [J], then the remainder.
 void print_energy(const soil::EnergyAccount& energy) {
   std::string text;
   soil::report_energy(energy, [&](const char* name, double joule) {
@@ -55,7 +55,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
   nlohmann::json out;
   out["rig"] = rig.name;
   out["version"] = NAVVY_VERSION;
-  // Results are repeatable bit for bit on one device only, so the device is part of them.
+  // Results are bit-identical on one device only, so the device is part of them.
   out["device"] = setup.device->info().text();
   nlohmann::json& inputs = out["inputs"];
   inputs["soil"] = soil_json(setup.soil);
@@ -66,11 +66,11 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     const std::string name = key(q.name, q.unit);
     out["result"][name] = number(q.measured);
     out["expected"][name] = number(q.expected);
-    // Absent where there is none, so that a reader need not tell a gate of nulls from no gate.
+    // Absent if there is no acceptance range.
     if (q.has_tolerance()) out["gate"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
     if (q.missed()) out["missed"].push_back(name);
-    // Of a gate that says nothing here: what it holds for.
+    // The setups for which the acceptance range holds, if this one is none of them.
     if (!q.in_range) out["not_judged"][name] = q.range;
   }
   for (const lab::Series& s : report.series) {
@@ -91,7 +91,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 }
 
 void print_table(const lab::Report& report) {
-  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "gate", "source");
+  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "accepted", "source");
   for (const lab::Quantity& q : report.results) {
     const std::string tolerance =
         q.has_tolerance() ? text_of(q.low) + " .. " + text_of(q.high) : "";
@@ -107,7 +107,7 @@ void print_table(const lab::Report& report) {
   }
   for (const lab::Quantity& q : report.results)
     if (!q.in_range)
-      std::printf("not judged: %s; its gate holds for %s\n", q.name.c_str(), q.range.c_str());
+      std::printf("not judged: %s; its acceptance range holds for %s\n", q.name.c_str(), q.range.c_str());
   if (report.energy) print_energy(*report.energy);
   std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n",
               report.particles_peak, static_cast<unsigned long long>(report.steps),
@@ -117,7 +117,7 @@ void print_table(const lab::Report& report) {
 
 std::function<void(double)> progress_line(bool quiet) {
   if (quiet || isatty(STDERR_FILENO) == 0) return {};
-  // Carriage return and clearing code keep it one line; the last call wipes it.
+  // Carriage return and the clearing code keep it on one line; the last call clears it.
   return [watch = Stopwatch()](double share) {
     std::fprintf(stderr, "\r%3.0f %%  about %.0f s left \033[K", 100 * share,
                  watch.seconds() * (1 - share) / share);

@@ -132,7 +132,7 @@ void print_programs(std::FILE* out, const session::Session& session) {
     const std::string& name =
         session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
     std::fprintf(out, "incomplete: %s\n",
-                 session::told(report, name, "the controller ended the run").c_str());
+                 session::report_line(report, name, "the controller ended the run").c_str());
   }
 }
 
@@ -158,7 +158,7 @@ int run_scene(RunOptions options) {
   if (!options.control.empty() && options.control != "stdio")
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control,
                            "only 'stdio' is known",
-                           "leave it out to let the scene's program drive"});
+                           "omit it to let the programs of the scene drive"});
   // Before anything that may take long, such as a driver that compiles.
   ProgramObserver program(options.quiet || !options.control.empty());
   run::SimulationOptions& wanted = options.simulation;
@@ -188,47 +188,50 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   options->simulation.command = std::move(command_line);
   CLI::App* command = app.add_subcommand("run", "run a scene; results go to out/<scenario>/");
   options->scene.add_to(*command);
-  // What follows leaves the scene alone and goes into the run.
+  // The options below concern the run, not the scene.
   command->add_option("--out", options->simulation.folder, "directory of the results")
       ->check([](const std::string& text) {
-        // What an unset variable of a shell leaves; the default would be another folder than the
-        // one that was meant.
-        return text.empty() ? "the folder's name is empty; leave --out away for out/<scenario>"
-                            : "";
+        // An unset shell variable gives an empty name. The default would be another folder than the
+        // intended one.
+        return text.empty() ? "the folder's name is empty; omit --out to use out/<scenario>" : "";
       });
-  // Options that need each other are named by pointer: where the library looks up their names,
-  // memory that ends is the end of the program.
-  CLI::Option* control = command->add_option("--control", options->control,
-                                             "stdio: print one JSON line of outputs and read one "
-                                             "of inputs per control step, in lock step");
+  // Options that need each other are given by pointer: CLI11 does not survive running out of memory
+  // while it looks up names.
+  CLI::Option* control =
+      command->add_option("--control", options->control,
+                          "stdio: per control step print one JSON line of outputs "
+                          "and read one of inputs, in lock step; requests for maps, "
+                          "arrays, pictures and states come between them");
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
       ->check(CLI::Range(0.001, 1e5))
       ->needs(control);
   CLI::Option* snapshot = command->add_option("--snapshot", options->simulation.snapshot,
-                                              "file to save the state to, at --snapshot-at");
+                                              "file to save the state to at --snapshot-at");
   CLI::Option* snapshot_at = command
                                  ->add_option("--snapshot-at", options->simulation.snapshot_at,
                                               "simulated time of the snapshot [s]")
                                  ->check(not_negative)
                                  ->needs(snapshot);
-  // Either of the two alone is a slip.
+  // Either of the two alone is a mistake.
   snapshot->needs(snapshot_at);
   CLI::Option* resume =
-      command->add_option("--resume", options->simulation.resume, "snapshot to go on from");
+      command->add_option("--resume", options->simulation.resume, "snapshot to continue from");
   command
       ->add_flag("--resume-anyway", options->simulation.resume_anyway,
-                 "go on although the scene has other parameters than the snapshot's; says which")
+                 "continue even if the scene's parameters differ from the snapshot's; lists the "
+                 "differences")
       ->needs(resume);
   command
       ->add_option("--hash-every", options->simulation.hash_every,
-                   "simulated seconds between rows of hashes.csv: what the state and each part of "
-                   "it hash to")
+                   "simulated seconds between rows of hashes.csv, the hashes of the state and its "
+                   "parts")
       ->check(above_zero);
-  CLI::Option* publish = command->add_option("--publish", options->publish.place,
-                                             "the map as it changes, for other processes: tcp:PORT "
-                                             "(on 127.0.0.1), tcp:HOST:PORT, or a new folder");
+  CLI::Option* publish =
+      command->add_option("--publish", options->publish.place,
+                          "publish the changing map to other processes: tcp:PORT "
+                          "(on 127.0.0.1), tcp:HOST:PORT, or a new folder");
   command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
       ->check(CLI::Range(0.001, 1e4))
       ->needs(publish);
@@ -236,12 +239,12 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
       ->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
       ->needs(publish);
   command->add_option("--watch", options->simulation.watch,
-                      "MACHINE/LINK: pose, velocity and angular velocity of this link among the "
-                      "outputs; may be repeated");
+                      "MACHINE/LINK: add pose, velocity and angular velocity of this link to the "
+                      "outputs; repeatable");
   command->add_flag("--energy", options->simulation.soil_energy,
-                    "also tell in the summary where the soil's energy came from and went; takes up "
-                    "to three times as long");
-  command->add_flag("--quiet", options->quiet, "no progress line, no notes");
+                    "report the energy account of the soil in the summary; takes up to three times "
+                    "as long");
+  command->add_flag("--quiet", options->quiet, "print no progress line and no notes");
   command->footer(
       "Example: navvy run trench --set soil.cohesion_pa=8000 --duration 60 --out out/stiff");
   command->callback([options, &action] { action = [options] { return run_scene(*options); }; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy machines [NAME]`, `navvy scenes`, `navvy soils [NAME]`: what is shipped.
+// `navvy machines [NAME]`, `navvy scenes`, `navvy soils [NAME]`: list shipped data.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -16,6 +16,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/math.h"
+#include "scene/machine_text.h"
 #include "scene/soil_values.h"
 #include "scene_io/loader.h"
 #include "scene_io/shipped.h"
@@ -46,50 +47,7 @@ int machines() {
   return code;
 }
 
-/// "revolute, boom to stick, -40.0 to 65.0 deg".
-std::string told(const scene::Machine& machine, const scene::Joint& joint) {
-  using Type = scene::Joint::Type;
-  const auto link = [&](int index) {
-    return index < 0 ? std::string("world") : machine.links[static_cast<std::size_t>(index)].name;
-  };
-  std::string out = joint.type == Type::kFixed       ? "fixed"
-                    : joint.type == Type::kRevolute  ? "revolute"
-                    : joint.type == Type::kPrismatic ? "prismatic"
-                                                     : "ball";
-  out += ", " + link(joint.parent) + " to " + link(joint.child);
-  if (joint.type != Type::kRevolute && joint.type != Type::kPrismatic) return out;
-  if (!joint.has_limits) return out + ", without end";
-  const bool turns = joint.type == Type::kRevolute;
-  char limits[80];
-  std::snprintf(limits, sizeof limits, turns ? ", %.1f to %.1f deg" : ", %.3f to %.3f m",
-                turns ? degrees(joint.lower) : joint.lower,
-                turns ? degrees(joint.upper) : joint.upper);
-  return out + limits;
-}
-
-void print_drive(const scene::Drive& drive) {
-  const scene::Powertrain& common = scene::powertrain(drive);
-  const scene::CombustionEngine* engine = scene::drive_engine(drive);
-  if (engine == nullptr) {
-    std::printf("  drive: %s, %.1f m/s, %.0f kN at the wheels, %.0f kW\n", scene::drive_name(drive),
-                common.max_speed, common.tractive_force / 1000, common.power / 1000);
-  } else {
-    std::printf("  drive: %s, %.1f m/s\n", scene::drive_name(drive), common.max_speed);
-    const scene::CombustionEngine::Point rated = scene::rated_point(*engine);
-    if (engine->kind == scene::CombustionEngine::Kind::kSpeedSource)
-      std::printf("  engine: speed source, %.3g N m, %.0f rpm at most; gears", engine->max_torque,
-                  engine->max_speed * 30 / kPi);
-    else
-      std::printf("  engine: torque curve, %.1f kW at %.0f rpm; gears",
-                  rated.torque * rated.speed / 1000, rated.speed * 30 / kPi);
-    for (const double gear : engine->gears) std::printf(" %g", gear);
-    std::printf(", final %g\n", engine->final_ratio);
-  }
-  if (common.engine_power > 0)
-    std::printf("  drive and pump share an engine of %.0f kW\n", common.engine_power / 1000);
-}
-
-/// What it weighs, what moves, what it takes up and what drives it.
+/// Prints what a machine is made of.
 int one_machine(const std::string& name) {
   const std::map<std::string, std::string> files = scene_io::shipped_machines();
   const auto found = files.find(name);
@@ -100,52 +58,16 @@ int one_machine(const std::string& name) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, "machines", name,
                            "no such shipped machine", suggestion(name, names)});
   }
-  const scene::Machine machine = scene_io::load_machine(found->second);
-  double mass = 0;
-  for (const scene::Link& link : machine.links) mass += link.mass;
-  std::printf("%s\n  %s\n  file: %s\n  mass: %.0f kg%s\n", name.c_str(),
-              scene_io::description_of(found->second).c_str(), found->second.c_str(), mass,
-              machine.kinematic    ? "; moved by its joints' positions, without dynamics"
-              : machine.fixed_base ? "; its base is fixed"
-                                   : "");
-  std::printf("  links: %zu\n", machine.links.size());
-  for (const scene::Link& link : machine.links)
-    std::printf("    %-24s %9.1f kg\n", link.name.c_str(), link.mass);
-  std::printf("  joints: %zu\n", machine.joints.size());
-  for (const scene::Joint& joint : machine.joints)
-    std::printf("    %-24s %s\n", joint.name.c_str(), told(machine, joint).c_str());
-  for (const scene::Bucket& bucket : machine.buckets)
-    std::printf("  bucket '%s': %.2f m3 heaped, cuts %.2f m\n", bucket.link.c_str(),
-                bucket.capacity, bucket.width);
-  for (const scene::Bed& bed : machine.beds)
-    std::printf("  bed '%s': %.2f m3 struck, tipped by '%s'\n", bed.link.c_str(), bed.capacity,
-                bed.joint.c_str());
-  for (const scene::Cylinder& cylinder : machine.cylinders)
-    std::printf("  cylinder '%s': moves '%s', %d x %.0f mm bore, %.1f MPa, %.0f l/min\n",
-                cylinder.name.c_str(), cylinder.joint.c_str(), cylinder.count, 1000 * cylinder.bore,
-                cylinder.pressure / 1e6, 60000 * cylinder.flow);
-  if (machine.has_pump)
-    std::printf("  pump: %.0f l/min, %.0f kW\n", 60000 * machine.pump.flow,
-                machine.pump.power / 1000);
-  const auto driven = std::count_if(machine.wheels.begin(), machine.wheels.end(),
-                                    [](const scene::Wheel& wheel) { return wheel.driven; });
-  if (!machine.wheels.empty())
-    std::printf("  wheels: %zu, %d driven\n", machine.wheels.size(), static_cast<int>(driven));
-  for (const scene::Encoder& encoder : machine.encoders)
-    std::printf("  encoder on '%s': %.10g counts a turn, %d bits\n", encoder.joint.c_str(),
-                encoder.counts_per_turn, encoder.bits);
-  if (machine.levers.given)
-    std::printf("  levers: %s, dead band %.0f %%\n",
-                machine.levers.pattern == scene::Levers::Pattern::kIso ? "ISO" : "SAE",
-                100 * machine.levers.dead_band);
-  if (machine.has_drive) print_drive(machine.drive);
+  std::printf("%s\n  %s\n  file: %s\n%s", name.c_str(),
+              scene_io::description_of(found->second).c_str(), found->second.c_str(),
+              scene::machine_text(scene_io::load_machine(found->second)).c_str());
   return kOk;
 }
 
 int soils() {
   std::printf("%-22s %9s %6s %7s %8s %8s %7s  %s\n", "soil", "bank t/m3", "swell", "phi deg",
               "c kPa", "c_r kPa", "E MPa", "source");
-  // In units that people use for soil; the files have SI with the unit in each name.
+  // Units as commonly used for soil; files use SI units.
   for (const scene::Soil& soil : scene_io::shipped_soils())
     std::printf("%-22s %9.2f %6.2f %7.1f %8.2f %8.2f %7.2f  %s\n", soil.name.c_str(),
                 soil.bank_density / 1000, soil.swell, degrees(soil.friction_angle),
@@ -190,7 +112,7 @@ void add_machines(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "machines",
       "list the shipped machines; with a name its mass, links, joints, capacities and drive");
-  command->add_option("name", *name, "a shipped machine: tells what it is made of");
+  command->add_option("name", *name, "a shipped machine: prints its parts");
   command->callback([name, &action] {
     action = [name] { return name->empty() ? machines() : one_machine(*name); };
   });

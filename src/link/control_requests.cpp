@@ -28,22 +28,25 @@ namespace {
 
 constexpr const char* kRequests[] = {"heights", "changed", "arrays", "image", "info",
                                      "reset",   "save",    "load",   "watch"};
-/// A million numbers are 10 MB of JSON.
+/// Maximum number of values in an answer: a million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
 constexpr std::size_t kMaxArrays = 1000;
 
+/// Throws the error of a request: key, value, rule and remedy.
 [[noreturn]] void refuse(const std::string& key, const json& value, const std::string& rule,
                          const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, key, shown(value), rule, remedy});
 }
 
+/// Returns a number in a range. Comparisons with NaN are false, so NaN is refused.
 double number_in(const std::string& key, const json& value, double least, double most) {
   if (!value.is_number() || !(value.get<double>() >= least) || !(value.get<double>() <= most))
     refuse(key, value, "must be a number from " + shown(json(least)) + " to " + shown(json(most)),
-           "mend it");
+           "send a number in this range");
   return value.get<double>();
 }
 
+/// Returns a text of reasonable length: names and paths.
 std::string text_in(const std::string& key, const json& value) {
   if (!value.is_string() || value.get<std::string>().empty() ||
       value.get<std::string>().size() > 1000)
@@ -55,14 +58,14 @@ void must_be_true(const std::string& key, const json& value) {
   if (value != json(true)) refuse(key, value, "must be true", "send {\"" + key + "\": true}");
 }
 
-/// A controller's slip costs no script or map: what is there and holds something must be a
-/// snapshot.
+/// Refuses to replace a file that is not a snapshot, so that a mistake of a controller destroys no
+/// script or map.
 void require_snapshot_or_nothing(const json& what, const std::string& path) {
   std::error_code code;
   if (is_sealed(path) || !std::filesystem::is_regular_file(path, code) ||
       std::filesystem::file_size(path, code) == 0)
     return;
-  refuse("save", what, "is there and is no snapshot, so it stays",
+  refuse("save", what, "exists and is no snapshot, so it is not replaced",
          "name a new file, or remove this one");
 }
 
@@ -80,6 +83,7 @@ json described(const sim::ArrayChannel& channel) {
 json value_of(const sim::ArrayView& view) {
   static_assert(std::endian::native == std::endian::little,
                 "arrays are sent as they are in memory");
+  // Pose of the array's frame in W at the time of its stamp.
   const Eigen::Quaterniond q(view.X_WF().linear());
   const Vec3 p = view.X_WF().translation();
   json out = described(view.channel());
@@ -95,7 +99,7 @@ json value_of(const sim::ArrayView& view) {
 
 std::string shown(const std::string& text) {
   std::string out = text.size() <= 80 ? text : text.substr(0, 80) + "...";
-  // A NUL would end the message that holds it.
+  // A NUL would end the message that contains it.
   for (char& c : out)
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
   return out;
@@ -111,15 +115,17 @@ ControlRequests::ControlRequests(run::Simulation& simulation, double rate, Contr
       services_(services),
       feed_(planner::options_for(simulation.world().description(), simulation.world().ground(),
                                  planner::all_layers(), simulation.session().design())) {
-  // What changes before the first question is known to have changed.
+  // Makes the first map now, so that changes before the first request are known.
   now();
 }
 
+// A line with any key of a request is one, so that a mixed line is refused and sets nothing.
 bool ControlRequests::is_request(const json& line) {
   return line.is_object() && std::any_of(std::begin(kRequests), std::end(kRequests),
                                          [&](const char* key) { return line.contains(key); });
 }
 
+/// Updates the map. It gets a new number only if a column changed.
 planner::UpdateFeed::Update ControlRequests::now() { return feed_.publish(simulation_.heights()); }
 
 json ControlRequests::answer(const json& line) {
@@ -147,6 +153,7 @@ json ControlRequests::dispatch(const std::string& key, const json& what) {
   return out;
 }
 
+/// A snapshot may replace another snapshot and nothing else.
 json ControlRequests::save(const json& what) const {
   const std::string path = text_in("save", what);
   require_snapshot_or_nothing(what, path);
@@ -154,6 +161,7 @@ json ControlRequests::save(const json& what) const {
   return {{"file", path}, {"time", simulation_.time()}};
 }
 
+/// Answers with names and units of the outputs that are new.
 json ControlRequests::watch(const json& what) {
   const std::size_t before = simulation_.outputs().size();
   simulation_.watch(text_in("watch", what));
@@ -163,6 +171,7 @@ json ControlRequests::watch(const json& what) {
   return out;
 }
 
+/// Puts the simulation into another state by `load`. If that throws, the state and the map stay.
 json ControlRequests::replaced(const std::function<void()>& load) {
   load();
   moved_ = true;
@@ -172,8 +181,9 @@ json ControlRequests::replaced(const std::function<void()>& load) {
   return {{"time", simulation_.time()}, {"steps", simulation_.world().steps()}};
 }
 
-/// {"min_m": [x, y], "max_m": [x, y], "cell_m": 0.2, "layer": "slope"}: heights are bilinear at the
-/// cells' centres, other layers are those of the columns that hold them.
+/// Answers {"min_m": [x, y], "max_m": [x, y], "cell_m": 0.2, "layer": "slope"}. Heights are
+/// bilinear at the centres of the requested cells; other layers are those of the columns that
+/// contain them.
 json ControlRequests::heights(const json& what) {
   if (!what.is_object())
     refuse("heights", what, "must be an object",
@@ -191,7 +201,7 @@ json ControlRequests::heights(const json& what) {
       layer = planner::layer_named(text_in(name, value));
     } else if (key == "min_m" || key == "max_m") {
       if (!value.is_array() || value.size() != 2)
-        refuse(name, value, "must be [x, y]", "two numbers in metres");
+        refuse(name, value, "must be [x, y]", "send two numbers in metres");
       Vec2& corner = key == "min_m" ? low : high;
       corner = Vec2(number_in(name, value[0], -1e7, 1e7), number_in(name, value[1], -1e7, 1e7));
     } else {
@@ -199,7 +209,7 @@ json ControlRequests::heights(const json& what) {
              suggestion(key, {"min_m", "max_m", "cell_m", "layer"}));
     }
   }
-  // A rectangle that is a whole number of cells but for rounding is not given one more.
+  // A tolerance for rounding, so that a whole number of cells does not become one more.
   const Vec2 cells = ((high - low) / cell - Vec2::Constant(1e-6)).array().ceil().matrix();
   if (!((high - low).array() > 0).all() || cells.x() * cells.y() > kMostCells)
     refuse("heights", what, "must be a rectangle of 1 to 1000000 cells",
@@ -213,7 +223,7 @@ json ControlRequests::heights(const json& what) {
       const double v = layer == planner::Layer::kElevation
                            ? planner::height(map, p.x(), p.y())
                            : static_cast<double>(planner::value(map, layer, p.x(), p.y()));
-      // JSON knows no NaN.
+      // JSON has no NaN.
       values.push_back(v == v ? json(v) : json(nullptr));
     }
   return {{"layer", planner::info(layer).name},
@@ -228,9 +238,11 @@ json ControlRequests::heights(const json& what) {
           {"values", values}};
 }
 
+/// Answers with the rectangles that changed since map number `what`, and the number of the present
+/// map.
 json ControlRequests::changed(const json& what) {
   if (!what.is_number_unsigned())
-    refuse("changed", what, "must be a whole number", "0, or the sequence of the last answer");
+    refuse("changed", what, "must be a whole number", "send 0, or the sequence of the last answer");
   const planner::UpdateFeed::Update newest = now();
   const planner::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
   json out = {{"since", what},
@@ -253,7 +265,7 @@ json ControlRequests::changed(const json& what) {
   return out;
 }
 
-/// Arrays by name, or all of them.
+/// Answers with the arrays of the given names, or with all arrays.
 json ControlRequests::arrays(const json& what) const {
   const sim::ArrayOutputs& all = simulation_.arrays();
   json out = json::object();
@@ -272,6 +284,7 @@ json ControlRequests::arrays(const json& what) const {
   return out;
 }
 
+/// Answers with a picture as PNG.
 json ControlRequests::image(const json& what) const {
   const std::string name = text_in("image", what);
   if (!services_.images) refuse("image", what, "this program draws no pictures", "use navvy run");
@@ -284,6 +297,7 @@ json ControlRequests::image(const json& what) const {
           {"png_base64", base64(std::as_bytes(std::span(png)))}};
 }
 
+/// Answers with everything that a controller may need to know once.
 json ControlRequests::info() const {
   const sim::World& world = simulation_.world();
   const heightfield::Terrain& ground = world.ground();

@@ -44,6 +44,7 @@ class ControlRequests {
   bool moved() const { return moved_; }
 
  private:
+  // Answers by request, without the key.
   nlohmann::json dispatch(const std::string& key, const nlohmann::json& what);
   nlohmann::json heights(const nlohmann::json& what);
   nlohmann::json changed(const nlohmann::json& what);
@@ -56,8 +57,9 @@ class ControlRequests {
   planner::UpdateFeed::Update now();
 
   run::Simulation& simulation_;
-  double rate_;
+  double rate_;  ///< control steps per simulated second
   ControlServices services_;
+  /// Numbered maps of all layers.
   planner::UpdateFeed feed_;
   bool moved_ = false;
 };

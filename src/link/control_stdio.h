@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lock-step control over standard input and output: any language can drive.
+// Lock-step control over standard input and output, for programs in any language.
 #pragma once
 
 #include <cstddef>
@@ -12,50 +12,58 @@
 
 namespace navvy::link {
 
-/// At each control step prints {"time":..., "outputs":{name: value}} as one line and reads one line
-/// {"inputs": {name: value}} (only the inputs that change; the first one of a machine takes it from
-/// its program). {"end": true} ends the run.
+/// Drives a simulation in lock step with a controller on standard input and output.
 ///
-/// Any number of requests may come before that line (control_requests.h); each is answered by one
-/// line. After one that puts the session into another state the outputs are printed again.
+/// At each control step it prints one line {"time": ..., "outputs": {name: value}} and reads one
+/// line {"inputs": {name: value}}, which contains only inputs that change. The first input of a
+/// machine takes it from its program. {"end": true} ends the run.
 ///
-/// A line that cannot be used changes nothing and is answered by {"error":..., "line":...};
-/// simulated time stands still until one comes that can be used. A controller that goes away,
-/// closing either stream, ends the run too.
+/// Before its inputs a controller may send any number of requests (control_requests.h), each
+/// answered by one line. After a request that replaces the state the outputs are printed again.
+///
+/// A line that is not valid changes nothing and is answered by {"error": ..., "line": ...};
+/// simulated time stands still until a valid line arrives. A controller that closes either stream
+/// ends the run.
 class ControlStdio {
  public:
-  /// @param stop asked while it waits for its controller: true ends the wait
+  /// Keeps a reference to `simulation`. `rate` is the number of control steps per simulated second.
+  /// `stop` is asked while waiting for the controller; true ends the wait.
   ControlStdio(run::Simulation& simulation, double rate, std::function<bool()> stop,
                ControlServices services = {});
-  /// Exchanges when a control step is due. Returns false when the controller wants to end, is gone,
-  /// or `stop` said so.
+  /// Exchanges outputs and inputs if a control step is due. Call it before each step. Returns false
+  /// if the controller ended the run or is gone, or if `stop` ended the wait.
   bool exchange();
-  /// How the controller went away without {"end": true}; empty while it is there.
+  /// Returns how the controller went away without {"end": true}; empty while it is there.
   const std::string& gone() const { return gone_; }
 
-  static constexpr std::size_t kLongestLine = std::size_t{1} << 20;  ///< [bytes]
-  static constexpr int kDeepestNesting = 8;                          ///< a line needs 2
+  /// Maximum length of a line [bytes].
+  static constexpr std::size_t kLongestLine = std::size_t{1} << 20;
+  /// Maximum nesting of brackets and braces in a line. Valid lines need at most 3.
+  static constexpr int kDeepestNesting = 8;
 
  private:
+  /// What the input holds next.
   enum class Read { kLine, kTooLong, kStopped, kEnded };
+  /// Reads the next line; blocks until there is one, the input ends, or `stop` ends the wait.
   Read read_line(std::string& line);
+  /// Writes a line, or a line with time and outputs. Both return false if the reader is gone.
   bool say(const std::string& line);
   bool say_outputs();
-  /// False when nobody reads the answer.
+  /// Answers a request. Returns false if the controller is gone.
   bool answer(const nlohmann::json& request);
-  /// False when the line ends the run. All of it is checked before any of it acts.
+  /// Checks a whole line and then sets its inputs. Returns false if the line ends the run.
   bool obey(const nlohmann::json& in);
 
   std::function<bool()> stop_;
-  std::string unread_;       ///< what came after the last line
-  std::size_t scanned_ = 0;  ///< of `unread_`: no line ends before it
+  std::string unread_;       ///< input after the last line
+  std::size_t scanned_ = 0;  ///< `unread_` has no line end before this index
   bool skipping_ = false;    ///< within a line that is too long
-  bool ended_ = false;       ///< nothing more will come
-  std::string gone_;
+  bool ended_ = false;       ///< end of the input
+  std::string gone_;         ///< how the controller went away
   run::Simulation& simulation_;
-  double rate_;  ///< of exchanges [1/s]
+  double rate_;  ///< control steps per simulated second
   ControlRequests requests_;
-  std::uint64_t lines_ = 0;
+  std::uint64_t lines_ = 0;  ///< lines read, for error messages
 };
 
 }  // namespace navvy::link

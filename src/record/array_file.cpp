@@ -37,6 +37,7 @@ const char* descr_of(sim::ElementType type) {
   return "<f8";
 }
 
+/// Returns the type of a record: stamp, pose, values.
 std::string record_descr(const sim::ArrayChannel& channel) {
   std::string shape;
   for (const int extent : channel.shape) shape += std::to_string(extent) + ",";
@@ -60,6 +61,7 @@ std::string header_of(const std::string& descr, std::uint64_t records) {
   return out + dict;
 }
 
+/// Appends the bytes of a number.
 template <class T>
 void put(std::string& out, const T& value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -89,6 +91,7 @@ ArrayFile::~ArrayFile() {
 }
 
 void ArrayFile::add(const sim::ArrayView& value) {
+  // The order of fields is that of record_descr.
   const Eigen::Quaterniond q(value.X_WF().linear());
   const Vec3 p = value.X_WF().translation();
   put(waiting_, value.sequence());
@@ -117,6 +120,7 @@ void ArrayFile::flush() {
   append();
 }
 
+/// Writes at absolute positions, so a retry after a failure repeats the same bytes.
 void ArrayFile::append() {
   // Readers ignore what follows the counted records, so a failure in between does no harm.
   if (const int code = write_at(file_, waiting_, header_bytes_ + written_ * record_bytes_))

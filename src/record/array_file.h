@@ -46,13 +46,17 @@ class ArrayFile {
 
  private:
   [[noreturn]] void fail(const char* action, int code) const;
+  /// Writes the waiting records, then the header with their number.
   void append();
 
-  std::string path_, descr_, waiting_;
+  std::string path_;
+  std::string descr_;    ///< type of a record, as NumPy writes it
+  std::string waiting_;  ///< records that are not in the file
   std::size_t record_bytes_ = 0;
-  std::uint64_t records_ = 0, written_ = 0;
   std::size_t header_bytes_ = 0;
-  int file_ = -1;
+  std::uint64_t records_ = 0;  ///< added
+  std::uint64_t written_ = 0;  ///< in the file
+  int file_ = -1;              ///< open after the first flush
 };
 
 }  // namespace navvy::record

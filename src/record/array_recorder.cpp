@@ -13,6 +13,7 @@ namespace {
 /// Returns the file of an array within the run's folder.
 std::string file_of(const sim::ArrayChannel& channel) { return "arrays/" + channel.name + ".npy"; }
 
+/// Returns what a reader needs beside the numbers.
 nlohmann::json entry_of(const sim::ArrayChannel& channel) {
   return {{"name", channel.name},    {"file", file_of(channel)},
           {"unit", channel.unit},    {"type", sim::name_of(channel.type)},
@@ -25,7 +26,8 @@ nlohmann::json entry_of(const sim::ArrayChannel& channel) {
 ArrayRecorder::ArrayRecorder(const session::Session& session, RunFolder& folder)
     : session_(session), folder_(folder) {}
 
-/// Samplers may be added while the run goes on.
+/// Opens files for arrays that were declared since the last call: samplers may be added during a
+/// run.
 void ArrayRecorder::open_new() {
   const std::vector<sim::ArrayChannel>& channels = session_.world().arrays().channels();
   if (streams_.size() == channels.size()) return;
@@ -42,6 +44,7 @@ void ArrayRecorder::observe() {
   open_new();
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     const sim::ArrayView value = session_.world().arrays().view(static_cast<int>(i));
+    // An array that was not published has sequence 0 and no record.
     if (value.sequence() == streams_[i].sequence) continue;
     streams_[i].sequence = value.sequence();
     streams_[i].file->add(value);

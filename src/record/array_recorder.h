@@ -35,12 +35,13 @@ class ArrayRecorder {
  private:
   struct Stream {
     std::unique_ptr<ArrayFile> file;
-    std::uint64_t sequence = 0;
+    std::uint64_t sequence = 0;  ///< of the last recorded value
   };
   void open_new();
 
   const session::Session& session_;
   RunFolder& folder_;
+  /// In the order of the world's arrays.
   std::vector<Stream> streams_;
 };
 

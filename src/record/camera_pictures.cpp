@@ -8,6 +8,7 @@
 
 namespace navvy::record {
 
+// The frame builder keeps the dense ground between pictures, the renderer its drawing context.
 struct CameraPictures::Context {
   explicit Context(const sim::World& world) : frames(world) {}
   sim::FrameBuilder frames;

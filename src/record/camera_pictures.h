@@ -37,7 +37,7 @@ class CameraPictures {
   render::Image draw(const std::string& camera);
 
  private:
-  struct Context;
+  struct Context;  ///< made by the first picture
   const sim::World& world_;
   std::unique_ptr<Context> context_;
 };

@@ -24,7 +24,7 @@
 namespace navvy::record {
 
 struct Recorder::State {
-  // Its parts look at the same session; none keeps more than a reference.
+  // All parts refer to the same session.
   State(session::Session& s, Options o, std::unique_ptr<RunFolder> f)
       : session(s),
         options(std::move(o)),
@@ -33,11 +33,11 @@ struct Recorder::State {
         telemetry(s, folder->path("telemetry.csv")),
         arrays(s, *folder),
         pictures(s.world()) {
-    // A resumed run goes on in its numbers and counts its own speed only.
+    // A resumed run counts only its own speed.
     status.start_time = s.world().time();
   }
 
-  // Telemetry is written at checkpoints, pictures and hashes at once.
+  // Telemetry and arrays are written at checkpoints, pictures and hashes at once.
   session::Session& session;
   Options options;
   std::unique_ptr<RunFolder> folder;
@@ -49,11 +49,11 @@ struct Recorder::State {
   std::unique_ptr<MapRecorder> maps;
   RunStatus status;
   Stopwatch total, since_checkpoint, since_summary;
-  std::size_t summary_bytes = 0;  // of the last one
+  std::size_t summary_bytes = 0;  ///< size of the last summary
   bool finished = false;
 
   std::string path(const std::string& name) { return folder->path(name); }
-  /// Whether the present step is the nearest to a period of `rate` [1/s].
+  /// Returns true if the present step is the nearest to a multiple of the period of `rate` [1/s].
   bool due(double rate) const;
   void sample_when_due();
   void draw_when_due();
@@ -68,10 +68,9 @@ struct Recorder::State {
 };
 
 Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder) {
-  // Nothing is written before the folder stands; what cannot be made is told before the first step.
+  // Nothing is written before the folder is ready. Problems show before the first step.
   if (!folder) folder = std::make_unique<RunFolder>(options.directory);
   folder->begin();
-  // Telemetry and frames are made with their paths in the new folder.
   state_ = std::make_unique<State>(session, std::move(options), std::move(folder));
   try {
     state_->write_start();
@@ -82,10 +81,9 @@ Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<R
 }
 
 void Recorder::State::write_start() {
-  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can
-  // be left that says how it ended.
+  // The summary exists from the start, so that every run has one, whatever happens.
   write_summary(false);
-  // What it was comes next.
+  // The description of the run follows.
   const scene::Scene& scene = session.world().description();
   if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
   write_file_atomically(path("run.json"), run_json({kRunFormat, navvy_version(), options.command,
@@ -105,12 +103,11 @@ void Recorder::State::write_start() {
 Recorder::~Recorder() = default;
 
 bool Recorder::State::due(double rate) const {
-  // By the step's number, counted from time zero: a resumed run records the steps that the whole
-  // one would.
+  // Depends on the step count alone, so a resumed run records the same steps as the whole run.
   return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
 }
 
-/// A run in which nobody planned leaves no such file.
+/// Writes the planned paths. A run without any has no such file.
 void Recorder::State::write_paths() {
   std::string rows;
   for (const session::ProgramReport& report : session.programs())
@@ -120,7 +117,7 @@ void Recorder::State::write_paths() {
   if (!rows.empty()) write_file_atomically(path("paths.csv"), planner::path_header() + "\n" + rows);
 }
 
-/// At most one row a step: a rate above the step's gives every step.
+/// Adds at most one row per step, also for a rate above the step rate.
 void Recorder::State::sample_when_due() {
   const bool first = telemetry.rows() == 0;
   if (!first && !due(session.world().description().recording.telemetry_rate)) return;
@@ -134,7 +131,7 @@ void Recorder::State::draw_when_due() {
   std::vector<const scene::Camera*> cameras;
   for (const scene::Camera& camera : world.description().cameras)
     if (due(camera.rate)) cameras.push_back(&camera);
-  // Drawing is counted apart: the real-time factor is the simulation's.
+  // Drawing is timed apart: the real-time factor is that of the simulation.
   const Lap lap(status.render_time);
   pictures.draw(cameras, [&](const scene::Camera& camera, const render::Image& image) {
     // The number of a picture gives its time: name_N.png is N periods from the start.
@@ -155,7 +152,7 @@ void Recorder::State::record_arrays() {
 void Recorder::State::hash_when_due() {
   if (!hashes) return;
   const Lap lap(status.record_time);
-  // A pass over everything, so only when asked for.
+  // Costs a pass over the state, so it runs on request only.
   hashes->observe();
 }
 
@@ -166,20 +163,20 @@ void Recorder::State::map_when_due() {
 }
 
 void Recorder::State::checkpoint(bool force) {
-  // Wall time of the simulation alone.
+  // Wall time of the simulation only.
   status.wall_time = total.seconds() - status.render_time - status.record_time;
   if (!force && since_checkpoint.seconds() < options.checkpoint) return;
   const Lap lap(status.record_time);
-  // At most every other second unless it is the last.
+  // Checkpoints come at least two seconds apart, except for the last.
   telemetry.checkpoint(force);
   arrays.checkpoint(force);
-  // The hash of a running state costs a pass over everything: only the forced ones pay it.
+  // Only the first and the last summary contain the hash, which costs a pass over the state.
   if (force || since_summary.seconds() >= rewrite_period(summary_bytes)) write_summary(force);
-  // Counted from the end of the writing, or a slow disk would do nothing else.
+  // The interval counts from the end of writing, or a slow disk would be busy all the time.
   since_checkpoint.restart();
 }
 
-/// Kept ready as well, for whoever has to leave it in a hurry.
+/// Also updates the text that a crash would write.
 void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
   crash_summary.keep(text);
@@ -188,7 +185,7 @@ void Recorder::State::write_summary(bool with_hash) {
   since_summary.restart();
 }
 
-/// In the order of cost: a full disk is noticed at the cheapest.
+/// Cheap outputs come first: a full disk shows at the cheapest.
 void Recorder::observe() {
   state_->sample_when_due();
   state_->record_arrays();
@@ -209,13 +206,13 @@ void Recorder::restart() {
 
 void Recorder::finish(const std::string& status, const std::string& message) {
   State& s = *state_;
-  // Failing while finishing must not write a second, half different summary.
+  // A failure while finishing must not write a second, different summary.
   if (s.finished) return;
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
-  // Each file for itself: one that the disk refuses keeps none of the others from being written,
-  // and the summary, which comes last, tells of it.
+  // Each file is written independently: if one fails, the others are still written, and the
+  // summary, which comes last, reports it.
   std::exception_ptr first;
   const auto attempt = [&](const auto& write) {
     try {
@@ -231,7 +228,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
       if (!first) first = std::current_exception();
     }
   };
-  // The state of the fault, to be looked at or gone on from.
+  // The state at the failure, for analysis.
   if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
   attempt([&] {
     if (s.hashes) s.hashes->finish();
@@ -239,7 +236,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   attempt([&] {
     if (s.maps) s.maps->finish();
   });
-  // The end of the ground, also of a run that failed: it shows where.
+  // The final ground, also of a failed run.
   attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
   attempt([&] { s.telemetry.checkpoint(true); });
   attempt([&] { s.arrays.checkpoint(true); });
@@ -252,7 +249,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     write_file_atomically(s.path("summary.json"), text);
     written = true;
   });
-  // The disk takes no new file: the room that was taken at the start serves.
+  // If the disk takes no new file, the reserved one serves.
   if (!written) {
     try {
       text = s.summary(true);
@@ -262,7 +259,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     if (text.empty() || !s.crash_summary.write(text))
       write_crash_summary("failed", s.status.message.c_str());
   }
-  // A failed run has told its cause already.
+  // The cause of a failed run is known already.
   if (first && status != "failed") std::rethrow_exception(first);
 }
 

@@ -19,6 +19,7 @@ const char* name_of(EndReason reason) {
   return "interrupted";
 }
 
+// The summary knows three ends; its readers find the details in its list of programs.
 const char* status_of(EndReason reason) {
   if (reason == EndReason::kInterrupted) return "interrupted";
   return reason == EndReason::kComplete ? "finished" : "incomplete";

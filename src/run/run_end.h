@@ -6,6 +6,8 @@
 
 namespace navvy::run {
 
+/// Reason of an end. The first one that holds counts: interrupted, complete, fell short, and only
+/// then a request or the duration.
 enum class EndReason {
   kComplete,      ///< every program reached its end and no machine fell over
   kFellShort,     ///< a step of a program failed, or a machine fell over

@@ -30,6 +30,7 @@ std::string standing(const std::string& name, const vehicle::Stability& stands, 
   return "'" + name + "' " + text;
 }
 
+/// Splits a text into lines.
 void add_lines(std::vector<std::string>& lines, const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -42,6 +43,7 @@ SceneCheck check_scene(const scene::Scene& scene) {
   // The test that a run makes before it starts.
   out.faults = session::check_programs(scene, planner::path_planners());
   for (Fault& fault : record::check_records(scene)) out.faults.push_back(std::move(fault));
+  // The machines settle for a second on resting soil, without a device.
   sim::StartCheck start = sim::check_start(scene);
   add_lines(out.notes, start.terrain);
   add_lines(out.notes, start.design);

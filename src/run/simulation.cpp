@@ -24,7 +24,8 @@
 namespace navvy::run {
 namespace {
 
-/// Puts the values of the options into the scene.
+/// Returns the scene with the values of the options. Samplers, recorder and the summary read them
+/// from the scene, so there is one place for each value.
 scene::Scene with_options(scene::Scene scene, const SimulationOptions& options) {
   scene::Recording& recording = scene.recording;
   recording.duration = options.duration.value_or(recording.duration);
@@ -34,7 +35,8 @@ scene::Scene with_options(scene::Scene scene, const SimulationOptions& options) 
   return scene;
 }
 
-/// Hills take the scene's seed when they are read, so those with this seed follow it.
+/// Gives a scene another seed. Hills without a seed of their own got the scene's seed when they
+/// were read; they are recognised by it and follow the change.
 void reseed(scene::Scene& scene, std::uint64_t seed) {
   for (scene::GroundFeature& feature : scene.ground.features)
     if (feature.seed == scene.seed) feature.seed = seed;
@@ -43,6 +45,8 @@ void reseed(scene::Scene& scene, std::uint64_t seed) {
 
 }  // namespace
 
+// Members are destroyed in reverse order: recorder and pictures refer to the session, and the
+// session to the device.
 struct Simulation::State {
   explicit State(SimulationOptions o) : options(std::move(o)) {}
 
@@ -74,6 +78,7 @@ struct Simulation::State {
   void fail(const std::string& cause) noexcept;
 };
 
+/// Builds a session. Samplers are added before any state is loaded, as a state contains theirs.
 std::unique_ptr<session::Session> Simulation::State::make_session(scene::Scene scene) const {
   auto out =
       std::make_unique<session::Session>(std::move(scene), *device, planner::path_planners());
@@ -99,6 +104,7 @@ Simulation::Simulation(scene::Scene scene, SimulationOptions options)
     folder = std::make_unique<record::RunFolder>(
         s.options.folder, std::vector<std::string>{s.options.resume, scene.file, scene.ground.file,
                                                    scene.design.file});
+  // From here on a missing device or a faulty program may end the construction.
   s.device = s.options.shared_device ? s.options.shared_device
                                      : std::make_shared<device::Device>(s.options.device);
   note("device " + s.device->info().text());
@@ -112,12 +118,16 @@ Simulation::Simulation(scene::Scene scene, SimulationOptions options)
   // A run of hours must not end at a path that cannot be written.
   s.snapshot_due = !s.options.snapshot.empty();
   if (s.snapshot_due) require_writable(s.options.snapshot);
+  // The state that `reset` returns to: some MiB for a million particles, little for untouched
+  // ground.
   s.start = saved(*s.session);
   s.status.start_time = s.world().time();
+  // The recording begins last, so that a refused option leaves the earlier results in place.
   if (folder) s.start_recording(std::move(folder));
   s.total.restart();
 }
 
+/// Hands the options of the output to a recorder.
 void Simulation::State::start_recording(std::unique_ptr<record::RunFolder> folder) {
   record::Options out;
   out.directory = folder->directory();
@@ -145,6 +155,7 @@ void Simulation::State::inform() {
   for (RunObserver* one : observers) one->restart();
 }
 
+/// Saves the requested snapshot once its time is reached, `slack` [s] early at most.
 void Simulation::State::save_due_snapshot(double slack) {
   if (!snapshot_due || world().time() < options.snapshot_at - slack) return;
   session->save(options.snapshot);
@@ -157,14 +168,18 @@ void Simulation::State::step() {
   inform();
   save_due_snapshot(0);
   session->step();
+  // All that a step changes is recorded before the next one.
   if (recorder) recorder->observe();
   for (RunObserver* one : observers) one->after_step();
 }
 
+/// Tells the observers that no step follows, before files are closed.
 void Simulation::State::close() {
   for (RunObserver* one : observers) one->closing();
 }
 
+/// Closes everything after a failure. Observers finish after the recorder: the summary and
+/// failed.snapshot are more important than a published map.
 void Simulation::State::fail(const std::string& cause) noexcept {
   close();
   // The first cause is what the user reads; the recorder logs a second one.
@@ -180,6 +195,8 @@ void Simulation::State::fail(const std::string& cause) noexcept {
   for (RunObserver* one : std::exchange(observers, {})) attempt([&] { one->finish(); });
 }
 
+/// Classifies the present state as the end of a run. An interruption is reported even if the
+/// programs happen to be complete, as results may be missing.
 RunEnd Simulation::State::end_now(bool requested, const std::string& interrupted_by) const {
   RunEnd end;
   end.time = world().time();
@@ -196,6 +213,7 @@ RunEnd Simulation::State::end_now(bool requested, const std::string& interrupted
   return end;
 }
 
+/// Observers finish before the recorder, so that their failure is part of the summary.
 RunEnd Simulation::State::finish(RunEnd end) {
   close();
   // Missing output that was asked for must not go unnoticed.
@@ -211,6 +229,7 @@ RunEnd Simulation::State::finish(RunEnd end) {
     throw;
   }
   observers.clear();
+  // The folder is closed even if one of its files cannot be written.
   const std::unique_ptr<record::Recorder> closing = std::move(recorder);
   if (closing) closing->finish(status_of(end.reason), end.cause);
   return end;
@@ -229,6 +248,7 @@ RunEnd Simulation::run_to_end(const LoopHooks& hooks) {
   State& s = *state_;
   const auto interrupted = [&] { return hooks.interrupted ? hooks.interrupted() : std::string(); };
   bool requested = false;
+  // Hooks run within the try block: a controller that throws makes the run a failed one.
   try {
     while (!done() && !requested && interrupted().empty()) {
       requested = hooks.before_step && !hooks.before_step();
@@ -280,6 +300,7 @@ void Simulation::reset(std::uint64_t seed) {
     throw Error(
         "another seed makes another ground: finish the recording and detach observers first");
   reseed(scene, seed);
+  // The new world is complete before the old one is released, so a failure changes nothing.
   std::unique_ptr<session::Session> next = s.make_session(std::move(scene));
   for (const std::string& link : s.options.watch) next->watch(link);
   if (s.options.soil_energy) next->keep_soil_energy();
@@ -335,7 +356,7 @@ RunProgress Simulation::progress() const {
   RunProgress out;
   out.time = s.world().time();
   out.duration = s.world().description().recording.duration;
-  // What a resumed run had simulated before does not count as its own speed.
+  // The time before a resumed snapshot does not count for the speed of this process.
   const double spent = s.total.seconds();
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
   if (out.real_time_factor > 0)
@@ -350,6 +371,7 @@ RunProgress Simulation::progress() const {
 std::string Simulation::summary(bool with_hash) const {
   const State& s = *state_;
   if (s.recorder) return s.recorder->summary(with_hash);
+  // Without a folder nobody keeps the wall times of drawing and writing: there is none of both.
   record::RunStatus status = s.status;
   status.wall_time = s.total.seconds();
   if (done()) status.status = status_of(s.end_now(false, "").reason);

@@ -26,6 +26,7 @@ std::string short_text(double value) {
   return text;
 }
 
+// A pipe or a folder is refused as such; a missing file gets a hint how snapshots are made.
 void check_resume(const std::string& path) {
   if (path.empty()) return;
   try {
@@ -47,6 +48,7 @@ void check_snapshot(const std::string& path, const std::string& folder) {
       std::filesystem::file_size(path, code) > 0)
     refuse("--snapshot", path, "exists and is no snapshot, so it is not replaced",
            "name a new file, or remove this one");
+  // Names are compared after links and relative parts are resolved.
   const auto place = [&code](const std::filesystem::path& one) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(one, code), code);
   };
@@ -64,6 +66,7 @@ void check_times(const SimulationOptions& options, const session::Session& sessi
       options.snapshot_at > session.world().description().recording.duration)
     refuse("--snapshot-at", short_text(options.snapshot_at), "the run lasts at most " + end + " s",
            "choose an earlier time, or a longer --duration");
+  // A resumed state may lie beyond a shorter duration.
   if (!options.resume.empty() && session.done())
     refuse("--resume", options.resume,
            "the snapshot was taken at " + short_text(now) +

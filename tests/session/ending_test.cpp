@@ -144,7 +144,7 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
   EXPECT_GT(session->world().get("upwards/stability/margin"), 0.1);
   EXPECT_NEAR(session->world().get("upwards/stability/tilt"), radians(30), radians(4));
   EXPECT_NE(told(reports[0], "parked").find("'parked' (idle): tipped: "), std::string::npos)
-      << told(reports[0], "parked");
+      << report_line(reports[0], "parked");
   // The fall outlives a snapshot, and is not told of twice.
   const auto resumed = make();
   load_saved(bytes, *resumed);
