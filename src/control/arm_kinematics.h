@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geometry of an excavator's arm in the plane of its swing.
+// Geometry of an excavator's arm in its swing plane.
 #pragma once
 
 #include <array>
@@ -11,57 +11,62 @@
 
 namespace navvy::control {
 
-/// Where the bucket is in the swing plane: frame S of the swing axis (origin on the axis, z along
-/// it).
+/// Pose of the bucket in the swing plane, in the frame S of the swing axis (origin on the axis, z
+/// along it).
 struct BucketPose {
-  double reach = 0;   ///< tip's distance from the swing axis [m]
-  double height = 0;  ///< tip above S's origin [m]
-  /// Of the line pin to tip above the horizontal, outward positive [rad]; -pi/2 points down.
+  /// Distance of the tip from the swing axis [m].
+  double reach = 0;
+  /// Height of the tip above S's origin [m].
+  double height = 0;
+  /// Angle of the line from pin to tip above the horizontal, positive outward [rad]; -pi/2 points
+  /// down.
   double angle = 0;
 };
 
 /// Joint angles of boom, stick and bucket [rad].
 using ArmAngles = std::array<double, 3>;
 
-/// Inverse and forward kinematics of boom, stick and bucket; elbow up. Pitch joints turn about -y.
+/// Forward and inverse kinematics of boom, stick and bucket, elbow up. Pitch joints turn about -y.
 class ArmKinematics {
  public:
-  /// @throws InputError naming the missing joint role.
+  /// Reads lengths and limits from the machine. @throws InputError naming the missing joint role.
   explicit ArmKinematics(const scene::Machine& machine);
 
-  /// Where the tip is at these joint angles, limits or not.
+  /// Returns the bucket's pose at these joint angles, whether or not they are within the limits.
   BucketPose forward(const ArmAngles& q) const;
-  /// The joint angles of a pose; false when it is out of reach or limits, `q` is undefined then.
+  /// Computes the joint angles of a pose. Returns false when it is out of reach or beyond the
+  /// limits; `q` is undefined then.
   bool inverse(const BucketPose& pose, ArmAngles& q) const;
-  /// Same with the bucket angle nearest to the wish that is possible, within 120 deg; `pose.angle`
-  /// is changed to it. Continuous where the limit is: the angle is found to 1e-6 rad.
+  /// Does the same with the possible bucket angle nearest to the wanted one, within 120 deg, and
+  /// changes `pose.angle` to it. Continuous where a limit acts: the angle is found to 1e-6 rad.
   bool inverse_nearest(BucketPose& pose, ArmAngles& q) const;
-  /// How far the shell's lowest point hangs below the tip when the bucket is at `angle` [m], >= 0.
+  /// Returns how far the shell's lowest point hangs below the tip when the bucket is at `angle`
+  /// [m], >= 0.
   double below_tip(double angle) const;
-  /// How far the part of the shell less than `height` [m] above the tip stands outward of it [m],
-  /// >= 0.
+  /// Returns how far the part of the shell less than `height` [m] above the tip reaches outward of
+  /// it [m], >= 0.
   double beyond_tip(double angle, double height) const;
-  /// Pin to tip [m].
+  /// Distance from pin to tip [m].
   double bucket_length() const { return bucket_; }
-  /// Farthest the tip can be from the boom's pin [m].
+  /// Largest possible distance of the tip from the boom's pin [m].
   double longest() const { return boom_ + stick_ + bucket_; }
 
-  // Indices and limits as in scene::Machine, for whoever commands the joints.
+  // Indices and limits as in scene::Machine, for code that commands the joints.
   int swing_joint() const { return swing_; }
-  /// Boom, stick, bucket.
+  /// Joint indices of boom, stick and bucket.
   const std::array<int, 3>& joints() const { return joints_; }
-  /// The link that swings with the arm.
+  /// Index of the link that swings with the arm.
   int upper_link() const { return upper_link_; }
   /// Pose of S in the base link (links[0]) at zero swing.
   const Pose& X_BS() const { return X_BS_; }
-  /// Direction of the cutting edge relative to the line pin to tip [rad].
+  /// Direction of the cutting edge relative to the line from pin to tip [rad].
   double cut_angle() const { return cut_angle_; }
   const scene::Bucket& bucket() const { return bucket_data_; }
-  /// Limits of boom (0), stick (1), bucket (2) [rad]; half a turn either way where the joint has
+  /// Limits of boom (0), stick (1) and bucket (2) [rad]; half a turn either way where a joint has
   /// none.
   double lower(int i) const { return lower_[static_cast<std::size_t>(i)]; }
   double upper(int i) const { return upper_[static_cast<std::size_t>(i)]; }
-  /// Without limits the upper structure turns round and round: the bounds mean nothing then.
+  /// Returns false when the upper structure turns endlessly; the swing bounds mean nothing then.
   bool swing_limited() const { return swing_limited_; }
   double swing_lower() const { return swing_lower_; }
   double swing_upper() const { return swing_upper_; }

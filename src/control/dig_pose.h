@@ -6,34 +6,43 @@
 
 namespace navvy::control {
 
-// Angles of the line pin to tip, or of the cutting edge where said; above the horizontal, outward.
-inline constexpr double kCarry = -radians(178);  ///< mouth up
-/// emptied: floor plate near vertical, mouth down and towards the cab.
+// Angles of the line from pin to tip, or of the cutting edge where stated, above the horizontal and
+// positive outward [rad].
+// Carrying: mouth up.
+inline constexpr double kCarry = -radians(178);
+/// Emptied: floor plate near vertical, mouth down and towards the cab.
 inline constexpr double kOpen = -radians(55);
-/// Cutting edge below the horizontal at the end of its turn in.
+/// Cutting edge below the horizontal at the end of its rotation into the soil.
 inline constexpr double kAttack = radians(18);
-/// Cutting edge on the way down: walls at the far end stay upright.
+/// Cutting edge on the way down, so that walls at the far end stay upright.
 inline constexpr double kPlunge = -radians(93);
-inline constexpr double kClear = 0.3;  ///< tip over the ground before it goes down [m]
+/// Height of the tip over the ground before it goes down [m].
+inline constexpr double kClear = 0.3;
 
 /// A point of W in the frame S of the swing axis.
 struct SwingPoint {
-  double swing = 0;   ///< [rad]
-  double reach = 0;   ///< from the axis [m]
-  double height = 0;  ///< above S's origin [m]
-  double pitch = 0;   ///< slope of S's plane in that direction, up outward [rad]
-  /// Angle over W's horizontal as one in S.
+  /// Swing angle of the point [rad].
+  double swing = 0;
+  /// Distance from the swing axis [m].
+  double reach = 0;
+  /// Height above S's origin [m].
+  double height = 0;
+  /// Slope of S's plane in that direction, positive when it rises outward [rad].
+  double pitch = 0;
+  /// Converts an angle over W's horizontal to one in S [rad].
   double level(double angle) const { return angle - pitch; }
 };
+/// Returns a point of W [m] in the frame S of the swing axis.
 SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W);
 
-/// Joint angles that hold a level bucket so that, opened, it drops its soil at `dump_at` with the
-/// tip `clearance` over `ground`; where the arm is too short for that the clearance is taken down
-/// to 0.3 m. False when even that is out of reach. `possible` receives the clearance.
+/// Computes the joint angles that hold a level bucket so that, once opened, it drops its soil at
+/// `dump_at` with the tip `clearance` [m] over `ground`. Where the arm is too short, the clearance
+/// is reduced to 0.3 m at least; `possible` receives it. Returns false when even that is out of
+/// reach.
 bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground,
                double clearance, ArmAngles& q, double& possible);
 
-/// Angle of the line pin to tip that gives the cutting edge this angle.
+/// Returns the angle of the line from pin to tip that gives the cutting edge the angle `cut` [rad].
 inline double with_cut(const ArmKinematics& arm, double cut) { return cut - arm.cut_angle(); }
 
 }  // namespace navvy::control

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes into an operator and what comes out of it, once a control step.
+// Inputs and outputs of an operator in one control step.
 #pragma once
 
 #include <map>
@@ -14,38 +14,50 @@
 
 namespace navvy::control {
 
-/// How far a machine's program has come.
+/// Progress of a machine's program.
 struct ProgramProgress {
-  int done = 0, steps = 0;  ///< steps that are over, and all
-  bool failed = false;      ///< a step fell short: no other will be done
+  /// Steps that are over, and all steps.
+  int done = 0, steps = 0;
+  /// True when a step fell short: no further step will run.
+  bool failed = false;
 };
 
-/// What the operator knows at one control step: what can be seen and felt from a cab.
+/// Everything that the operator knows in one control step: what can be seen and felt from a cab.
 struct Observation {
-  std::vector<vehicle::JointState> joints;  ///< as in scene::Machine::joints
-  Pose X_WB = Pose::Identity();             ///< base link
-  Vec3 v_WB = Vec3::Zero();                 ///< [m/s]
+  /// States of the joints, in the order of scene::Machine::joints.
+  std::vector<vehicle::JointState> joints;
+  /// Pose of the base link.
+  Pose X_WB = Pose::Identity();
+  /// Velocity of the base link [m/s].
+  Vec3 v_WB = Vec3::Zero();
   const heightfield::Ground* ground = nullptr;
-  /// The ground with loose soil on it; null: the resting ground alone.
+  /// The ground with loose soil on it; null: only the resting ground is known.
   const SurfaceView* surface = nullptr;
-  double payload = 0;              ///< soil in the bucket [kg]
-  double force = 0;                ///< low-passed soil force on the bucket [N]
-  vehicle::Stability stability;    ///< how the machine stands
-  Vec3 tyre_force = Vec3::Zero();  ///< of all wheels together, by the ground [N] in W
-  /// Share of the wheels whose tops lie below the resting ground.
+  /// Mass of the soil in the bucket [kg].
+  double payload = 0;
+  /// Magnitude of the low-pass filtered soil force on the bucket [N].
+  double force = 0;
+  /// Stability of the machine.
+  vehicle::Stability stability;
+  /// Force of the ground on all wheels together [N] in W.
+  Vec3 tyre_force = Vec3::Zero();
+  /// Share of the wheels whose tops are below the resting ground.
   double wheels_under = 0;
-  /// Of all machines of the world, by name.
+  /// Progress of all machines of the world, by name.
   const std::map<std::string, ProgramProgress>* programs = nullptr;
 };
 
-/// What it wants; joints without an entry keep their last command.
+/// Commands to the machine. Joints without an entry keep their last command.
 struct Command {
-  std::vector<std::optional<vehicle::JointInput>> joints;  ///< as in scene::Machine::joints
-  std::optional<vehicle::DriveInput> drive;                ///< without: as last commanded
-  std::optional<std::string> unhitch;                      ///< the hitch of this name is let go
+  /// Joint inputs in the order of scene::Machine::joints.
+  std::vector<std::optional<vehicle::JointInput>> joints;
+  /// Drive input; without one the last command stays.
+  std::optional<vehicle::DriveInput> drive;
+  /// Name of the hitch to open.
+  std::optional<std::string> unhitch;
 };
 
-/// Moments of a digging cycle and of a tip, told once each.
+/// Moments of a digging cycle and of tipping a bed, each reported once.
 enum class CycleEvent {
   kNone,
   kScoopStart,

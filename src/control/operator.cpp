@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "control/activity.h"
-#include "control/program_step.h"
+#include "control/activity_step.h"
 #include "control/watch.h"
 
 namespace navvy::control {
@@ -19,7 +19,7 @@ struct Operator::State {
   // state does not move.
   const scene::Program program;
   const std::string name;
-  std::vector<const ProgramStep*> steps;
+  std::vector<const ActivityStep*> steps;
   OperatorContext place;
   std::unique_ptr<Activity> active;  // of steps[step], null between steps
   std::int64_t step = 0;
@@ -33,7 +33,7 @@ struct Operator::State {
   bool past_last() const { return step >= static_cast<std::int64_t>(steps.size()); }
   bool done() const { return past_last() && !failed(); }
   bool failed() const { return !reports.empty() && fell_short(reports.back().state); }
-  const ProgramStep& present() const { return *steps[static_cast<std::size_t>(step)]; }
+  const ActivityStep& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
   void plan_ahead(const Observation& seen);
   void watch_over(const Observation& seen, double time, double dt);
@@ -55,9 +55,9 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
   for (const scene::ProgramStep& one : program.steps) steps.push_back(&step_of(one));
   // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the
   // machine drives.
-  const auto needs_arm = [](const ProgramStep* one) { return one->needs_arm(); };
+  const auto needs_arm = [](const ActivityStep* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
-  for (const ProgramStep* one : steps) {
+  for (const ActivityStep* one : steps) {
     if (!one->needs_planner() || place.planner) continue;
     if (!planners)
       throw InputError(
@@ -66,7 +66,7 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
     place.planner = planners(place.machine);
   }
   // Told before anything moves, not when the step's turn comes.
-  for (const ProgramStep* one : steps) one->check_machine(place.machine);
+  for (const ActivityStep* one : steps) one->check_machine(place.machine);
 }
 
 void Operator::State::make_activity() {

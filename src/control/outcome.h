@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How steps and programs end: states, reasons, figures. What a summary tells of a run's programs
-// comes from here.
+// How steps and programs end: states, reasons, measurements. A run's summary reports them.
 #pragma once
 
 #include <cstdint>
@@ -12,41 +11,55 @@
 
 namespace navvy::control {
 
-/// How a step stands or ended. All after kDone fell short of their aim, and end their program.
+/// State of a step. All values after kDone fell short of their aim and end their program.
 enum class StepState : std::uint8_t {
   kRunning,
   kDone,
-  kBlocked,     ///< something holds the machine, or what it waits for cannot come any more
-  kStalled,     ///< it works and gets nowhere: wheels that spin, scoops that bring nothing
-  kTipped,      ///< the machine rolled or pitched over
-  kOutOfReach,  ///< the target cannot be reached from where the machine stands
-  kOutOfTime,   ///< its patience, or the run's duration, was over first
-  kBuried,      ///< the machine has sunk into the ground, or lies under soil
-  kNoPath,      ///< there is no way to where it shall go
+  /// Something holds the machine, or what it waits for cannot happen any more.
+  kBlocked,
+  /// It works without progress: wheels spin, scoops bring nothing.
+  kStalled,
+  /// The machine rolled or pitched over.
+  kTipped,
+  /// The target cannot be reached from where the machine stands.
+  kOutOfReach,
+  /// The step's time limit or the run's duration was over first.
+  kOutOfTime,
+  /// The machine has sunk into the ground, or soil covers it.
+  kBuried,
+  /// No path leads to the target.
+  kNoPath,
 };
 
-/// As files and messages call it: "out_of_reach".
+/// Returns the name in files and messages, such as "out_of_reach".
 const char* name_of(StepState state);
-/// Whether it ended without reaching its aim.
+/// Returns true when the step ended without reaching its aim.
 inline bool fell_short(StepState state) { return state > StepState::kDone; }
 
-/// A figure of a step's account: what it came to as a number.
+/// A named measurement of a step's account.
 struct Measurement {
+  /// Name that ends in its unit, as keys of summary.json do: "depth_reached_m".
   std::string name;  ///< ends in its unit, as keys of summary.json do: "depth_reached_m"
   double value = 0;
 
   void visit(Archive& a);
 };
 
-/// What became of one step of a program.
+/// Result of one step of a program.
 struct StepReport {
-  std::int64_t step = 0;  ///< its number in the program, the first is 1
-  std::string element;    ///< as scene files call it: "drive_to"
+  /// Number in the program, 1-based.
+  std::int64_t step = 0;
+  /// Element in scene files: "drive_to".
+  std::string element;  ///< as scene files call it: "drive_to"
   StepState state = StepState::kRunning;
-  std::string reason;         ///< a sentence; empty when it is done and there is nothing to say
-  double start = 0, end = 0;  ///< [s] simulated; end is the present while it runs
-  Vec3 place = Vec3::Zero();  ///< of the base link then [m] in W
-  std::vector<Measurement> figures;  ///< the step's own account (Activity::account)
+  /// A sentence; empty when the step is done and there is nothing to say.
+  std::string reason;
+  /// Simulated start and end [s]; the end is the present time while the step runs.
+  double start = 0, end = 0;
+  /// Position of the base link at the end [m] in W.
+  Vec3 place = Vec3::Zero();
+  /// The step's own measurements (Activity::account).
+  std::vector<Measurement> figures;
 
   void visit(Archive& a);
 };

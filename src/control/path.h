@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A way to drive: arcs and straight lines, forwards and backwards, with a stop wherever the
-// direction changes.
+// A path to drive: arcs and straight lines, forwards and backwards, with a stop at every change of
+// direction.
 #pragma once
 
 #include <cstdint>
@@ -13,40 +13,45 @@ namespace navvy::control {
 
 /// An arc, or a straight line where the curvature is zero.
 struct PathPiece {
-  double length = 0;     ///< [m]; negative: driven backwards
-  double curvature = 0;  ///< [1/m], positive to the machine's left
+  /// Length [m]; negative: driven backwards.
+  double length = 0;
+  /// Curvature [1/m], positive to the machine's left.
+  double curvature = 0;
 
   void visit(Archive& a) {
-    // What is longer is no path of a site; a walk along it would not end.
+    // Bounds of any path on a site; walking along a longer one would not end.
     a.ranged("length", length, -1e5, 1e5);
     a.ranged("curvature", curvature, -1e3, 1e3);
   }
 };
 
-/// A stretch in one direction: from a stand to the next stand.
+/// A part of a path driven in one direction, from one stop to the next.
 struct PathLeg {
-  double begin = 0, end = 0;  ///< along the path [m]
-  double sense = 1;           ///< 1 forwards, -1 backwards
+  /// Start and end along the path [m].
+  double begin = 0, end = 0;
+  /// 1 forwards, -1 backwards.
+  double sense = 1;
 };
 
-/// Pieces one after the other, from a pose of the middle of the rear axle. Places on it are told by
-/// the length driven since the start, s [m], which grows backwards too. Poses are closed forms:
-/// exact to rounding, whatever the length.
+/// Pieces one after the other, starting from a pose of the middle of the rear axle. Positions on
+/// the path are given by the distance driven since the start, s [m], which also grows when driving
+/// backwards. Poses are closed forms, exact to rounding at any length.
 class Path {
  public:
   Path() = default;
+  /// Builds a path from its start pose and pieces.
   Path(const PlanePose& start, std::vector<PathPiece> pieces);
 
   const PlanePose& start() const { return start_; }
   const std::vector<PathPiece>& pieces() const { return pieces_; }
-  /// At least one where the path has any length; a change of direction (a cusp) lies between two of
-  /// them.
+  /// Returns the legs, at least one where the path has any length. A change of direction (a cusp)
+  /// separates two of them.
   const std::vector<PathLeg>& legs() const { return legs_; }
   int cusps() const { return legs_.empty() ? 0 : static_cast<int>(legs_.size()) - 1; }
   double length() const { return legs_.empty() ? 0 : legs_.back().end; }
-  /// The machine at s, which is cut to the path's length.
+  /// Returns the machine's pose at s, clamped to the path.
   PlanePose at(double s) const;
-  /// Mean curvature [1/m] from s - half to s + half, cut to the leg.
+  /// Returns the mean curvature [1/m] from s - half to s + half, clamped to the leg.
   double curvature(const PathLeg& leg, double s, double half) const;
 
   void visit(Archive& a);
@@ -56,15 +61,16 @@ class Path {
 
   PlanePose start_;
   std::vector<PathPiece> pieces_;
-  // Follows from the pieces.
+  // Derived from the pieces.
   std::vector<PathLeg> legs_;
 };
 
-/// A path of a program, as its operator keeps it for who wants to see where the machine meant to
-/// go.
+/// A planned path of a program, which its operator stores to show where the machine meant to drive.
 struct PlannedPath {
-  std::int64_t step = 0;  ///< of the program, the first is 1
-  double time = 0;        ///< when it was planned, simulated [s]
+  /// Number of the program's step, 1-based.
+  std::int64_t step = 0;
+  /// Simulated time at which it was planned [s].
+  double time = 0;
   Path path;
 
   void visit(Archive& a) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whom an operator asks for a way. Who implements it is above this module; the program hands it in.
+// The interface through which an operator asks for paths. A module above implements it; the program
+// passes it in.
 #pragma once
 
 #include <cstdint>
@@ -13,38 +14,41 @@
 
 namespace navvy::control {
 
-/// What a path shall do.
+/// A request for a path.
 struct PathQuery {
   PlanePose start, goal;
-  /// That the footprint keeps from ground the machine cannot drive on, all the way [m].
+  /// Clearance that the footprint keeps from ground the machine cannot drive on, along the whole
+  /// path [m].
   double clearance = 0.3;
-  int iterations = 1000;   ///< of the search: what ends it, never the time
-  std::uint32_t seed = 1;  ///< of the search; not 0
+  /// Iterations after which the search ends; it never ends by time.
+  int iterations = 1000;
+  /// Seed of the search; not 0.
+  std::uint32_t seed = 1;
 };
 
 /// Plans paths for one machine on ground that changes.
 ///
-/// Answers are a function of the surface that was shown last and the query alone, to the bit,
-/// whatever was asked before: a run that goes on from a snapshot gets the paths that the whole run
-/// got. One thread at a time.
+/// Answers depend on the surface that was shown last and on the query alone, bit for bit, whatever
+/// was asked before: a run resumed from a snapshot gets the paths of the uninterrupted run. Not
+/// thread-safe.
 class PathPlanner {
  public:
   virtual ~PathPlanner() = default;
-  /// Takes the ground as it is now; all answers are of it until the next look. Costs what changed
-  /// since the last one, and a pass over the awake soil.
+  /// Takes the present ground; all answers refer to it until the next call. Costs what changed
+  /// since the last call, and a pass over the active soil.
   virtual void look(const SurfaceView& surface) = 0;
-  /// From the machine's footprint at `at` to the nearest ground that it cannot drive on, unknown
-  /// ground or the site's edge [m]; `range` when there is none nearer.
+  /// Returns the distance from the machine's footprint at `at` to the nearest ground that it cannot
+  /// drive on, unknown ground or the site's edge [m]; `range` when nothing is nearer.
   virtual double clearance(const PlanePose& at, double range) const = 0;
-  /// Nothing when the search ends without one.
+  /// Returns a path, or nothing when the search ends without one.
   virtual std::optional<Path> plan(const PathQuery& query) const = 0;
 };
 
-/// Makes the planner of a machine; empty where nobody plans.
+/// Makes the planner of a machine; empty where paths are not planned.
 using MakePathPlanner = std::function<std::unique_ptr<PathPlanner>(const scene::Machine&)>;
 
-/// Least clearance of the path from s to its end [m], `range` at most; looks every 0.1 m, and no
-/// further once it is below `enough`.
+/// Returns the least clearance of the path from s to its end [m], at most `range`. Samples every
+/// 0.1 m, and stops once it is below `enough`.
 double clearance_along(const PathPlanner& planner, const Path& path, double s, double range,
                        double enough = 0);
 

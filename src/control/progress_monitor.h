@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a machine that drives gets on, and what holds it when it does not.
+// Detects whether a driving machine makes progress, and what holds it when it does not.
 #pragma once
 
 #include <string>
@@ -12,14 +12,15 @@
 
 namespace navvy::control {
 
-/// Part of the memory of whatever drives. Looks where the machine was when it last got on.
+/// Compares the machine's pose with the pose at which it last made progress. Part of the state of
+/// every step that drives.
 class ProgressMonitor {
  public:
-  /// From here on.
+  /// Starts to monitor from this pose.
   void begin(const PlanePose& at);
-  /// One control step of driving at `speed` [m/s] with `left` [m] to the target. Not kRunning: the
-  /// machine has stood for its whole patience, 5 s or what a slower drive needs, and `reason` says
-  /// so and what holds it.
+  /// Checks one control step of driving at `speed` [m/s] with `left` [m] to the target. Returns
+  /// kRunning while there is progress. Otherwise the machine has stood for the whole patience, 5 s
+  /// or what a slower drive needs, and `reason` says what holds it.
   StepState look(const Observation& seen, const scene::Machine& machine, double speed, double left,
                  double dt, std::string& reason);
 
@@ -31,14 +32,16 @@ class ProgressMonitor {
   }
 
  private:
-  // Since the machine last got on: where that was, how long ago [s], how far its wheels have rolled
-  // [m], and the sum of the tyres' force over time [N s].
-  Vec3 anchor_ = Vec3::Zero();  // x, y [m], yaw [rad]
+  // Since the machine last made progress: its pose then (x, y [m], yaw [rad]), the time since [s],
+  // the distance its wheels have rolled since [m], and the integral of the tyres' force [N s].
+  Vec3 anchor_ = Vec3::Zero();
   double stuck_ = 0, rolled_ = 0;
   Vec3 push_ = Vec3::Zero();
 };
 
-inline constexpr double kStandTime = 0.5;    ///< [s] at rest with the brake on: it stands
-inline constexpr double kStandSpeed = 0.02;  ///< [m/s]
+/// Time at rest with the brake on after which a machine counts as standing [s].
+inline constexpr double kStandTime = 0.5;
+/// Speed below which a machine counts as standing [m/s].
+inline constexpr double kStandSpeed = 0.02;
 
 }  // namespace navvy::control

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
@@ -47,7 +47,7 @@ ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& p
 
 std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {
-    const ProgramStep& step = step_of(program_.steps[index_]);
+    const ActivityStep& step = step_of(program_.steps[index_]);
     step.check_reach(*this);
     // A drive that misses its target has been told of; the steps after it are judged as if it
     // arrived.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a machine stands while its arm works.
+// The machine's stance while its arm works.
 #pragma once
 
 #include <array>
@@ -10,25 +10,25 @@
 
 namespace navvy::control {
 
-/// The chassis' pose with its shaking on the tyres smoothed away, and how upright it stood when the
-/// bucket last went down. Tip paths in W are worked out from here, so that the arm does not answer
-/// every sway. Part of an activity's memory.
+/// Low-pass filtered pose of the chassis, and its inclination when the bucket last went down. Tip
+/// paths in W are computed from this pose, so that the arm does not respond to every oscillation on
+/// the tyres. Part of an activity's state.
 class Stance {
  public:
-  /// Takes the pose of the base link as it is.
+  /// Starts from the present pose of the base link.
   void begin(const Pose& X_WB);
-  /// Follows it with a time constant of a quarter of a second; `dt` [s].
+  /// Filters the pose with a time constant of 0.25 s; `dt` [s].
   void follow(const Pose& X_WB, double dt);
-  /// Smoothed pose of the swing axis' frame S in W, at zero swing.
+  /// Returns the filtered pose of the swing axis' frame S in W at zero swing.
   Pose swing_frame(const ArmKinematics& arm) const;
-  /// Takes how the machine stands by now, smoothed, as how it shall stand: ground that gives way
-  /// under its wheels tilts it for good, which is no reason to stop.
+  /// Takes the present inclination as the reference: ground that yields under the wheels tilts the
+  /// machine permanently, which is no reason to stop.
   void settle();
-  /// 1 while the machine stands as it did when it was last settled, 0 when the bucket tips it by 3
-  /// deg.
+  /// Returns 1 while the machine stands as it did when it last settled, falling to 0 when the
+  /// bucket tilts it by 3 deg.
   double footing(const Pose& X_WB) const;
-  /// By how much the side that the arm points to has risen since then [rad]; negative where it
-  /// sank. `swing` [rad].
+  /// Returns by how much the side to which the arm points has risen since then [rad]; negative when
+  /// it sank. `swing` [rad].
   double rise(const Pose& X_WB, const ArmKinematics& arm, double swing) const;
 
   void visit(Archive& a) {
@@ -38,7 +38,7 @@ class Stance {
 
  private:
   std::array<double, 7> base_ = {0, 0, 0, 1, 0, 0, 0};  // x y z [m], quaternion w x y z
-  // The base's z axis in W when it was last settled
+  // The base's z axis in W when it last settled.
   std::array<double, 3> up_ = {0, 0, 1};
 };
 

@@ -6,8 +6,8 @@
 
 namespace navvy::control {
 
-/// The program steps that operators can do, for scene_io::load_scene. A caller with steps of its
-/// own appends them to a copy.
+/// Returns the program steps that operators can do, for scene_io::load_scene. A caller with steps
+/// of its own appends them to a copy.
 const scene::StepKinds& step_kinds();
 
 }  // namespace navvy::control

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface an operator looks at.
+// The surface that an operator sees.
 #pragma once
 
 #include "heightfield/layered_ground.h"
@@ -7,24 +7,24 @@
 
 namespace navvy::control {
 
-/// Where an operator's eyes get the terrain from. Who implements it decides which surface that is,
-/// and may take its view when it is first asked in a step: most steps look at nothing.
+/// The operator's view of the terrain. The implementation decides which surface that is, and may
+/// build the view when it is first asked for in a step, since most steps ask for nothing.
 class SurfaceView {
  public:
   virtual ~SurfaceView() = default;
-  /// What can be seen from the cab now; valid until the world steps on.
+  /// Returns the surface seen from the cab now; valid until the world steps on.
   virtual const heightfield::Terrain& terrain() const = 0;
-  /// The same instant as maps have it, without what buckets and beds hold; stays as it is. For
-  /// planners.
+  /// Returns the same instant as maps show it, without the contents of buckets and beds. The view
+  /// is immutable. For planners.
   virtual heightfield::TerrainView mapped() const = 0;
-  /// Its height at W (x, y) [m].
+  /// Returns the height at (x, y) [m] in W.
   double height(double x, double y) const { return terrain().sample(x, y); }
 };
 
-/// The resting columns of a ground that is at hand.
+/// A view of the resting columns of a ground.
 class GroundSurfaceView final : public SurfaceView {
  public:
-  /// `ground` must outlive it.
+  /// Keeps a reference to `ground`, which must outlive the view.
   explicit GroundSurfaceView(const heightfield::Ground& ground) : ground_(ground) {}
   const heightfield::Terrain& terrain() const override { return ground_; }
   heightfield::TerrainView mapped() const override { return ground_.view(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ends a program whatever its step is at: the machine tips over, or is buried.
+// Detects conditions that end a program during any step: the machine tips over or is buried.
 #pragma once
 
 #include <string>
@@ -10,20 +10,21 @@
 
 namespace navvy::control {
 
-/// Looks at how the machine stands, once a control step.
+/// Checks the machine's stability once per control step.
 class Watch {
  public:
-  /// kRunning while all is well; else the state, and in `reason` why.
+  /// Returns kRunning while the machine stands; otherwise the state, with the cause in `reason`.
   ///
-  /// A machine tips when it is past 45 deg, or when its centre of mass has been outside its feet
-  /// for a while and it goes on turning over. It is buried when the ground is over the tops of half
-  /// of its wheels.
+  /// A machine has tipped when it is inclined by more than 45 deg, or when its centre of mass has
+  /// been outside its support polygon for a while and it keeps turning over. It is buried when the
+  /// ground is above the tops of half of its wheels.
   StepState look(const Observation& seen, double dt, std::string& reason);
 
   void visit(Archive& a) { a("outside", outside_); }
 
  private:
-  double outside_ = 0;  // [s] that the centre of mass has been outside while the tilt grew
+  // Time for which the centre of mass has been outside while the tilt grew [s].
+  double outside_ = 0;
 };
 
 }  // namespace navvy::control

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 #include "control/reach.h"
 #include "heightfield/design_surface.h"
 #include "heightfield/make_ground.h"

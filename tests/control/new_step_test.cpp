@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "control/activities/wait.h"
+#include "control/activity_step.h"
 #include "control/arm_move.h"
 #include "control/dig_rig.h"
 #include "control/operator.h"
-#include "control/program_step.h"
 #include "control/reach.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
@@ -26,7 +26,7 @@ namespace {
 constexpr double kStep = 0.01;  // [s]
 
 /// Nod with the boom a number of times, after another machine has done its program if one is named.
-struct Nod final : ProgramStep {
+struct Nod final : ActivityStep {
   static constexpr const char* kElement = "nod";
   int times = 1;
   std::string after;

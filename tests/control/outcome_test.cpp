@@ -11,9 +11,9 @@
 
 #include "control/activities/wait.h"
 #include "control/activity.h"
+#include "control/activity_step.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
-#include "control/program_step.h"
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "flip_bytes.h"
@@ -24,7 +24,7 @@ namespace {
 constexpr double kStep = 0.01;  // [s]
 
 /// Turns the boom and drives, gives an account, and falls short after a while if it is told to.
-struct Trying final : ProgramStep {
+struct Trying final : ActivityStep {
   StepState end = StepState::kDone;
   const char* element() const override { return "trying"; }
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;

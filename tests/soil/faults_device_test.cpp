@@ -13,10 +13,10 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
-const Box kBed{Vec3(9, 9.2, -0.6), Vec3(10.6, 10.4, 0)};
+const SiteBox kBed{Vec3(9, 9.2, -0.6), Vec3(10.6, 10.4, 0)};
 
 /// Pushes a blade at `speed` into the bed for `seconds`; returns why it stopped, or "".
 std::string push(Rig& rig, double speed, double seconds) {
@@ -102,7 +102,7 @@ TEST(SoilFaults, ToolMotionsMustBeFinite) {
 }
 
 TEST(SoilFaults, AToolPressedIntoTheRockStopsTheRunAtTheRock) {
-  Rig rig({rig::sand()}, Box{Vec3(9, 9.2, -4), Vec3(10.6, 10.4, 0)}), fresh({rig::sand()});
+  Rig rig({rig::sand()}, SiteBox{Vec3(9, 9.2, -4), Vec3(10.6, 10.4, 0)}), fresh({rig::sand()});
   ToolMotion motion;
   motion.tool = rig.solver().add_tool(rig::open_box(0.6, 0.6, 0.4));
   motion.X_WT = make_pose(9.8, 9.8, -3.5, kPi, 0, 0);
@@ -143,7 +143,7 @@ TEST(SoilFaults, SoilWithoutDensityIsRefused) {
 }
 
 TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
-  const Box big{Vec3(5, 5, -2), Vec3(9, 9, 0)};
+  const SiteBox big{Vec3(5, 5, -2), Vec3(9, 9, 0)};
   std::size_t wanted = 0;
   std::vector<Particle> all;
   {

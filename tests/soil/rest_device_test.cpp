@@ -12,14 +12,14 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
   for (const double cohesion : {0.0, 5000.0}) {
     scene::Soil soil = rig::sand(35);  // at 30 the cone yields under the elastic rest ratio
     soil.cohesion = soil.residual_cohesion = cohesion;
-    const Box pit{Vec3(8.6, 8.6, -0.8), Vec3(11.4, 11.4, 0)};
+    const SiteBox pit{Vec3(8.6, 8.6, -0.8), Vec3(11.4, 11.4, 0)};
     Rig rig({soil}, pit);
     const auto start = rig.fill(pit, true);
     rig.solver().insert(start);
@@ -171,7 +171,7 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
 double crowded_density(bool crowding) {
   Rig rig({rig::sand(35)});
   rig.solver().set_crowding(crowding);
-  const Box box{Vec3(9.5, 9.5, 0), Vec3(10.5, 10.5, 0.5)};
+  const SiteBox box{Vec3(9.5, 9.5, 0), Vec3(10.5, 10.5, 0.5)};
   auto soil = rig.fill(box);
   const auto twice = soil;
   for (Particle p : twice) {

@@ -27,7 +27,7 @@ inline scene::Soil sand(double friction_degrees = 33) { return lab::clean_sand(f
 /// that particles will fill.
 class Rig : public lab::Site {
  public:
-  explicit Rig(const std::vector<scene::Soil>& soils, const Box& pit = {}, double cell = 0.1,
+  explicit Rig(const std::vector<scene::Soil>& soils, const SiteBox& pit = {}, double cell = 0.1,
                int cells = 200, const Vec2& origin = Vec2::Zero())
       : Site(device(), soils, cell, options(pit, cell * cells, origin)) {}
 
@@ -39,7 +39,7 @@ class Rig : public lab::Site {
   double datum() const { return ground().datum(); }
   /// Particles on a lattice of half a cell; `depth_stress`: with the stress of resting ground whose
   /// top is the box's.
-  std::vector<Particle> fill(const Box& box, bool depth_stress = false, int soil = 0) const {
+  std::vector<Particle> fill(const SiteBox& box, bool depth_stress = false, int soil = 0) const {
     std::vector<Particle> out = Site::fill(box, {}, soil);
     if (depth_stress) rest(out, box.high.z());
     return out;
@@ -53,7 +53,7 @@ class Rig : public lab::Site {
   std::uint64_t digest() const { return hash_of(solver()).digest(); }
 
  private:
-  static lab::SiteOptions options(const Box& pit, double size, const Vec2& origin) {
+  static lab::SiteOptions options(const SiteBox& pit, double size, const Vec2& origin) {
     lab::SiteOptions out;
     out.size = size;
     out.corner = origin;

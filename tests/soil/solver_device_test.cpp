@@ -16,8 +16,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 /// Particles strewn over a few blocks, in motion and under stress.
 std::vector<Particle> strewn(const Rig& rig, int count, std::uint64_t seed, const Vec3& low) {
@@ -167,7 +167,7 @@ TEST(SoilSolver, RepeatsBitForBitAndASingleBitMatters) {
 }
 
 TEST(SoilSolver, GoesOnFromASnapshotAsIfNothingHappened) {
-  const Box box{Vec3(5, 5, 0), Vec3(5.5, 5.5, 0.6)};
+  const SiteBox box{Vec3(5, 5, 0), Vec3(5.5, 5.5, 0.6)};
   Rig whole({rig::sand()});
   whole.solver().insert(whole.fill(box));
   whole.run(0.15);
@@ -182,7 +182,7 @@ TEST(SoilSolver, GoesOnFromASnapshotAsIfNothingHappened) {
 
 // With a tool in the soil, in motion between two re-bins.
 TEST(SoilSolver, EverySavedByteIsHashedOrRefused) {
-  const Box box{Vec3(5, 5, 0), Vec3(5.2, 5.2, 0.2)};
+  const SiteBox box{Vec3(5, 5, 0), Vec3(5.2, 5.2, 0.2)};
   Rig rig({rig::sand()}), target({rig::sand()});
   ToolMotion motion;
   for (Rig* each : {&rig, &target}) motion.tool = each->solver().add_tool(rig::blade(0.2, 0.2));

@@ -12,8 +12,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 /// Amplitude of a shear wave v_y = sin(2 pi x / 8 cells) over its two middle waves [m/s].
 double amplitude(const Rig& rig, double from, double wave) {
@@ -71,7 +71,7 @@ struct Drag {
     motion.v_WT += impulse.J_W / 80;
     motion.X_WT.translation() += 1.4e-3 * motion.v_WT;
   }
-  const Box bed{Vec3(9.6, 9.7, -0.4), Vec3(10.8, 10.5, 0)};
+  const SiteBox bed{Vec3(9.6, 9.7, -0.4), Vec3(10.8, 10.5, 0)};
   Rig rig;
   ToolMotion motion;
   ToolImpulse impulse;

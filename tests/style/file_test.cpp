@@ -46,7 +46,7 @@ TEST(Files, StayWithinTheirLength) {
 }
 
 TEST(Files, HaveNoLineThatDoesNotFitAScreen) {
-  constexpr std::size_t kWidest = 120;  // as clang-format wraps C++
+  constexpr std::size_t kWidest = 100;  // as clang-format wraps C++
   std::vector<std::string> found;
   for (const char* folder : {"src", "kernels", "tests", "bench", "examples"}) {
     for (const SourceFile& file : sources(folder, {".h", ".cpp", ".cl"})) {

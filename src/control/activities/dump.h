@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Open the bucket where it is, then curl back.
-struct Dump final : ProgramStep {
+/// Opens the bucket where it is, then curls it back.
+struct Dump final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "dump";
   explicit Dump(double hold_in = 1.0) : hold(hold_in) {}
-  double hold;  ///< between opened and closing [s]
+  /// Time between opening and closing [s].
+  double hold;
 
-  /// Elements: <hold_s>.
+  /// Reads <hold_s>.
   static Dump read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
-  /// One phase: two moves of the bucket.
+  /// Returns an activity with one phase: two moves of the bucket.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 

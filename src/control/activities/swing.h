@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Turn the upper structure to this angle of the swing joint, the bucket held.
-struct Swing final : ProgramStep {
+/// Turns the upper structure to this angle of the swing joint with the bucket held.
+struct Swing final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "swing";
   explicit Swing(double angle_in = 0) : angle(angle_in) {}
-  double angle;  ///< [rad]
+  /// Target angle [rad].
+  double angle;
 
-  /// Elements: <angle_deg>.
+  /// Reads <angle_deg>.
   static Swing read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
-  /// One phase: a move of one axis.
+  /// Returns an activity with one phase: a move of one axis.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override;
 };

@@ -4,26 +4,29 @@
 #include <string>
 #include <vector>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Open-loop joint positions over time, linear between knots; times count from the start of this
-/// step.
-struct Trajectory final : ProgramStep {
+/// Moves joints along open-loop positions over time, linear between knots; times count from the
+/// start of this step.
+struct Trajectory final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "trajectory";
   std::vector<std::string> joints;
-  std::vector<double> times;                   ///< [s], increasing
-  std::vector<std::vector<double>> positions;  ///< [knot][joint], [rad] or [m]
+  /// Times of the knots [s], increasing.
+  std::vector<double> times;
+  /// Positions as [knot][joint], [rad] or [m].
+  std::vector<std::vector<double>> positions;
 
-  /// Elements: <times_s> and a <joint name="..."> with <positions_deg> or <positions_m> for every
+  /// Reads <times_s> and a <joint name="..."> with <positions_deg> or <positions_m> for every
   /// joint.
   static Trajectory read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
-  /// @throws InputError for anything that the reader would have refused, too.
+  /// Checks the trajectory against the machine. @throws InputError also for anything that the
+  /// reader would have refused.
   void check_machine(const scene::Machine& machine) const override;
-  /// One phase: commands its joints alone.
+  /// Returns an activity with one phase, which commands only its joints.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 

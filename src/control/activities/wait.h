@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Stay as it is for a while.
-struct Wait final : ProgramStep {
+/// Holds the last commands for a while.
+struct Wait final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "wait";
   explicit Wait(double duration_in = 1) : duration(duration_in) {}
-  double duration;  ///< [s]
+  /// Duration [s].
+  double duration;
 
-  /// Elements: <duration_s>.
+  /// Reads <duration_s>.
   static Wait read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
-  /// One phase: holds what was commanded.
+  /// Returns an activity with one phase, which holds the last commands.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 

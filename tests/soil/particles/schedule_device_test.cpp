@@ -13,8 +13,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 /// Sets the schedule for its life.
 class With {
@@ -54,7 +54,7 @@ Outcome dig(const char* schedule, int steps, double inverse_mass = 0) {
   loam.cohesion = 5000;
   loam.residual_cohesion = 1000;
   loam.swell = 1.2;
-  const Box bed{Vec3(9, 9.2, -0.4), Vec3(11, 10.8, 0)};
+  const SiteBox bed{Vec3(9, 9.2, -0.4), Vec3(11, 10.8, 0)};
   Rig rig({rig::sand(35), loam}, bed);
   auto soil = rig.fill(bed, true);
   for (Particle& p : soil)

@@ -15,8 +15,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 constexpr double kDt = 1.6e-3;
 
@@ -104,7 +104,7 @@ struct Slid {
 
 /// A plate of 0.8 x 0.6 m slid at 0.3 m/s over a bed, pressed so that it carries `pressure` [Pa].
 Slid slide(const scene::Soil& soil, double pressure, double share = 1) {
-  const Box bed{Vec3(9, 9.2, -0.5), Vec3(11.4, 10.8, 0)};
+  const SiteBox bed{Vec3(9, 9.2, -0.5), Vec3(11.4, 10.8, 0)};
   Rig rig({soil}, bed);
   scene::Shell shell = plate(0.8, 0.6);
   shell.friction_share = shell.adhesion_share = share;

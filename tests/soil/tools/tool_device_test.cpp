@@ -8,8 +8,8 @@
 namespace navvy::soil {
 namespace {
 
-using rig::Box;
 using rig::Rig;
+using rig::SiteBox;
 
 /// Steps one tool along; keeps sums and the worst momentum residual.
 struct Driver {
@@ -95,7 +95,7 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
 }
 
 TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
-  const Box bed{Vec3(9, 9, -0.5), Vec3(11.6, 11, 0)};
+  const SiteBox bed{Vec3(9, 9, -0.5), Vec3(11.6, 11, 0)};
   Rig rig({rig::sand(35)}, bed);
   // A box on its side: the mouth looks along -x, the lip is its lower edge.
   const Pose X = make_pose(10.9, 10.02, 0.16, 0, radians(-90), 0);
@@ -186,7 +186,7 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
   soil.cohesion = soil.residual_cohesion = GetParam().cohesion;
   soil.tool_friction_angle = GetParam().tool_friction;
   const double width = 1.6, depth = 0.3, speed = 0.3;
-  const Box bed{Vec3(9.2, 10 - width / 2 - 0.4, -0.6), Vec3(11.2, 10 + width / 2 + 0.4, 0)};
+  const SiteBox bed{Vec3(9.2, 10 - width / 2 - 0.4, -0.6), Vec3(11.2, 10 + width / 2 + 0.4, 0)};
   Rig rig({soil}, bed);
   const double face = 9.6;
   std::vector<Particle> all = rig.fill(bed, true), cut;
@@ -227,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(Block, BladeTest,
                          testing::Values(BladeCase{0, 0, 0.25}, BladeCase{0, 0, 0.06}));
 
 TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
-  const Box bed{Vec3(9.4, 9.4, -0.4), Vec3(10.6, 10.6, 0)};
+  const SiteBox bed{Vec3(9.4, 9.4, -0.4), Vec3(10.6, 10.6, 0)};
   Rig rig({rig::sand(35)}, bed);
   scene::Shell plate;
   plate.name = "plate";
@@ -347,7 +347,7 @@ TEST(SoilTool, TwoBucketsInOneWorldFeelTheirOwnLoads) {
 }
 
 TEST(SoilTool, APlateCompactsSoftSoilForGood) {
-  const Box bed{Vec3(9.6, 9.6, -0.5), Vec3(10.4, 10.4, 0)};
+  const SiteBox bed{Vec3(9.6, 9.6, -0.5), Vec3(10.4, 10.4, 0)};
   double state[2], rebound[2];
   for (const bool soft : {false, true}) {
     scene::Soil soil = rig::sand(33);

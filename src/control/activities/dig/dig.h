@@ -3,34 +3,39 @@
 
 #include <optional>
 
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Dig a straight trench by whole cycles (scoop, swing, dump, return) until floor and length are
+/// Digs a straight trench by whole cycles (scoop, swing, dump, return) until depth and length are
 /// reached.
 ///
-/// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the cycles it
-/// was ordered. It is done when little is left of the design, or all its cycles were made; its
-/// account tells what is left and how deep it came.
-struct Dig final : ProgramStep {
+/// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the commanded
+/// number of cycles. The step is done when little of the design is left, or all its cycles were
+/// made; its account reports what is left and the depth reached.
+struct Dig final : ActivityStep {
   static constexpr const char* kElement = "dig";
-  Vec2 from = Vec2::Zero(),
-       /// Ends of the centre line at the surface [m] in W; far end first or not.
-      to = Vec2::Zero();
-  double depth = 0.8;             ///< below the surface at the start [m]
-  double width = 1.05;            ///< one bucket wide by default [m]
-  Vec2 dump_at = Vec2::Zero();    ///< where the spoil goes [m] in W
-  double dump_height = 1.5;       ///< tip clearance over the ground there [m]
-  double pass_depth = 0.25;       ///< depth of one slice [m]
-  std::optional<int> max_cycles;  ///< so many and no more; without, until the trench is done
+  /// Ends of the centre line at the surface [m] in W; either may be the far end.
+  Vec2 from = Vec2::Zero(), to = Vec2::Zero();
+  /// Depth below the surface at the start [m].
+  double depth = 0.8;
+  /// Width, one bucket by default [m].
+  double width = 1.05;
+  /// Position of the spoil heap [m] in W.
+  Vec2 dump_at = Vec2::Zero();
+  /// Clearance of the tip over the ground there [m].
+  double dump_height = 1.5;
+  /// Depth of one slice [m].
+  double pass_depth = 0.25;
+  /// Largest number of cycles; without it, until the trench is done.
+  std::optional<int> max_cycles;
 
-  /// Elements: <from_m>, <to_m>, <depth_m>, <dump_at_m> and what has a default; all places must lie
-  /// on the site, the depth above rock.
+  /// Reads <from_m>, <to_m>, <depth_m>, <dump_at_m> and the elements with defaults. All positions
+  /// must be on the site, the depth above rock.
   static Dig read(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
-  /// Digging: phases of the cycle, and a look round at the end.
+  /// Returns an activity with the phases of the digging cycle, and a last look at the trench.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   void check_reach(ReachCheck& check) const override;
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to the dig: what carries it out.
+// Private to the dig: the activity that carries it out.
 #pragma once
 
 #include "control/activities/dig/dig.h"
@@ -11,48 +11,53 @@
 
 namespace navvy::control {
 
-/// Everything that changes while a trench is dug, beside the plan.
+/// State of a dig beside its plan.
 struct DiggingMemory {
   ArmMove move;
   Stance stance;
   TipPath tip;
-  std::int64_t first_cycle = 0;  ///< number of cycles when the dig began
+  /// Number of cycles when the dig began.
+  std::int64_t first_cycle = 0;
   std::int64_t empty_scoops = 0;
   std::int64_t clean_ups = 0;
-  /// 1: the scoop is a pass along the whole floor.
+  /// 1 when the scoop is a pass along the whole floor.
   std::int64_t cleaning = 0;
-  double scoop_start = 0, scoop_end = 0, scoop_level = 0;  ///< as in Scoop [m]
-  double soil_start = 0;                                   ///< Scoop::soil [m]
-  /// The tip's place along the trench, from its near end [m].
+  /// Scoop::start, end and level [m].
+  double scoop_start = 0, scoop_end = 0, scoop_level = 0;
+  /// Scoop::soil [m].
+  double soil_start = 0;
+  /// Position of the tip along the trench, from its near end [m].
   double s = 0;
-  double progress = 0;  ///< of the curl, 0..1
-  /// Of the tip path when the curl began [rad], [m].
+  /// Progress of the curl, 0 to 1.
+  double progress = 0;
+  /// Angle [rad] and height [m] of the tip path when the curl began.
   double curl_angle = 0, curl_z = 0;
-  /// Of a full bucket: bank volume [m3], mass [kg].
+  /// Bank volume [m3] and mass [kg] of a full bucket.
   double scoop_volume = 0, full_mass = 0;
-  /// Of the tip path when the drag began [m].
+  /// Lift of the tip path when the drag began [m].
   double lift_before = 0;
-  /// What soil has raised it by since, over the length of the drag [m2].
+  /// Integral over the drag's length of the lift that soil has caused since [m2].
   double held_up = 0;
-  double held = 0, held_since = 0;  ///< payload after the lift when it last fell [kg], and when [s]
+  /// Payload after the lift when it last fell [kg], and the time of that [s].
+  double held = 0, held_since = 0;
 
   void visit(Archive& a);
 };
 
 /// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump, until the plan
-/// finds nothing more; then a look round. digging.cpp has the sequence, scoop.cpp the tip's paths
-/// through the soil.
+/// finds nothing more; then a last look at the trench. digging.cpp holds the sequence, scoop.cpp
+/// the tip's paths through the soil.
 class Digging final : public ActivityWith<DiggingMemory> {
  public:
   Digging(OperatorContext& place, const Dig& dig)
       : ActivityWith(place), dig_(dig), arm_(*place.arm) {}
 
-  /// Takes how the machine stands and the surface before the dig, and goes to the first scoop.
+  /// Takes the machine's stance and the original surface, and moves to the first scoop.
   void begin(const Observation& seen) override;
   const char* phase() const override;
-  /// Cycles, design volume and what is left of it, depth asked for and reached.
+  /// Returns cycles, design volume and what is left of it, commanded and reached depth.
   std::vector<Measurement> account(const Observation& seen) const override;
-  /// Memory and plan.
+  /// Visits memory and plan.
   void visit(Archive& a) override;
 
  private:
@@ -71,49 +76,48 @@ class Digging final : public ActivityWith<DiggingMemory> {
 
   bool update(const Observation& seen, double dt, Command& out) override;
 
-  // Sequence.
-  /// Asks the plan for the next scoop; false when the dig has come to its end.
+  /// Asks the plan for the next scoop; returns false when the dig has come to its end.
   bool plan_scoop(const Observation& seen);
-  /// Moves the open bucket over the scoop's start. Twice a cycle: high, then down when the swing
-  /// has come to rest.
+  /// Moves the open bucket over the scoop's start. Called twice per cycle: high, then down once the
+  /// swing has come to rest.
   void go_to_scoop(Phase next, const Observation& seen);
-  /// To the next scoop, or to a look round before the end.
+  /// Continues with the next scoop, or with a last look before the end.
   void go_on(Phase next, const Observation& seen);
-  /// After a drag that the soil held up: the next slices are thinner.
+  /// Makes the next slices thinner after a drag that the soil held up.
   void thin_slices();
-  /// Level and up, clear of the trench's edges.
+  /// Starts to level the bucket and lift it clear of the trench's edges.
   void start_lift(const Observation& seen);
-  /// Whether the lifted bucket still loses soil over the trench.
+  /// Returns true while the lifted bucket still loses soil over the trench.
   bool drips(const Observation& seen);
-  /// Over the heap, high enough for it, gently with a full bucket.
+  /// Starts the swing over the heap, high enough for it, gently with a full bucket.
   void start_swing(const Observation& seen);
   void start_dump(const Observation& seen);
-  /// Goes on with the dump; true when the bucket is empty, or will not get emptier.
+  /// Continues the dump; returns true when the bucket is empty, or will not get emptier.
   bool dump(const Observation& seen);
-  /// Strokes of the bucket cylinder while something sticks.
+  /// Strokes the bucket cylinder while soil sticks.
   void shake(const Observation& seen);
-  /// Bucket aside and a pause, before the trench counts as done.
+  /// Moves the bucket aside and pauses, before the trench counts as done.
   void look_round(const Observation& seen);
-  /// After the pause: another scoop (false), or the end (true).
+  /// Decides after the pause: another scoop (false), or the end (true).
   bool end_cycle(const Observation& seen);
-  /// Whether the scoop's start is beyond the arm, from where the machine stands now; the bucket
-  /// would stay short of it.
+  /// Returns true when the scoop's start is out of reach from where the machine stands now.
   bool beyond_reach(const Scoop& scoop) const;
-  /// Why there is no other scoop. Always true.
+  /// Reports why there is no other scoop. Always returns true.
   bool conclude(const Observation& seen);
-  /// Made in this dig.
+  /// Returns the number of cycles of this dig.
   std::int64_t cycles() const { return place_.handover.cycles - m.first_cycle; }
   bool move(const Observation& seen) { return m.move.advance(place_, seen, phase_time(), phase()); }
 
-  // Tip paths in the vertical plane of the trench.
-  // Each moves the wanted tip by one control step; drag and curl tell when they are done.
+  // Tip paths in the vertical plane of the trench. Each moves the wanted tip by one control step;
+  // drag and curl return true when they are done.
   void penetrate(const Observation& seen, double dt);
   bool drag(const Observation& seen, double dt);
   bool curl(const Observation& seen, double dt);
   void follow_tip(const Observation& seen, double dt);
-  /// How high the tip rides so that no part of the bucket goes below the slice [m] in W.
+  /// Returns the height [m] in W at which the tip must move so that no part of the bucket goes
+  /// below the slice.
   double floor_height() const;
-  /// Whether the phase has lasted longer than `limit` [s]; says so.
+  /// Returns true, and warns, when the phase has lasted longer than `limit` [s].
   bool overdue(double limit) const;
 
   const Dig& dig_;

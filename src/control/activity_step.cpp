@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/program_step.h"
+#include "control/activity_step.h"
 
 #include "core/error.h"
 
 namespace navvy::control {
 
-const ProgramStep& step_of(const scene::ProgramStep& step) {
+const ActivityStep& step_of(const scene::ProgramStep& step) {
   // Scenes may come from anywhere; only here a step gets what carries it out.
-  const auto* known = step.as<ProgramStep>();
+  const auto* known = step.as<ActivityStep>();
   if (known == nullptr)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "navvy:program", step->element(),
                            "no operator can carry out this step", "derive it from control::Step"});
