@@ -13,6 +13,7 @@
 namespace navvy::cli {
 namespace {
 
+/// Options as parsed.
 struct BenchOptions {
   std::vector<std::string> devices;
   std::string only, csv, json;
@@ -34,6 +35,7 @@ std::vector<std::string> chosen(const std::vector<std::string>& names) {
   return out;
 }
 
+/// Prints the columns of a row that matter to people; files have all of them.
 void print_row(const bench::Row& row) {
   const std::vector<std::string> c = bench::cells(row);
   std::printf("%-20s %9s %6s %11s %11s %11s %9s %9s %9s  %s\n", c[0].c_str(), c[3].c_str(),
@@ -42,6 +44,7 @@ void print_row(const bench::Row& row) {
   std::fflush(stdout);
 }
 
+/// Measures every case on every chosen device, or lists what could be measured.
 int run_bench(const BenchOptions& options) {
   if (options.columns) {
     std::printf("%s\n", bench::csv_header().c_str());
@@ -52,6 +55,7 @@ int run_bench(const BenchOptions& options) {
       std::printf("%-20s %s%s\n", c.name.c_str(), c.help.c_str(), c.quick ? " (quick)" : "");
     return kOk;
   }
+  // A sweep takes minutes, so the files are checked first.
   for (const std::string& path : {options.csv, options.json})
     if (!path.empty()) require_writable(path);
   std::vector<bench::Row> rows;

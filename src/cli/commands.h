@@ -21,15 +21,21 @@ using Action = std::function<int()>;
 void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line);
 /// Adds `navvy map`, which writes layers of a site to a file.
 void add_map(CLI::App& app, Action& action);
-/// Add commands that only report: faults, devices, shipped data, channels.
+/// Adds `navvy check`, which reports faults of files.
 void add_check(CLI::App& app, Action& action);
+/// Adds `navvy devices`, which lists OpenCL devices.
 void add_devices(CLI::App& app, Action& action);
+/// Adds `navvy soils`, which lists shipped soils or the values of one.
 void add_soils(CLI::App& app, Action& action);
+/// Adds `navvy machines`, which lists shipped machines or the parts of one.
 void add_machines(CLI::App& app, Action& action);
+/// Adds `navvy scenes`, which lists shipped scenes.
 void add_scenes(CLI::App& app, Action& action);
+/// Adds `navvy channels`, which lists inputs, outputs and arrays of a scene.
 void add_channels(CLI::App& app, Action& action);
-/// Add the soil laboratory and the benchmark.
+/// Adds `navvy lab`, the virtual soil laboratory.
 void add_lab(CLI::App& app, Action& action);
+/// Adds `navvy bench`, which measures the speed of the soil.
 void add_bench(CLI::App& app, Action& action);
 
 }  // namespace navvy::cli

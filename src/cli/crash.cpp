@@ -19,10 +19,12 @@
 namespace navvy::cli {
 namespace {
 
+/// Signals that end a process by a fault.
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 // A separate stack for the handler, which works after a stack overflow.
 alignas(16) char stack[64 << 10];
 
+/// Returns true if `text` contains one of the words.
 bool holds_any(const char* text, std::initializer_list<const char*> words) {
   for (const char* word : words)
     if (std::strstr(text, word) != nullptr) return true;
@@ -80,45 +82,51 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
   return driver;
 }
 
-void tell(const char* text) {
+/// Prints a crash and writes the summary of the run, by system calls only: this runs in handlers.
+void report(const char* text) {
   record::write_crash_summary("failed", text);
   const char* const parts[] = {"error: ", text, "\n"};
   for (const char* part : parts)
     if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
 }
 
+/// Handles a fatal signal. A fault of the driver has an exit status of its own; others are raised
+/// again, so that the system ends the process as usual.
 extern "C" void on_crash(int signal) {
   // A second crash while handling this one ends the process as the system does.
   for (const int one : kCrashes) std::signal(one, SIG_DFL);
   char text[512];
   const bool driver = blame(signal == SIGABRT ? "abort" : "crash", signal, text, sizeof text);
-  tell(text);
+  report(text);
   if (driver) _exit(kDevice);
   raise(signal);
 }
 
 /// Prints a failed assertion as the C library does.
-void say_assertion(const char* what, const char* file, unsigned line, const char* function) {
+void print_assertion(const char* what, const char* file, unsigned line, const char* function) {
   char text[512];
   std::snprintf(text, sizeof text, "%s:%u: %s: assertion '%s' failed\n", file, line, function,
                 what);
   if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
+/// True once main is about to return.
 std::atomic<bool> exit_expected{false};
 
+/// Runs at exit. An exit before main returns comes from a library.
 extern "C" void on_exit_of_others() {
   if (exit_expected) return;
   char text[512];
   const bool driver = blame("end of the process", 0, text, sizeof text);
-  tell(text);
+  report(text);
   _exit(driver ? kDevice : kInternal);
 }
 
+/// Reports an abort and ends the process by SIGABRT, even where the signal is blocked.
 [[noreturn]] void end_by_abort() {
   // Handled once: this may fail again, or in another thread at the same time.
-  static std::atomic<bool> told{false};
-  if (!told.exchange(true)) on_crash(SIGABRT);
+  static std::atomic<bool> handled{false};
+  if (!handled.exchange(true)) on_crash(SIGABRT);
   std::signal(SIGABRT, SIG_DFL);
   sigset_t wanted;
   sigemptyset(&wanted);
@@ -138,7 +146,7 @@ extern "C" void abort() noexcept { end_by_abort(); }
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
                                            unsigned line,  // NOLINT: its name
                                            const char* function) noexcept {
-  say_assertion(what, file, line, function);
+  print_assertion(what, file, line, function);
   end_by_abort();
 }
 

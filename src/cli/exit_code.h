@@ -4,6 +4,7 @@
 
 namespace navvy::cli {
 
+/// Exit status of `navvy`. Scripts rely on the numbers, so they never change.
 enum ExitCode {
   kOk = 0,
   kInternal = 1,    ///< error of Navvy itself

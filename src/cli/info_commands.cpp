@@ -31,6 +31,7 @@ void print_derived(const std::string& name, const scene::Machine& machine) {
     std::printf("'%s': %s\n", name.c_str(), one.c_str());
 }
 
+/// Prints all faults of all files, and what a first second of each scene shows.
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   std::size_t errors = 0, warnings = 0;
   // Warnings that libraries log during the check are printed once and counted.
@@ -41,6 +42,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     ++warnings;
   });
   for (const std::string& name : files) {
+    // An unknown name is a fault of one file and does not keep the others from being checked.
     std::string file;
     try {
       file = find_scene(name);
@@ -63,6 +65,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     if (world)
       for (const scene::MachineInWorld& placed : world->machines)
         print_derived(placed.name, placed.machine);
+    // Checks that need the machines on their ground.
     if (world) {
       run::SceneCheck start = run::check_scene(*world);
       for (const std::string& note : start.notes) std::cout << note << "\n";
@@ -82,6 +85,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
   return errors > 0 ? kBadInput : kOk;
 }
 
+/// Prints a line for each OpenCL device.
 int devices() {
   const auto list = device::list_devices();
   for (const auto& info : list) std::cout << info.text() << "\n";
@@ -91,6 +95,7 @@ int devices() {
   return kDevice;
 }
 
+/// Prints names, units and meanings of all inputs, outputs and arrays of a scene.
 int channels(const SceneOptions& options) {
   device::Device device(options.device);
   // Channels depend on the machines, so the world is built but not run.

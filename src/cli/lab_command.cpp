@@ -73,6 +73,7 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 /// Returns the description of an option, wrapped to the right of the column of names.
 std::string described(const std::string& text) { return wrapped(text, kWidth - kHelpColumn); }
 
+/// Prints a line for each rig.
 int list_rigs() {
   std::puts(
       "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
@@ -82,6 +83,7 @@ int list_rigs() {
   return kOk;
 }
 
+/// Returns the error for an option of the laboratory.
 InputError refused(const std::string& where, const std::string& value, const std::string& rule,
                    const std::string& remedy) {
   return InputError(Fault{Fault::Severity::kError, "", 0, where, value, rule, remedy});
@@ -104,6 +106,7 @@ int run_rig(LabOptions options) {
   for (const std::string& setting : options.settings)
     experiment.settings.push_back(scene_io::parse_setting(setting));
   experiment.progress = progress_line(options.quiet);
+  // All runs are checked before the first one starts.
   lab::ExperimentPlan plan = lab::plan_of(rig, experiment, device);
   if (!options.plot.empty() && plan.axes.empty())
     throw refused("lab " + rig.name + " --plot", options.plot, "drawn over a list of values",
@@ -117,6 +120,7 @@ int run_rig(LabOptions options) {
     runs.push_back(to_json(rig, one.setup, sweep.runs.back().report));
     missed = missed || sweep.runs.back().report.missed();
   }
+  // One experiment gets a table of its results, a sweep a table of its runs.
   if (plan.axes.empty())
     print_table(sweep.runs.front().report);
   else
@@ -174,6 +178,7 @@ std::string footer(const lab::Rig& rig) {
   return out;
 }
 
+/// Adds the subcommand of a rig. Its options follow from the declaration of its parameters.
 void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOptions>& options,
              Action& action) {
   CLI::App* command = parent.add_subcommand(rig.name, rig.summary);
@@ -227,6 +232,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
       described(
           "also tell where the soil's energy came from and went; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
+  // All rigs share one set of options; the callback notes which of them was chosen.
   command->callback([command, options, &action, name = rig.name] {
     options->rig = name;
     action = [command, options] {

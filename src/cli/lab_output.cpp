@@ -57,6 +57,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
   out["version"] = NAVVY_VERSION;
   // Results are bit-identical on one device only, so the device is part of them.
   out["device"] = setup.device->info().text();
+  // Inputs come first, so that a file contains all that its results depend on.
   nlohmann::json& inputs = out["inputs"];
   inputs["soil"] = soil_json(setup.soil);
   inputs["cell_m"] = setup.cell;
@@ -73,6 +74,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     // The setups for which the acceptance range holds, if this one is none of them.
     if (!q.in_range) out["not_judged"][name] = q.range;
   }
+  // Curves over time or travel, where the rig measures one.
   for (const lab::Series& s : report.series) {
     nlohmann::json& values = out["series"][key(s.name, s.unit)] = nlohmann::json::array();
     for (const double v : s.values) values.push_back(number(v));
@@ -91,7 +93,8 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 }
 
 void print_table(const lab::Report& report) {
-  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "accepted", "source");
+  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "accepted",
+              "source");
   for (const lab::Quantity& q : report.results) {
     const std::string tolerance =
         q.has_tolerance() ? text_of(q.low) + " .. " + text_of(q.high) : "";
@@ -107,7 +110,8 @@ void print_table(const lab::Report& report) {
   }
   for (const lab::Quantity& q : report.results)
     if (!q.in_range)
-      std::printf("not judged: %s; its acceptance range holds for %s\n", q.name.c_str(), q.range.c_str());
+      std::printf("not judged: %s; its acceptance range holds for %s\n", q.name.c_str(),
+                  q.range.c_str());
   if (report.energy) print_energy(*report.energy);
   std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n",
               report.particles_peak, static_cast<unsigned long long>(report.steps),

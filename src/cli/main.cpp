@@ -29,6 +29,7 @@ using namespace navvy;
 void install_log_sink() {
   auto logger = spdlog::stderr_color_mt("navvy");
   logger->set_pattern("%^%l%$: %v");
+  // Faults contain their severity and need no prefix.
   auto bare = spdlog::stderr_color_mt("faults");
   bare->set_pattern("%v");
   // Repeated warnings are printed once. The limit bounds the memory of long runs.
@@ -65,6 +66,7 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   const CLI::App* chosen = &app;
   for (const CLI::App* command : all)
     if (argc > 1 && command->get_name() == argv[1]) chosen = command;
+  // Every message names the help that explains more.
   const std::string where =
       "(" + (chosen == &app ? "navvy" : "navvy " + chosen->get_name()) + " --help)";
   // A missing argument is named with its description.
@@ -176,6 +178,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Before any library is used, as their start may crash, too.
   cli::install_crash_report();
   // A closed pipe and a file that exceeds its limit become errors of the call that writes.
   std::signal(SIGPIPE, SIG_IGN);

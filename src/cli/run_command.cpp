@@ -23,6 +23,7 @@
 namespace navvy::cli {
 namespace {
 
+/// Options as parsed. Most are those of the simulation itself.
 struct RunOptions {
   SceneOptions scene;
   run::SimulationOptions simulation;
@@ -32,7 +33,8 @@ struct RunOptions {
   bool quiet = false;
 };
 
-/// One line on a terminal, rewritten twice a second; nothing when stderr is a file or pipe.
+/// Shows progress in one line on a terminal, rewritten twice a second. Shows nothing when stderr is
+/// a file or a pipe, or with `quiet`.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
@@ -58,7 +60,7 @@ class ProgressLine {
   Stopwatch watch_;
 };
 
-/// What the program adds to a run: its display, its signals, and the published map.
+/// Adds the parts of the program to a run: progress line, signals, and the published map.
 class ProgramObserver final : public run::RunObserver {
  public:
   explicit ProgramObserver(bool quiet) : line_(quiet), signals_(leave) {}
@@ -83,6 +85,7 @@ class ProgramObserver final : public run::RunObserver {
   }
 
  private:
+  /// Called on the thread of the signals, when the run does not react.
   [[noreturn]] static void leave(const char* message) {
     std::fprintf(stderr, "interrupted: %s\n", message);
     _exit(kInterrupted);
@@ -117,6 +120,7 @@ run::RunEnd drive(const RunOptions& options, run::Simulation& simulation,
   if (!options.control.empty())
     control.emplace(simulation, options.control_rate, run::StopSignals::asked);
   run::LoopHooks hooks;
+  // A signal comes first: the controller often goes away because of it.
   hooks.interrupted = [&] {
     return run::StopSignals::asked() ? run::StopSignals::name() : control ? control->gone() : "";
   };
@@ -154,6 +158,7 @@ int print_end(const RunOptions& options, const session::Session& session, const 
   return end.reason == run::EndReason::kComplete || asked ? kOk : kIncomplete;
 }
 
+/// Runs a scene; returns the exit status.
 int run_scene(RunOptions options) {
   if (!options.control.empty() && options.control != "stdio")
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--control", options.control,
@@ -162,6 +167,7 @@ int run_scene(RunOptions options) {
   // Before anything that may take long, such as a driver that compiles.
   ProgramObserver program(options.quiet || !options.control.empty());
   run::SimulationOptions& wanted = options.simulation;
+  // Cheap checks come before the scene is loaded.
   run::check_resume(wanted.resume);
   require_publishable(options.publish);
   scene::Scene scene = load(options, wanted.scene_text);
@@ -174,7 +180,7 @@ int run_scene(RunOptions options) {
   try {
     if (!options.publish.place.empty()) program.publish(options.publish, simulation.session());
   } catch (const std::exception& error) {
-    // The port was free a moment ago.
+    // The place was free when it was checked, but may be taken by now.
     simulation.fail(error.what());
     throw;
   }

@@ -24,6 +24,7 @@
 namespace navvy::cli {
 namespace {
 
+/// Prints names and descriptions of files.
 int list(const std::map<std::string, std::string>& files, const char* what) {
   if (files.empty())
     throw InputError(
@@ -39,6 +40,7 @@ int list(const std::map<std::string, std::string>& files, const char* what) {
 
 int scenes() { return list(shipped_scenes(), "scenes"); }
 
+/// Prints the shipped machines and how a scene uses one.
 int machines() {
   const int code = list(scene_io::shipped_machines(), "machines");
   std::printf(
@@ -64,6 +66,7 @@ int one_machine(const std::string& name) {
   return kOk;
 }
 
+/// Prints a table of the shipped soils.
 int soils() {
   std::printf("%-22s %9s %6s %7s %8s %8s %7s  %s\n", "soil", "bank t/m3", "swell", "phi deg",
               "c kPa", "c_r kPa", "E MPa", "source");
@@ -87,6 +90,7 @@ int one_soil(const std::string& name) {
                 value.high);
   std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]),
               static_cast<double>(soil.color[1]), static_cast<double>(soil.color[2]));
+  // A stiffer soil needs shorter steps, in proportion to the root of its modulus.
   std::printf("  young_modulus_pa is %s; %.2f times the steps of 1 MPa\n",
               soil.young_modulus == scene::default_stiffness(soil.cohesion)
                   ? "the default of its cohesion"

@@ -27,6 +27,7 @@ std::string not_negative(const std::string& text) {
   return number(text) >= 0 ? "" : "'" + text + "': must be a number, 0 or above";
 }
 
+// Seeds use all 64 bits, which a double does not hold.
 std::string whole_number(const std::string& text) {
   std::uint64_t value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);

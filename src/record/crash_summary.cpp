@@ -17,6 +17,7 @@ namespace {
 /// A summary without cycles has 4 kB and grows by some lines per cycle.
 constexpr std::size_t kLeastCapacity = std::size_t{64} << 10;
 
+/// The object that write_crash_summary uses.
 std::atomic<CrashSummary*> speaking{nullptr};
 
 /// Returns a part of a summary with running programs marked as interrupted: the run is over when it
@@ -30,6 +31,8 @@ std::string ended(std::string text) {
 }
 
 // The functions below run in signal handlers, so they allocate no memory and take no lock.
+
+/// Writes all bytes. Returns false on failure.
 bool put(int file, const char* text, std::size_t size) {
   while (size > 0) {
     const ssize_t n = ::write(file, text, size);
@@ -96,10 +99,12 @@ void CrashSummary::keep(const std::string& summary) {
   // Twice the size of the text, which grows between two checkpoints and by a message.
   if (summary.size() * 2 > room_ && !take_capacity(summary.size() * 4)) return;
   const int next = ready_ == 0 ? 1 : 0;
+  // The text that a handler may read right now stays as it is.
   texts_[next] = {ended(summary.substr(0, at)), ended(summary.substr(at + mark.size()))};
   ready_ = next;
 }
 
+/// The file keeps its reserved blocks until it is cut to the length of the text.
 bool CrashSummary::write(const std::string& text) noexcept {
   if (file_ < 0 || ::lseek(file_, 0, SEEK_SET) != 0 || !put(file_, text.data(), text.size()))
     return false;

@@ -11,12 +11,14 @@ namespace {
 /// Relative tolerance for the rounding of a whole number of steps.
 constexpr double kWhole = 1e-9;
 
+/// Returns a formatted number.
 std::string number(const char* format, double value) {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
+/// Returns names as "a, b and c".
 std::string list(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -32,6 +34,8 @@ std::string rates_note(const sim::World& world, double control_rate) {
   std::vector<std::string> nearest, every;
   const auto look = [&](const std::string& name, double rate) {
     if (!(rate > 0)) return;
+    // Number of base steps in a period: below 1 every step is used, a fraction means the nearest
+    // step.
     const double steps = 1 / (rate * dt);
     const std::string text = name + " (" + number("%g", rate) + " Hz)";
     if (steps < 1 - kWhole)

@@ -23,6 +23,7 @@
 
 namespace navvy::record {
 
+/// The parts of a recording. Each writes its own files.
 struct Recorder::State {
   // All parts refer to the same session.
   State(session::Session& s, Options o, std::unique_ptr<RunFolder> f)
@@ -125,6 +126,7 @@ void Recorder::State::sample_when_due() {
   telemetry.sample();
 }
 
+/// All cameras of one instant share a frame.
 void Recorder::State::draw_when_due() {
   if (!options.render) return;
   const sim::World& world = session.world();
@@ -143,6 +145,7 @@ void Recorder::State::draw_when_due() {
   });
 }
 
+/// Arrays come at the rates of their samplers; the recorder looks in each step for new values.
 void Recorder::State::record_arrays() {
   if (session.world().arrays().channels().empty()) return;
   const Lap lap(status.record_time);
@@ -156,6 +159,7 @@ void Recorder::State::hash_when_due() {
   hashes->observe();
 }
 
+/// The map recorder knows which of its records are due.
 void Recorder::State::map_when_due() {
   if (!maps) return;
   const Lap lap(status.record_time);
@@ -213,6 +217,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   s.status.message = message;
   // Each file is written independently: if one fails, the others are still written, and the
   // summary, which comes last, reports it.
+  // The first failure is thrown at the end, after all files had their chance.
   std::exception_ptr first;
   const auto attempt = [&](const auto& write) {
     try {

@@ -14,6 +14,7 @@
 namespace navvy::record {
 namespace {
 
+/// Throws the error of a system call.
 [[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
@@ -32,6 +33,7 @@ RowFile::~RowFile() {
   if (file_ >= 0) ::close(file_);
 }
 
+/// Appending to memory is all that most rows cost.
 void RowFile::add(std::string_view row) {
   waiting_ += row;
   waiting_ += '\n';

@@ -49,6 +49,7 @@ bool is_there(const fs::path& path) {
   return fs::symlink_status(path, code).type() != fs::file_type::not_found;
 }
 
+/// Refuses a folder that the user named.
 [[noreturn]] void refuse(const std::string& folder, const std::string& rule,
                          const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", folder, rule, remedy});
@@ -58,6 +59,7 @@ bool is_there(const fs::path& path) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
 
+/// Writes all of a text. @throws FileError.
 void write_all(int file, const std::string& text, const std::string& path) {
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t n = ::write(file, text.data() + at, text.size() - at);
@@ -129,6 +131,7 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
   return out;
 }
 
+/// Results must not replace a file of another origin.
 void RunFolder::require_free(const Marker& marker, const std::string& folder) const {
   for (const char* name : kNames)
     if (marker.names.count(name) == 0 && is_there(fs::path(folder) / name))
@@ -138,6 +141,7 @@ void RunFolder::require_free(const Marker& marker, const std::string& folder) co
              "choose another folder with --out, or move the file away");
 }
 
+/// A run must not remove what it reads, such as the snapshot that it continues from.
 void RunFolder::require_unread(const Marker& marker, const std::string& folder,
                                const std::vector<std::string>& reads) const {
   std::error_code code;
@@ -260,6 +264,7 @@ void RunFolder::begin() {
     // Files of an interrupted move belong to the previous run, not to the one before it.
     if (!previous_moving_) remove_listed(previous_, previous_listed_);
     write_list(previous_, previous_lock_, listed_, true);
+    // Each file is renamed by itself, so that other files in the folder stay.
     std::set<fs::path> folders;
     for (const std::string& name : listed_) {
       const fs::path from = fs::path(directory_) / name, to = fs::path(previous_) / name;

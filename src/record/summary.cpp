@@ -131,6 +131,7 @@ json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
 /// The keys are an interface (scenarios/README.md lists them): they may be added and never renamed.
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
+  // One pass over the particles serves all that follows.
   const sim::ActivePlaces active = sim::active_places(world);
   const Earthwork earth = measure_earthwork(world, active.lying);
   const sim::SoilCounts counts = world.soil_counts();
@@ -141,6 +142,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["status"] = status.status;
   // Absent in a run without problems.
   if (!status.message.empty()) out["message"] = status.message;
+  // Results are bit-identical on one device only.
   out["device"] = session.device_name();
   out["steps"] = world.steps();
   out["step_s"] = world.dt();
@@ -157,6 +159,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["programs"] = program_list(session, status.status);
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
+  // The payload of each cycle at the lift out of the ground, for a quick look.
   out["payload_kg"] = json::array();
   for (const session::Cycle& cycle : session.cycles())
     out["payload_kg"].push_back(cycle.payload_lift_out);
