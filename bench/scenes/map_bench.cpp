@@ -34,13 +34,13 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "heightfield/layered_ground.h"
+#include "link/map_publisher.h"
+#include "map/map_maker.h"
+#include "map/map_queries.h"
+#include "map/map_sources.h"
+#include "map/update_feed.h"
 #include "paths.h"
 #include "planner/footprint.h"
-#include "planner/map_maker.h"
-#include "planner/publisher.h"
-#include "planner/queries.h"
-#include "planner/sources.h"
-#include "planner/updates.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
 #include "sim/timing.h"
@@ -88,11 +88,11 @@ void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
 
 /// Reads every value of every layer, strip by strip: untouched ground is computed when somebody
 /// asks.
-void read_all(const planner::TerrainMap& map) {
+void read_all(const map::TerrainMap& map) {
   double sum = 0;
-  for (int iy = 0; iy < map.ny(); iy += planner::LayerTiles::kSide) {
-    const int end = std::min(map.ny(), iy + planner::LayerTiles::kSide);
-    for (const planner::Layer layer : planner::all_layers())
+  for (int iy = 0; iy < map.ny(); iy += map::LayerTiles::kSide) {
+    const int end = std::min(map.ny(), iy + map::LayerTiles::kSide);
+    for (const map::MapLayer layer : map::default_layers())
       sum += map.copy(layer, {0, iy, map.nx(), end}).back();
   }
   volatile double kept = sum;  // so that nobody finds the reading useless
@@ -119,7 +119,7 @@ void measure_updates(const std::string& size, int columns) {
   };
   // A feed's first map is made anew, and read whole; with the one before gone, the large site needs
   // memory for one.
-  std::optional<planner::UpdateFeed> feed;
+  std::optional<map::UpdateFeed> feed;
   full.timing = bench::measure(
       columns > 2000 ? 1 : 5,
       [&] {
@@ -127,7 +127,7 @@ void measure_updates(const std::string& size, int columns) {
         feed.reset();
       },
       [&] {
-        feed.emplace(planner::MapOptions{});
+        feed.emplace(map::MapOptions{});
         read_all(feed->publish(ground.view(time += 0.1))->map);
       });
   update.timing = bench::measure(21, dig, [&] { feed->publish(ground.view(time += 0.1)); });
@@ -145,9 +145,9 @@ void measure_updates(const std::string& size, int columns) {
 void measure_queries() {
   if (!asked("map_ask:heights") && !asked("map_ask:clearances")) return;
   heightfield::Ground ground(hills(400));
-  planner::MapMaker maker({});
+  map::MapMaker maker({});
   maker.update(ground.view(0));
-  const planner::TerrainMap map = maker.map();
+  const map::TerrainMap map = maker.map();
   const planner::Footprint excavator{2.5, 2.5, 1.3, 1.3};
   double sum = 0;
   const auto ask = [&](const std::string& name, int count,
@@ -168,7 +168,7 @@ void measure_queries() {
                  count / row.timing.best, count / row.timing.processor);
   };
   ask("map_ask:heights", 1000000, [&](Random& random) {
-    return planner::height(map, random.uniform(0, 40), random.uniform(0, 40));
+    return map::height(map, random.uniform(0, 40), random.uniform(0, 40));
   });
   ask("map_ask:clearances", 100000, [&](Random& random) {
     return planner::clearance(map, excavator, random.uniform(4, 36), random.uniform(4, 36),
@@ -238,7 +238,7 @@ class Reader {
       for (std::array<int, 4> r{}; at != std::string::npos; at = head.find('[', at + 1))
         if (std::sscanf(head.c_str() + at, "[%d, %d, %d, %d]", &r[0], &r[1], &r[2], &r[3]) == 4)
           columns += static_cast<double>(r[2] - r[0]) * (r[3] - r[1]);
-      const auto layers = static_cast<double>(planner::kLayers);
+      const auto layers = static_cast<double>(map::default_layers().size());
       if (!take(static_cast<std::size_t>(columns * layers * 4), bytes)) return;
       arrivals_[static_cast<std::uint64_t>(number(head, "sequence"))] = now();
     }
@@ -258,9 +258,9 @@ void measure_trench(double seconds) {
       scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds()),
       device);
   const sim::World& world = session.world();
-  planner::UpdateFeed feed(planner::options_for(world.description(), world.ground(),
-                                                planner::all_layers(), session.design()));
-  planner::Publisher publisher(feed, "tcp:0", planner::all_layers());
+  map::UpdateFeed feed(map::options_for(world.description(), world.ground(), map::default_layers(),
+                                        session.design()));
+  link::MapPublisher publisher(feed, "tcp:0", map::default_layers());
   Reader reader(publisher.port());
   std::map<std::uint64_t, double> step_ends;
   std::vector<double> publishing;
@@ -277,7 +277,7 @@ void measure_trench(double seconds) {
     const double end_of_step = Reader::now();
     const double before = thread_seconds();
     const Stopwatch watch;
-    const planner::UpdateFeed::Update update =
+    const map::UpdateFeed::Update update =
         feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
     publishing.push_back(watch.seconds());
     spent += thread_seconds() - before;

@@ -18,7 +18,7 @@
 #include "core/stopwatch.h"
 #include "heightfield/make_ground.h"
 #include "paths.h"
-#include "planner/path_planner.h"
+#include "planner/map_path_planner.h"
 #include "scene_io/loader.h"
 
 namespace {

@@ -15,10 +15,10 @@
 
 #include "bench.h"
 #include "core/error.h"
+#include "formats/formats.h"
 #include "heightfield/make_ground.h"
-#include "planner/formats/formats.h"
-#include "planner/sources.h"
-#include "planner/updates.h"
+#include "map/map_sources.h"
+#include "map/update_feed.h"
 
 namespace {
 
@@ -59,9 +59,9 @@ void measure(const std::string& name, double edge, int runs,
 
 std::uint64_t export_elevation(const scene::Scene& scene, const heightfield::Ground& site,
                                const std::string& file) {
-  const planner::TerrainMap map =
-      planner::map_of_site(site, planner::options_for(scene, site, {planner::Layer::kElevation}));
-  planner::format_named("geotiff").write(map, {planner::Layer::kElevation}, file);
+  const map::TerrainMap map =
+      map::map_of_site(site, map::options_for(scene, site, {map::MapLayer::kElevation}));
+  formats::format_named("geotiff").write(map, {map::MapLayer::kElevation}, file);
   return static_cast<std::uint64_t>(map.rect().area());
 }
 
@@ -69,7 +69,7 @@ std::uint64_t export_elevation(const scene::Scene& scene, const heightfield::Gro
 void measure_updates(double edge, int runs) {
   const scene::Scene scene = hills(edge);
   heightfield::Ground ground = heightfield::make_ground(scene);
-  planner::UpdateFeed feed(planner::options_for(scene, ground, planner::all_layers()));
+  map::UpdateFeed feed(map::options_for(scene, ground, map::default_layers()));
   feed.publish(ground.view());
   int bucket = 0;
   std::vector<heightfield::SoilLayer> taken;

@@ -18,11 +18,12 @@
 #include "core/log.h"
 #include "core/sealed.h"
 #include "device/device.h"
+#include "formats/formats.h"
 #include "heightfield/make_ground.h"
-#include "planner/formats/formats.h"
-#include "planner/map_maker.h"
-#include "planner/path_planner.h"
-#include "planner/sources.h"
+#include "map/map_maker.h"
+#include "map/map_sources.h"
+#include "planner/map_path_planner.h"
+#include "record/path_file.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
 #include "sim/world_terrain.h"
@@ -40,9 +41,9 @@ struct MapCommand {
 enum class From { kScene, kRun, kSnapshot };
 
 /// A file that is read must not be written over, whatever it is called.
-void require_apart(const MapCommand& options, const planner::Format& format,
+void require_apart(const MapCommand& options, const formats::MapFormat& format,
                    const std::vector<std::string>& reads) {
-  for (const std::string& to : planner::files_of(format, options.out))
+  for (const std::string& to : formats::files_of(format, options.out))
     for (const std::string& read : reads)
       if (same_file(to, read))
         throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", options.out,
@@ -57,11 +58,11 @@ std::vector<std::string> reads_of(const scene::Scene& scene, std::vector<std::st
 }
 
 /// Whether no column of a layer has a value. Ends at the first one that has.
-bool unknown_everywhere(const planner::TerrainMap& map, planner::Layer layer) {
+bool unknown_everywhere(const map::TerrainMap& map, map::MapLayer layer) {
   if (!map.has(layer)) return true;
-  constexpr int kSide = planner::LayerTiles::kSide;
-  const planner::LayerTiles& tiles = map.tiles(layer);
-  const auto buffer = std::make_unique<planner::LayerTiles::Values>();
+  constexpr int kSide = map::LayerTiles::kSide;
+  const map::LayerTiles& tiles = map.tiles(layer);
+  const auto buffer = std::make_unique<map::LayerTiles::Values>();
   for (int ty = 0; ty * kSide < map.ny(); ++ty)
     for (int tx = 0; tx * kSide < map.nx(); ++tx) {
       const float* values = tiles.passing(tx, ty, *buffer);
@@ -73,39 +74,35 @@ bool unknown_everywhere(const planner::TerrainMap& map, planner::Layer layer) {
   return true;
 }
 
-/// Why nothing is known of a layer, and what to do.
-std::pair<std::string, std::string> why_unknown(planner::Layer layer, From from) {
-  using planner::Layer;
-  if (layer == Layer::kTarget || layer == Layer::kCutFill)
+/// Returns the reason why a layer is unknown everywhere, and the remedy.
+std::pair<std::string, std::string> why_unknown(map::LayerNeeds needs, From from) {
+  if (needs == map::LayerNeeds::kDesign)
     return {"the scene has no design", "add a <navvy:design> to the scene"};
-  if (layer == Layer::kDisturbedAt)
-    return from == From::kScene
-               ? std::pair<std::string, std::string>("nothing has changed on an untouched site",
-                                                     "record it while a scene runs: <navvy:record>")
-               : std::pair<std::string, std::string>(
-                     "what is written at one time tells no history",
-                     "record it while the scene runs: <navvy:record>");
+  if (needs == map::LayerNeeds::kHistory)
+    return {from == From::kScene ? "nothing has changed on an untouched site"
+                                 : "a file of one instant holds no history",
+            "record it while the scene runs: <navvy:record>"};
   if (from == From::kRun)
-    return {"a run's folder holds heights and what lies loose",
+    return {"a run's folder holds heights and the depth of loose soil only",
             "map a snapshot of that time: navvy run SCENE --snapshot FILE --snapshot-at T"};
   return {"no column of the site has a value", "look at the site's map with navvy check"};
 }
 
 /// Refuses what would be a folder of zeros; warns of each layer that was asked for by name and
 /// tells nothing. The names of those that came with the format and tell nothing are returned.
-std::string look_for_unknown(const MapCommand& options, const planner::Format& format,
-                             const planner::TerrainMap& map,
-                             const std::vector<planner::Layer>& layers, From from) {
+std::string look_for_unknown(const MapCommand& options, const formats::MapFormat& format,
+                             const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
+                             From from) {
   std::string unknown;
-  if (format.needs_design && map.has(planner::Layer::kTarget) &&
-      unknown_everywhere(map, planner::Layer::kTarget))
+  if (format.needs_design && map.has(map::MapLayer::kTarget) &&
+      unknown_everywhere(map, map::MapLayer::kTarget))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--format", format.name,
                            "says what is to be dug, and the scene has no design",
                            "add a <navvy:design> to the scene"});
-  for (const planner::Layer layer : layers) {
+  for (const map::MapLayer layer : layers) {
     if (!unknown_everywhere(map, layer)) continue;
-    const std::string& name = planner::info(layer).name;
-    const auto [why, remedy] = why_unknown(layer, from);
+    const std::string& name = map::info(layer).name;
+    const auto [why, remedy] = why_unknown(map::info(layer).needs, from);
     if (!options.layers.empty())
       log_warning(Fault{Fault::Severity::kWarning, "", 0, "--layers", name,
                         "is unknown in every column of '" + options.from + "': " + why, remedy}
@@ -130,12 +127,12 @@ std::string scene_of(const std::filesystem::path& folder, const std::string& ask
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
 }
 
-planner::MapOptions map_options(const MapCommand& options, std::vector<planner::Layer> layers,
-                                const scene::Scene& scene, const heightfield::Terrain& site,
-                                const heightfield::DesignSurface* design = nullptr) {
+map::MapOptions map_options(const MapCommand& options, std::vector<map::MapLayer> layers,
+                            const scene::Scene& scene, const heightfield::Terrain& site,
+                            const heightfield::DesignSurface* design = nullptr) {
   // A picture of any layer has the surface's shade.
-  layers.push_back(planner::Layer::kElevation);
-  planner::MapOptions out = planner::options_for(scene, site, std::move(layers), design);
+  layers.push_back(map::MapLayer::kElevation);
+  map::MapOptions out = map::options_for(scene, site, std::move(layers), design);
   // Zero stands for "not given".
   if (options.slope_deg > 0) out.limits.slope = radians(options.slope_deg);
   if (options.step > 0) out.limits.step_height = options.step;
@@ -145,8 +142,8 @@ planner::MapOptions map_options(const MapCommand& options, std::vector<planner::
 }
 
 /// The state of a snapshot, with its awake soil: needs the device, as particles live there.
-planner::TerrainMap of_snapshot(const MapCommand& options, const planner::Format& format,
-                                const std::vector<planner::Layer>& layers) {
+map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat& format,
+                            const std::vector<map::MapLayer>& layers) {
   const std::string scene =
       options.scene.empty()
           ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
@@ -158,19 +155,19 @@ planner::TerrainMap of_snapshot(const MapCommand& options, const planner::Format
   session::Session session(described, device, planner::path_planners());
   session.load(options.from);
   const sim::World& world = session.world();
-  planner::MapMaker maker(
+  map::MapMaker maker(
       map_options(options, layers, world.description(), world.ground(), session.design()));
   maker.update(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
   return maker.map();
 }
 
 struct Made {
-  planner::TerrainMap map;
+  map::TerrainMap map;
   From from;
 };
 
-Made read(const MapCommand& options, const planner::Format& format,
-          const std::vector<planner::Layer>& layers) {
+Made read(const MapCommand& options, const formats::MapFormat& format,
+          const std::vector<map::MapLayer>& layers) {
   // What it is tells itself: a folder, a file with a snapshot's head, or else a scene.
   const std::filesystem::path from(options.from);
   if (std::filesystem::is_directory(from)) {
@@ -178,46 +175,46 @@ Made read(const MapCommand& options, const planner::Format& format,
     const std::string end = (from / "terrain_end.tif").string();
     require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
     const heightfield::Ground site = heightfield::make_ground(scene);
-    const planner::MapOptions wanted = map_options(options, layers, scene, site);
-    if (options.start) return {planner::map_of_site(site, wanted), From::kScene};
-    return {planner::map_of_run(scene, site, end, wanted), From::kRun};
+    const map::MapOptions wanted = map_options(options, layers, scene, site);
+    if (options.start) return {map::map_of_site(site, wanted), From::kScene};
+    return {map::map_of_run(scene, site, end, wanted), From::kRun};
   }
   if (is_sealed(options.from)) return {of_snapshot(options, format, layers), From::kSnapshot};
   const scene::Scene scene = load(find_scene(options.from));
   require_apart(options, format, reads_of(scene, {}));
   const heightfield::Ground site = heightfield::make_ground(scene);
-  return {planner::map_of_site(site, map_options(options, layers, scene, site)), From::kScene};
+  return {map::map_of_site(site, map_options(options, layers, scene, site)), From::kScene};
 }
 
 int map(const MapCommand& options) {
   // Cheap questions first: names and the place of the result.
-  const planner::Format& format = planner::format_named(options.format);
-  const std::vector<planner::Layer> layers =
-      options.layers.empty() ? format.by_default : planner::layers_named(options.layers);
-  planner::require_writable(format, options.out);
-  if (options.paths && format.name != "hillshade" && format.name != "relief")
+  const formats::MapFormat& format = formats::format_named(options.format);
+  const std::vector<map::MapLayer> layers =
+      options.layers.empty() ? format.by_default : map::layers_named(options.layers);
+  formats::require_writable(format, options.out);
+  if (options.paths && format.write_with_lines == nullptr)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", format.name,
                            "only hillshade and relief show paths",
                            "ask for one of those, or read the run's paths.csv"});
-  std::vector<planner::PathLine> lines;
+  std::vector<map::MapLine> lines;
   if (options.paths) {
     const std::string file = (std::filesystem::path(options.from) / "paths.csv").string();
     if (!std::filesystem::is_regular_file(file))
       throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", options.from,
                              "holds no paths.csv",
                              "give the folder of a run whose program has a go_to"});
-    lines = planner::read_paths(file);
+    lines = record::read_paths(file);
   }
   const auto [made, from] = read(options, format, layers);
   const std::string unknown = look_for_unknown(options, format, made, layers, from);
   if (options.paths)
-    planner::write_picture_with_paths(format.name, made, layers, options.out, lines);
+    format.write_with_lines(made, layers, options.out, lines);
   else
     format.write(made, layers, options.out);
   // One line that says what was written.
   std::string names;
-  for (const planner::Layer layer : layers)
-    names += (names.empty() ? "" : ",") + planner::info(layer).name;
+  for (const map::MapLayer layer : layers)
+    names += (names.empty() ? "" : ",") + map::info(layer).name;
   char when[40] = "";
   // A run's files do not tell it.
   if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
@@ -231,13 +228,13 @@ int map(const MapCommand& options) {
 std::string footer() {
   std::string out = "Layers:\n";
   char line[160];
-  for (const planner::LayerInfo& each : planner::layers()) {
+  for (const map::LayerInfo& each : map::layers()) {
     std::snprintf(line, sizeof line, "  %-16s %-6s %s\n", each.name.c_str(), each.unit.c_str(),
                   each.meaning.c_str());
     out += line;
   }
   out += "Formats:\n";
-  for (const planner::Format& each : planner::formats()) {
+  for (const formats::MapFormat& each : formats::all_formats()) {
     std::snprintf(line, sizeof line, "  %-16s %-6s %s\n", each.name.c_str(), each.extension.c_str(),
                   each.meaning.c_str());
     out += line;
@@ -246,7 +243,7 @@ std::string footer() {
          "Examples: navvy map out/trench --format nav2 --out trench.yaml\n"
          "          navvy map out/trench --layers elevation,slope,traversability --format geotiff "
          "--out trench.tif\n"
-         "src/planner/README.md tells formulas, axes and what each format holds.";
+         "src/map/README.md gives formulas, axes and what each format holds.";
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/published_map.h"
 #include "cli/scene_options.h"
 #include "cli/validators.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
 #include "link/control_stdio.h"
+#include "link/published_map.h"
 #include "run/simulation.h"
 #include "run/start_checks.h"
 #include "run/stop_signals.h"
@@ -29,7 +29,7 @@ struct RunOptions {
   run::SimulationOptions simulation;
   std::string control;
   double control_rate = 50;
-  PublishOptions publish;
+  link::PublishOptions publish;
   bool quiet = false;
 };
 
@@ -65,7 +65,7 @@ class ProgramObserver final : public run::RunObserver {
  public:
   explicit ProgramObserver(bool quiet) : line_(quiet), signals_(leave) {}
 
-  void publish(const PublishOptions& options, const session::Session& session) {
+  void publish(const link::PublishOptions& options, const session::Session& session) {
     map_.emplace(options, session);
   }
   void show(const run::RunProgress& progress) { line_.show(progress); }
@@ -93,7 +93,7 @@ class ProgramObserver final : public run::RunObserver {
 
   ProgressLine line_;
   run::StopSignals signals_;
-  std::optional<PublishedMap> map_;
+  std::optional<link::PublishedMap> map_;
 };
 
 /// Returns the folder of the results. It is named by the scene, not by its file: a scene read from
@@ -169,7 +169,7 @@ int run_scene(RunOptions options) {
   run::SimulationOptions& wanted = options.simulation;
   // Cheap checks come before the scene is loaded.
   run::check_resume(wanted.resume);
-  require_publishable(options.publish);
+  link::require_publishable(options.publish);
   scene::Scene scene = load(options, wanted.scene_text);
   if (wanted.folder.empty()) wanted.folder = default_out(scene);
   wanted.device = options.scene.device;

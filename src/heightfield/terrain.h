@@ -75,8 +75,8 @@ class Terrain {
   /// p is in the soil [m].
   double ray(const Vec3& p, const Vec3& d, double range) const;
 
-  /// Dense copy of heights of a rectangle, which may reach beyond the site, x fastest [m]. For
-  /// other layers see heightfield/map_view.h.
+  /// Dense copy of heights of a rectangle, which may reach beyond the site, x fastest [m]. Other
+  /// layers are those of src/map.
   void copy_heights(const CellRect& rect, std::vector<float>& out) const;
 
   /// Highest of the columns of a rectangle, of which those outside the site are the nearest in it

@@ -16,8 +16,8 @@
 #include "core/error.h"
 #include "core/sealed.h"
 #include "link/base64.h"
-#include "planner/queries.h"
-#include "planner/sources.h"
+#include "map/map_queries.h"
+#include "map/map_sources.h"
 #include "render/image.h"
 
 namespace navvy::link {
@@ -113,8 +113,8 @@ ControlRequests::ControlRequests(run::Simulation& simulation, double rate, Contr
     : simulation_(simulation),
       rate_(rate),
       services_(services),
-      feed_(planner::options_for(simulation.world().description(), simulation.world().ground(),
-                                 planner::all_layers(), simulation.session().design())) {
+      feed_(map::options_for(simulation.world().description(), simulation.world().ground(),
+                             map::all_layers(), simulation.session().design())) {
   // Makes the first map now, so that changes before the first request are known.
   now();
 }
@@ -126,7 +126,7 @@ bool ControlRequests::is_request(const json& line) {
 }
 
 /// Updates the map. It gets a new number only if a column changed.
-planner::UpdateFeed::Update ControlRequests::now() { return feed_.publish(simulation_.heights()); }
+map::UpdateFeed::Update ControlRequests::now() { return feed_.publish(simulation_.heights()); }
 
 json ControlRequests::answer(const json& line) {
   moved_ = false;
@@ -188,17 +188,17 @@ json ControlRequests::heights(const json& what) {
   if (!what.is_object())
     refuse("heights", what, "must be an object",
            R"({"min_m": [0, 0], "max_m": [2, 1], "cell_m": 0.2})");
-  const planner::UpdateFeed::Update newest = now();
-  const planner::TerrainMap& map = newest->map;
-  Vec2 low = map.origin(), high = low + map.cell() * Vec2(map.nx(), map.ny());
-  double cell = map.cell();
-  planner::Layer layer = planner::Layer::kElevation;
+  const map::UpdateFeed::Update newest = now();
+  const map::TerrainMap& terrain = newest->map;
+  Vec2 low = terrain.origin(), high = low + terrain.cell() * Vec2(terrain.nx(), terrain.ny());
+  double cell = terrain.cell();
+  map::MapLayer layer = map::MapLayer::kElevation;
   for (const auto& [key, value] : what.items()) {
     const std::string name = "heights/" + key;
     if (key == "cell_m") {
       cell = number_in(name, value, 1e-3, 1e4);
     } else if (key == "layer") {
-      layer = planner::layer_named(text_in(name, value));
+      layer = map::layer_named(text_in(name, value));
     } else if (key == "min_m" || key == "max_m") {
       if (!value.is_array() || value.size() != 2)
         refuse(name, value, "must be [x, y]", "send two numbers in metres");
@@ -220,14 +220,14 @@ json ControlRequests::heights(const json& what) {
   for (int iy = 0; iy < ny; ++iy)
     for (int ix = 0; ix < nx; ++ix) {
       const Vec2 p = low + cell * Vec2(ix + 0.5, iy + 0.5);
-      const double v = layer == planner::Layer::kElevation
-                           ? planner::height(map, p.x(), p.y())
-                           : static_cast<double>(planner::value(map, layer, p.x(), p.y()));
+      const double v = layer == map::MapLayer::kElevation
+                           ? map::height(terrain, p.x(), p.y())
+                           : static_cast<double>(map::value(terrain, layer, p.x(), p.y()));
       // JSON has no NaN.
       values.push_back(v == v ? json(v) : json(nullptr));
     }
-  return {{"layer", planner::info(layer).name},
-          {"unit", planner::info(layer).unit},
+  return {{"layer", map::info(layer).name},
+          {"unit", map::info(layer).unit},
           {"min_m", {low.x(), low.y()}},
           {"cell_m", cell},
           {"nx", nx},
@@ -243,8 +243,8 @@ json ControlRequests::heights(const json& what) {
 json ControlRequests::changed(const json& what) {
   if (!what.is_number_unsigned())
     refuse("changed", what, "must be a whole number", "send 0, or the sequence of the last answer");
-  const planner::UpdateFeed::Update newest = now();
-  const planner::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
+  const map::UpdateFeed::Update newest = now();
+  const map::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
   json out = {{"since", what},
               {"sequence", newest->sequence},
               {"map_time", newest->time},
@@ -253,10 +253,10 @@ json ControlRequests::changed(const json& what) {
               {"merged", false},
               {"rects_m", json::array()}};
   if (update == nullptr) return out;
-  const planner::TerrainMap& map = update->map;
+  const map::TerrainMap& terrain = update->map;
   for (const heightfield::CellRect& r : update->rects) {
-    const Vec2 low = map.origin() + map.cell() * Vec2(r.x0, r.y0),
-               high = map.origin() + map.cell() * Vec2(r.x1, r.y1);
+    const Vec2 low = terrain.origin() + terrain.cell() * Vec2(r.x0, r.y0),
+               high = terrain.origin() + terrain.cell() * Vec2(r.x1, r.y1);
     out["rects_m"].push_back({low.x(), low.y(), high.x(), high.y()});
   }
   out["since"] = update->since;
@@ -309,7 +309,7 @@ json ControlRequests::info() const {
   json layers = json::object(), cameras = json::array(), arrays = json::object();
   for (const sim::ArrayChannel& channel : world.arrays().channels())
     arrays[channel.name] = described(channel);
-  for (const planner::LayerInfo& each : planner::layers()) layers[each.name] = each.unit;
+  for (const map::LayerInfo& each : map::layers()) layers[each.name] = each.unit;
   for (const scene::Camera& camera : world.description().cameras) cameras.push_back(camera.name);
   return {{"scene", world.description().name},
           {"device", simulation_.session().device_name()},

@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "planner/updates.h"
+#include "map/update_feed.h"
 #include "run/simulation.h"
 
 namespace navvy::link {
@@ -54,13 +54,13 @@ class ControlRequests {
   nlohmann::json watch(const nlohmann::json& what);
   nlohmann::json save(const nlohmann::json& what) const;
   nlohmann::json replaced(const std::function<void()>& load);
-  planner::UpdateFeed::Update now();
+  map::UpdateFeed::Update now();
 
   run::Simulation& simulation_;
   double rate_;  ///< control steps per simulated second
   ControlServices services_;
   /// Numbered maps of all layers.
-  planner::UpdateFeed feed_;
+  map::UpdateFeed feed_;
   bool moved_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "sim/collision_box.h"
+#include "vehicle/collision_box.h"
 
 namespace navvy::planner {
 namespace {
@@ -83,7 +83,7 @@ Footprint footprint_of(const scene::Machine& machine) {
   if (!machine.links.empty()) {
     const Pose X_BM = machine.links[0].X_ML.inverse();
     for (const scene::Collision& collision : machine.links[0].collisions)
-      if (const auto box = sim::box_of(collision)) extend(box->X_WO, box->half);
+      if (const auto box = vehicle::box_of(collision)) extend(box->X_WO, box->half);
     for (const scene::Wheel& wheel : machine.wheels) {
       const int joint = machine.joint_index(wheel.joint);
       if (joint < 0) continue;
@@ -104,8 +104,8 @@ Footprint footprint_of(const scene::Machine& machine) {
           std::max(0.0, -low.y())};
 }
 
-double clearance(const TerrainMap& map, const Footprint& footprint, double x, double y, double yaw,
-                 double range, float least) {
+double clearance(const map::TerrainMap& map, const Footprint& footprint, double x, double y,
+                 double yaw, double range, float least) {
   require_valid(footprint, x, y, yaw, range);
   const Vec2 ax(std::cos(yaw), std::sin(yaw)), ay(-ax.y(), ax.x());
   Box body{Vec2(x, y), Vec2(footprint.front + footprint.rear, footprint.left + footprint.right) / 2,
@@ -120,7 +120,7 @@ double clearance(const TerrainMap& map, const Footprint& footprint, double x, do
              high = (body.middle + extent - map.origin()) / cell;
   const double corner = cell * std::sqrt(0.5);  // from a column's middle to its corners
   double best = range;
-  const LayerTiles& tiles = map.tiles(Layer::kTraversability);
+  const map::LayerTiles& tiles = map.tiles(map::MapLayer::kTraversability);
   const auto look = [&](int ix, int iy) {
     const Vec2 centre = map.origin() + cell * Vec2(ix + 0.5, iy + 0.5);
     // Most columns are ruled out by their middle.

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/math.h"
-#include "planner/terrain_map.h"
+#include "map/terrain_map.h"
 #include "scene/machine.h"
 
 namespace navvy::planner {
@@ -26,7 +26,7 @@ Footprint footprint_of(const scene::Machine& machine);
 /// everything outside the site are not. Costs some nanoseconds a column of the footprint with
 /// `range` round it.
 /// @throws InputError for a footprint, range or place that is not finite, or below 0.
-double clearance(const TerrainMap& map, const Footprint& footprint, double x, double y, double yaw,
-                 double range = 1, float least = 0);
+double clearance(const map::TerrainMap& map, const Footprint& footprint, double x, double y,
+                 double yaw, double range = 1, float least = 0);
 
 }  // namespace navvy::planner

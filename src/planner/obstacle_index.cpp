@@ -6,14 +6,14 @@
 
 namespace navvy::planner {
 
-ObstacleIndex::ObstacleIndex(const TerrainMap& map, float least)
+ObstacleIndex::ObstacleIndex(const map::TerrainMap& map, float least)
     : origin_(map.origin()),
       extent_(map.cell() * Vec2(map.nx(), map.ny())),
       side_(kBlock * map.cell()),
       across_((map.nx() + kBlock - 1) / kBlock),
       along_((map.ny() + kBlock - 1) / kBlock),
       sums_(static_cast<std::size_t>(across_ + 1) * static_cast<std::size_t>(along_ + 1)) {
-  const LayerTiles& tiles = map.tiles(Layer::kTraversability);
+  const map::LayerTiles& tiles = map.tiles(map::MapLayer::kTraversability);
   std::vector<std::uint8_t> bad(static_cast<std::size_t>(across_));
   for (int j = 0; j < along_; ++j) {
     // Without the layer nothing is known.

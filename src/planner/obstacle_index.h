@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "map/terrain_map.h"
 #include "planner/footprint.h"
-#include "planner/terrain_map.h"
 
 namespace navvy::planner {
 
@@ -16,7 +16,7 @@ namespace navvy::planner {
 /// each in two.
 class ObstacleIndex {
  public:
-  explicit ObstacleIndex(const TerrainMap& map, float least = 0);
+  explicit ObstacleIndex(const map::TerrainMap& map, float least = 0);
 
   /// True only where `clearance` would be `range` or more; false may mean either.
   bool surely_clear(const Footprint& footprint, double x, double y, double yaw, double range) const;

@@ -7,27 +7,68 @@
 #include <utility>
 
 #include "core/edit_distance.h"
-#include "planner/formats/formats.h"
-#include "planner/map_maker.h"
-#include "planner/ros/streams.h"
-#include "planner/sources.h"
+#include "formats/formats.h"
+#include "formats/ros/array_message.h"
+#include "formats/ros/streams.h"
+#include "map/map_maker.h"
+#include "map/map_sources.h"
 #include "sim/timing.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::record {
 namespace {
 
-using planner::Layer;
+using map::MapLayer;
 
-std::vector<Layer> layers_of(const scene::MapRecord& record) {
-  if (record.layers.empty()) return planner::format_named(record.format).by_default;
-  std::vector<Layer> out;
-  for (const std::string& name : record.layers) out.push_back(planner::layer_named(name));
+std::vector<map::MapLayer> layers_of(const scene::MapRecord& record) {
+  if (record.layers.empty()) return formats::format_named(record.format).by_default;
+  std::vector<map::MapLayer> out;
+  for (const std::string& name : record.layers) out.push_back(map::layer_named(name));
   return out;
 }
 
-bool is_bag(const scene::MapRecord& record) {
-  return record.format == "mcap" || record.format == "bag";
+bool is_bag(const formats::MapFormat& format) { return format.open_bag != nullptr; }
+
+formats::ros::BodyState body_of(const sim::MachineHandle& machine, int link) {
+  const sim::LinkHandle handle = machine.link(link);
+  const vehicle::LinkState state = handle.state();
+  return {machine.name() + "/" + handle.name(), state.X_WL, state.v_WL, state.w_WL};
+}
+
+/// Returns the state of every machine of a world.
+std::vector<formats::ros::MachineState> machine_states(const sim::World& world) {
+  std::vector<formats::ros::MachineState> out;
+  for (int m = 0; m < world.machine_count(); ++m) {
+    const sim::MachineHandle machine = world.machine(m);
+    formats::ros::MachineState& state = out.emplace_back();
+    state.name = machine.name();
+    for (int i = 0; i < static_cast<int>(machine.description().links.size()); ++i)
+      state.links.push_back(body_of(machine, i));
+    for (int i = 0; i < static_cast<int>(machine.description().joints.size()); ++i) {
+      const sim::JointHandle joint = machine.joint(i);
+      state.joints.names.push_back(joint.name());
+      state.joints.positions.push_back(joint.position());
+      state.joints.velocities.push_back(joint.velocity());
+      state.joints.efforts.push_back(joint.effort());
+    }
+  }
+  return out;
+}
+
+formats::ros::ArrayElement element_of(sim::ElementType type) {
+  switch (type) {
+    case sim::ElementType::kUint8:
+      return formats::ros::ArrayElement::kUint8;
+    case sim::ElementType::kUint16:
+      return formats::ros::ArrayElement::kUint16;
+    case sim::ElementType::kInt32:
+      return formats::ros::ArrayElement::kInt32;
+    case sim::ElementType::kFloat32:
+      return formats::ros::ArrayElement::kFloat32;
+    case sim::ElementType::kFloat64:
+      break;
+  }
+  return formats::ros::ArrayElement::kFloat64;
 }
 
 }  // namespace
@@ -41,20 +82,22 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
       fault.element = "world/navvy:record[" + record.name + "]/" + child;
       faults.push_back(std::move(fault));
     };
+    const formats::MapFormat* format = nullptr;
     try {
-      if (planner::format_named(record.format).needs_design && !scene.design.any())
+      format = &formats::format_named(record.format);
+      if (format->needs_design && !scene.design.any())
         add({Fault::Severity::kError, "", 0, "", record.format,
              "needs a design: without one nothing is to be dug", "give the scene a <navvy:design>"},
             "format");
     } catch (const InputError& error) {
       add(error.faults().front(), "format");
     }
-    if (record.machine_rate > 0 && !is_bag(record))
+    if (record.machine_rate > 0 && (format == nullptr || !is_bag(*format)))
       add({Fault::Severity::kError, "", 0, "", record.format, "only mcap and bag hold machines",
-           "leave it away"},
+           "remove it"},
           "machine_rate_hz");
     for (const std::string& name : record.layers) try {
-        planner::layer_named(name);
+        map::layer_named(name);
       } catch (const InputError& error) {
         add(error.faults().front(), "layers");
       }
@@ -63,17 +106,25 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
 }
 
 struct MapRecorder::Stream {
-  Stream(const scene::MapRecord& r, planner::MapOptions options)
-      : record(r), label(r.name), layers(layers_of(r)), maker(std::move(options)) {}
+  Stream(const scene::MapRecord& r, map::MapOptions options)
+      : record(r),
+        format(formats::format_named(r.format)),
+        label(r.name),
+        layers(layers_of(r)),
+        maker(std::move(options)) {}
   double machine_rate() const {
     return record.machine_rate > 0 ? record.machine_rate : record.kMachineRate;
   }
 
   scene::MapRecord record;
-  std::string label;  ///< of its files now
-  std::vector<Layer> layers;
-  planner::MapMaker maker;
-  std::unique_ptr<planner::ros::Bag> bag;
+  const formats::MapFormat& format;
+  /// Name of its files now.
+  std::string label;
+  std::vector<map::MapLayer> layers;
+  map::MapMaker maker;
+  std::unique_ptr<formats::ros::Bag> bag;
+  /// Sequence numbers of the arrays' samples that the bag holds.
+  std::vector<std::uint64_t> arrays;
 };
 
 MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
@@ -84,24 +135,35 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
   for (const scene::MapRecord& record : scene.records) taken_.insert(record.name);
   for (const scene::MapRecord& record : scene.records) {
     // Pictures and points need the surface.
-    std::vector<Layer> layers = layers_of(record);
-    layers.push_back(Layer::kElevation);
+    std::vector<map::MapLayer> layers = layers_of(record);
+    layers.push_back(map::MapLayer::kElevation);
     streams_.push_back(std::make_unique<Stream>(
-        record, planner::options_for(scene, session.world().ground(), std::move(layers),
-                                     session.design())));
+        record,
+        map::options_for(scene, session.world().ground(), std::move(layers), session.design())));
     open(*streams_.back());
   }
 }
 
 void MapRecorder::open(Stream& stream) {
-  const std::string& label = stream.label;
-  if (stream.record.format == "mcap")
-    stream.bag = planner::ros::make_mcap(folder_.path(label + ".mcap"));
-  if (stream.record.format == "bag") {
-    // Both files are the run's before they are there.
-    const std::string data = folder_.path(label + "/" + label + "_0.db3");
-    folder_.path(label + "/metadata.yaml");
-    stream.bag = planner::ros::make_bag_folder(data.substr(0, data.rfind('/')));
+  if (!is_bag(stream.format)) return;
+  stream.arrays.clear();
+  const std::string name = stream.label + stream.format.extension;
+  // All its files are listed as the run's before they exist.
+  for (const std::string& file : formats::files_of(stream.format, name)) folder_.path(file);
+  stream.bag = stream.format.open_bag(folder_.directory() + "/" + name);
+}
+
+void MapRecorder::write_arrays(Stream& stream) {
+  const sim::ArrayOutputs& arrays = session_.world().arrays();
+  stream.arrays.resize(arrays.channels().size());
+  for (std::size_t i = 0; i < stream.arrays.size(); ++i) {
+    const sim::ArrayView view = arrays.view(static_cast<int>(i));
+    if (view.sequence() == stream.arrays[i]) continue;
+    stream.arrays[i] = view.sequence();
+    const sim::ArrayChannel& channel = view.channel();
+    formats::ros::write_array(*stream.bag, {channel.name, channel.unit, channel.meaning,
+                                            channel.frame, element_of(channel.type), channel.shape,
+                                            view.time(), view.X_WF(), view.bytes()});
   }
 }
 
@@ -125,26 +187,27 @@ void MapRecorder::observe() {
     const auto due = [&](double rate) { return sim::sample_due(world.steps(), world.dt(), rate); };
     const bool map_due = due(record.rate),
                machines_due = stream->bag && due(stream->machine_rate());
-    const std::int64_t now = planner::ros::stamp(world.time());
-    if (stream->bag && (map_due || machines_due)) planner::ros::write_clock(*stream->bag, now);
-    if (machines_due) planner::ros::write_machines(*stream->bag, world, now);
+    const std::int64_t now = formats::ros::stamp(world.time());
+    if (stream->bag && (map_due || machines_due)) formats::ros::write_clock(*stream->bag, now);
+    if (machines_due) formats::ros::write_machines(*stream->bag, machine_states(world), now);
+    if (stream->bag) write_arrays(*stream);
     if (!map_due) continue;
     // One view for all: it costs a pass over the particles.
     if (!view) view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
     stream->maker.update(*view);
-    const planner::TerrainMap map = stream->maker.map();
+    const map::TerrainMap map = stream->maker.map();
     if (stream->bag) {
-      planner::ros::write_map(*stream->bag, map, stream->layers, now);
+      formats::ros::write_map(*stream->bag, map, stream->layers, now);
       continue;
     }
-    const planner::Format& format = planner::format_named(record.format);
+    const formats::MapFormat& format = stream->format;
     char number[24];
     std::snprintf(number, sizeof number, "_%05llu",
                   static_cast<unsigned long long>(
                       sim::sample_number(world.steps(), world.dt(), record.rate)));
     // All its files are the run's before they are there.
     const std::string name = "maps/" + stream->label + number + format.extension;
-    for (const std::string& file : planner::files_of(format, name)) folder_.path(file);
+    for (const std::string& file : formats::files_of(format, name)) folder_.path(file);
     format.write(map, stream->layers, folder_.directory() + "/" + name);
   }
 }

@@ -42,6 +42,8 @@ class MapRecorder {
  private:
   struct Stream;
   void open(Stream& stream);
+  /// Writes the samples of arrays that are newer than those in the stream's bag.
+  void write_arrays(Stream& stream);
   const session::Session& session_;
   RunFolder& folder_;
   std::vector<std::unique_ptr<Stream>> streams_;

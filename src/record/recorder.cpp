@@ -10,12 +10,12 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
-#include "planner/path_file.h"
 #include "record/array_recorder.h"
 #include "record/camera_pictures.h"
 #include "record/crash_summary.h"
 #include "record/hash_log.h"
 #include "record/map_recorder.h"
+#include "record/path_file.h"
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
@@ -112,10 +112,10 @@ bool Recorder::State::due(double rate) const {
 void Recorder::State::write_paths() {
   std::string rows;
   for (const session::ProgramReport& report : session.programs())
-    rows += planner::path_rows(
+    rows += record::path_rows(
         session.world().description().machines[static_cast<std::size_t>(report.machine)].name,
         report.paths);
-  if (!rows.empty()) write_file_atomically(path("paths.csv"), planner::path_header() + "\n" + rows);
+  if (!rows.empty()) write_file_atomically(path("paths.csv"), record::path_header() + "\n" + rows);
 }
 
 /// Adds at most one row per step, also for a rate above the step rate.

@@ -4,24 +4,25 @@
 #include <vector>
 
 #include "core/error.h"
+#include "map/map_maker.h"
 #include "sim/world_terrain.h"
 #ifdef NAVVY_WITH_GDAL
 #include "heightfield/gdal/export.h"
 #endif
 
 namespace navvy::record {
-namespace {
-
-// Beside the heights, in files of ground that does not all rest.
-[[maybe_unused]] const std::vector<std::string> kAwake = {"loose_depth"};
-
-}  // namespace
 
 void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  const bool active = world.soil_counts().particles > 0;
-  heightfield::write_geotiff(sim::terrain_view(world, heightfield::SurfaceKind::kMapped), path,
-                             active ? kAwake : std::vector<std::string>{});
+  const heightfield::TerrainView view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
+  std::vector<heightfield::MapBand> more;
+  // Beside the heights, where not all of the soil rests.
+  const map::LayerInfo& loose = map::info(map::MapLayer::kLooseDepth);
+  if (world.soil_counts().particles > 0)
+    more.push_back({loose.name, loose.unit, [&](int y0, int y1, std::vector<float>& out) {
+                      out = map::layer_values(view, loose.layer, {0, y0, view.nx(), y1});
+                    }});
+  heightfield::write_geotiff(view, path, more);
 #else
   (void)world;
   throw FileError("cannot write '" + path +

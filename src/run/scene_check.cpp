@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/math.h"
-#include "planner/path_planner.h"
+#include "planner/map_path_planner.h"
 #include "record/map_recorder.h"
 #include "session/program_check.h"
 #include "sim/start_check.h"

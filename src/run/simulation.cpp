@@ -11,7 +11,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "heightfield/change_follower.h"
-#include "planner/path_planner.h"
+#include "planner/map_path_planner.h"
 #include "record/camera_pictures.h"
 #include "record/map_recorder.h"
 #include "record/rates_note.h"

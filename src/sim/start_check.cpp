@@ -12,8 +12,8 @@
 #include "geometry/oriented_box.h"
 #include "heightfield/design_surface.h"
 #include "heightfield/make_ground.h"
-#include "sim/collision_box.h"
 #include "sim/start_placing.h"
+#include "vehicle/collision_box.h"
 #include "vehicle/kinematics.h"
 
 namespace navvy::sim {
@@ -58,7 +58,7 @@ std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X
   const std::vector<Pose> X_WL = vehicle::forward_kinematics(machine, X_WB, q);
   for (std::size_t l = 0; l < machine.links.size(); ++l)
     for (const scene::Collision& collision : machine.links[l].collisions)
-      if (std::optional<geometry::OrientedBox> box = box_of(collision)) {
+      if (std::optional<geometry::OrientedBox> box = vehicle::box_of(collision)) {
         box->X_WO = X_WL[l] * box->X_WO;
         out.push_back({*box, &machine.links[l], machine.kinematic, machine.fixed_base && l == 0});
       }

@@ -19,7 +19,7 @@
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "planner/footprint.h"
-#include "planner/path_planner.h"
+#include "planner/map_path_planner.h"
 #include "planner/sites.h"
 #include "values.h"
 
@@ -69,9 +69,9 @@ struct Trip {
   }
   /// Of the machine itself on all of its way, on the ground as it is now.
   double least_clearance() const {
-    MapMaker maker{MapOptions()};
+    map::MapMaker maker{map::MapOptions()};
     maker.update(ground.view());
-    const TerrainMap map = maker.map();
+    const map::TerrainMap map = maker.map();
     const Footprint footprint = footprint_of(excavator());
     double least = 1;
     for (const control::PlanePose& at : way)

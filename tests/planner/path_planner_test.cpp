@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths round what an excavator cannot drive on. Skipped, visibly, in a build without OMPL.
-#include "planner/path_planner.h"
+#include "planner/map_path_planner.h"
 
 #include <gtest/gtest.h>
 
@@ -42,11 +42,11 @@ std::uint64_t digest(Path path) { return hash_of(path).digest(); }
 
 /// Looked at every 2 cm on a map that is computed whole.
 double least_clearance(const heightfield::Ground& ground, const Path& path) {
-  MapOptions options;
-  options.layers = {Layer::kTraversability};
-  MapMaker maker(options);
+  map::MapOptions options;
+  options.layers = {map::MapLayer::kTraversability};
+  map::MapMaker maker(options);
   maker.update(ground.view());
-  const TerrainMap map = maker.map();
+  const map::TerrainMap map = maker.map();
   const Footprint footprint = footprint_of(excavator());
   double least = 10;
   for (double s = 0; s <= path.length() + 0.02; s += 0.02) {
@@ -77,11 +77,11 @@ TEST(ObstacleIndex, NeverCallsAPlaceClearThatIsNot) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
   dig(ground, Vec2(6, 6), Vec2(6.2, 6.2));
-  MapOptions options;
-  options.layers = {Layer::kTraversability};
-  MapMaker maker(options);
+  map::MapOptions options;
+  options.layers = {map::MapLayer::kTraversability};
+  map::MapMaker maker(options);
   maker.update(ground.view());
-  const TerrainMap map = maker.map();
+  const map::TerrainMap map = maker.map();
   const ObstacleIndex index(map);
   const Footprint footprint = footprint_of(excavator());
   Random random(3);

@@ -8,11 +8,14 @@
 
 #include "control/surface.h"
 #include "heightfield/layered_ground.h"
+#include "map/grounds.h"
 #include "paths.h"
-#include "planner/grounds.h"
 #include "scene_io/loader.h"
 
 namespace navvy::planner::testing {
+
+using map::testing::centre;
+using map::testing::setup;
 
 inline scene::Machine excavator() {
   return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");

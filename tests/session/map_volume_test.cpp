@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "device/device.h"
-#include "heightfield/map_view.h"
+#include "map/map_maker.h"
 #include "record/earthwork.h"
 #include "session/session.h"
 #include "sim/scenes.h"
@@ -46,15 +46,17 @@ struct MapVolume {
   double active_area = 0;    ///< [m2]
 };
 
-MapVolume volume_of(const heightfield::Terrain& terrain) {
-  const heightfield::MapView change = heightfield::map_view(terrain, "change");
-  const heightfield::MapView active = heightfield::map_view(terrain, "awake");
+MapVolume volume_of(const heightfield::TerrainView& terrain) {
+  const auto values = [&](map::MapLayer layer) {
+    return map::layer_values(terrain, layer, terrain.site_rect());
+  };
+  const std::vector<float> change = values(map::MapLayer::kChange);
+  const std::vector<float> active = values(map::MapLayer::kAwake);
   const double area = terrain.cell() * terrain.cell();
   MapVolume out;
-  for (std::size_t i = 0; i < change.values.size(); ++i) {
-    (change.values[i] < 0 ? out.cut : out.fill) +=
-        area * std::abs(static_cast<double>(change.values[i]));
-    out.active_area += area * static_cast<double>(active.values[i]);
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    (change[i] < 0 ? out.cut : out.fill) += area * std::abs(static_cast<double>(change[i]));
+    out.active_area += area * static_cast<double>(active[i]);
   }
   return out;
 }

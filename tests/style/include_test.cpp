@@ -37,20 +37,25 @@ const std::map<std::string, Names>& arrows() {
       {"sim", {"coupling", "scene"}},
       {"session", {"sim", "control"}},
       {"render", {"scene", "geometry"}},
-      {"sensor", {"sim", "geometry"}},
-      {"planner", {"sim", "heightfield", "control"}},
-      {"record", {"session", "planner", "sensor", "render"}},
-      {"run", {"session", "record", "sensor", "planner"}},
-      {"link", {"run", "scene_io"}},
-      {"cli", {"link", "lab", "bench", "scene_io"}},
-      {"python", {"link", "lab", "bench", "scene_io"}},
+      {"map", {"heightfield", "scene"}},
+      {"formats", {"map"}},
+      {"planner", {"map", "control"}},
+      {"earthwork", {"map", "control"}},
+      {"sensor", {"sim", "geometry", "map"}},
+      {"record", {"session", "formats", "render", "sensor"}},
+      {"run", {"session", "record", "sensor", "planner", "earthwork"}},
+      {"report", {"scene"}},
+      {"link", {"run", "report", "lab", "bench", "scene_io"}},
+      {"cli", {"link"}},
+      {"python", {"link"}},
   };
   return table;
 }
 
 /// Folders that may include more than their room: a camera draws, no other sensor does.
 const std::map<std::string, Names>& wings() {
-  static const std::map<std::string, Names> table = {{"src/sensor/camera", {"render"}}};
+  static const std::map<std::string, Names> table = {{"src/sensor/camera", {"render"}},
+                                                     {"src/formats/ros", {"sensor"}}};
   return table;
 }
 
@@ -85,11 +90,12 @@ const std::vector<Library>& libraries() {
       {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"src/heightfield/gdal"}},
       {"Coin, OpenGL, OSMesa", {"Inventor/", "GL/", "EGL/"}, {"src/render"}},
       {"tinyobjloader", {"tiny_obj_loader.h"}, {"src/geometry/obj"}},
-      {"libpng", {"png.h"}, {"src/render", "src/record", "src/planner/formats"}},
-      {"Fast-CDR", {"fastcdr/"}, {"src/planner/ros"}},
-      {"SQLite", {"sqlite3.h"}, {"src/planner/ros"}},
+      {"libpng", {"png.h"}, {"src/render", "src/record", "src/formats"}},
+      {"Fast-CDR", {"fastcdr/"}, {"src/formats/ros"}},
+      {"SQLite", {"sqlite3.h"}, {"src/formats/ros"}},
       {"OMPL", {"ompl/"}, {"src/planner/ompl"}},
-      {"nlohmann-json", {"nlohmann/"}, {"src/record", "src/cli", "src/link"}},
+      {"libzip", {"zip.h"}, {"src/formats"}},
+      {"nlohmann-json", {"nlohmann/"}, {"src/formats", "src/record", "src/cli", "src/link"}},
       {"CLI11", {"CLI/"}, {"src/cli"}},
       {"spdlog", {"spdlog/"}, {"src/cli"}},
   };
@@ -163,8 +169,10 @@ std::vector<std::string> check(const SourceFile& file) {
 
 /// Clients of a world: they see it through handles, channels and samplers.
 const Names& clients() {
-  static const Names table = {"src/record",  "src/session", "src/control", "src/cli",  "src/sensor",
-                              "src/planner", "src/run",     "src/python",  "src/link", "examples"};
+  static const Names table = {"src/map",     "src/formats", "src/planner", "src/earthwork",
+                              "src/session", "src/record",  "src/control", "src/sensor",
+                              "src/run",     "src/report",  "src/cli",     "src/python",
+                              "src/link",    "examples"};
   return table;
 }
 

@@ -19,7 +19,6 @@
 #include "core/file.h"
 #include "heightfield/file_rows.h"
 #include "heightfield/gdal/gdal_session.h"
-#include "heightfield/map_view.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -141,25 +140,14 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
 
 }  // namespace
 
-void write_geotiff(const Terrain& terrain, const std::string& path) {
-  write_geotiff(terrain, path, std::vector<std::string>{});
-}
-
 void write_geotiff(const Terrain& terrain, const std::string& path,
-                   const std::vector<std::string>& layers) {
-  const CellRect site{0, 0, terrain.nx(), terrain.ny()};
-  // Without its unit, a reader takes heights for metres, or for what the coordinates count in.
+                   const std::vector<MapBand>& more) {
+  // Without its unit, a reader takes heights for metres, or for the unit of the coordinates.
   std::vector<Band> bands = {
       {[&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, "",
        height_unit(terrain.setup())}};
-  for (const std::string& name : layers) {
-    const MapLayer& layer = map_layer(name);
-    const auto rows = [&terrain, &layer](int y0, int y1, std::vector<float>& out) {
-      out = map_view(terrain, layer.name, CellRect{0, y0, terrain.nx(), y1}).values;
-    };
-    bands.push_back({rows, layer.name, layer.unit});
-  }
-  write(terrain.setup(), site, bands, path);
+  for (const MapBand& band : more) bands.push_back({band.rows, band.name, band.unit});
+  write(terrain.setup(), {0, 0, terrain.nx(), terrain.ny()}, bands, path);
 }
 
 void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the messages are made of, field by field: readers of an MCAP file know no type that its
+// schemas do not tell.
+#include <map>
+
+#include "formats/ros/messages.h"
+
+namespace navvy::formats::ros {
+namespace {
+
+struct Row {
+  const char* name;
+  const char* fields;
+};
+
+const Row kTypes[] = {
+    {"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"},
+    {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"},
+    {"std_msgs/MultiArrayDimension", "string label\nuint32 size\nuint32 stride\n"},
+    {"std_msgs/MultiArrayLayout", "std_msgs/MultiArrayDimension[] dim\nuint32 data_offset\n"},
+    {"std_msgs/String", "string data\n"},
+    {"std_msgs/UInt8MultiArray", "std_msgs/MultiArrayLayout layout\nuint8[] data\n"},
+    {"std_msgs/UInt16MultiArray", "std_msgs/MultiArrayLayout layout\nuint16[] data\n"},
+    {"std_msgs/Int32MultiArray", "std_msgs/MultiArrayLayout layout\nint32[] data\n"},
+    {"std_msgs/Float64MultiArray", "std_msgs/MultiArrayLayout layout\nfloat64[] data\n"},
+    {"std_msgs/Float32MultiArray", "std_msgs/MultiArrayLayout layout\nfloat32[] data\n"},
+    {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    {"geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
+    {"geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
+    {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
+    {"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"},
+    {"geometry_msgs/TwistWithCovariance", "geometry_msgs/Twist twist\nfloat64[36] covariance\n"},
+    {"geometry_msgs/Transform",
+     "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"},
+    {"geometry_msgs/TransformStamped",
+     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"},
+    {"grid_map_msgs/GridMapInfo",
+     "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"},
+    {"grid_map_msgs/GridMap",
+     "std_msgs/Header header\ngrid_map_msgs/GridMapInfo info\nstring[] layers\nstring[] "
+     "basic_layers\n"
+     "std_msgs/Float32MultiArray[] data\nuint16 outer_start_index\nuint16 inner_start_index\n"},
+    {"nav_msgs/MapMetaData",
+     "builtin_interfaces/Time map_load_time\nfloat32 resolution\nuint32 width\nuint32 height\n"
+     "geometry_msgs/Pose origin\n"},
+    {"nav_msgs/OccupancyGrid", "std_msgs/Header header\nnav_msgs/MapMetaData info\nint8[] data\n"},
+    {"nav_msgs/Odometry",
+     "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+     "geometry_msgs/TwistWithCovariance twist\n"},
+    {"sensor_msgs/PointField", "string name\nuint32 offset\nuint8 datatype\nuint32 count\n"},
+    {"sensor_msgs/PointCloud2",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool "
+     "is_bigendian\n"
+     "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n"},
+    {"sensor_msgs/JointState",
+     "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] "
+     "effort\n"},
+    {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
+    {"rosgraph_msgs/Clock", "builtin_interfaces/Time clock\n"},
+};
+
+const char* fields_of(const std::string& name) {
+  for (const Row& row : kTypes)
+    if (name == row.name) return row.fields;
+  return nullptr;
+}
+
+/// Types that a definition names, in the order in which it does; each once over the whole walk.
+void parts_of(const std::string& fields, std::vector<std::string>& out) {
+  for (std::size_t at = 0; at < fields.size(); at = fields.find('\n', at) + 1) {
+    const std::string type = fields.substr(at, fields.find_first_of(" [", at) - at);
+    const char* own = fields_of(type);
+    bool seen = own == nullptr;
+    for (const std::string& other : out) seen = seen || other == type;
+    if (seen) continue;
+    out.push_back(type);
+    parts_of(own, out);
+  }
+}
+
+/// In the order of the enumerators.
+constexpr const char* kNames[kMessageKinds] = {
+    "grid_map_msgs/GridMap",     "nav_msgs/OccupancyGrid",   "sensor_msgs/PointCloud2",
+    "nav_msgs/Odometry",         "sensor_msgs/JointState",   "tf2_msgs/TFMessage",
+    "rosgraph_msgs/Clock",       "std_msgs/String",          "std_msgs/UInt8MultiArray",
+    "std_msgs/UInt16MultiArray", "std_msgs/Int32MultiArray", "std_msgs/Float32MultiArray",
+    "std_msgs/Float64MultiArray"};
+
+std::string short_name(MessageKind kind) { return kNames[static_cast<int>(kind)]; }
+
+}  // namespace
+
+const std::string& type_name(MessageKind kind) {
+  static const std::map<MessageKind, std::string> names = [] {
+    std::map<MessageKind, std::string> out;
+    for (int i = 0; i < kMessageKinds; ++i) {
+      std::string name = short_name(static_cast<MessageKind>(i));
+      out[static_cast<MessageKind>(i)] = name.insert(name.find('/'), "/msg");
+    }
+    return out;
+  }();
+  return names.at(kind);
+}
+
+const std::string& definition(MessageKind kind) {
+  // The kind's own fields, then every type they name, each after a line of 80 signs and its name.
+  static const std::map<MessageKind, std::string> texts = [] {
+    std::map<MessageKind, std::string> out;
+    for (int i = 0; i < kMessageKinds; ++i) {
+      std::string text = fields_of(short_name(static_cast<MessageKind>(i)));
+      std::vector<std::string> parts;
+      parts_of(text, parts);
+      for (const std::string& part : parts)
+        text += std::string(80, '=') + "\nMSG: " + part + "\n" + fields_of(part);
+      out[static_cast<MessageKind>(i)] = text;
+    }
+    return out;
+  }();
+  return texts.at(kind);
+}
+
+}  // namespace navvy::formats::ros

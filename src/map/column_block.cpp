@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map/column_block.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace navvy::map {
+namespace {
+
+using heightfield::CellRect;
+
+/// Computes tiles from the state of the site's columns.
+class ColumnsSource final : public LayerSource {
+ public:
+  explicit ColumnsSource(std::shared_ptr<const SiteColumns> site) : site_(std::move(site)) {}
+
+  void fill(MapLayer layer, const CellRect& rect, float* out, std::size_t stride) const override {
+    const LayerInfo& row = info(layer);
+    const auto put = [&](int ix, int iy, float value) {
+      // One NaN for all, so that maps compare bit by bit.
+      out[static_cast<std::size_t>(iy - rect.y0) * stride +
+          static_cast<std::size_t>(ix - rect.x0)] = value == value ? value : kUnknown;
+    };
+    if (row.of_surround != nullptr) {
+      for_each_block(rect, [&](const CellRect& block) {
+        const ElevationPatch patch = patch_around(block);
+        for_each_surround(patch, block, site_->options().limits,
+                          [&](int ix, int iy, Surround& s) { put(ix, iy, row.of_surround(s)); });
+      });
+      return;
+    }
+    const ColumnBlock block(*site_, rect);
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix)
+        put(ix, iy, row.of_column != nullptr ? row.of_column(block, ix, iy) : kUnknown);
+  }
+
+ private:
+  ElevationPatch patch_around(const CellRect& block) const {
+    const heightfield::TerrainView& view = site_->view();
+    ElevationPatch patch{grown(block, site_->options().limits.reach(view.cell())), view.cell(), {}};
+    // Column by column: blocks share their margins, and a copy would compute whole tiles for them.
+    const CellRect site = view.site_rect();
+    patch.z.reserve(static_cast<std::size_t>(patch.rect.area()));
+    for (int iy = patch.rect.y0; iy < patch.rect.y1; ++iy)
+      for (int ix = patch.rect.x0; ix < patch.rect.x1; ++ix)
+        patch.z.push_back(site.contains(ix, iy) ? static_cast<float>(view.height(ix, iy))
+                                                : kUnknown);
+    return patch;
+  }
+
+  std::shared_ptr<const SiteColumns> site_;
+};
+
+}  // namespace
+
+SiteColumns::SiteColumns(heightfield::TerrainView view, std::shared_ptr<const MapOptions> options)
+    : view_(std::move(view)), options_(std::move(options)) {}
+
+bool SiteColumns::knows(LayerNeeds needs) const {
+  // A single view shows no history.
+  if (needs == LayerNeeds::kHistory) return false;
+  return needs != LayerNeeds::kDesign || !options_->target.empty();
+}
+
+float SiteColumns::target(int ix, int iy) const {
+  const std::vector<float>& target = options_->target;
+  if (target.empty()) return kUnknown;
+  return target[static_cast<std::size_t>(iy) * static_cast<std::size_t>(view_.nx()) +
+                static_cast<std::size_t>(ix)];
+}
+
+float SiteColumns::density(int ix, int iy) const {
+  const double bank = view_.setup().soils[view_.surface_soil(ix, iy)].bank_density;
+  return static_cast<float>(bank / static_cast<double>(view_.specific_volume(ix, iy)));
+}
+
+float ColumnBlock::elevation(int ix, int iy) const {
+  if (z_.empty()) site_.view().copy_heights(rect_, z_);
+  const auto width = static_cast<std::size_t>(rect_.x1 - rect_.x0);
+  return z_[static_cast<std::size_t>(iy - rect_.y0) * width +
+            static_cast<std::size_t>(ix - rect_.x0)];
+}
+
+TerrainMap make_map(const std::shared_ptr<const SiteColumns>& site, std::uint64_t sequence) {
+  const heightfield::TerrainView& view = site->view();
+  const MapOptions& options = site->options();
+  options.limits.require_valid(view.cell());
+  if (!options.target.empty() &&
+      options.target.size() != static_cast<std::size_t>(view.site_rect().area()))
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "target",
+                           std::to_string(options.target.size()) + " values",
+                           "one value for each of the site's " + std::to_string(view.nx()) + " x " +
+                               std::to_string(view.ny()) + " columns",
+                           "sample the design surface at the column centres, x fastest"});
+  TerrainMap out(view.setup(), view.time(), sequence);
+  const auto source = std::make_shared<const ColumnsSource>(site);
+  const auto want = [&](MapLayer layer) {
+    out.tiles_[index_of(layer)] =
+        LayerTiles(view.nx(), view.ny(), layer, site->knows(info(layer).needs) ? source : nullptr);
+  };
+  for (const MapLayer asked : options.layers) {
+    want(asked);
+    for (const MapLayer base : info(asked).from) want(base);
+  }
+  return out;
+}
+
+}  // namespace navvy::map

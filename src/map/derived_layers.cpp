@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums run in one fixed order and in double, so that the bits depend on the columns alone and not
+// on the rectangle that is computed.
+#include "map/derived_layers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "map/terrain_map.h"
+
+namespace navvy::map {
+namespace {
+
+// Columns; a window of 129 x 129 costs a tenth of a millisecond a column
+constexpr int kWidestReach = 64;
+
+/// NaN is the one number that differs from itself.
+bool known(float value) { return value == value; }
+
+/// Height gained per column along one axis; NaN where neither neighbour is known.
+double gradient(float before, float here, float after) {
+  const auto z = static_cast<double>(here);
+  if (known(before) && known(after))
+    return (static_cast<double>(after) - static_cast<double>(before)) / 2;
+  if (known(after)) return static_cast<double>(after) - z;
+  if (known(before)) return z - static_cast<double>(before);
+  return static_cast<double>(kUnknown);
+}
+
+}  // namespace
+
+int TraversabilityLimits::reach(double cell) const {
+  return std::clamp(static_cast<int>(std::lround(std::min(window / cell, 1e6))), 1, kWidestReach);
+}
+
+void TraversabilityLimits::require_valid(double cell) const {
+  const auto check = [](const char* name, double value, double most, const char* remedy) {
+    if (std::isfinite(value) && value > 0 && value <= most) return;
+    throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("traversability ") + name,
+                           std::to_string(value), "above 0, at most " + std::to_string(most),
+                           remedy});
+  };
+  check("slope", slope, kPi / 2, "the steepest slope to drive on, in radians");
+  check("step height", step_height, 1e6, "the highest step to drive over, in metres");
+  check("roughness", roughness, 1e6, "the largest rms roughness to drive on, in metres");
+  check("window", window, kWidestReach * cell, "half the side of the square looked at, in metres");
+}
+
+Vec2 gradient_at(const ElevationPatch& patch, int ix, int iy) {
+  // An unknown column has no gradient, however well known its neighbours are.
+  const float z = patch.at(ix, iy);
+  if (!known(z)) return Vec2::Constant(std::nan(""));
+  return {gradient(patch.at(ix - 1, iy), z, patch.at(ix + 1, iy)) / patch.cell,
+          gradient(patch.at(ix, iy - 1), z, patch.at(ix, iy + 1)) / patch.cell};
+}
+
+float slope_at(const ElevationPatch& patch, int ix, int iy) {
+  const Vec2 g = gradient_at(patch, ix, iy);
+  const double steep = std::sqrt(g.x() * g.x() + g.y() * g.y());
+  return steep == steep ? static_cast<float>(std::atan(steep)) : kUnknown;
+}
+
+float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
+  if (!known(patch.at(ix, iy))) return kUnknown;
+  // Each pair once, from its column with less x or y; the greatest of them depends on no order.
+  float most = 0;
+  for (int y = iy - reach; y <= iy + reach; ++y)
+    for (int x = ix - reach; x <= ix + reach; ++x) {
+      const float z = patch.at(x, y);
+      // A comparison with an unknown neighbour is false.
+      if (x < ix + reach && std::abs(patch.at(x + 1, y) - z) > most)
+        most = std::abs(patch.at(x + 1, y) - z);
+      if (y < iy + reach && std::abs(patch.at(x, y + 1) - z) > most)
+        most = std::abs(patch.at(x, y + 1) - z);
+    }
+  return most;
+}
+
+float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
+  const float centre = patch.at(ix, iy);
+  if (!known(centre)) return kUnknown;
+  // Moments about the column itself, where numbers are small.
+  double n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, sxz = 0, syz = 0, szz = 0;
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x) {
+      const float value = patch.at(ix + x, iy + y);
+      if (!known(value)) continue;
+      const double z = static_cast<double>(value) - static_cast<double>(centre);
+      n += 1, sx += x, sy += y, sz += z;
+      sxx += x * x, sxy += x * y, syy += y * y, sxz += x * z, syz += y * z, szz += z * z;
+    }
+  // About their means; then the plane's two slopes by Cramer's rule.
+  sxx -= sx * sx / n, sxy -= sx * sy / n, syy -= sy * sy / n;
+  sxz -= sx * sz / n, syz -= sy * sz / n, szz -= sz * sz / n;
+  const double det = sxx * syy - sxy * sxy;
+  if (!(det > 1e-9 * sxx * syy)) return kUnknown;
+  // Fewer than three known columns, or all in one line, bear no plane: refused above.
+  const double a = (sxz * syy - syz * sxy) / det, b = (syz * sxx - sxz * sxy) / det;
+  return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
+}
+
+float traversability(float slope, float step_height, float roughness,
+                     const TraversabilityLimits& limits) {
+  // Added in this order always. A good slope does not make up for a step that is too high.
+  double sum = 0;
+  bool bad = false;
+  for (const auto& [value, limit] :
+       {std::pair{slope, limits.slope}, std::pair{step_height, limits.step_height},
+        std::pair{roughness, limits.roughness}}) {
+    if (!known(value)) return kUnknown;
+    const double share = static_cast<double>(value) / limit;
+    bad = bad || share >= 1;
+    sum += 1 - share;
+  }
+  return bad ? 0.0f : static_cast<float>(sum / 3);
+}
+
+float Surround::slope() {
+  if (!slope_) slope_ = slope_at(patch_, ix_, iy_);
+  return *slope_;
+}
+
+float Surround::step_height() {
+  if (!step_height_) step_height_ = step_height_at(patch_, ix_, iy_, reach_);
+  return *step_height_;
+}
+
+float Surround::roughness() {
+  if (!roughness_) roughness_ = roughness_at(patch_, ix_, iy_, reach_);
+  return *roughness_;
+}
+
+float Surround::normal(int axis) const {
+  const Vec2 g = gradient_at(patch_, ix_, iy_);
+  return static_cast<float>(Vec3(-g.x(), -g.y(), 1).normalized()[axis]);
+}
+
+}  // namespace navvy::map

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// An update runs in two passes over what changed: first the layers that depend on a column alone,
+// then those that follow from the elevation around it. Rectangles may overlap; a column that comes
+// twice gets the same value twice.
+#include "map/map_maker.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+
+namespace navvy::map {
+
+using heightfield::CellRect;
+
+MapMaker::MapMaker(MapOptions options)
+    : options_(std::make_shared<const MapOptions>(std::move(options))) {}
+
+// By size and place: the follower itself tells sites of one size apart, and then names the whole of
+// the new one.
+bool MapMaker::is_of(const heightfield::TerrainView& view) const {
+  return map_ && map_->nx() == view.nx() && map_->ny() == view.ny() &&
+         map_->cell() == view.cell() && map_->origin() == view.origin();
+}
+
+void MapMaker::start(const heightfield::TerrainView& view) {
+  map_ = make_map(std::make_shared<const SiteColumns>(view, options_), 0);
+  of_column_.clear();
+  marking_.clear();
+  of_surround_.clear();
+  const std::vector<MapLayer>& marking = info(MapLayer::kDisturbedAt).from;
+  for (const LayerInfo& row : layers()) {
+    if (!wants(row.layer)) continue;
+    if (row.of_surround != nullptr) of_surround_.push_back(&row);
+    if (row.of_column == nullptr) continue;
+    const bool marks = std::find(marking.begin(), marking.end(), row.layer) != marking.end();
+    (marks ? marking_ : of_column_).push_back(&row);
+  }
+}
+
+bool MapMaker::set(MapLayer layer, int ix, int iy, float value) {
+  LayerTiles& tiles = map_->tiles_[index_of(layer)];
+  // One NaN for all, so that maps compare bit by bit.
+  return !tiles.empty() && tiles.set(ix, iy, value == value ? value : kUnknown, edition_);
+}
+
+void MapMaker::update_columns(const SiteColumns& site, const CellRect& rect) {
+  const auto now = static_cast<float>(site.view().time());
+  for_each_block(rect, [&](const CellRect& part) {
+    const ColumnBlock block(site, part);
+    for (int iy = part.y0; iy < part.y1; ++iy)
+      for (int ix = part.x0; ix < part.x1; ++ix) {
+        bool differs = false;
+        // No short cut: each of them has to be written.
+        for (const LayerInfo* row : marking_)
+          differs = set(row->layer, ix, iy, row->of_column(block, ix, iy)) || differs;
+        for (const LayerInfo* row : of_column_)
+          set(row->layer, ix, iy, row->of_column(block, ix, iy));
+        if (differs) set(MapLayer::kDisturbedAt, ix, iy, now);
+      }
+  });
+}
+
+void MapMaker::update_derived(const CellRect& rect) {
+  for_each_block(rect, [&](const CellRect& block) {
+    // Elevation is read from the map and not from the view: values follow from the floats that the
+    // map reports.
+    ElevationPatch patch{grown(block, options_->limits.reach(map_->cell())), map_->cell(), {}};
+    patch.z = map_->copy(MapLayer::kElevation, patch.rect);
+    for_each_surround(patch, block, options_->limits, [&](int ix, int iy, Surround& surround) {
+      for (const LayerInfo* row : of_surround_) set(row->layer, ix, iy, row->of_surround(surround));
+    });
+  });
+}
+
+const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& view) {
+  const bool first = !is_of(view);
+  if (first) {
+    forget();
+    start(view);
+  }
+  // From here on tiles are written to, copies of those that a map holds.
+  ++edition_;
+  const std::vector<CellRect> rects = follower_.take(view);
+  // The first map is what its source says of this view.
+  if (first) {
+    changed_ = rects;
+    map_->time_ = view.time();
+    map_->sequence_ = ++updates_;
+    return changed_;
+  }
+  const SiteColumns site(view, options_);
+  for (const CellRect& rect : rects) update_columns(site, rect);
+  // What a derived value looks at reaches beyond the column; the lists unite what overlaps much.
+  heightfield::RectList around;
+  const int reach = options_->limits.reach(view.cell());
+  for (const CellRect& rect : rects) around.add(grown(rect, reach).cut(view.site_rect()));
+  changed_ = around.rects();
+  if (!of_surround_.empty())
+    for (const CellRect& rect : changed_) update_derived(rect);
+  // Last: an error on the way leaves the stamp of the map before.
+  map_->time_ = view.time();
+  map_->sequence_ = ++updates_;
+  return changed_;
+}
+
+void MapMaker::forget() {
+  follower_.forget();
+  map_.reset();
+}
+
+TerrainMap MapMaker::map() {
+  if (!map_) throw Error("MapMaker::map: no view was shown yet; call update first");
+  TerrainMap out = *map_;
+  // What is written from now on is not this map's.
+  ++edition_;
+  return out;
+}
+
+std::vector<float> layer_values(const heightfield::TerrainView& view, MapLayer layer,
+                                const CellRect& rect, const MapOptions& options) {
+  MapOptions wanted = options;
+  wanted.layers = {layer};
+  const auto shared = std::make_shared<const MapOptions>(std::move(wanted));
+  return make_map(std::make_shared<const SiteColumns>(view, shared), 0).copy(layer, rect);
+}
+
+}  // namespace navvy::map

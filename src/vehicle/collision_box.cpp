@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/collision_box.h"
+
+#include "core/error.h"
+#include "geometry/obj/read_obj.h"
+#include "geometry/triangle_mesh.h"
+
+namespace navvy::vehicle {
+
+std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
+  const scene::Geometry& g = collision.geometry;
+  geometry::OrientedBox box{collision.X_LC, Vec3::Zero()};
+  switch (g.kind) {
+    case scene::Geometry::Kind::kBox:
+      box.half = 0.5 * g.size;
+      return box;
+    case scene::Geometry::Kind::kCylinder:
+    case scene::Geometry::Kind::kCone:
+      box.half = Vec3(g.radius, g.radius, 0.5 * g.length);
+      return box;
+    case scene::Geometry::Kind::kCapsule:
+      box.half = Vec3(g.radius, g.radius, 0.5 * g.length + g.radius);
+      return box;
+    case scene::Geometry::Kind::kSphere:
+      box.half = Vec3::Constant(g.radius);
+      return box;
+    case scene::Geometry::Kind::kPlane:
+      return std::nullopt;
+    case scene::Geometry::Kind::kMesh:
+      break;
+  }
+  try {
+    const geometry::Box round = geometry::bounds(geometry::read_obj(g.mesh_file));
+    box.X_WO =
+        collision.X_LC * Eigen::Translation3d(0.5 * (round.low + round.high).cwiseProduct(g.scale));
+    box.half = 0.5 * (round.high - round.low).cwiseProduct(g.scale.cwiseAbs());
+    return box;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace navvy::vehicle

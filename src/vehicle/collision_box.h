@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collision shapes as boxes, where a box is enough.
+#pragma once
+
+#include <optional>
+
+#include "geometry/oriented_box.h"
+#include "scene/machine.h"
+
+namespace navvy::vehicle {
+
+/// The box round a collision shape in its link's frame; none for planes, which are ground of their
+/// own, and for meshes that cannot be read, of which the loader has told.
+std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision);
+
+}  // namespace navvy::vehicle
