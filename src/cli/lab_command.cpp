@@ -230,7 +230,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   command->add_flag(
       "--energy", options->experiment.energy,
       described(
-          "also tell where the soil's energy came from and went; takes up to three times as long"));
+          "report the energy account of the soil; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   // All rigs share one set of options; the callback notes which of them was chosen.
   command->callback([command, options, &action, name = rig.name] {

@@ -64,9 +64,9 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
         if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
         if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
       }
-      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where
-      // it gained. Spoil that a wheel pressed may lie lower than the ground was; it has no negative
-      // volume.
+      // Volumes are those of whole columns: bank volume where a column lost mass, the rise of the
+      // surface where it gained mass. Spoil that a wheel compacted may be lower than the ground
+      // was, and counts as zero.
       if (gain < -least) sum.bank_volume -= gain;
       if (gain > least)
         sum.loose_volume +=

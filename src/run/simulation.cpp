@@ -104,7 +104,7 @@ Simulation::Simulation(scene::Scene scene, SimulationOptions options)
     folder = std::make_unique<record::RunFolder>(
         s.options.folder, std::vector<std::string>{s.options.resume, scene.file, scene.ground.file,
                                                    scene.design.file});
-  // From here on a missing device or a faulty program may end the construction.
+  // A missing device or a faulty program may end the construction from this line on.
   s.device = s.options.shared_device ? s.options.shared_device
                                      : std::make_shared<device::Device>(s.options.device);
   note("device " + s.device->info().text());
@@ -147,8 +147,8 @@ Simulation::~Simulation() {
   }
 }
 
-/// Tells the recorder and the observers of a replaced state: late, so that several replacements
-/// between two steps count as one.
+/// Informs the recorder and the observers of a replaced state. This happens before the next step,
+/// so that several replacements between two steps count as one.
 void Simulation::State::inform() {
   if (!std::exchange(replaced, false)) return;
   if (recorder) recorder->restart();
@@ -173,7 +173,7 @@ void Simulation::State::step() {
   for (RunObserver* one : observers) one->after_step();
 }
 
-/// Tells the observers that no step follows, before files are closed.
+/// Informs the observers that no step follows, before files are closed.
 void Simulation::State::close() {
   for (RunObserver* one : observers) one->closing();
 }
@@ -371,7 +371,7 @@ RunProgress Simulation::progress() const {
 std::string Simulation::summary(bool with_hash) const {
   const State& s = *state_;
   if (s.recorder) return s.recorder->summary(with_hash);
-  // Without a folder nobody keeps the wall times of drawing and writing: there is none of both.
+  // Without a folder nothing is drawn or written, so the wall time is that of the simulation.
   record::RunStatus status = s.status;
   status.wall_time = s.total.seconds();
   if (done()) status.status = status_of(s.end_now(false, "").reason);

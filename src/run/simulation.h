@@ -76,7 +76,7 @@ class Simulation {
   /// Returns true when the programs have ended or the duration is over (session::Session::done).
   bool done() const;
   /// Ends the run: writes the final files and closes the folder. A text in `interrupted_by` marks
-  /// it as interrupted. The simulation can go on afterwards, without recording. Calling it again,
+  /// it as interrupted. The simulation can continue afterwards, without recording. Calling it again,
   /// or without a folder, only reports. @throws FileError for a result that could not be written.
   RunEnd finish(const std::string& interrupted_by = "");
   /// Closes the folder as "failed" with this cause, keeping failed.snapshot. Throws nothing:
@@ -85,7 +85,7 @@ class Simulation {
 
   // State.
   /// Returns to the state that the constructor left. A snapshot that was resumed counts as the
-  /// start. Tables of the folder go on with the earlier time, recorded maps begin new files.
+  /// start. Tables of the folder continue with the earlier time, recorded maps begin new files.
   void reset();
   /// Returns to the start of the same scene with another seed: encoder noise and the hills that
   /// used the scene's seed change. Builds the world anew, so handles and references into it become
@@ -136,7 +136,7 @@ class Simulation {
   /// Returns the text of summary.json as of now. The state's hash costs a pass over the state;
   /// without it `state_hash` is null.
   std::string summary(bool with_hash = true) const;
-  /// Hash of everything that decides how the run goes on [hex].
+  /// Returns the hash of everything that determines the future of the run [hex].
   std::string state_hash() const;
   const session::Session& session() const;
   const sim::World& world() const;

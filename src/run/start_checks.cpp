@@ -66,7 +66,7 @@ void check_times(const SimulationOptions& options, const session::Session& sessi
       options.snapshot_at > session.world().description().recording.duration)
     refuse("--snapshot-at", short_text(options.snapshot_at), "the run lasts at most " + end + " s",
            "choose an earlier time, or a longer --duration");
-  // A resumed state may lie beyond a shorter duration.
+  // A resumed state may be later than a shorter duration.
   if (!options.resume.empty() && session.done())
     refuse("--resume", options.resume,
            "the snapshot was taken at " + short_text(now) +

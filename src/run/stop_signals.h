@@ -34,7 +34,7 @@ class StopSignals {
   static bool asked();
   /// Returns the name of the last signal, e.g. "SIGTERM"; empty before any.
   static std::string name();
-  /// Tells the watching thread that the run reacts.
+  /// Informs the watching thread that the run reacts.
   void obeyed() { obeyed_ = true; }
 
   /// Time that a run has to react to a signal [ms].

@@ -191,7 +191,7 @@ TEST(Simulation, ObserversFollowStepsReplacementsAndTheEnd) {
   simulation.step(3);
   simulation.reset();
   simulation.reset();
-  EXPECT_EQ(counter.restarts, 0) << "told before the next step";
+  EXPECT_EQ(counter.restarts, 0) << "informed before the next step";
   EXPECT_THROW(simulation.reset(7), Error) << "the observer belongs to this ground";
   simulation.step();
   EXPECT_EQ(counter.restarts, 1);
