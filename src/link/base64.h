@@ -8,7 +8,8 @@
 
 namespace navvy::link {
 
-/// Returns `bytes` in base64 with padding and without line ends [RFC 4648].
+/// Returns `bytes` in base64 with padding and without line ends [RFC 4648]: four characters for
+/// each three bytes, so a picture or an array fits into one line of JSON.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace navvy::link

@@ -46,6 +46,7 @@ class ControlRequests {
  private:
   // Answers by request, without the key.
   nlohmann::json dispatch(const std::string& key, const nlohmann::json& what);
+  // One function per request. Each receives the value of its key and returns that of the answer.
   nlohmann::json heights(const nlohmann::json& what);
   nlohmann::json changed(const nlohmann::json& what);
   nlohmann::json arrays(const nlohmann::json& what) const;
@@ -61,7 +62,7 @@ class ControlRequests {
   ControlServices services_;
   /// Numbered maps of all layers.
   map::UpdateFeed feed_;
-  bool moved_ = false;
+  bool moved_ = false;  ///< the last answer replaced the state
 };
 
 }  // namespace navvy::link

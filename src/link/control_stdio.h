@@ -42,7 +42,7 @@ class ControlStdio {
   static constexpr int kDeepestNesting = 8;
 
  private:
-  /// What the input holds next.
+  /// Result of reading from the input.
   enum class Read { kLine, kTooLong, kStopped, kEnded };
   /// Reads the next line; blocks until there is one, the input ends, or `stop` ends the wait.
   Read read_line(std::string& line);

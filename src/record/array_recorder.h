@@ -41,7 +41,7 @@ class ArrayRecorder {
 
   const session::Session& session_;
   RunFolder& folder_;
-  /// In the order of the world's arrays.
+  /// One stream per array, in the order of the world.
   std::vector<Stream> streams_;
 };
 

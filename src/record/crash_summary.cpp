@@ -83,8 +83,8 @@ CrashSummary::~CrashSummary() {
 /// only reserved.
 bool CrashSummary::take_capacity(std::size_t bytes) {
   const std::string blank(4096, ' ');
-  for (; room_ < bytes; room_ += blank.size())
-    if (::pwrite(file_, blank.data(), blank.size(), static_cast<off_t>(room_)) !=
+  for (; reserved_ < bytes; reserved_ += blank.size())
+    if (::pwrite(file_, blank.data(), blank.size(), static_cast<off_t>(reserved_)) !=
         static_cast<ssize_t>(blank.size())) {
       if (errno == 0) errno = ENOSPC;
       return false;
@@ -97,7 +97,7 @@ void CrashSummary::keep(const std::string& summary) {
   const std::size_t at = summary.find(mark);
   if (file_ < 0 || at == std::string::npos) return;
   // Twice the size of the text, which grows between two checkpoints and by a message.
-  if (summary.size() * 2 > room_ && !take_capacity(summary.size() * 4)) return;
+  if (summary.size() * 2 > reserved_ && !take_capacity(summary.size() * 4)) return;
   const int next = ready_ == 0 ? 1 : 0;
   // The text that a handler may read right now stays as it is.
   texts_[next] = {ended(summary.substr(0, at)), ended(summary.substr(at + mark.size()))};

@@ -34,12 +34,15 @@ class CrashSummary {
   struct Text {
     std::string before, after;
   };
+  /// Writes the stored text with this status and message. Safe in a signal handler.
   bool leave(const char* status, const char* message) noexcept;
+  /// Grows the reserved file to at least `bytes`. Returns false if the disk is full.
   bool take_capacity(std::size_t bytes);
 
   std::string reserve_, target_;
   int file_ = -1;
-  std::size_t room_ = 0;
+  std::size_t reserved_ = 0;  ///< size of the reserved file [bytes]
+  /// Two texts: one is valid while the other is written.
   Text texts_[2];
   /// Index of the valid text, so that a signal handler never reads one that changes; -1: none yet.
   std::atomic<int> ready_{-1};

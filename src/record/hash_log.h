@@ -24,11 +24,12 @@ class HashLog {
   void finish();
 
  private:
+  /// Appends a row for the present state.
   void row();
 
   const session::Session& session_;
   RowFile file_;
-  double every_;
+  double every_;                 ///< interval [s]
   std::uint64_t next_ = 0;       ///< number of the next interval
   std::uint64_t last_step_ = 0;  ///< step of the last row
 };

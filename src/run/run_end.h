@@ -16,7 +16,7 @@ enum class EndReason {
   kInterrupted    ///< a signal, or a controller that went away
 };
 
-/// How a run ended.
+/// End of a run.
 struct RunEnd {
   EndReason reason = EndReason::kEndRequested;
   std::string cause;             ///< of an interruption, for people

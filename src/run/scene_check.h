@@ -10,7 +10,7 @@
 
 namespace navvy::run {
 
-/// What a check of a scene found.
+/// Result of a check.
 struct SceneCheck {
   std::vector<Fault> faults;       ///< errors and warnings, with file and line; none twice
   std::vector<std::string> notes;  ///< lines for people: the map under the site, how machines stand

@@ -22,7 +22,7 @@
 
 namespace navvy::run {
 
-/// How far a run has come. Costs nothing to read.
+/// Progress of a run. Costs nothing to read.
 struct RunProgress {
   double time = 0, duration = 0;  ///< simulated time, and its maximum [s]
   double real_time_factor = 0;    ///< simulated time / wall time, since the simulation was made [-]
@@ -33,8 +33,8 @@ struct RunProgress {
   std::string phase;              ///< activity of the first machine; empty without machines
 };
 
-/// What the caller of Simulation::run_to_end decides between two steps. Every function may be
-/// empty.
+/// Functions by which the caller of Simulation::run_to_end takes part between two steps. Every
+/// function may be empty.
 struct LoopHooks {
   /// Asked before each step. A text that is not empty interrupts the run and names the cause, e.g.
   /// a signal.

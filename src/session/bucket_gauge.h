@@ -38,6 +38,7 @@ class BucketGauge {
  private:
   sim::ToolHandle tool_;
   sim::LinkHandle link_;
+  /// Position of the cutting edge in the frame of the link [m].
   Vec3 p_tip_;
 };
 

@@ -72,13 +72,18 @@ class OperatedMachine {
   void visit(Archive& a);
 
  private:
+  /// Fills what a cab shows: joint positions, stance, the force on the bucket and its payload.
   void observe(control::Observation& seen) const;
+  /// Forwards the commands that changed to the world.
   void send(const control::Command& command);
+  /// Updates the open cycle and appends it when it ends.
   void note_cycle(std::vector<Cycle>& cycles);
+  /// Updates the open bed tip and appends it when it ends.
   void note_tip(std::vector<BedTip>& tips);
 
   sim::World& world_;
   sim::MachineHandle machine_;
+  /// Handles to observe the machine: all joints and wheels, the first bucket, the first bed.
   std::vector<sim::JointHandle> joints_;
   std::vector<sim::WheelHandle> wheels_;
   std::optional<BucketGauge> bucket_;
@@ -89,6 +94,7 @@ class OperatedMachine {
   // Begun and not ended.
   std::optional<Cycle> open_;
   std::optional<BedTip> open_tip_;
+  /// True once inputs took the machine.
   bool taken_ = false;
 };
 

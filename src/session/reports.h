@@ -69,7 +69,7 @@ struct ForceStatistics {
   void visit(Archive& a);
 };
 
-/// How the program of one machine stands, or how it ended.
+/// Status of the program of one machine, or its end.
 struct ProgramReport {
   /// Index in scene::Scene::machines.
   int machine = 0;

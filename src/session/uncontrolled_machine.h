@@ -43,8 +43,10 @@ class UncontrolledMachine {
   const sim::World& world_;
   sim::MachineHandle machine_;
   std::vector<sim::WheelHandle> wheels_;
+  /// Observation of the last step.
   control::Observation seen_;
   control::Watch watch_;
+  /// Report of the fall; empty while the machine stands.
   std::optional<control::StepReport> fall_;
 };
 

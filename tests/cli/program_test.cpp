@@ -225,7 +225,8 @@ TEST_F(Program, LabJudgesNothingByAToleranceForOtherSetups) {
                  result.at("missed").dump().find(name) != std::string::npos);
   }
   EXPECT_NE(
-      said().find("not judged: soil block, acceleration; its acceptance range holds for a plane so steep"),
+      said().find(
+          "not judged: soil block, acceleration; its acceptance range holds for a plane so steep"),
       std::string::npos)
       << said();
 }

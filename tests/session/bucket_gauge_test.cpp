@@ -7,7 +7,8 @@ namespace navvy::session {
 namespace {
 
 TEST(BucketGauge, TakesAForceApartByTheMotionOfTheEdge) {
-  // The link turns about its origin at 1 rad/s, the cutting edge 1.5 m ahead of it: it moves straight down.
+  // The link turns about its origin at 1 rad/s, the cutting edge 1.5 m ahead of it: it moves
+  // straight down.
   vehicle::LinkState link;
   link.w_WL = Vec3(0, 1, 0);
   const Vec3 p_tip(1.5, 0, 0);
