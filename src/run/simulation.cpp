@@ -181,7 +181,6 @@ void Simulation::State::close() {
 /// Closes everything after a failure. Observers finish after the recorder: the summary and
 /// failed.snapshot are more important than a published map.
 void Simulation::State::fail(const std::string& cause) noexcept {
-  close();
   // The first cause is what the user reads; the recorder logs a second one.
   const auto attempt = [](const auto& work) {
     try {
@@ -190,6 +189,7 @@ void Simulation::State::fail(const std::string& cause) noexcept {
       log(LogLevel::kError, std::string("after the failure: ") + error.what());
     }
   };
+  attempt([&] { close(); });
   if (recorder) attempt([&] { recorder->finish("failed", cause); });
   recorder.reset();
   for (RunObserver* one : std::exchange(observers, {})) attempt([&] { one->finish(); });
