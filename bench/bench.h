@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the bench programs share beyond src/bench: rows to stdout as CSV, and to the file that
-// NAVVY_BENCH_CSV names.
+// Common output of the bench programs: rows to stdout as CSV, and to the file that NAVVY_BENCH_CSV
+// names.
 #pragma once
 
 #include "bench/measure.h"
@@ -13,11 +13,11 @@ namespace navvy::bench {
 /// when not measured.
 void print(const device::DeviceInfo& device, const Row& row, double bandwidth = 0);
 
-/// The same for work of the host alone.
+/// Prints a row for work of the host alone.
 void print_host(const Row& row);
 
-/// Adds the row to the file that NAVVY_BENCH_CSV names, if it does; the header was written by who
-/// named it.
+/// Appends the row to the file that NAVVY_BENCH_CSV names, if any; the header was written by its
+/// creator.
 void append_csv(const Row& row);
 
 }  // namespace navvy::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measuring stick: a plain copy, and what one launch costs.
+// Reference rates: a plain copy, and the cost of one launch.
 #include <cstdio>
 #include <exception>
 

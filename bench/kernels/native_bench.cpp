@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OpenCL soil steps beside the native loop of bench/native, from the same state in one run: a
-// block falling apart, with the shipped flags and the full law. The native loop runs one copy on
-// each thread that the OpenCL device has.
+// OpenCL soil steps compared with the native loop of bench/native, from the same state in one run:
+// a collapsing block, with the shipped flags and the full law. The native loop runs one copy on
+// each thread of the OpenCL device.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -26,7 +26,8 @@ std::string size_name(std::size_t particles) { return std::to_string(particles /
 /// Steps one copy of `start` on each of `threads` threads.
 bench::Row native_row(const soil::rig::Rig& rig, const std::vector<soil::Particle>& start,
                       int steps, double dt, int threads) {
-  const double ground = -rig.datum() / rig.cell();  // the surface is z = 0
+  // The surface is z = 0.
+  const double ground = -rig.datum() / rig.cell();
   std::vector<bench::NativeSoil> copies;
   bench::Row row;
   row.bench = "native_loop:" + size_name(start.size());
@@ -73,7 +74,8 @@ bench::Row opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, dou
 void compare(double edge, int steps) {
   soil::rig::Rig rig({soil::rig::sand()});
   rig.solver().insert(rig.fill({Vec3(6, 6, 0), Vec3(6 + edge, 6 + edge, edge)}, true));
-  rig.run(0.1);  // in motion
+  // The soil is then in motion.
+  rig.run(0.1);
   const auto start = rig.solver().particles();
   const double dt = rig.solver().step_limit(0);
   const device::DeviceInfo& device = soil::rig::Rig::device().info();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small things that every step pays for, under Google Benchmark: copies, launches, reads, look-ups
-// in the ground.
+// Small operations that every step uses, under Google Benchmark: copies, launches, reads, height
+// queries.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -81,7 +81,7 @@ heightfield::Ground make_ground(int columns) {
   return heightfield::Ground(setup);
 }
 
-/// Height between columns of ground that nobody touched; the argument is the site's edge in
+/// Measures a height between columns of untouched ground; the argument is the site's edge in
 /// columns.
 void ground_sample_untouched(benchmark::State& state) {
   const heightfield::Ground ground = make_ground(static_cast<int>(state.range(0)));
@@ -94,7 +94,7 @@ void ground_sample_untouched(benchmark::State& state) {
 }
 BENCHMARK(ground_sample_untouched)->Arg(1000)->Arg(10000);
 
-/// Height of a column of ground that was dug.
+/// Measures the height of a column of dug ground.
 void ground_height_touched(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
   std::vector<heightfield::SoilLayer> taken;
@@ -111,7 +111,7 @@ void ground_height_touched(benchmark::State& state) {
 }
 BENCHMARK(ground_height_touched);
 
-/// Digs a little off a hundred columns of a 1 km2 site, `apart` columns from each other.
+/// Lowers a hundred columns of a 1 km2 site a little, `apart` columns from each other.
 void dig_hundred(heightfield::Ground& ground, int apart) {
   std::vector<heightfield::SoilLayer> taken;
   for (int i = 0; i < 100; ++i) {
@@ -120,8 +120,8 @@ void dig_hundred(heightfield::Ground& ground, int apart) {
   }
 }
 
-/// A view after a step in which 100 columns of 1 km2 changed; the argument is how far they lie from
-/// each other.
+/// Measures a view after a step in which 100 columns of 1 km2 changed; the argument is their
+/// distance from each other.
 void terrain_view(benchmark::State& state) {
   heightfield::Ground ground = make_ground(10000);
   for (auto _ : state) {
@@ -133,8 +133,8 @@ void terrain_view(benchmark::State& state) {
 }
 BENCHMARK(terrain_view)->Arg(1)->Arg(40)->Iterations(2000);
 
-/// The same step as a whole: digging, with the copies of shared tiles, a view, and the list of what
-/// changed.
+/// Measures the same step as a whole: digging, with the copies of shared tiles, a view, and the
+/// list of changes.
 void terrain_dig_view_and_follow(benchmark::State& state) {
   heightfield::Ground ground = make_ground(10000);
   heightfield::ChangeFollower follower;
@@ -150,7 +150,7 @@ BENCHMARK(terrain_dig_view_and_follow)
     ->Iterations(2000)
     ->Unit(benchmark::kMicrosecond);
 
-/// Taking soil off a column and putting it back.
+/// Measures taking soil off a column and putting it back.
 void ground_take_and_put(benchmark::State& state) {
   heightfield::Ground ground = make_ground(1000);
   std::vector<heightfield::SoilLayer> taken;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole steps of the particle soil: a block that collapses (re-binning included), and a load held
-// in a bucket.
+// Whole steps of the particle soil: a collapsing block (including re-binning), and a load held in a
+// bucket.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,15 +16,15 @@ namespace {
 
 using namespace navvy;
 
-/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell
-/// (kernels/soil).
+/// Bytes of state, tiles and velocities that a particle moves in one unfused step at 8 particles
+/// per cell (kernels/soil).
 constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
 
 bool profile = false;
 std::string only;
 
-/// What the stages of the host and the kernels took in one run; the kernels' clock slows a step
-/// down a little.
+/// Prints the times of the host's stages and of the kernels in one run; the kernels' clock slows a
+/// step down a little.
 template <class Work>
 void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Work& work,
                    double particle_steps) {
@@ -47,7 +47,7 @@ void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Wo
   }
 }
 
-/// Runs `steps` steps from the same snapshot and prints a row; tools go on at their speed.
+/// Runs `steps` steps from the same snapshot and prints a row; tools keep their speed.
 void bench_row(const std::string& name, soil::rig::Rig& rig, int steps,
                std::vector<soil::ToolMotion> motions) {
   const std::vector<char> start = saved(rig.solver());
@@ -78,7 +78,8 @@ void bench_row(const std::string& name, soil::rig::Rig& rig, int steps,
 void collapse(double edge, int steps) {
   soil::rig::Rig rig({soil::rig::sand()});
   rig.solver().insert(rig.fill({Vec3(6, 6, 0), Vec3(6 + edge, 6 + edge, edge)}, true));
-  rig.run(0.1);  // in motion
+  // The soil is then in motion.
+  rig.run(0.1);
   bench_row("soil_collapse_no_tool", rig, steps, {});
 }
 
@@ -97,9 +98,9 @@ void held_bucket(int steps) {
   bench_row("soil_held_bucket", rig, steps, {motion});
 }
 
-/// A tilted bucket with its lip in a bed of 28 800 particles: what a trench costs.
+/// A tilted bucket with its cutting edge in a bed of 28 800 particles: the cost of a trench.
 void dig(int steps) {
-  const soil::rig::Box bed = {Vec3(6, 6, -0.6), Vec3(9, 8, 0)};
+  const soil::rig::SiteBox bed = {Vec3(6, 6, -0.6), Vec3(9, 8, 0)};
   soil::rig::Rig rig({soil::rig::sand(35)}, bed);
   rig.solver().insert(rig.fill(bed, true));
   soil::ToolMotion motion;
@@ -109,7 +110,7 @@ void dig(int steps) {
   bench_row("soil_dig", rig, steps, {motion});
 }
 
-/// Cases whose name holds the word given; all without one.
+/// Runs the cases whose name contains the word given; all without one.
 template <class Case>
 void run(const std::string& name, const Case& work) {
   if (name.find(only) != std::string::npos) work();
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
     run("collapse_50k", [] { collapse(1.85, 100); });
     run("collapse_64k", [] { collapse(2.0, 100); });
     run("collapse_512k", [] { collapse(4.0, 20); });
-    // A gigabyte of memory and minutes: only when asked for.
+    // Takes a gigabyte of memory and minutes, so only on request.
     if (only == "collapse_2m") collapse(6.3, 5);
     return 0;
   } catch (const std::exception& error) {

@@ -19,7 +19,8 @@ inline void store(const Lanes& value, float* at) { *reinterpret_cast<Lanes*>(at)
 using real = Lanes;
 using ints = int __attribute__((vector_size(64)));
 using scalar = float;
-using columns = float;  ///< the ground is level around a node
+/// The ground is level around a node.
+using columns = float;
 #define INLINED inline
 
 inline Lanes fmin(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
@@ -56,7 +57,8 @@ inline bool all(bool of_columns) { return of_columns; }
 #include "soil/node.h"   // NOLINT: on purpose inside the namespace
 #include "soil/point.h"  // NOLINT: the same
 
-/// Base node and quadratic weights of sixteen particles; offsets in cells from their home's corner.
+/// Base node and quadratic weights of sixteen particles; offsets in cells from the corner of their
+/// block.
 struct Weights {
   Weights(const float* x, const float* y, const float* z) {
     const float* at[3] = {x, y, z};
@@ -68,12 +70,14 @@ struct Weights {
       for (int i = 0; i < 3; ++i) store(weight[i], w[a][i]);
     }
   }
-  Lanes f[3];  ///< offset from the base node
+  /// Offset from the base node.
+  Lanes f[3];
   int base[3][16];
   alignas(64) float w[3][3][16];
 };
 
-/// Cell of the base node among the 6^3 of a home that may have drifted by one cell.
+/// Returns the cell of the base node among the 6^3 of a block whose particles may have drifted by
+/// one cell.
 inline std::size_t cell_of(float x, float y, float z) {
   const auto i = [](float v) {
     return static_cast<std::size_t>(static_cast<int>(std::floor(v - 0.5f)) + 1);
@@ -81,7 +85,7 @@ inline std::size_t cell_of(float x, float y, float z) {
   return i(x) + 6 * i(y) + 36 * i(z);
 }
 
-/// Rows a, b, c, d of sixteen to sixteen of four, and back.
+/// Transposes rows a, b, c, d of sixteen to sixteen of four, and back.
 inline void turn(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, Four* out) {
   for (int l = 0; l < 16; ++l) out[l] = Four{a[l], b[l], c[l], d[l]};
 }

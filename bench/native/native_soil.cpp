@@ -16,7 +16,8 @@ namespace {
 /// Nodes around the sorted particles, for their drift and the kernel's reach.
 constexpr int kMargin = 2;
 constexpr std::size_t kCells = 216;
-constexpr double kMostDrift = 0.75;  ///< as src/soil/solver.cpp
+/// As kMaxDrift of src/soil/soil_particles.h.
+constexpr double kMostDrift = 0.75;
 
 LawSoil law_of(const scene::Soil& soil, double cell) {
   const soil::LawConstants law = soil::law_constants(soil, cell);
@@ -27,14 +28,15 @@ LawSoil law_of(const scene::Soil& soil, double cell) {
   return out;
 }
 
-/// Home block, cell of the base node floor(x - 0.5) in it, then the order of ids.
+/// Block, cell of the base node floor(x - 0.5) in it, then the order of ids.
 struct SortKey {
-  std::array<int, 3> home{};
+  std::array<int, 3> particle_block{};
   int cell = 0;
   std::size_t index = 0;
   bool operator<(const SortKey& o) const {
-    if (home != o.home)
-      return std::tie(home[2], home[1], home[0]) < std::tie(o.home[2], o.home[1], o.home[0]);
+    if (particle_block != o.particle_block)
+      return std::tie(particle_block[2], particle_block[1], particle_block[0]) <
+             std::tie(o.particle_block[2], o.particle_block[1], o.particle_block[0]);
     return cell != o.cell ? cell < o.cell : index < o.index;
   }
 };
@@ -44,7 +46,7 @@ SortKey sort_key(const soil::Particle& p, std::size_t index) {
   key.index = index;
   for (std::size_t a = 3; a-- > 0;) {
     const int base = soil::kBlockCells * p.block[a] + static_cast<int>(std::floor(p.x[a] - 0.5f));
-    key.home[a] = base >> 2;
+    key.particle_block[a] = base >> 2;
     key.cell = 4 * key.cell + (base & 3);
   }
   return key;
@@ -56,7 +58,7 @@ NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
     : soil_(soil),
       cell_(static_cast<float>(cell)),
       ground_(static_cast<float>(ground)),
-      transfer_length_(soil::kTransferLength * cell / soil::sound_speed(soil)),
+      transfer_length_(soil::kScheme.transfer_length * cell / soil::sound_speed(soil)),
       sums_(kCells),
       openings_(kCells) {}
 
@@ -71,13 +73,13 @@ void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
 
 std::vector<soil::Particle> NativeSoil::particles() const {
   std::vector<soil::Particle> out(count_);
-  for (const ParticleBlock& home : particle_blocks_)
-    for (std::size_t i = 0; i < home.count; ++i) {
-      const Pack& pack = packs_[home.first + i / kLanes];
+  for (const ParticleBlock& particle_block : particle_blocks_)
+    for (std::size_t i = 0; i < particle_block.count; ++i) {
+      const Pack& pack = packs_[particle_block.first + i / kLanes];
       const std::size_t l = i % kLanes;
       soil::Particle& p = out[pack.id[l]];
       for (std::size_t a = 0; a < 3; ++a)
-        p.block[a] = (window_[a] + home.corner[a]) / soil::kBlockCells;
+        p.block[a] = (window_[a] + particle_block.corner[a]) / soil::kBlockCells;
 #define GET_ONE(NAME, member, rest) p.member = pack.member[l];
 #define GET_MANY(NAME, member, count, rest) \
   for (std::size_t k = 0; k < (count); ++k) p.member[k] = pack.member[k][l];
@@ -99,8 +101,8 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
   for (const soil::Particle& p : particles) {
     keys.push_back(sort_key(p, keys.size()));
     for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], keys.back().home[a]);
-      high[a] = std::max(high[a], keys.back().home[a]);
+      low[a] = std::min(low[a], keys.back().particle_block[a]);
+      high[a] = std::max(high[a], keys.back().particle_block[a]);
     }
   }
   std::sort(keys.begin(), keys.end());
@@ -119,22 +121,23 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
   drift_ = 0;
   ++sorts_;
   for (std::size_t n = 0; n < keys.size(); ++n) {
-    if (n == 0 || keys[n].home != keys[n - 1].home) {
-      ParticleBlock home;
-      home.first = packs_.size();
+    if (n == 0 || keys[n].particle_block != keys[n - 1].particle_block) {
+      ParticleBlock particle_block;
+      particle_block.first = packs_.size();
       for (std::size_t a = 0; a < 3; ++a)
-        home.corner[a] = soil::kBlockCells * (keys[n].home[a] - low[a]);
-      particle_blocks_.push_back(home);
+        particle_block.corner[a] = soil::kBlockCells * (keys[n].particle_block[a] - low[a]);
+      particle_blocks_.push_back(particle_block);
     }
     append(particles[keys[n].index]);
   }
 }
 
 void NativeSoil::append(const soil::Particle& p) {
-  ParticleBlock& home = particle_blocks_.back();
-  const std::size_t l = home.count++ % kLanes;
+  ParticleBlock& particle_block = particle_blocks_.back();
+  const std::size_t l = particle_block.count++ % kLanes;
   if (l == 0) {
-    packs_.emplace_back();  // lanes without a particle: no mass, inside the home
+    // Lanes without a particle: no mass, inside the block.
+    packs_.emplace_back();
 #define REST_ONE(NAME, member, rest) \
   std::fill(std::begin(packs_.back().member), std::end(packs_.back().member), rest);
 #define REST_MANY(NAME, member, count, rest) \
@@ -152,29 +155,29 @@ void NativeSoil::append(const soil::Particle& p) {
 #undef PUT_MANY
   for (std::size_t a = 0; a < 3; ++a)
     pack.x[a][l] +=
-        static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - home.corner[a]);
+        static_cast<float>(soil::kBlockCells * p.block[a] - window_[a] - particle_block.corner[a]);
   pack.mass[l] = static_cast<float>(kilograms(p.mass));
   pack.id[l] = p.id;
 }
 
-bool NativeSoil::sum_openings(const ParticleBlock& home) {
+bool NativeSoil::sum_openings(const ParticleBlock& particle_block) {
   bool open = false;
-  const std::size_t packs = (home.count + kLanes - 1) / kLanes;
+  const std::size_t packs = (particle_block.count + kLanes - 1) / kLanes;
   for (std::size_t n = 0; n < packs && !open; ++n) {
-    const Pack& pack = packs_[home.first + n];
+    const Pack& pack = packs_[particle_block.first + n];
     for (std::size_t l = 0; l < kLanes; ++l) open |= pack.j[l] > pack.j0[l];
   }
   if (!open) return false;
   std::fill(sums_.begin(), sums_.end(), std::array<float, 3>{});
-  for (std::size_t i = 0; i < home.count; ++i) {
-    const Pack& pack = packs_[home.first + i / kLanes];
+  for (std::size_t i = 0; i < particle_block.count; ++i) {
+    const Pack& pack = packs_[particle_block.first + i / kLanes];
     const std::size_t l = i % kLanes;
     std::array<float, 3>& sum = sums_[cell_of(pack.x[0][l], pack.x[1][l], pack.x[2][l])];
     sum[0] += pack.mass[l] * pack.j[l];
     sum[1] += pack.mass[l] * pack.j0[l];
     if (pack.j[l] > pack.j0[l]) sum[2] = 1;
   }
-  // Sixteen cells at a time; sums in mass quanta, as the kernels have them.
+  // Sixteen cells at a time; sums in mass quanta, as in the kernels.
   constexpr float kQuanta = 1 / MASS_QUANTUM;
   for (std::size_t first = 0; first < kCells; first += kLanes) {
     const std::size_t cells = std::min(kLanes, kCells - first);
@@ -190,17 +193,17 @@ bool NativeSoil::sum_openings(const ParticleBlock& home) {
   return true;
 }
 
-void NativeSoil::scatter(const ParticleBlock& home, float dt, bool hold) {
+void NativeSoil::scatter(const ParticleBlock& particle_block, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
-  const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::mixing_strain());
+  const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::kScheme.mixing_strain);
   const auto most = static_cast<float>(soil::most_mixing(static_cast<double>(dt)));
-  const bool open = sum_openings(home);
-  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin,
-                         home.corner[2] + kMargin};
-  for (std::size_t first = 0; first < home.count; first += kLanes) {
-    Pack& pack = packs_[home.first + first / kLanes];
-    const std::size_t lanes = std::min(kLanes, home.count - first);
+  const bool open = sum_openings(particle_block);
+  const int corner[3] = {particle_block.corner[0] + kMargin, particle_block.corner[1] + kMargin,
+                         particle_block.corner[2] + kMargin};
+  for (std::size_t first = 0; first < particle_block.count; first += kLanes) {
+    Pack& pack = packs_[particle_block.first + first / kLanes];
+    const std::size_t lanes = std::min(kLanes, particle_block.count - first);
     Lanes c[9], v[3], sigma[6], opening{};
     for (int k = 0; k < 9; ++k) c[k] = load(pack.c[k]);
     for (int k = 0; k < 3; ++k) v[k] = load(pack.v[k]);
@@ -253,8 +256,8 @@ void NativeSoil::update_grid(float dt, bool hold) {
   std::size_t n = 0;
   for (int z = 0; z < nodes_[2]; ++z) {
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
-    const bool held = above <= static_cast<float>(soil::kHeldMargin);
-    const float room = 1 / free_fraction_above(above);
+    const bool held = above <= static_cast<float>(soil::kScheme.held_margin);
+    const float per_free_fraction = 1 / free_fraction_above(above);
     for (std::size_t end = n + row_ * rows_; n < end; ++n) {
       Float4 node = grid_[n];
       const float mass = node[3];
@@ -265,27 +268,27 @@ void NativeSoil::update_grid(float dt, bool hold) {
       } else {
         node = Float4{};
       }
-      node[3] = mass * room;
+      node[3] = mass * per_free_fraction;
       velocity_[n] = node;
     }
   }
 }
 
-float NativeSoil::gather(const ParticleBlock& home, float dt) {
+float NativeSoil::gather(const ParticleBlock& particle_block, float dt) {
   const float dx = cell_;
   const auto cell = static_cast<double>(cell_);
   const double part = std::min(1.0, static_cast<double>(dt) / transfer_length_);
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, cell));
   const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, cell));
-  const auto closing = static_cast<float>(soil::closing_share() * part);
-  const auto spread = static_cast<float>(static_cast<double>(dt) / soil::crowding_shear());
-  const auto most = static_cast<float>(soil::farthest_apart() * part);
-  const int corner[3] = {home.corner[0] + kMargin, home.corner[1] + kMargin,
-                         home.corner[2] + kMargin};
+  const auto closing = static_cast<float>(soil::kScheme.closing_share * part);
+  const auto spread = static_cast<float>(static_cast<double>(dt) / soil::kScheme.crowding_strain);
+  const auto most = static_cast<float>(soil::kScheme.max_crowding_displacement * part);
+  const int corner[3] = {particle_block.corner[0] + kMargin, particle_block.corner[1] + kMargin,
+                         particle_block.corner[2] + kMargin};
   Lanes fastest{};
-  for (std::size_t first = 0; first < home.count; first += kLanes) {
-    Pack& pack = packs_[home.first + first / kLanes];
-    const std::size_t lanes = std::min(kLanes, home.count - first);
+  for (std::size_t first = 0; first < particle_block.count; first += kLanes) {
+    Pack& pack = packs_[particle_block.first + first / kLanes];
+    const std::size_t lanes = std::min(kLanes, particle_block.count - first);
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
     Four v[kLanes]{}, mx[kLanes]{}, my[kLanes]{}, mz[kLanes]{};
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -310,7 +313,7 @@ float NativeSoil::gather(const ParticleBlock& home, float dt) {
       }
       v[l] = sum, mx[l] = sum_x, my[l] = sum_y, mz[l] = sum_z;
     }
-    // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and apart where soil is crowded.
+    // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and a separation where soil is crowded.
     Lanes u[4], m[4], c[9], lean[3];
     unturn(v, u);
     const Four* moments[3] = {mx, my, mz};
@@ -322,12 +325,13 @@ float NativeSoil::gather(const ParticleBlock& home, float dt) {
     for (int k = 0; k < 9; ++k) store(c[k], pack.c[k]);
     const Lanes j = load(pack.j), j0 = load(pack.j0),
                 share = crowding(c, j, j0, u[3], full, spread);
-    store(seen_opening(j, j0, u[3], filled, closing), pack.j);
+    store(close_noise(j, j0, u[3], filled, closing), pack.j);
     for (int a = 0; a < 3; ++a) {
       store(u[a], pack.v[a]);
-      const Lanes way = (dt / dx) * u[a] + crowding_displacement(share, lean[a], u[3], most);
-      store(load(pack.moved[a]) + way, pack.moved[a]);
-      m[a] = way * (dx / dt);
+      const Lanes displacement =
+          (dt / dx) * u[a] + crowding_displacement(share, lean[a], u[3], most);
+      store(load(pack.moved[a]) + displacement, pack.moved[a]);
+      m[a] = displacement * (dx / dt);
     }
     fastest = fmax(fastest, fastest_component(m));
   }
@@ -340,12 +344,13 @@ void NativeSoil::step(double dt) {
   if (!hold) end_transfer();
   if (drift_ > kMostDrift) sort(particles());
   std::fill(grid_.begin(), grid_.end(), Float4{});
-  for (const ParticleBlock& home : particle_blocks_) scatter(home, static_cast<float>(dt), hold);
+  for (const ParticleBlock& particle_block : particle_blocks_)
+    scatter(particle_block, static_cast<float>(dt), hold);
   update_grid(static_cast<float>(dt), hold);
   float fastest = 0;
-  for (const ParticleBlock& home : particle_blocks_)
-    fastest = std::max(fastest, gather(home, static_cast<float>(dt)));
-  interval_.book(dt, cell, static_cast<double>(fastest), 0);
+  for (const ParticleBlock& particle_block : particle_blocks_)
+    fastest = std::max(fastest, gather(particle_block, static_cast<float>(dt)));
+  interval_.count_step(dt, cell, static_cast<double>(fastest), 0);
 }
 
 void NativeSoil::end_transfer() {

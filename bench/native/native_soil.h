@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particle method as a plain C++ loop for one thread: what the OpenCL schedules must beat. Same
-// transfers, law, mixing and closing as kernels/soil, without tools, on level ground; float4 nodes
-// on a dense grid, particles sorted by cell.
+// The particle method as a plain C++ loop for one thread: the lower bound that the OpenCL schedules
+// must beat. It has the transfers, law, mixing and closing of kernels/soil, without tools, on level
+// ground. Float4 nodes lie on a dense grid, particles are sorted by cell.
 #pragma once
 
 #include <array>
@@ -15,47 +15,52 @@
 
 namespace navvy::bench {
 
-/// Steps soil of one kind. Built for speed with the flags of this machine: never part of the
+/// Steps soil of one kind. Built for speed with the flags of this machine; never part of the
 /// installed library.
 class NativeSoil {
  public:
-  /// `ground`: height of the resting ground [cells of the grid frame].
+  /// Starts without particles. `ground`: height of the resting ground [cells of the grid frame].
   NativeSoil(const scene::Soil& soil, double cell, double ground);
 
   void insert(const std::vector<soil::Particle>& particles);
-  /// Gravity 9.81 m/s2 along -z.
+  /// Advances by dt [s] with gravity 9.81 m/s2 along -z.
   void step(double dt);
-  /// In the order of ids.
+  /// Returns the particles in the order of ids.
   std::vector<soil::Particle> particles() const;
   std::size_t size() const { return count_; }
   int sorts() const { return sorts_; }
 
  private:
   static constexpr std::size_t kLanes = 16;
-  /// Fields of sixteen particles side by side; the homes' runs begin at a pack.
+  /// Fields of sixteen particles side by side; the run of each block begins at a pack.
   struct alignas(64) Pack {
 #define PACK_ONE(NAME, member, rest) float member[kLanes];
 #define PACK_MANY(NAME, member, count, rest) float member[count][kLanes];
     FLOAT_FIELDS(PACK_ONE, PACK_MANY)
 #undef PACK_ONE
 #undef PACK_MANY
-    float mass[kLanes];  ///< [kg]
+    /// [kg].
+    float mass[kLanes];
     std::uint32_t id[kLanes];
   };
-  /// One 4^3 block of cells: its packs and how many of their lanes are particles.
+  /// One 4^3 block of cells: its packs and the number of lanes with particles.
   struct ParticleBlock {
     std::size_t first = 0, count = 0;
-    int corner[3] = {0, 0, 0};  ///< [cells of the window]
+    /// [cells of the window].
+    int corner[3] = {0, 0, 0};
   };
   using Float4 = float __attribute__((vector_size(16)));
 
   void sort(const std::vector<soil::Particle>& particles);
-  void append(const soil::Particle& p);  ///< to the last home
-  bool sum_openings(const ParticleBlock& home);
-  void scatter(const ParticleBlock& home, float dt, bool hold);
+  /// Appends to the last block.
+  void append(const soil::Particle& p);
+  bool sum_openings(const ParticleBlock& particle_block);
+  void scatter(const ParticleBlock& particle_block, float dt, bool hold);
   void update_grid(float dt, bool hold);
-  void end_transfer();                                ///< particles go the way that was booked
-  float gather(const ParticleBlock& home, float dt);  ///< the fastest velocity component
+  /// Moves particles by their recorded displacement.
+  void end_transfer();
+  /// Returns the fastest velocity component.
+  float gather(const ParticleBlock& particle_block, float dt);
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +
            row_ * (static_cast<std::size_t>(base[1]) + rows_ * static_cast<std::size_t>(base[2]));
@@ -63,19 +68,25 @@ class NativeSoil {
 
   scene::Soil soil_;
   float cell_, ground_;
-  double transfer_length_;  ///< [s]
+  /// [s].
+  double transfer_length_;
   soil::TransferInterval interval_;
-  double drift_ = 0;  ///< cells that particles may have moved since they were sorted
+  /// Cells that particles may have moved since they were sorted.
+  double drift_ = 0;
   int sorts_ = 0;
   std::size_t count_ = 0;
   std::vector<Pack> packs_;
   std::vector<ParticleBlock> particle_blocks_;
-  std::array<int, 3> window_{};  ///< cell of the grid frame where the window begins
-  std::array<int, 3> nodes_{};   ///< its nodes along x, y, z
+  /// Cell of the grid frame where the window begins.
+  std::array<int, 3> window_{};
+  /// Its nodes along x, y, z.
+  std::array<int, 3> nodes_{};
   std::size_t row_ = 0, rows_ = 0;
-  std::vector<Float4> grid_;      ///< momentum and mass
-  std::vector<Float4> velocity_;  ///< and mass per room
-  // Per cell of a home: volume, bank volume, 1 when any is open; mean opening, 0 where none is.
+  /// Momentum and mass.
+  std::vector<Float4> grid_;
+  /// Velocity and mass per free volume.
+  std::vector<Float4> velocity_;
+  // Per cell of a block: volume, bank volume, 1 when any is open; mean opening, 0 where none is.
   std::vector<std::array<float, 3>> sums_;
   std::vector<float> openings_;
 };

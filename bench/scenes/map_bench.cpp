@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What maps for planners cost: map_bench [NAME [SECONDS]] measures the rows whose name holds NAME.
+// Cost of maps for planners: `map_bench [NAME [SECONDS]]` runs the rows whose name contains NAME.
 //
-//   map_update:100m, :1km   the update after a dug bucket, all layers, against map_full:100m, :1km,
-//   the whole anew map_ask:heights, :clearances   a million heights, 100 000 clearances, on one
-//   core map_trench:whole, :publish, :wire   SECONDS simulated of `trench`, all layers published at
-//   10 Hz over TCP to a
-//                                       reader: the loop's time, that of publishing, from a step's
-//                                       end to the reader
+//   map_update:100m, :1km          the update of all layers after a dug bucket
+//   map_full:100m, :1km            the whole map of the same ground, for comparison
+//   map_ask:heights, :clearances   a million heights, 100 000 clearances, on one core
+//   map_trench:whole, :publish, :wire
+//                                  SECONDS simulated of `trench`, all layers published at 10 Hz
+//                                  over TCP to a reader: time of the loop, of publishing, and from
+//                                  a step's end to the reader
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -50,18 +51,19 @@ namespace {
 
 using namespace navvy;
 
-std::string wanted;  // part of a row's name
+// Part of a row's name.
+std::string wanted;
 
 bool asked(const std::string& name) { return name.find(wanted) != std::string::npos; }
 
-/// Of this thread alone [s].
+/// Returns the processor time of this thread alone [s].
 double thread_seconds() {
   std::timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A site of gentle hills, in columns of 0.1 m.
+/// Returns a site of gentle hills, in columns of 0.1 m.
 heightfield::GroundSetup hills(int columns) {
   heightfield::GroundSetup out;
   out.nx = out.ny = columns;
@@ -77,7 +79,7 @@ heightfield::GroundSetup hills(int columns) {
   return out;
 }
 
-/// A bucket of 1 m x 1.1 m x 0.25 m from here; columns.
+/// Columns of a bucket of 1 m x 1.1 m x 0.25 m.
 constexpr int kBucketX = 10, kBucketY = 11;
 void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
   std::vector<heightfield::SoilLayer> taken;
@@ -86,8 +88,7 @@ void dig_bucket(heightfield::Ground& ground, int x0, int y0) {
       ground.take_above(ix, iy, ground.height(ix, iy) - 0.25, taken);
 }
 
-/// Reads every value of every layer, strip by strip: untouched ground is computed when somebody
-/// asks.
+/// Reads every value of every layer, strip by strip: untouched ground is computed on demand.
 void read_all(const map::TerrainMap& map) {
   double sum = 0;
   for (int iy = 0; iy < map.ny(); iy += map::LayerTiles::kSide) {
@@ -95,11 +96,12 @@ void read_all(const map::TerrainMap& map) {
     for (const map::MapLayer layer : map::default_layers())
       sum += map.copy(layer, {0, iy, map.nx(), end}).back();
   }
-  volatile double kept = sum;  // so that nobody finds the reading useless
+  // Prevents the compiler from removing the reads.
+  volatile double kept = sum;
   static_cast<void>(kept);
 }
 
-/// One update against everything anew, for the very same ground.
+/// Compares one update with a full map of the same ground.
 void measure_updates(const std::string& size, int columns) {
   const std::string update_name = "map_update:" + size, full_name = "map_full:" + size;
   if (!asked(update_name) && !asked(full_name)) return;
@@ -117,8 +119,8 @@ void measure_updates(const std::string& size, int columns) {
     dig_bucket(ground, static_cast<int>(random.uniform(0, columns - kBucketX)),
                static_cast<int>(random.uniform(0, columns - kBucketY)));
   };
-  // A feed's first map is made anew, and read whole; with the one before gone, the large site needs
-  // memory for one.
+  // A feed's first map is full, and read whole. The previous feed is destroyed first, so that the
+  // large site needs memory for one.
   std::optional<map::UpdateFeed> feed;
   full.timing = bench::measure(
       columns > 2000 ? 1 : 5,
@@ -177,7 +179,7 @@ void measure_queries() {
   if (!std::isfinite(sum)) throw Error("map_bench: a query had no answer");
 }
 
-/// Reads patches as they come and notes when the last byte of each was there.
+/// Reads patches as they come and records the arrival of the last byte of each.
 class Reader {
  public:
   explicit Reader(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -199,7 +201,7 @@ class Reader {
     thread_.join();
     ::close(socket_);
   }
-  /// Sequence and time of arrival of every patch, after `join`.
+  /// Returns sequence and arrival time of every patch, after `join`.
   const std::map<std::uint64_t, double>& arrivals() const { return arrivals_; }
   static double now() {
     std::timespec time{};
@@ -217,7 +219,7 @@ class Reader {
     }
     return true;
   }
-  /// The number behind a key of the header.
+  /// Returns the number behind a key of the header.
   static double number(const std::string& head, const char* key) {
     const std::size_t at = head.find(std::string("\"") + key + "\": ");
     return at == std::string::npos ? 0 : std::atof(head.c_str() + at + std::strlen(key) + 4);
@@ -232,7 +234,7 @@ class Reader {
                   << (8 * i);
       if (!take(length, bytes)) return;
       const std::string head(bytes.begin(), bytes.end());
-      // Rectangles are the last thing of the header: [[x0, y0, x1, y1], ...
+      // Rectangles are the last item of the header: [[x0, y0, x1, y1], ...
       double columns = 0;
       std::size_t at = head.find("\"rects\": [");
       for (std::array<int, 4> r{}; at != std::string::npos; at = head.find('[', at + 1))
@@ -266,7 +268,7 @@ void measure_trench(double seconds) {
   std::vector<double> publishing;
   std::uint64_t changed = 0;
   double spent = 0;
-  // The whole map goes out before the run, as `navvy run --publish` does it.
+  // The whole map is sent before the run, as `navvy run --publish` does.
   std::uint64_t last =
       feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped))->sequence;
   const double began = bench::processor_seconds();
@@ -281,7 +283,7 @@ void measure_trench(double seconds) {
         feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
     publishing.push_back(watch.seconds());
     spent += thread_seconds() - before;
-    // Where nothing changed, nothing goes out.
+    // Without changes, nothing is sent.
     if (update->sequence == last) continue;
     last = update->sequence;
     step_ends[last] = end_of_step;
@@ -298,7 +300,7 @@ void measure_trench(double seconds) {
   all.simulated = world.time();
   all.hash = session.state_hash();
   all.timing.runs = 1;
-  // The sum, as a share of the whole is wanted.
+  // The sum, to give a share of the whole.
   double sum = 0;
   for (const double one : publishing) sum += one;
   publish.bench = "map_trench:publish";
@@ -306,9 +308,11 @@ void measure_trench(double seconds) {
   publish.timing.runs = 1;
   publish.timing.processor = spent;
   publish.steps = publishing.size();
-  publish.particles = step_ends.empty() ? 0 : changed / step_ends.size();  // columns an update
+  // Columns per update.
+  publish.particles = step_ends.empty() ? 0 : changed / step_ends.size();
   publish.simulated = world.time();
-  // A reader that was late got one patch for several updates: that of the last one counts for them.
+  // A late reader got one patch for several updates; the patch of the last one counts for all of
+  // them.
   std::vector<double> late;
   for (const auto& [sequence, end] : step_ends)
     if (const auto at = reader.arrivals().lower_bound(sequence); at != reader.arrivals().end())
@@ -334,7 +338,7 @@ void measure_trench(double seconds) {
 int main(int argc, char** argv) {
   try {
     wanted = argc > 1 ? argv[1] : "";
-    // The trench: arrival and the first buckets
+    // The trench: arrival and the first buckets.
     const double seconds = argc > 2 ? std::atof(argv[2]) : 45;
     if (argc > 3 || !(seconds > 0)) {
       std::fprintf(stderr,

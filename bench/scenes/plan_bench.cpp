@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths for the excavator of scenarios/drive_around_trench.sdf: plan_bench [NAME [RUNS]], rows
-// whose name holds NAME. Host alone, no device.
+// Paths for the excavator of scenarios/drive_around_trench.sdf: `plan_bench [NAME [RUNS]]` runs the
+// rows whose name contains NAME. Host only, no device.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace navvy;
 
-/// Trench and spoil as the scene's dig leaves them, in plain shapes.
+/// Digs trench and spoil heap as the scene's dig leaves them, in simple shapes.
 void dig(heightfield::Ground& ground, bool across) {
   std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)
@@ -39,7 +39,7 @@ void dig(heightfield::Ground& ground, bool across) {
     }
 }
 
-/// One row: `plans` questions with seeds of their own, each `runs` times.
+/// Measures one row: `plans` queries with different seeds, each `runs` times.
 void measure(const std::string& name, control::PathPlanner& planner,
              const control::PathQuery& asked, int plans, int runs) {
   bench::Row row;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time of one picture, and pictures to look at: render_bench [folder for PNG files
-// [samples a pixel]].
+// Time of one picture, and pictures to inspect:
+// `render_bench [folder for PNG files [samples per pixel]]`.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -25,8 +25,8 @@ struct Row {
 
 constexpr int kPictures = 9;
 
-/// What a dig changes from picture to picture: the machine's pose, its lumps, and ground around the
-/// bucket.
+/// Changes what a dig changes between pictures: the machine's pose, its lumps, and ground around
+/// the bucket.
 void move_on(scene::Frame& frame, int picture) {
   const double step = (picture & 1) != 0 ? 0.002 : -0.002;
   for (scene::FrameShape& shape : frame.shapes) shape.X_WV.translation().x() += step;
@@ -44,8 +44,8 @@ void move_on(scene::Frame& frame, int picture) {
   ++g.revision;
 }
 
-// Least and median time of several pictures after two that warm up. Processor time, of all cores
-// together, tells on a busy machine what the clock on the wall does not.
+// Measures least and median time of several pictures after two for warm-up. Processor time over all
+// cores is meaningful on a busy machine, wall time is not.
 void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row,
              const std::string& folder, const std::string& prefix) {
   const Stopwatch first;

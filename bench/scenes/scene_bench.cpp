@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole scenes with machines, control and soil, pictures not counted: scene_bench [SECONDS
-// [SCENE.sdf ...]].
+// Whole scenes with machines, control and soil, without pictures:
+// `scene_bench [SECONDS [SCENE.sdf ...]]`.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -19,7 +19,8 @@ namespace {
 
 using namespace navvy;
 
-/// Runs the scene from its start for `seconds`; the median and spread are of one run, there is one.
+/// Runs the scene from its start for `seconds`. There is a single run, so median and spread are its
+/// own.
 void measure_scene(device::Device& device, const std::string& file, double seconds) {
   session::Session session(scene_io::load_scene(file, control::step_kinds()), device);
   const Stopwatch watch;
@@ -28,11 +29,12 @@ void measure_scene(device::Device& device, const std::string& file, double secon
   bench::Row row;
   row.timing.best = row.timing.median = watch.seconds();
   row.timing.runs = 1;
-  const sim::SoilCounts stats = session.world().soil_counts();
+  const sim::SoilCounts stats = session.world().soil().counts();
   row.bench = "scene:" + std::filesystem::path(file).stem().string() + "_" +
               std::to_string(static_cast<int>(seconds)) + "s";
   row.steps = stats.steps;
-  row.particles = stats.steps > 0 ? stats.particle_steps / stats.steps : 0;  // mean
+  // Mean.
+  row.particles = stats.steps > 0 ? stats.particle_steps / stats.steps : 0;
   row.simulated = session.world().time();
   row.hash = session.state_hash();
   bench::print(device.info(), row);
@@ -42,7 +44,8 @@ void measure_scene(device::Device& device, const std::string& file, double secon
 
 int main(int argc, char** argv) {
   try {
-    double seconds = 40;  // the trench: arrival and the first bucket
+    // The trench: arrival and the first bucket.
+    double seconds = 40;
     if (argc > 1) {
       char* end = nullptr;
       seconds = std::strtod(argv[1], &end);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of large sites: site_bench [EDGE [RUNS]]. Procedural hills of EDGE m (1000) in columns of
-// 0.1 m, on the host alone: a first export, a second one, one from a map file of as many cells, and
+// Maps of large sites: `site_bench [EDGE [RUNS]]`. Procedural hills of EDGE m (1000) in columns of
+// 0.1 m, on the host only: a first export, a second one, one from a map file of as many cells, and
 // an update after a bucket there and on 100 m.
 #include <sys/resource.h>
 
@@ -41,7 +41,7 @@ scene::Scene hills(double edge) {
   return out;
 }
 
-/// One row of `runs` times `work`, and the most memory that this program has held so far.
+/// Measures one row of `runs` times `work`, and the peak memory of this program so far.
 void measure(const std::string& name, double edge, int runs,
              const std::function<std::uint64_t()>& work) {
   bench::Row row;
@@ -65,7 +65,7 @@ std::uint64_t export_elevation(const scene::Scene& scene, const heightfield::Gro
   return static_cast<std::uint64_t>(map.rect().area());
 }
 
-/// An update of all layers after each of 20 buckets along a line that leaves no tile out.
+/// Measures an update of all layers after each of 20 buckets along a line through every tile.
 void measure_updates(double edge, int runs) {
   const scene::Scene scene = hills(edge);
   heightfield::Ground ground = heightfield::make_ground(scene);
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
     const heightfield::Ground ground = heightfield::make_ground(scene);
     measure("map:export", edge, runs,
             [&] { return export_elevation(scene, ground, folder / "site.tif"); });
-    // What was written has a cell for each column.
+    // The written map has a cell for each column.
     scene::Scene on_map = scene;
     on_map.ground.features.clear();
     on_map.ground.file = folder / "site.tif";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts,
-// beside 200 bodies, and four of them; the crawler; a light truck on 50 x 50 m of fine loam:
-// vehicle_bench [NAME], rows whose name holds NAME. A row is a second of simulated time;
-// `particles` counts machines and bodies. What ground and ruts came to hold in memory goes to
-// stderr, by columns of the tiles that were touched and by columns that a wheel or belt moved.
+// beside 200 bodies, and four of them; the crawler; a light truck on 50 x 50 m of fine loam.
+// `vehicle_bench [NAME]` runs the rows whose name contains NAME. A row is one second of simulated
+// time; `particles` counts machines and bodies. Memory of ground and ruts goes to stderr, per
+// column of the touched tiles and per column that a wheel or track moved.
 #include <malloc.h>
 
 #include <cstdio>
@@ -34,7 +34,7 @@ class FirmGround final : public terramechanics::GroundQuery {
   Vec3 normal(double, double) const override { return Vec3::UnitZ(); }
 };
 
-/// A box of 1 m and 1000 kg that lies on the ground.
+/// Returns a box of 1 m and 1000 kg on the ground.
 scene::Machine box() {
   scene::Machine m;
   m.name = "box";
@@ -47,14 +47,16 @@ scene::Machine box() {
   return m;
 }
 
-/// Who is there, and what is under them.
+/// Machines of a case, and the ground under them.
 struct Case {
   std::string name, machine;
   int machines = 1, boxes = 0;
   bool loam = false;
-  double cell = 0.1;  // of the columns [m]
+  // Of the columns [m].
+  double cell = 0.1;
   Vec2 site = Vec2(80, 60);
-  double speed = 1;  // [m/s]
+  // [m/s].
+  double speed = 1;
 };
 
 const std::vector<Case> kCases = {
@@ -66,9 +68,9 @@ const std::vector<Case> kCases = {
     {"tracks_loam", "ex180_tracked", 1, 0, true},
     {"light_loam_50x50", "light_truck", 1, 0, true, 0.05, Vec2(50, 50), 4}};
 
-/// Columns that no longer are as high as at the start.
+/// Returns the number of columns whose height has changed since the start.
 std::size_t moved_columns(const heightfield::Ground& ground) {
-  // Of the touched tiles alone: who asks for others makes the ground remember them.
+  // Only in touched tiles: reading others would make the ground store them.
   const heightfield::CellRect rect = ground.touched_rect();
   std::size_t moved = 0;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
@@ -125,7 +127,7 @@ class Stage {
           tyres.push_back({machine_.wheels[w], engine_->wheel(m, wheel)});
           continue;
         }
-        for (const terramechanics::TrackPatch& patch : engine_->track_patches(m, wheel))
+        for (const terramechanics::TrackPatch& patch : engine_->tracks()->track_patches(m, wheel))
           running_tracks.push_back(patch);
       }
     const double interval = coupling::kRutInterval * kStep;
@@ -150,7 +152,7 @@ void measure_case(const Case& what) {
   Stage stage(what, machine);
   stage.second();
   bench::Row row;
-  // Of the ground and its ruts: what else allocates in a step gives it back.
+  // Memory of the ground and its ruts; other allocations of a step are freed.
   const std::size_t moved_before = moved_columns(stage.ground());
   const std::size_t before = mallinfo2().uordblks, tiles = stage.ground().touched_tiles();
   row.timing = bench::measure(

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Included first by every kernel: the same float arithmetic on every device.
+// Makes float arithmetic the same on every device. Every kernel includes this file first.
 //
-// Contraction (a * b + c as one rounding) is the compiler's choice unless switched off; with it two
-// devices, or two versions of one driver, disagree in the last bit. Use fma() where the single
-// rounding is wanted.
+// Contraction (a * b + c with one rounding) is the compiler's choice unless it is switched off.
+// With it, two devices or two versions of one driver would disagree in the last bit. Kernels write
+// fma() where they want a single rounding.
 #ifndef NAVVY_COMMON_PORTABLE_H
 #define NAVVY_COMMON_PORTABLE_H
 

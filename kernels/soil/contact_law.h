@@ -1,105 +1,122 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one side of a plate and one node near it do to each other: the contact's share, the area of
-// plate the node stands for, the most it holds in shear, the impulse. One source for the kernels
-// and for the double twin, in the dialect of kernels/README.md. Lengths in cells unless said.
+// Contact of one side of a plate with one node: the share of the contact, the area of plate that
+// the node stands for, the largest shear impulse, and the impulse.
+//
+// One source for the kernels and the double twin, in the dialect of kernels/README.md. Lengths are
+// in cells unless a unit is given.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 #define NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 
+#include "soil/scheme_constants.h"
 #include "soil/tool.h"
 
-// See REACH_FIELDS of tool.h.
+// Parameters of the contact; REACH_FIELDS of tool.h explains them.
 #define REACH_SCALAR(name) scalar name;
 typedef struct Reach {
   REACH_FIELDS(REACH_SCALAR)
 } Reach;
 #undef REACH_SCALAR
 
-INLINED scalar contact_unit(scalar x) {
-  return fmin(fmax(x, 0.0f), 1.0f);
-}
+INLINED scalar contact_unit(scalar x) { return fmin(fmax(x, 0.0f), 1.0f); }
 
-// How far a node this far along the plate from its free edge counts: 0 at the edge, 1 inside.
+// Returns the weight of a node along the plate by its distance from the free edge: 0 at the edge, 1
+// inside.
 INLINED scalar contact_along(scalar inset, const Reach* r) {
   return contact_unit((inset - r->edge + 0.5f * r->edge_ramp) / r->edge_ramp);
 }
 
-// 1 at the plate, 0 from the end of its reach on.
+// Returns the weight of a node across the plate: 1 at the plate, 0 beyond its reach.
 INLINED scalar contact_near(scalar clearance, const Reach* r) {
   return contact_unit((r->h + 0.5f * r->ramp - clearance) / r->ramp);
 }
 
-// Share of the plate's speed that a node must keep up with, 0..1 [docs/tools.md, contact shares].
-// Squared along the plate: half a share at its edge would push a wedge that is there by half.
+// Returns the share of the plate's speed that a node must keep up with, 0 .. 1
+// [docs/tools.md, contact shares]. The weight along the plate is squared: half a share at the edge
+// would push a wedge of soil that is only half there.
 INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
   const scalar along = contact_along(inset, r);
   return contact_near(clearance, r) * along * along;
 }
 
-// Speed at which a node settles towards a plate that does not advance [m/s]. `down`: part of the
-// plate's normal towards the node along gravity; fill: see contact_touch. Where a node is full
-// there is no room between soil and plate to settle into: it would take the soil's pressure off the
-// plate. A node over the soil's surface has the last of the soil's mass: it must not carry a plate
-// that lies on it, or light ones stand on nothing [docs/tools.md, stand-off]. Soil at the side of a
-// plate or above it is held whatever the node has, as nodes at its own surface are half empty, too.
-// The square lets a plate fall through what hardly bears and settle onto what almost does. tuned:
-// `navvy lab light-tool`; 1.5: soil half as large again as in the bank still fills a node; under a
-// plate one that stands off by a quarter of a cell holds 0.8, and 0.9 counts as full.
+// Returns the speed at which a node settles towards a plate that does not advance [m/s].
+//
+// down: component along gravity of the plate's normal towards the node. fill: mass of the node /
+// mass of a full node, see contact_touch.
+//
+// A full node does not settle: there is no clearance between soil and plate, and settling would
+// take the soil's pressure off the plate. A node above the soil's surface holds only the last of
+// the soil's mass. It must not carry a plate that lies on the soil, or light plates stand off
+// [docs/tools.md, stand-off]. Soil beside or above a plate is held whatever the node's fill, as
+// nodes at the soil's own surface are half empty, too. The square lets a plate fall through nodes
+// that carry hardly any load and settle onto those that carry almost all of it.
 INLINED scalar contact_settling(scalar clearance, scalar fill, scalar down, const Reach* r) {
-  const scalar under = fmax(down, 0.0f), full = contact_unit(1.5f * fill), near = contact_near(clearance, r);
-  const scalar no_clearance = full * (1.0f - under) + contact_unit(4.0f * fill - 2.6f) * under;
+  const scalar under = fmax(down, 0.0f), full = contact_unit(SCHEME(contact_full) * fill),
+               near = contact_near(clearance, r);
+  const scalar no_clearance =
+      full * (1.0f - under) +
+      contact_unit(SCHEME(contact_bearing_slope) * fill - SCHEME(contact_bearing_offset)) * under;
   const scalar holds = near + (1.0f - near) * no_clearance;
   const scalar gives = 1.0f - holds * (1.0f - under * (1.0f - full));
   return gives * (r->settling + under * gives * r->falling);
 }
 
-// Along a plate: how much of its area a node stands for. What is cut off at a free edge is given to
-// the nodes just inside.
+// Returns the length of plate that a node stands for, measured across its free edge [cells]. Nodes
+// just inside the edge take over what the ramp cuts off.
 INLINED scalar contact_inner(scalar inset, const Reach* r) {
   const scalar inside = (inset - r->edge) / r->edge_ramp - 0.5f;
   const scalar hat = fmax(0.0f, 1.0f - fabs(inside));
   return contact_along(inset, r) + hat * (r->edge / r->edge_ramp);
 }
 
-// Area of plate a node stands for [cell faces]. A hat across the plate, whose sum over a row of
-// nodes is 1 wherever the plate lies between them; its middle half a cell nearer than the reach,
-// where soil that touches always has mass. The sum over a plate is its area but for corners, for
-// which the host scales the tool (Tool.adhesion).
+// Returns the area of plate that a node stands for [cell faces].
+//
+// Across the plate this is a hat function. Its sum over a row of nodes is 1 wherever the plate lies
+// between them. Its centre is half a cell closer than the reach, where soil in contact always has
+// mass. The sum over a plate is its area except at corners; the host scales each tool for those
+// (Tool.adhesion).
 INLINED scalar contact_area(scalar clearance, scalar inset, const Reach* r) {
   const scalar off = clearance - (r->h - 0.5f);
   return fmax(0.0f, 1.0f - fabs(off)) * contact_inner(inset, r);
 }
 
-// Share of the area that soil touches: its mass over what a full node would hold in its room. Soil
-// at its loose density touches everywhere.  tuned: none; 0.75 = 1 / 1.33, a large swell.
-INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * (scalar)(1.0 / 0.75)); }
+// Returns the wetted share of the area of a node. fill: mass of the node / mass that a full node
+// holds in its free volume. Soil at its loose density wets the whole area.
+INLINED scalar contact_touch(scalar fill) { return contact_unit(fill * SCHEME(contact_touch)); }
 
-// What adhesion [Pa] on the node's area adds to the most tangential impulse mu x push [N s]. It
-// holds in shear only and ends with the contact: soil on tools carries no tension, so there is
-// nothing to pull at [docs/tools.md, adhesion].
-INLINED scalar contact_stick(scalar adhesion, scalar area, const Reach* r) { return adhesion * area * r->patch; }
+// Returns what adhesion [Pa] on the area of a node adds to the largest shear impulse mu x push
+// [N s]. Adhesion acts in shear only and ends with the contact: soil on tools carries no tension
+// [docs/tools.md, adhesion].
+INLINED scalar contact_stick(scalar adhesion, scalar area, const Reach* r) {
+  return adhesion * area * r->patch;
+}
 
 // One side of one node.
 typedef struct ContactNode {
-  // Velocity [m/s], lever arm from the tool's origin [m], normal away from the plate
+  // Velocity [m/s], lever arm from the tool's origin [m], normal away from the plate.
   scalar3 v, r, n;
-  scalar m, share, settling;   // mass [kg], contact_share, contact_settling [m/s]
-  scalar mu, stick;            // tan of the friction angle, most shear without any push [N s]
+  // Mass [kg], contact_share, contact_settling [m/s].
+  scalar m, share, settling;
+  // Tangent of the friction angle; largest shear impulse without any push [N s].
+  scalar mu, stick;
 } ContactNode;
 
-// How an impulse came about.
+// State of one contact, as contact_impulse found it.
 typedef struct ContactBranch {
-  bool acts, pushing, sticking;  // at all; in the normal direction; slip is stopped whole
-  // Normal impulse that a faster plate adds / (mass x its gain of speed)
+  // There is an impulse; it acts along the normal; it stops all slip.
+  bool acts, pushing, sticking;
+  // Normal impulse that a faster plate adds / (mass x its gain of speed).
   scalar held;
 } ContactBranch;
 
-// Impulse on the node [N s] of a tool that turns with `spin` [rad/s] and whose origin moves with
-// `speed` [m/s]: of its whole mass, unilateral, Coulomb and adhesion [docs/tools.md, impulse].
-// Without one that acts it is 0. Speeds are taken against the resting ground: a node that a plate
-// covers in part falls behind one that advances, by the share that it does not cover, and settles
-// slowly towards one that stands or recedes, with all its load borne.
-INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed, scalar opening,
-                                ContactBranch* branch) {
+// Returns the impulse on a node [N s] from a tool that turns with `spin` [rad/s] and whose origin
+// moves with `speed` [m/s] [docs/tools.md, impulse]. It is unilateral, with Coulomb friction and
+// adhesion, and acts on the whole mass of the node. Without contact it is 0.
+//
+// Speeds are relative to the resting ground. A partly covered node falls behind a plate that
+// advances, by the share that the plate does not cover. It settles slowly towards a plate that
+// stands or recedes, which still carries its whole load.
+INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed,
+                                scalar opening, ContactBranch* branch) {
   const scalar3 plate = speed + cross(spin, node->r);
   const scalar3 rel = node->v - plate;
   const scalar leaves = dot(rel, node->n), advance = dot(plate, node->n);
@@ -107,7 +124,7 @@ INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 s
   const scalar rn = leaves + fmax(behind, node->settling);
   branch->held = behind > node->settling ? node->share : 1.0f;
   branch->pushing = rn < 0.0f;
-  // What may settle towards the plate has not let go.
+  // Soil that settles towards the plate has not separated from it.
   branch->acts = branch->pushing || (node->stick > 0.0f && leaves + fmax(behind, 0.0f) < opening);
   branch->sticking = false;
   if (!branch->acts) return (scalar)(0.0) * node->n;

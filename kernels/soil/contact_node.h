@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of one node with a tool, and the two-way solve's small system; the same source in both
-// schedules.
+// Contact of one node with a tool, and the small linear system of the two-way solve. One source for
+// both schedules.
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 #define NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 
@@ -8,15 +8,16 @@
 #include "soil/contact_law.h"
 #include "soil/node.h"
 
-// Node n of near block `near`: its number in the arrays of near nodes, and its place from its
-// block's corner [cells].
+// Returns the index of node n of near block `near` in the arrays of near nodes, and its offset from
+// the corner of its block [cells].
 static inline int near_node(int near, int n) { return near * BLOCK_NODES + n; }
 static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4); }
 
-// Field s (0 front, 1 back) of one near node; false when there is nothing to solve.
+// Loads field s (0 front, 1 back) of one near node. Returns false when the node has no contact.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
-                             global const float4* field, global const int* split, global const int* node_tool,
-                             global const NodeShell* shell, global const ContactSoil* surface, global const Tool* tools,
+                             global const float4* field, global const int* split,
+                             global const int* node_tool, global const NodeShell* shell,
+                             global const ContactSoil* surface, global const Tool* tools,
                              int only) {
   if (split[i] == 0) return false;
   const float4 v = field[i];
@@ -31,8 +32,9 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
-  const float room = fmax(mean_of(kernel_share((float4)(clearance))), MIN_FREE_FRACTION);
-  const float fill = v.w * surface[i].inv_density / (dx * dx * dx * room);
+  const float free_fraction =
+      fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
+  const float fill = v.w * surface[i].inv_density / (dx * dx * dx * free_fraction);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
   node->stick = 0.0f;
@@ -45,31 +47,32 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
 }
 
 #define BLOCK_ARGS global const int* restrict near_list, global const int4* restrict keys
-#define NODE_ARGS                                                                                                 \
-  global const float4 *restrict before0, global const float4 *restrict before1, global const int *restrict split, \
-      global const int *restrict node_tool, global const NodeShell *restrict shell,                               \
-      global const ContactSoil *restrict surface, global const Tool *restrict tools, const int only,                  \
-      const Reach reach, const float dx
+#define NODE_ARGS                                                                         \
+  global const float4 *restrict before0, global const float4 *restrict before1,           \
+      global const int *restrict split, global const int *restrict node_tool,             \
+      global const NodeShell *restrict shell, global const ContactSoil *restrict surface, \
+      global const Tool *restrict tools, const int only, const Reach reach, const float dx
 #define NODE_SAME before0, before1, split, node_tool, shell, surface, tools, only, reach, dx
-#define LOAD_NODE(node)                                                                                          \
-  load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, node_tool, shell, \
-            surface, tools, only)
+#define LOAD_NODE(node)                                                                      \
+  load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, \
+            node_tool, shell, surface, tools, only)
 
-// Sums before anything was added.
-#define NO_SUMS {{0.0f}, {0.0f}, 0.0f}
+// Initial value of the sums.
+#define NO_SUMS \
+  { {0.0f}, {0.0f}, 0.0f }
 
-// Adds field s of node n of near block `near` to the sums: the wrench of J (angular about the
-// tool's origin, linear) and G^T m P G, where P is what of the plate's velocity the contact hands
-// to the node: its share along the normal, all of the slip when it sticks
-// [docs/tools.md, two-way solve].
+// Adds field s of node n of near block `near` to the sums: the wrench of its impulse J (moment
+// about the tool's origin, force) and the matrix G^T m P G. P is the part of the plate's velocity
+// that the contact passes on to the node: its share along the normal, and all of the slip when the
+// contact sticks [docs/tools.md, two-way solve].
 static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key, NODE_ARGS) {
   const int i = near_node(near, n);
   ContactNode node;
   if (!LOAD_NODE(&node)) return;
   global const Tool* tool = tools + node_tool[i];
   ContactBranch branch;
-  const float3 j =
-      contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), reach.opening, &branch);
+  const float3 j = contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist),
+                                   reach.opening, &branch);
   if (!branch.acts) return;
   const float3 l = cross(node.r, j);
   sums->wrench[0] += l.x;
@@ -78,9 +81,10 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   sums->wrench[3] += j.x;
   sums->wrench[4] += j.y;
   sums->wrench[5] += j.z;
-  // Directions: three axes when it sticks, which hold the normal too and are corrected there. Each
-  // adds m p g g^T with g = (r x d, d) and the part p that is held.
-  const float along_normal = (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
+  // Three axes when the contact sticks, which also cover the normal, and a correction along the
+  // normal. Each adds m p g g^T with g = (r x d, d) and the part p that is passed on.
+  const float along_normal =
+      (branch.pushing ? branch.held : 0.0f) - (branch.sticking ? 1.0f : 0.0f);
   for (int a = branch.sticking ? 0 : 3; a < 4; ++a) {
     if (a == 3 && along_normal == 0.0f) continue;
     const float3 d = a == 3 ? node.n : (float3)(a == 0, a == 1, a == 2);
@@ -93,8 +97,8 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   }
 }
 
-// One sweep of the two-way solve: F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K, W the
-// inverse mass.
+// Solves one Newton iteration of F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K. W is the
+// inverse mass of the tool.
 static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   float a[6][7], stiff[6][6];
   for (int i = 0, k = 0; i < 6; ++i)
@@ -107,7 +111,7 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
       for (int k = 0; k < 6; ++k) a[i][j] += tool->inverse_mass[6 * i + k] * stiff[k][j];
     }
   }
-  // Gauss with row pivots.
+  // Gauss elimination with row pivots.
   for (int c = 0; c < 6; ++c) {
     int p = c;
     for (int r = c + 1; r < 6; ++r)
@@ -125,14 +129,16 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   for (int i = 0; i < 6; ++i) tool->twist[i] -= a[i][6] / a[i][i];
 }
 
-// What contact, resting ground and room make of one near node: see contact_apply.
+// Result of contact and resting ground for one near node, see contact_apply.
 typedef struct NodeResult {
-  float4 felt[2];  // per field, what particles will feel
+  // Velocity and mass per free volume that particles see, by field.
+  float4 seen[2];
   ContactRecord records[2];
   int changed;
 } NodeResult;
 
-static inline NodeResult apply_contact(int near, int n, int3 key, global const BlockFloor* ground, NODE_ARGS) {
+static inline NodeResult apply_contact(int near, int n, int3 key, global const BlockFloor* ground,
+                                       NODE_ARGS) {
   const int i = near_node(near, n);
   const float z = (float)(n >> 4);
   const bool held = z <= ground->held[n & 15];
@@ -141,13 +147,14 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
   out.changed = 0;
   for (int s = 0; s < 2; ++s) {
     const float4 v = s == 0 ? before0[i] : before1[i];
-    float4 after = (float4)(v.xyz, 0.0f);  // velocity and normal impulse
+    // Velocity and normal impulse.
+    float4 after = (float4)(v.xyz, 0.0f);
     ContactNode node;
     if (LOAD_NODE(&node)) {
       global const Tool* tool = tools + node_tool[i];
       ContactBranch branch;
-      const float3 j =
-          contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist), reach.opening, &branch);
+      const float3 j = contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist),
+                                       reach.opening, &branch);
       if (branch.acts) {
         after = (float4)(v.xyz + j / node.m, dot(j, node.n));
         out.changed = 1;
@@ -155,11 +162,13 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
     }
     const ContactRecord record = {{v.x, v.y, v.z}, v.w, {after.x, after.y, after.z}, after.w};
     out.records[s] = record;
-    // Mass per room, as far as ground and plate leave room on this side.
+    // Mass per free volume beside ground and plate.
     const float beside =
         (s == 0 ? 1.0f : -1.0f) * shell[i].distance - tools[max(node_tool[i], 0)].half_thickness;
-    const float room = v.w == 0.0f ? 1.0f : split[i] == 0 ? free_fraction_above(below) : free_fraction_between(below, beside);
-    out.felt[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / room);
+    const float free_fraction = v.w == 0.0f     ? 1.0f
+                                : split[i] == 0 ? free_fraction_above(below)
+                                                : free_fraction_between(below, beside);
+    out.seen[s] = (float4)(held ? (float3)(0.0f) : after.xyz, v.w / free_fraction);
   }
   return out;
 }

@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The constants of a soil, once: the law's struct, the table on the device, its loads in both
-// schedules, the host's table and the double twin are made of these lists. Adding one:
-// kernels/README.md.
+// Lists of the constants of a soil. The struct of the law, the table on the device, its loads in
+// both schedules, the table of the host and the double twin all follow from these lists. Adding
+// one: kernels/README.md.
 #ifndef NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 #define NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 
-// bulk, shear: elastic moduli K, G [Pa] alpha: sin(friction angle) k_loose, k_dense, k_bond:
-// cohesion at the loose density, residual less loose, intact less residual cohesion, x cos(friction
-// angle) [Pa] dense_offset, inv_range: the dense share is dense_offset - J0 inv_range, within 0 ..
-// 1: swell / (swell - 1) and 1 / (swell - 1); 1 and 0 without swell inv_remould, inv_opening: 1 /
-// remoulding strain, 1 / opening strain static_share: growth of the yield stress at rest
-// [docs/soil.md, static friction] viscosity: of the deviator, where it does not yield [Pa s]
-// [docs/soil.md, viscosity] swell: largest J0 loosening: growth of J0 per plastic shear, as far as
-// J allows
+// bulk, shear: elastic moduli K, G [Pa]
+//
+// alpha: sin(friction angle)
+//
+// k_loose, k_dense, k_bond: cohesion at the loose density, residual minus loose cohesion, intact
+// minus residual cohesion, each times cos(friction angle) [Pa]
+//
+// dense_offset, inv_range: the dense share is dense_offset - J0 inv_range, limited to 0 .. 1. They
+// are swell / (swell - 1) and 1 / (swell - 1), or 1 and 0 without swell
+//
+// inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain
+//
+// static_share: relative growth of the yield stress at rest [docs/soil.md, static friction]
+//
+// viscosity: shear viscosity of soil that does not yield [Pa s] [docs/soil.md, viscosity]
+//
+// swell: largest J0
+//
+// loosening: growth of J0 per plastic shear, limited by J
 #define BASIC_LAW_CONSTANTS(X) \
   X(bulk)                      \
   X(shear)                     \
@@ -29,11 +40,21 @@
   X(swell)                     \
   X(loosening)
 
-// Only where LAW_EXTENDED is defined. dilatancy: b, plastic volume strain per plastic shear in bank
-// state matched: yield stress that plane strain needs at b / that without dilatancy - 1 alpha_fast:
-// growth of alpha from slow to fast flow grain: diameter x sqrt(density) of the grains; inertial:
-// inertial number at half that growth cap: mean pressure that bank soil bears without getting
-// denser [Pa]; cap_growth: growth of it, as a share, per volume strain
+// Used only if LAW_EXTENDED is defined.
+//
+// dilatancy: b, plastic volume strain per plastic shear in bank state
+//
+// matched: yield stress that plane strain needs at b / yield stress without dilatancy - 1
+//
+// alpha_fast: growth of alpha from slow to fast flow
+//
+// grain: diameter x sqrt(density) of the grains
+//
+// inertial: inertial number at half that growth
+//
+// cap: mean pressure that bank soil carries without compaction [Pa]
+//
+// cap_growth: relative growth of cap per volume strain
 #define EXTENDED_LAW_CONSTANTS(X) \
   X(dilatancy)                    \
   X(matched)                      \
@@ -55,9 +76,12 @@ namespace navvy::soil {
 #define SOIL_ROW_FLOAT(name) float name;
 typedef struct SoilRow {
   ALL_LAW_CONSTANTS(SOIL_ROW_FLOAT)
-  float inv_density;    // 1 / bank density [m3/kg]
-  float tool_friction;  // tan of the friction angle on tools
-  float adhesion;       // on tools [Pa]
+  // 1 / bank density [m3/kg].
+  float inv_density;
+  // Tangent of the friction angle on tools.
+  float tool_friction;
+  // Adhesion on tools [Pa].
+  float adhesion;
 } SoilRow;
 #undef SOIL_ROW_FLOAT
 

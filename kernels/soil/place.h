@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where particles of the store go: neighbours of a block, the home a particle drifted into, what a
-// home's particles are to tools. One source for both schedules; included after their dialect.
+// Destination of stored particles: neighbours of a block, the block that a particle drifted into,
+// and what its particles mean to tools. One source for both schedules, included after their
+// dialect.
 #ifndef NAVVY_KERNELS_SOIL_PLACE_H
 #define NAVVY_KERNELS_SOIL_PLACE_H
 
 #include "soil/layout.h"
 
-// Offset of neighbour n of 27, x fastest, each axis -1, 0, 1.
+// Returns the offset of neighbour n of 27, x fastest, each axis -1, 0, 1.
 static inline int3 neighbour_offset(int n) { return (int3)(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1); }
 
 // Codes 0..26: into that neighbour; 27: off the site.
@@ -15,11 +16,12 @@ static inline int3 neighbour_offset(int n) { return (int3)(n % 3 - 1, n / 3 % 3 
 
 typedef struct Place {
   uchar code;
-  uchar cell;  // of its base node in the block it goes to, 0..63, x fastest
+  // Cell of its base node in the new block, 0..63, x fastest.
+  uchar cell;
 } Place;
 
-// Of a particle at (x, y, z) [cells from its block's corner]. site: x and y of the lower left and
-// of the upper right corner of the site, from there too.
+// Returns the destination of a particle at (x, y, z) [cells from the corner of its block]. site: x
+// and y of the lower left and of the upper right corner of the site, in the same frame.
 static inline Place place_of(float x, float y, float z, float4 site) {
   const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
   const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);
@@ -30,13 +32,13 @@ static inline Place place_of(float x, float y, float z, float4 site) {
   return place;
 }
 
-// The site [cells of G] from the corner of block `key`.
+// Returns the site [cells of G] relative to the corner of block `key`.
 static inline float4 site_from(int4 site, int4 key) {
   const float bx = 4.0f * key.x, by = 4.0f * key.y;
   return (float4)(site.x - bx, site.y - by, site.z - bx, site.w - by);
 }
 
-// What field f of a lane without a particle holds.
+// Returns the value of field f in a lane without a particle.
 #define REST_ONE(NAME, member, rest) \
   if (f <= FIELD_##NAME) return rest;
 #define REST_MANY(NAME, member, count, rest) \
@@ -46,7 +48,7 @@ static inline float rest_of(int f) {
   return 0.0f;
 }
 
-// A ContactSoil, all words of which are averaged alike.
+// Returns the ContactSoil of a soil; all words of it are averaged alike.
 static inline float4 surface_of(constant SoilRow* soil) {
   return (float4)(soil->tool_friction, soil->adhesion, soil->inv_density, 0.0f);
 }

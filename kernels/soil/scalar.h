@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dialect of kernels/README.md for one particle or node per work-item, or per turn of a loop.
+// The dialect of kernels/README.md for one particle or node per work-item, or per iteration of a
+// loop.
 #ifndef NAVVY_KERNELS_SOIL_SCALAR_H
 #define NAVVY_KERNELS_SOIL_SCALAR_H
 

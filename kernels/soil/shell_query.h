@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest point on the triangles of shells, for a `real` of points at a time (soil/lanes/lanes.h or
-// soil/groups/group.h).
+// Closest point on the triangles of shells, for one `real` of points at a time (soil/lanes/lanes.h
+// or soil/groups/group.h).
 //
-// Lengths in cells from the window corner of the triangle's tool (tool.h). The sign of the distance
-// comes from the pseudo-normal of the feature that is closest [Baerentzen 2005], which is right on
-// folds of either kind: with plain face normals a point before an inner corner would see one face
-// from behind.
+// Lengths are in cells from the window corner of the triangle's tool (tool.h). The sign of the
+// distance comes from the pseudo-normal of the closest feature [Baerentzen 2005], which is correct
+// on convex and concave folds. With plain face normals, a point in front of an inner corner would
+// lie behind one of the faces.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 
 #include "soil/tool.h"
 
 typedef struct Closest {
-  real distance2;   // [cells^2]
-  real x, y, z;     // the closest point, from its tool's window corner
-  ints feature;     // 8 * triangle + feature, -1: none
+  // Squared distance [cells^2].
+  real distance2;
+  // Closest point, from the window corner of its tool.
+  real x, y, z;
+  // 8 * triangle + feature, -1: none.
+  ints feature;
 } Closest;
 
-static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature, int corner_a, int corner_b,
-                                Closest* best) {
+static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature,
+                                int corner_a, int corner_b, Closest* best) {
   const float inv = 1.0f / dot(ab, ab);
-  const real t = fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
+  const real t =
+      fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
   const real cx = a.x + t * ab.x, cy = a.y + t * ab.y, cz = a.z + t * ab.z;
   const real dx = px - cx, dy = py - cy, dz = pz - cz;
   const real d2 = dx * dx + dy * dy + dz * dz;
-  const ints which = select(select((ints)(feature), (ints)(corner_b), t >= 1.0f), (ints)(corner_a), t <= 0.0f);
+  const ints which =
+      select(select((ints)(feature), (ints)(corner_b), t >= 1.0f), (ints)(corner_a), t <= 0.0f);
   const ints nearer = d2 < best->distance2;
   best->distance2 = select(best->distance2, d2, nearer);
   best->x = select(best->x, cx, nearer);
@@ -33,10 +38,11 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   best->feature = select(best->feature, which, nearer);
 }
 
-// Keeps the nearer of `best` and triangle t for the points p (from the tool's window corner). Skips
-// the triangle when all points are farther than `far` from its plane, or from its centre by more
-// than `far` and its radius.
-static inline void closest_triangle(real px, real py, real pz, global const ShellTriangle* triangles, int t, float far,
+// Updates `best` with triangle t for the points p (from the window corner of the tool). Skips the
+// triangle when all points are farther than `far` from its plane, or farther than `far` plus its
+// radius from its centre.
+static inline void closest_triangle(real px, real py, real pz,
+                                    global const ShellTriangle* triangles, int t, float far,
                                     Closest* best) {
   global const ShellTriangle* triangle = triangles + t;
   const float3 a = vload3(0, triangle->a), b = vload3(0, triangle->b), c = vload3(0, triangle->c);
@@ -49,8 +55,8 @@ static inline void closest_triangle(real px, real py, real pz, global const Shel
   if (!some(ox * ox + oy * oy + oz * oz < reach * reach)) return;
   const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
   const ints inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
-                       ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &
-                       ((px - c.x) * mc.x + (py - c.y) * mc.y + (pz - c.z) * mc.z >= 0.0f);
+                      ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &
+                      ((px - c.x) * mc.x + (py - c.y) * mc.y + (pz - c.z) * mc.z >= 0.0f);
   const ints nearer = inside & (height * height < best->distance2);
   best->distance2 = select(best->distance2, height * height, nearer);
   best->x = select(best->x, px - height * n.x, nearer);
@@ -62,33 +68,37 @@ static inline void closest_triangle(real px, real py, real pz, global const Shel
   closest_edge(px, py, pz, c, a - c, 8 * t + 3, 8 * t + 6, 8 * t + 4, best);
 }
 
-// Distance from points to a segment squared.
+// Returns the squared distance of points to a segment [cells^2].
 static inline real segment_distance2(real px, real py, real pz, float3 a, float3 ab) {
   const float inv = 1.0f / dot(ab, ab);
-  const real t = fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
+  const real t =
+      fmin(fmax(((px - a.x) * ab.x + (py - a.y) * ab.y + (pz - a.z) * ab.z) * inv, 0.0f), 1.0f);
   const real dx = px - a.x - t * ab.x, dy = py - a.y - t * ab.y, dz = pz - a.z - t * ab.z;
   return dx * dx + dy * dy + dz * dz;
 }
 
-// Distance squared along the plate to its free edge; only rims of the same tool count.
-static inline real inset2_of(real px, real py, real pz, ints tool, global const ShellRim* rims, int count) {
+// Returns the squared distance along the plate to its free edge [cells^2]. Only rims of the same
+// tool count.
+static inline real inset2_of(real px, real py, real pz, ints tool, global const ShellRim* rims,
+                             int count) {
   real inset2 = INFINITY;
   for (int r = 0; r < count; ++r) {
-    const real e2 = segment_distance2(px, py, pz, vload3(0, rims[r].start), vload3(0, rims[r].along));
+    const real e2 =
+        segment_distance2(px, py, pz, vload3(0, rims[r].start), vload3(0, rims[r].along));
     inset2 = select(inset2, fmin(inset2, e2), tool == (ints)(rims[r].tool));
   }
   return inset2;
 }
 
-// Block from whose corner the tool's coordinates count.
+// Returns the block whose corner is the origin of the tool's coordinates.
 static inline int3 window_of(global const Tool* tools, int tool) {
   return vload3(0, tools[tool].window);
 }
 
-// Nearest of the candidate triangles list[begin..end) of points of block `key`.
+// Finds the closest of the candidate triangles list[begin..end) for points of block `key`.
 static inline void query(real x, real y, real z, int3 key, global const ShellTriangle* triangles,
-                         global const Tool* tools, global const int* list, int begin, int end, float far,
-                         Closest* best) {
+                         global const Tool* tools, global const int* list, int begin, int end,
+                         float far, Closest* best) {
   best->distance2 = INFINITY;
   best->x = best->y = best->z = 0.0f;
   best->feature = -1;

@@ -15,7 +15,8 @@
 namespace navvy::bench {
 namespace {
 
-// Eight sums of sixteen lanes each: enough independent work to fill the pipes of today's devices.
+// Eight sums of sixteen lanes each: enough independent work to fill the pipelines of current
+// devices.
 constexpr const char* kFmaSource = R"(
 kernel void fma_peak(global float* out, const int rounds) {
   const float16 x = 0.999f, y = (float)get_global_id(0) * 1e-6f;
@@ -31,8 +32,8 @@ kernel void fma_peak(global float* out, const int rounds) {
 }
 )";
 
-/// Profiling for as long as it lives, also when the work throws. A profile left on would slow down
-/// the rows that follow.
+/// Profiles during its lifetime, also when the work throws. A profile left on would slow down the
+/// following rows.
 class Profiling {
  public:
   explicit Profiling(device::Device& device) : device_(device) {
@@ -43,7 +44,7 @@ class Profiling {
     try {
       device_.set_profile(false);
     } catch (const device::DeviceError&) {
-      // A destructor must not throw; the device says it again at its next call.
+      // A destructor must not throw; the device reports the fault at its next call.
     }
   }
   Profiling(const Profiling&) = delete;
@@ -55,14 +56,14 @@ class Profiling {
 
 }  // namespace
 
-// It hardly grows when other programs take the machine.
+// Processor time hardly grows when other programs use the machine.
 double processor_seconds() {
   std::timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The best run is the one that was disturbed least; noise only ever adds time.
+// The best run is the least disturbed one; noise only adds time.
 Timing timing_of(std::vector<double> wall, const std::vector<double>& processor) {
   if (wall.empty()) throw Error("bench: a timing of no runs");
   std::sort(wall.begin(), wall.end());
@@ -90,11 +91,10 @@ Timing measure(int runs, const std::function<void()>& restore, const std::functi
 
 Timing measure(device::Device& device, const std::function<void()>& restore,
                const std::function<void()>& work, int runs) {
-  // The run with number -1 warms up: drivers compile machine code and touch memory at the first
-  // use.
+  // Run -1 warms up: drivers compile machine code and touch memory at the first use.
   std::vector<double> times, processor;
   for (int run = -1; run < runs; ++run) {
-    // Restoring queues copies; they must not run within the measured time.
+    // Restoring queues copies, which must not run within the measured time.
     restore();
     device.finish();
     const double began = processor_seconds();
@@ -130,7 +130,8 @@ double copy_bandwidth(device::Device& device, std::size_t bytes) {
       "to[get_global_id(0)] = from[get_global_id(0)]; }");
   const std::size_t count = bytes / 16;
   device::Buffer<float> from(device, 4 * count), to(device, 4 * count);
-  // Written once before the clock starts, or the first touch of fresh pages would be measured.
+  // Written once before the clock starts; otherwise the first touch of fresh pages would be
+  // measured.
   from.fill(1);
   to.fill(0);
   device::Kernel copy(program, "copy");
@@ -146,8 +147,8 @@ double fma_peak(device::Device& device) {
   const device::KernelProgram program =
       device::KernelProgram::from_text(device, "fma_peak", kFmaSource);
   device::Kernel kernel(program, "fma_peak");
-  // A launch must take long enough for its own cost not to show, and short enough for a bench of
-  // seconds: a GPU takes many items, a CPU with few lanes takes more rounds of fewer items.
+  // A launch must take long enough to hide its own cost, and short enough for a bench of seconds: a
+  // GPU takes many items, a CPU with few lanes more rounds of fewer items.
   const bool gpu = device.info().kind == device::Kind::kGpu;
   const std::size_t items = gpu ? std::size_t{1} << 20 : std::size_t{1} << 12;
   const int rounds = gpu ? 1 << 11 : 1 << 14;
@@ -155,7 +156,7 @@ double fma_peak(device::Device& device) {
   kernel.args(out, rounds);
   const Timing timing = measure(
       device, [] {}, [&] { kernel.enqueue(items, 64); });
-  // Operations: a fused multiply-add is two, on 16 lanes of 8 sums, for each round and item.
+  // A fused multiply-add is two operations, on 16 lanes of 8 sums, for each round and item.
   return 2.0 * 16 * 8 * static_cast<double>(rounds) * static_cast<double>(items) / timing.best;
 }
 

@@ -6,26 +6,27 @@
 namespace navvy::bench {
 namespace {
 
-// Where the state hash stands in `columns`: a number by its digits, but text to a reader.
+// Column of the state hash: digits, but text to a reader.
 constexpr std::size_t kHashColumn = 14;
 
 std::string number(double value, const char* format) {
-  // Zero, negative or NaN means that the column does not apply: an empty field is no number that
-  // somebody averages.
+  // Zero, negative or NaN means that the column does not apply; an empty field cannot be averaged
+  // by mistake.
   if (!(value > 0)) return "";
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-/// Columns of text: names carry commas on some devices.
+/// Text columns: some device names contain commas.
 bool is_text(std::size_t column) { return column < 3 || column == kHashColumn; }
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
-      out += c == '"' ? "'" : "/";  // neither in CSV nor in JSON
+      // Neither is allowed in CSV or JSON.
+      out += c == '"' ? "'" : "/";
     else if (static_cast<unsigned char>(c) >= 0x20)
       out += c;
   }
@@ -35,7 +36,7 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 // Scripts read files by these names, so a renamed column ends comparisons with committed results.
-// kHashColumn and is_text count on the places of the first ones.
+// kHashColumn and is_text depend on the order of the first ones.
 const std::vector<std::string>& columns() {
   static const std::vector<std::string> names = {"bench",
                                                  "device",
@@ -62,7 +63,7 @@ const std::vector<std::string>& columns() {
 }
 
 std::vector<std::string> cells(const Row& row) {
-  // The fastest run counts everywhere, so that shares and rates of one row speak of the same run.
+  // The fastest run counts everywhere, so that shares and rates of one row refer to the same run.
   const double best = row.timing.best;
   const double work = static_cast<double>(row.particles) * static_cast<double>(row.steps);
   const double rate = best > 0 ? work / best : 0;
@@ -101,7 +102,7 @@ std::string csv_line(const Row& row) {
   std::string out;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (k > 0) out += ",";
-    // The two texts that come from a driver and may hold anything; our own names hold no commas.
+    // These two texts come from a driver and may contain anything; our own names contain no commas.
     out += k == 1 || k == 2 ? quoted(fields[k]) : fields[k];
   }
   return out;
@@ -114,7 +115,7 @@ std::string json(const std::vector<Row>& rows) {
     out += r > 0 ? ",\n {" : "\n {";
     bool first = true;
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      // An absent key says that nothing was measured; zero would say that it was nothing.
+      // An absent key means that nothing was measured; zero would be a value.
       if (fields[k].empty()) continue;
       out += (first ? "" : ", ") + quoted(columns()[k]) + ": " +
              (is_text(k) ? quoted(fields[k]) : fields[k]);

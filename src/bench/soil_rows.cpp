@@ -19,25 +19,25 @@ using lab::open_box;
 using lab::Site;
 using lab::SiteBox;
 
-/// Bytes of state, tiles and velocities a particle moves in one unfused step at 8 particles a cell
-/// (kernels/soil).
+/// Bytes of state, tiles and velocities that a particle moves in one unfused step at 8 particles
+/// per cell (kernels/soil).
 constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
 /// Operations of scatter (440), gather (500), law and weights (about 360) for a particle, counted
-/// from the lines of kernels/soil; the grid's share is small and left out.
+/// from the lines of kernels/soil. The share of the grid is small and left out.
 constexpr double kFlopsPerParticle = 1300;
-// Few, as the largest cases take long on two cores; the spread tells when that was too few.
+// Few, as the largest cases take long on two cores; the spread shows when that was too few.
 constexpr int kRuns = 3;
 
 // Dry sand of the validation cases, so that a bench measures what the tests check.
 scene::Soil sand() { return lab::clean_sand(35); }
 
-/// Times `steps` steps from the site's present state; tools go on at their speed.
+/// Times `steps` steps from the site's present state; tools keep their speed.
 Row time_steps(device::Device& device, Site& site, int steps,
                std::vector<soil::ToolMotion> motions = {}) {
-  // One saved state for every run, so that each starts from the same bits.
+  // One saved state for all runs, so that each starts bit-identical.
   const std::vector<char> ground = saved(site.ground()), soil = saved(site.solver());
-  // The step that the stability limit allows for the fastest tool, taken once: runs must not differ
-  // in it.
+  // The step that the stability limit allows for the fastest tool, computed once: runs must not
+  // differ in it.
   double fastest = 0;
   for (const soil::ToolMotion& motion : motions) fastest = std::max(fastest, motion.v_WT.norm());
   const double dt = site.solver().step_limit(fastest);
@@ -52,40 +52,41 @@ Row time_steps(device::Device& device, Site& site, int steps,
     load_saved(soil, site.solver());
   };
   const auto work = [&] {
-    // A copy each run, as the tools move with it.
+    // A copy per run, as the tools move.
     std::vector<soil::ToolMotion> now = motions;
     const std::uint64_t before = site.solver().stats().particle_steps;
     for (int i = 0; i < steps; ++i) {
       site.solver().step(dt, now, impulses);
       for (soil::ToolMotion& motion : now) motion.X_WT.translation() += dt * motion.v_WT;
     }
-    // Their mean: ground may wake
+    // Their mean: ground may become active.
     row.particles = (site.solver().stats().particle_steps - before) / row.steps;
   };
   row.timing = measure(device, restore, work, kRuns);
-  // In runs of its own, because the profile slows a run down.
+  // In separate runs, because the profile slows a run down.
   row.kernels = kernel_seconds(device, restore, work);
-  // Of the last run. All runs begin and end alike, so which one does not matter; a row with another
-  // hash simulated something else and its time is not compared.
+  // From the last run. All runs begin and end alike, so any of them will do. A row with another
+  // hash simulated something else, and its time is not compared.
   row.hash = hash_of(site.solver()).hex();
   return row;
 }
 
-/// A block on level ground, falling apart; re-binning included.
+/// A block on level ground that collapses, including re-binning.
 Row collapse(device::Device& device, double edge, int steps) {
   lab::SiteOptions options;
   options.size = 20;
   Site site(device, {sand()}, 0.1, options);
-  // Particles lie at half a cell: 8 a cell, so 8000 in a block of 1 m.
+  // Particles at half a cell: 8 per cell, so 8000 in a block of 1 m.
   std::vector<soil::Particle> block =
       site.fill({Vec3(-edge / 2, -edge / 2, 0), Vec3(edge / 2, edge / 2, edge)});
   site.rest(block, edge);
   site.solver().insert(block);
-  site.run(0.1);  // in motion
+  // The soil is then in motion.
+  site.run(0.1);
   return time_steps(device, site, steps);
 }
 
-/// Sand with every option of the law in use: dilatancy, mu(I), compaction (LAW_EXTENDED).
+/// Sand that uses every option of the law: dilatancy, mu(I), compaction (LAW_EXTENDED).
 scene::Soil every_option() {
   scene::Soil soil = sand();
   soil.swell = 1.13;
@@ -95,7 +96,7 @@ scene::Soil every_option() {
   return soil;
 }
 
-/// A load that rests in a bucket: the shell's cost without motion.
+/// A load at rest in a bucket: the cost of the shell without motion.
 Row held_bucket(device::Device& device, int steps) {
   Site site(device, {sand()}, 0.1);
   soil::ToolMotion motion;
@@ -111,7 +112,8 @@ Row held_bucket(device::Device& device, int steps) {
   return time_steps(device, site, steps, {motion});
 }
 
-/// A tilted bucket with its lip in a bed of `length` x `width` x 0.6 m: what a trench costs.
+/// A tilted bucket with its cutting edge in a bed of `length` x `width` x 0.6 m: the cost of a
+/// trench.
 Row dig(device::Device& device, double length, double width, int steps,
         const scene::Soil& what = sand()) {
   const SiteBox bed = {Vec3(0, -width / 2, -0.6), Vec3(length, width / 2, 0)};
@@ -126,13 +128,13 @@ Row dig(device::Device& device, double length, double width, int steps,
   soil::ToolMotion motion;
   motion.tool = site.solver().add_tool(open_box(0.8, 0.8, 0.6));
   motion.v_WT = Vec3(0.5, 0, 0);
-  // Tilted as for digging; the odd figures keep it off the edges of cells.
+  // Tilted as for digging; the odd numbers keep it off the edges of cells.
   motion.X_WT = make_pose(1.01, 0.02, 0.1, 0, radians(110), 0);
   return time_steps(device, site, steps, {motion});
 }
 
-/// A bucket drawn through ground that wakes before it and rests behind it, on a square site of edge
-/// `size` [m]. The cost must follow the soil that is awake, not the site.
+/// A bucket drawn through ground that becomes active before it and rests behind it, on a square
+/// site of edge `size` [m]. The cost must follow the active soil, not the site.
 Row site_dig(device::Device& device, double size, int steps) {
   lab::SiteOptions options;
   options.size = size;
@@ -144,7 +146,7 @@ Row site_dig(device::Device& device, double size, int steps) {
   motion.X_WT = make_pose(0.01, 0.02, 0.1, 0, radians(110), 0);
   const double dt = site.solver().step_limit(0.5);
   std::vector<soil::ToolImpulse> impulse(1);
-  // Until the zone before the tool is awake: what wakes at the first touch is no steady cost.
+  // Until the zone before the tool is active: the first touch is not a steady cost.
   for (int i = 0; i < 20; ++i) {
     site.solver().step(dt, std::span(&motion, 1), impulse);
     motion.X_WT.translation() += dt * motion.v_WT;
@@ -180,7 +182,7 @@ std::vector<SoilCase> make_cases() {
       {"soil_collapse_no_tool:512k", "4 m", false, [](Device& d) { return collapse(d, 4.0, 20); }},
       {"soil_collapse_no_tool:1953k", "6.25 m", false,
        [](Device& d) { return collapse(d, 6.25, 5); }},
-      {"site_dig:0.01km2", "a dig with waking ground", true,
+      {"site_dig:0.01km2", "a dig on ground that becomes active", true,
        [](Device& d) { return site_dig(d, 100, 100); }},
       {"site_dig:0.1km2", "the same on a larger site", false,
        [](Device& d) { return site_dig(d, 316.2, 100); }},
@@ -202,14 +204,14 @@ void run_soil_cases(device::Device& device, const std::string& only, bool quick,
   std::string names;
   for (const SoilCase& c : soil_cases()) {
     names += " " + c.name;
-    // Part of the name is enough, so one word picks a family.
+    // Part of the name is enough, so one word selects a family.
     if (c.name.find(only) != std::string::npos && (!quick || c.quick)) wanted.push_back(&c);
   }
   if (wanted.empty())
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only, "no case holds this word",
-                           "one of:" + names});
+    throw InputError(Fault{Fault::Severity::kError, "", 0, "bench", only,
+                           "no case has this word in its name", "one of:" + names});
   for (const SoilCase* c : wanted) {
-    // Beside its row, so that a machine which is busier now than a row ago counts in both.
+    // Beside its row, so that other load on the machine affects both alike.
     const Peak peak = measure_peak(device);
     Row row = c->run(device);
     row.bench = c->name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows that measure the particle soil as users run it, on any device: `navvy bench` and
+// Benchmark rows of the particle soil as users run it, on any device: `navvy bench` and
 // bench/scenes/soil_scenes_bench.
 #pragma once
 
@@ -15,20 +15,26 @@ class Device;
 
 namespace navvy::bench {
 
-/// What a row measures.
+/// One measured case.
 struct SoilCase {
-  std::string name;  ///< with its size after a colon
+  /// With its size after a colon.
+  std::string name;
+  /// Description for `navvy bench --list`.
   std::string help;
-  bool quick = false;  ///< a few seconds on two cores
+  /// Takes a few seconds on two cores.
+  bool quick = false;
+  /// Runs the case on a device.
   std::function<Row(device::Device&)> run;
 };
 
-/// Every case, in the order they are run: a collapsing block, a load held in a bucket, a bucket in
-/// a bed, digs on sites of 0.01 to 1 km2, blocks of growing numbers of awake particles.
+/// Returns all cases, in the order in which they run: a collapsing block, a load held in a bucket,
+/// a bucket in a bed, digs on sites of 0.01 to 1 km2, blocks of growing numbers of active
+/// particles.
 const std::vector<SoilCase>& soil_cases();
 
-/// Runs the cases whose name holds `only` (all when empty; `quick`: the short ones) on one device,
-/// hands each row to `take` as soon as it is there. @throws InputError when no name fits.
+/// Runs the cases whose name contains `only` (all when empty; `quick`: the short ones) on one
+/// device and passes each row to `take` at once.
+/// @throws InputError when no name fits.
 void run_soil_cases(device::Device& device, const std::string& only, bool quick,
                     const std::function<void(const Row&)>& take);
 

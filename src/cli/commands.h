@@ -33,6 +33,8 @@ void add_machines(CLI::App& app, Action& action);
 void add_scenes(CLI::App& app, Action& action);
 /// Adds `navvy channels`, which lists inputs, outputs and arrays of a scene.
 void add_channels(CLI::App& app, Action& action);
+/// Adds `navvy schema`, which prints the elements of scene files.
+void add_schema(CLI::App& app, Action& action);
 /// Adds `navvy lab`, the virtual soil laboratory.
 void add_lab(CLI::App& app, Action& action);
 /// Adds `navvy bench`, which measures the speed of the soil.

@@ -15,12 +15,14 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/log.h"
 #include "device/device.h"
 #include "lab/experiment.h"
 #include "lab/rig.h"
 #include "lab/sweep.h"
 #include "scene_io/loader.h"
 #include "scene_io/shipped.h"
+#include "soil/scheme.h"
 
 namespace navvy::cli {
 namespace {
@@ -76,10 +78,13 @@ std::string described(const std::string& text) { return wrapped(text, kWidth - k
 /// Prints a line for each rig.
 int list_rigs() {
   std::puts(
-      "The virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
-      "draws it in words.\n");
+      "Virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
+      "describes it.\n");
   for (const lab::Rig& rig : lab::rigs())
     std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
+  std::puts(
+      "\n`navvy lab constants` lists the constants of the particle scheme, which --set "
+      "scheme.NAME=VALUE changes.");
   return kOk;
 }
 
@@ -91,6 +96,18 @@ InputError refused(const std::string& where, const std::string& value, const std
 
 std::string did_you_mean(const std::vector<std::string>& names, const std::string& wanted) {
   return "did you mean '" + nearest_name(names, wanted) + "'?";
+}
+
+/// Prints the constants of the particle scheme: name, default, unit, range, description.
+int list_constants() {
+  std::puts(
+      "Constants of the particle scheme; `navvy lab RIG --set scheme.NAME=VALUE` changes one.\n");
+  for (const soil::SchemeConstant& row : soil::scheme_constants()) {
+    std::printf("  %-28s %-10s %-18s %s .. %s\n", row.name, lab::short_text(row.standard()).c_str(),
+                row.unit, lab::short_text(row.low).c_str(), lab::short_text(row.high).c_str());
+    std::printf("      %s\n", row.help);
+  }
+  return kOk;
 }
 
 /// Runs all combinations of the lists, or the one experiment. Results outside their acceptance
@@ -196,6 +213,18 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
         ->type_name(type_name(parameter))
         ->default_str(parameter.text(parameter.value))
         ->group("Geometry and procedure");
+  // Former names work for one release; a group without a name keeps them out of the help.
+  for (const lab::Parameter& parameter : rig.parameters)
+    if (!parameter.former.empty())
+      command
+          ->add_option_function<std::string>(
+              "--" + parameter.former,
+              [options, name = parameter.name,
+               former = parameter.former](const std::string& written) {
+                log_warning("lab: --" + former + " is now called --" + name);
+                options->experiment.geometry[name] = written;
+              })
+          ->group("");
   command->add_option("--soil", options->soil, "a soil of terrain/soils by name (`navvy soils`)")
       ->group("Soil");
   // All rigs share the options of the soil, as only one rig runs.
@@ -209,8 +238,10 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
   command
       ->add_option("--set", options->settings,
                    described("NAME=VALUE: any number of the soil by its name in scene files, as "
-                             "opening_strain=0.02; "
-                             "repeatable"))
+                             "opening_strain=0.02, or a "
+                             "constant of the particle scheme, as scheme.mixing_strain=0.05 "
+                             "(`navvy lab constants` "
+                             "lists them); repeatable"))
       ->group("Soil");
   command->add_option("--cell", options->experiment.cells, "edge of a soil cell [m]")
       ->delimiter(',')
@@ -229,8 +260,7 @@ void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOpt
           "as --speed 0.05,0.15 --cell 0.1,0.05: every combination is run, in one table"));
   command->add_flag(
       "--energy", options->experiment.energy,
-      described(
-          "report the energy account of the soil; takes up to three times as long"));
+      described("report the energy account of the soil; takes up to three times as long"));
   command->add_flag("--quiet", options->quiet, "no progress line");
   // All rigs share one set of options; the callback notes which of them was chosen.
   command->callback([command, options, &action, name = rig.name] {
@@ -252,6 +282,8 @@ void add_lab(CLI::App& app, Action& action) {
   command->require_subcommand(0, 1);
   command->allow_extras();
   for (const lab::Rig& rig : lab::rigs()) add_rig(*command, rig, options, action);
+  command->add_subcommand("constants", "list the constants of the particle scheme")
+      ->callback([&action] { action = [] { return list_constants(); }; });
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();

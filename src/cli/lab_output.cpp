@@ -12,6 +12,7 @@
 #include "core/stopwatch.h"
 #include "device/device.h"
 #include "scene/soil_values.h"
+#include "soil/scheme.h"
 
 namespace navvy::cli {
 namespace {
@@ -31,9 +32,9 @@ nlohmann::json number(double value) {
 }
 
 /// Returns all numbers of a soil under their names in scene files.
-nlohmann::json soil_json(const scene::Soil& soil) {
+nlohmann::json soil_json(scene::Soil soil) {
   nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
-  for (const scene::SoilValue& v : scene::soil_values()) out[v.name] = v.written(soil);
+  for (const scene::SoilValue& v : scene::soil_values(soil)) out[v.name] = v.written();
   return out;
 }
 
@@ -61,6 +62,10 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
   nlohmann::json& inputs = out["inputs"];
   inputs["soil"] = soil_json(setup.soil);
   inputs["cell_m"] = setup.cell;
+  // Only what the experiment changed: the defaults follow from the version.
+  for (const soil::SchemeConstant& row : soil::scheme_constants())
+    if (setup.scheme.*row.value != row.standard())
+      inputs["scheme"][row.name] = setup.scheme.*row.value;
   for (const lab::Parameter& p : rig.parameters)
     inputs["geometry"][key(p.name, p.unit)] = setup[p.name];
   for (const lab::Quantity& q : report.results) {
@@ -93,7 +98,7 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 }
 
 void print_table(const lab::Report& report) {
-  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "accepted",
+  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "tolerance",
               "source");
   for (const lab::Quantity& q : report.results) {
     const std::string tolerance =
@@ -110,8 +115,7 @@ void print_table(const lab::Report& report) {
   }
   for (const lab::Quantity& q : report.results)
     if (!q.in_range)
-      std::printf("not judged: %s; its acceptance range holds for %s\n", q.name.c_str(),
-                  q.range.c_str());
+      std::printf("not judged: %s; its tolerance applies to %s\n", q.name.c_str(), q.range.c_str());
   if (report.energy) print_energy(*report.energy);
   std::printf("%d particles, %llu steps, %.2f s simulated in %.1f s; ledger %lld, hash %s\n",
               report.particles_peak, static_cast<unsigned long long>(report.steps),

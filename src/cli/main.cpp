@@ -149,6 +149,7 @@ int run(int argc, char** argv) {
   cli::add_machines(app, action);
   cli::add_soils(app, action);
   cli::add_channels(app, action);
+  cli::add_schema(app, action);
   cli::add_lab(app, action);
   cli::add_bench(app, action);
   // CLI11 would answer an unknown command with the whole help.

@@ -83,10 +83,10 @@ int soils() {
 
 /// Prints every value of a soil under its name in scene files, ready to be copied into a scene.
 int one_soil(const std::string& name) {
-  const scene::Soil soil = scene_io::shipped_soil(name, "soils");
+  scene::Soil soil = scene_io::shipped_soil(name, "soils");
   std::printf("%s\n  source: %s\n", soil.name.c_str(), soil.source.c_str());
-  for (const scene::SoilValue& value : scene::soil_values())
-    std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(soil), value.low,
+  for (const scene::SoilValue& value : scene::soil_values(soil))
+    std::printf("  %-26s %12.6g   (%g to %g)\n", value.name, value.written(), value.low,
                 value.high);
   std::printf("  %-26s %g %g %g\n", "color", static_cast<double>(soil.color[0]),
               static_cast<double>(soil.color[1]), static_cast<double>(soil.color[2]));

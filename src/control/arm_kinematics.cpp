@@ -49,7 +49,6 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   swing_limited_ = swing.has_limits;
   swing_lower_ = swing.lower;
   swing_upper_ = swing.upper;
-  upper_link_ = swing.child;
   // All joints at zero: pins lie in the swing plane, at the joints' frames.
   const auto pin = [&](int j) {
     return Vec3((link(joint(j).child).X_ML * joint(j).X_LcJ).translation());

@@ -55,8 +55,6 @@ class ArmKinematics {
   int swing_joint() const { return swing_; }
   /// Joint indices of boom, stick and bucket.
   const std::array<int, 3>& joints() const { return joints_; }
-  /// Index of the link that swings with the arm.
-  int upper_link() const { return upper_link_; }
   /// Pose of S in the base link (links[0]) at zero swing.
   const Pose& X_BS() const { return X_BS_; }
   /// Direction of the cutting edge relative to the line from pin to tip [rad].
@@ -73,7 +71,7 @@ class ArmKinematics {
 
  private:
   // Indices into scene::Machine::joints and links.
-  int swing_ = -1, upper_link_ = -1;
+  int swing_ = -1;
   std::array<int, 3> joints_{};
   std::array<double, 3> lower_{}, upper_{};
   bool swing_limited_ = false;

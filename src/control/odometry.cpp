@@ -2,10 +2,10 @@
 #include "control/odometry.h"
 
 #include <cmath>
-#include <variant>
 #include <vector>
 
 #include "core/error.h"
+#include "scene/drive_kinds.h"
 #include "vehicle/drive/drive_line.h"
 
 namespace navvy::control {
@@ -41,7 +41,7 @@ DifferentialOdometry::DifferentialOdometry(double track, const CountedWheel& lef
     : track_(track), left_(left), right_(right) {}
 
 DifferentialOdometry DifferentialOdometry::of(const scene::Machine& machine) {
-  const auto* drive = std::get_if<scene::DifferentialDrive>(&machine.drive);
+  const scene::DifferentialDrive* drive = scene::differential_drive(machine.drive);
   if (!machine.has_drive || drive == nullptr)
     throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
                            "machine[" + machine.name + "]", "",

@@ -177,7 +177,6 @@ std::string Operator::phase() const {
   if (state_->failed()) return name_of(state_->reports.back().state);
   return state_->active ? state_->active->phase() : "idle";
 }
-int Operator::cycles() const { return static_cast<int>(state_->place.handover.cycles); }
 ProgramProgress Operator::progress() const {
   return {static_cast<int>(state_->step), static_cast<int>(state_->steps.size()), state_->failed()};
 }

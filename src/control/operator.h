@@ -60,8 +60,6 @@ class Operator {
   /// Returns the report of the running step as if it ended now at `time` [s]; of the last completed
   /// step when none runs, and of no step (number 0) before the first.
   StepReport present(const Observation& seen, double time) const;
-  /// Returns the number of digging cycles so far.
-  int cycles() const;
   /// Returns how many steps the program has and how many are done.
   ProgramProgress progress() const;
   /// Returns the event of the last update.

@@ -5,8 +5,7 @@
 
 namespace navvy {
 
-// Put together only when something is wrong or a byte map is asked for: a visit itself keeps
-// pointers and numbers.
+// Built only for errors and byte maps: a visit itself stores pointers and numbers.
 std::string Archive::path() const {
   std::string out;
   for (const Place& place : places_) {
@@ -21,7 +20,7 @@ std::string Archive::path() const {
 }
 
 // A state that does not fit is bad input, not a bug: it may come from an older version or a broken
-// disk, so the message says what to do about it and where in the state the visit stood.
+// disk. The message says where in the state the visit was and what to do.
 void Archive::fail(const std::string& rule) const {
   throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, path(), "", rule,
                          "it was written by another version of Navvy, for another scene, or "

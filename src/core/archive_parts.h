@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an Archive takes each kind of field. Comes with core/archive.h; do not include it alone.
+// How an Archive takes each type of field. Included by core/archive.h; do not include it directly.
 //
-// Every container writes its length first, then its elements in their order, so that nothing an
-// element says can be taken for another list's. Loading believes no length: it is compared with the
-// bytes left, and containers of classes grow element by element, so memory follows what is really
+// Every container writes its length before its elements, so no element can be mistaken for the
+// length of another list. Loading does not trust a length: it is compared with the remaining bytes,
+// and containers of classes grow element by element, so memory use follows the data that is really
 // there.
+//
+// Bytes written for each type:
+//   bool                        one byte, 0 or 1
+//   number, enum                its bytes as in memory (little-endian)
+//   Eigen matrix, quaternion    its numbers in storage order
+//   Pose                        12 doubles: the rotation column by column, then the translation
+//   string, vector, span        length (8 bytes), elements
+//   array, pair                 elements
+//   optional                    flag (one byte), value if there is one
+//   variant                     index of the alternative (4 bytes), its value
+//   map, set                    length (8 bytes), keys in ascending order, each with its value
+//   class with a visit          its fields
 #pragma once
 
 #include <map>
@@ -17,30 +29,30 @@
 
 namespace navvy {
 
-/// A type that lists its own fields, as a member or as a function beside it. The member wins where
-/// a type has both, so a class may hide a free function of its base.
+/// A type that lists its own fields in a member `visit`. The member takes precedence over a free
+/// function, so a class may override the free function of its base.
 template <class T>
 concept Visitable = requires(T& object, Archive& archive) {
   object.visit(archive);
 };
-/// The other way: for types of foreign libraries, and for structs of data that shall not know
-/// archives.
+/// A type with a free function `visit(Archive&, T&)`: for types of foreign libraries, and for plain
+/// structs that should not depend on archives.
 template <class T>
 concept VisitableBeside = requires(T& object, Archive& archive) {
   visit(archive, object);
 };
 
-/// Names are string literals or as long-lived: only the pointer is kept. A scope is an element of
-/// the path that an error or a byte map names, and costs a push and a pop: no text is put together
-/// unless somebody asks for it. It must end in reverse order of its beginning, which is why it can
-/// only live on the stack and cannot be copied.
+/// Element of the path that errors and byte maps name. Construction and destruction cost a push and
+/// a pop; no text is built unless it is asked for. Names must be string literals or live as long,
+/// as only the pointer is stored. Scopes end in reverse order of construction, so they live on the
+/// stack and are not copyable.
 class Archive::Scope {
  public:
-  /// A named field, or the tag of a section.
+  /// Appends a named field, or the tag of a section.
   Scope(Archive& archive, const char* name) : archive_(archive) {
     archive_.places_.push_back({name, 0});
   }
-  // An element of a container, by its place; it costs no text either.
+  /// Appends an element of a container by its index.
   Scope(Archive& archive, std::uint64_t number) : archive_(archive) {
     archive_.places_.push_back({nullptr, number});
   }
@@ -48,14 +60,13 @@ class Archive::Scope {
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
 
-  // The archive outlives every scope on it, as scopes live within a visit.
+  // The archive outlives every scope, since scopes live within a visit.
  private:
   Archive& archive_;
 };
 
-/// They nest: what lies inside stays out of the hash until the outermost ends. The reason that is
-/// in force is that of the innermost, and the outer one comes back when it ends. Nothing else is
-/// switched: fields under it are saved and loaded like any other.
+/// Excludes fields from the hash during its lifetime; instances nest. The innermost reason is in
+/// force, and the outer one is restored on destruction. Saving and loading are unaffected.
 class Archive::Unhashed {
  public:
   Unhashed(Archive& archive, const char* reason) : archive_(archive), before_(archive.reason_) {
@@ -69,31 +80,30 @@ class Archive::Unhashed {
   Unhashed(const Unhashed&) = delete;
   Unhashed& operator=(const Unhashed&) = delete;
 
-  // What held before, for the way back: reasons nest as scopes do.
+  // The state to restore on destruction.
  private:
   Archive& archive_;
   const char* before_;
 };
 
-/// One function `part` a kind of field. A struct of static members, so that each sees all others
-/// whatever their order: containers hold containers. The order of the overloads does not matter to
-/// the format; what each writes does, and is part of every saved state: change one and every
-/// section's version has to rise.
+/// One overload of `part` per type of field. They are static members of a struct so that each sees
+/// all others in any order, since containers hold containers. What each overload writes is part of
+/// every saved state: changing one requires raising the version of every section.
 struct ArchiveParts {
-  /// A length. Every element takes a byte at least, so a longer one than the bytes left is a lie.
-  /// Hashed as well, so that a list of two and a list of one followed by a number of the same value
-  /// differ. Where an archive loads, the number it is handed is overwritten by the saved one;
-  /// elsewhere it comes back as it was.
+  /// Visits a length. Each element takes at least one byte, so a length above the number of
+  /// remaining bytes is invalid. The length is hashed too, so that a list of two and a list of one
+  /// followed by an equal number differ. Returns the saved length when loading, and `present`
+  /// otherwise.
   static std::uint64_t count(Archive& a, std::uint64_t present) {
     a.scalar(&present, sizeof present);
-    if (a.loading_ && present > a.left()) a.fail("a length is beyond the end of the section");
+    if (a.loading_ && present > a.left()) a.fail("a length exceeds the rest of the section");
     return present;
   }
 
-  /// Numbers, enums and classes. The branches go from the special to the general: a class that has
-  /// a visit is visited even where it could be taken as bytes, since its author said which members
-  /// count. Padding is the reason for every refusal here: bytes that no member owns would be hashed
-  /// and saved as noise, and two equal states would differ.
+  /// Visits numbers, enums and classes. The branches go from special to general: a class with a
+  /// visit is visited even if it could be taken as bytes, since its author chose which members
+  /// count. Types with padding are refused, because padding would be hashed and saved as noise and
+  /// make two equal states differ.
   template <class T>
   static void part(Archive& a, T& v) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -102,8 +112,8 @@ struct ArchiveParts {
       a.scalar(&byte, 1);
       if (a.loading_ && byte > 1) a.fail("must be 0 or 1");
       if (a.loading_) v = byte != 0;
-      // Enums go by their number, so their order is part of the format. A loaded number that is no
-      // enumerator is for the caller to refuse, by `ranged`.
+      // Enums are stored by number, so the order of enumerators is part of the format. The caller
+      // rejects numbers that are no enumerator, with `ranged`.
     } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       static_assert(kPlain<T>, "long double has padding");
       a.scalar(&v, sizeof v);
@@ -117,67 +127,63 @@ struct ArchiveParts {
     }
   }
 
-  // A matrix goes in one run, in its own storage order. The order is part of the type, so two
-  // fields of one type agree.
+  // A matrix is one run of bytes in its storage order, which is part of its type.
   template <class T, int R, int C, int O>
   static void part(Archive& a, Eigen::Matrix<T, R, C, O, R, C>& v) {
     static_assert(kPlain<Eigen::Matrix<T, R, C, O, R, C>>, "matrices of fixed size only");
     a.block(v.data(), sizeof(T) * R * C);
   }
-  /// x y z w, as it lies in memory; not normalised, bits stay. Normalising here would change the
-  /// last bit of a turn at every load, and a run continued from a snapshot would leave the run it
-  /// came from.
+  /// Visits x y z w as stored, without normalising: normalising would change the last bits at every
+  /// load, and a run resumed from a snapshot would diverge from the original.
   static void part(Archive& a, Eigen::Quaterniond& q) {
     a.block(q.coeffs().data(), 4 * sizeof(double));
   }
-  /// Column by column: three of the turn, then the place; the last row is always 0 0 0 1.
-  /// `makeAffine` sets that row again, which loading did not touch. A turn with a scale in it is
-  /// refused: whoever has a pose counts on there being none.
+  /// Visits the rotation and the translation column by column; the last row is always 0 0 0 1 and
+  /// is set by `makeAffine` after loading. A rotation that contains a scale is refused, since all
+  /// users of a pose rely on there being none.
   static void part(Archive& a, Pose& X) {
-    // One scalar at a time: the affine matrix has a row that is not saved, so there is no single
-    // run of bytes.
+    // One scalar at a time: the last row is not saved, so there is no single run of bytes.
     for (int c = 0; c < 4; ++c)
       for (int r = 0; r < 3; ++r) a.scalar(&X.matrix()(r, c), sizeof(double));
     if (!a.loading_) return;
     X.makeAffine();
-    if (!is_rigid(X)) a.fail("is no finite place of a rigid body");
+    if (!is_rigid(X)) a.fail("must be a finite rigid pose");
   }
 
-  /// As bytes, whatever they spell. No encoding is assumed: whoever shows the text decides what it
-  /// means.
+  /// Visits text as bytes; no encoding is assumed.
   static void part(Archive& a, std::string& text) {
-    // While saving, the resize is to the present length and does nothing.
+    // When saving, this resizes to the present length, which does nothing.
     text.resize(count(a, text.size()));
     a.block(text.data(), text.size());
   }
 
-  // Two ways to load. Plain elements come in one copy, with the length checked in bytes before
-  // memory is taken. Others are visited one by one and may be of any size, so the vector grows as
-  // they arrive: a lie about the length runs into the end of the section after as many elements as
-  // there are bytes. What was in the vector before is gone in both cases.
+  // Loading takes two paths. Plain elements are copied at once, after their size in bytes was
+  // checked. Others may have any size and are visited one by one, so the vector grows as they
+  // arrive and a wrong length hits the end of the section after at most as many elements as there
+  // are bytes. The previous content is discarded in both cases.
   template <class T>
   static void part(Archive& a, std::vector<T>& v) {
     static_assert(!std::is_same_v<T, bool>,
                   "std::vector<bool> has no elements to refer to; use std::uint8_t");
     const std::uint64_t n = count(a, v.size());
     if (!a.loading_) return elements(a, v);
-    // An element may take eight bytes where `count` has reckoned with one, so the bound is asked
-    // again, by division, as a product could wrap around.
+    // An element may take eight bytes where `count` assumes one, so the bound is checked again; by
+    // division, as a product could overflow.
     if constexpr (kPlain<T>) {
-      if (n > a.left() / sizeof(T)) a.fail("a length is beyond the end of the section");
+      if (n > a.left() / sizeof(T)) a.fail("a length exceeds the rest of the section");
       v.resize(n);
       elements(a, v);
     } else {
       v.clear();
       for (std::uint64_t i = 0; i < n; ++i) {
-        // The element's number stands in the path of whatever fails below.
+        // The element's index is part of the path in errors below.
         const Archive::Scope scope(a, i);
         part(a, v.emplace_back());
       }
     }
   }
-  // Memory of someone else, taken where it lies: large arrays of a device need not be copied to be
-  // hashed. Whoever loads visits a vector in its place.
+  // Memory that is owned elsewhere, e.g. a mapped device buffer, which need not be copied to be
+  // hashed. Loading visits a vector instead.
   template <class T>
   static void part(Archive& a, std::span<const T>& v) {
     static_assert(kPlain<T>, "plain values only");
@@ -186,13 +192,13 @@ struct ArchiveParts {
     // Archives that do not load only read.
     a.block(const_cast<T*>(v.data()), v.size_bytes());
   }
-  // The length is in the type, so it is not written.
+  // The length is part of the type and is not written.
   template <class T, std::size_t N>
   static void part(Archive& a, std::array<T, N>& v) {
     elements(a, v);
   }
-  /// What lies side by side, in one run where the type allows it: a state of 100 MB is hashed a
-  /// word at a time then. For vectors and arrays, whose elements both lie side by side.
+  /// Visits the elements of a vector or array, in one run of bytes if the type allows it: a state
+  /// of 100 MB is then hashed word by word.
   template <class List>
   static void elements(Archive& a, List& v) {
     if constexpr (kPlain<typename List::value_type>) {
@@ -205,47 +211,46 @@ struct ArchiveParts {
     }
   }
 
-  /// Without names of their own: "first" would tell a reader nothing. The pair is written as two
-  /// fields in a row, which is also what a struct of two members would write.
+  /// Visits both members without names: a pair is written as two consecutive fields, like a struct
+  /// of two members.
   template <class A, class B>
   static void part(Archive& a, std::pair<A, B>& v) {
     part(a, v.first);
     part(a, v.second);
   }
 
-  /// An empty one writes no value: nothing stale is saved or hashed. Loading makes the value anew
-  /// by its default constructor first, so nothing of what the object held before survives.
+  /// Visits a flag and then the value, if there is one; an empty optional writes no value, so
+  /// nothing stale is saved. Loading constructs the value anew by its default constructor.
   template <class T>
   static void part(Archive& a, std::optional<T>& v) {
-    // A bool of its own and not a byte of the format's, so the check of 0 or 1 is that of `part`.
+    // Goes through `part`, which checks that the flag is 0 or 1.
     bool held = v.has_value();
     part(a, held);
     if (a.loading_) v = held ? std::optional<T>(std::in_place) : std::nullopt;
     if (v) part(a, *v);
   }
 
-  /// Which alternative, then that one; loading makes it anew. The number counts the alternatives in
-  /// the order of the type's list, so that order is part of the format: add new ones at the end.
+  /// Visits the index of the alternative and then the alternative, which loading constructs anew.
+  /// The order of the alternatives is part of the format: append new ones.
   template <class... T>
   static void part(Archive& a, std::variant<T...>& v) {
     auto index = static_cast<std::uint32_t>(v.index());
-    // Compared before it is used: an index from a damaged file would choose nothing and leave the
-    // old alternative with new bytes.
+    // Checked before use: an invalid index from a damaged file would select nothing and load bytes
+    // into the old alternative.
     a.scalar(&index, sizeof index);
-    if (a.loading_ && index >= sizeof...(T)) a.fail("names an alternative that does not exist");
+    if (a.loading_ && index >= sizeof...(T)) a.fail("must be the index of an alternative");
     if (a.loading_) emplace(v, index, std::index_sequence_for<T...>());
     std::visit([&a](auto& held) { part(a, held); }, v);
   }
-  // The only way to choose an alternative by a number known at run time; folds into a chain of
-  // comparisons.
+  // Selects an alternative by a run-time index with a chain of comparisons.
   template <class Variant, std::size_t... I>
   static void emplace(Variant& v, std::uint32_t index, std::index_sequence<I...>) {
     ((index == I ? static_cast<void>(v.template emplace<I>()) : void()), ...);
   }
 
-  // Keys are written with their values, in the order of the map. The key is copied because an
-  // archive takes fields by reference and keys are constant; keys are numbers or short names, so
-  // the copy is cheap. Each key and its value share one place in the path, the entry's number.
+  // Keys are written with their values, in the order of the map. Keys are copied because an archive
+  // takes non-const references. A key and its value share one element of the path, the index of the
+  // entry.
   template <class K, class V>
   static void part(Archive& a, std::map<K, V>& v) {
     if (a.loading_) {
@@ -253,7 +258,7 @@ struct ArchiveParts {
                    [&](K key) { part(a, v.emplace_hint(v.end(), std::move(key), V{})->second); });
       return;
     }
-    // Saving and hashing walk the map as it is; the numbers of elements serve the path only.
+    // Saving and hashing traverse the map in order; the index only serves the path.
     count(a, v.size());
     std::uint64_t i = 0;
     for (auto& [key, value] : v) {
@@ -263,9 +268,8 @@ struct ArchiveParts {
       part(a, value);
     }
   }
-  // The same without values. A set holds its own order, so two sets of equal content write equal
-  // bytes, whatever the order in which they were filled; the same holds for a map. Unordered
-  // containers have no part here for that reason.
+  // Like a map without values. Sorted containers of equal content write equal bytes, whatever the
+  // order of insertion; unordered containers do not, and have no overload here.
   template <class K>
   static void part(Archive& a, std::set<K>& v) {
     if (a.loading_) {
@@ -274,20 +278,20 @@ struct ArchiveParts {
     }
     count(a, v.size());
     std::uint64_t i = 0;
-    for (K key : v) {  // a copy: keys are constant, and an archive is never told apart by constness
+    // A copy, since keys are const.
+    for (K key : v) {
       const Archive::Scope scope(a, i++);
       part(a, key);
     }
   }
-  /// Loads a sorted container; `add` takes each key and reads what belongs to it. Only one order is
-  /// ours: a state with another one, or with a key twice, was not written by a SaveArchive. The
-  /// order of keys also keeps `emplace_hint` at the end from ever searching, and makes what is
-  /// loaded the same container that was saved, bit for bit.
+  /// Loads a sorted container; `add` takes each key and loads what belongs to it. Keys must be
+  /// ascending and distinct, as SaveArchive writes them. This also keeps `emplace_hint` at the end
+  /// from searching, and restores the same container.
   template <class K, class Container, class Add>
   static void load_keys(Archive& a, Container& v, const Add& add) {
-    // What was in it before is gone: a loaded state is the whole of what it says.
+    // The previous content is discarded.
     v.clear();
-    // Nothing is present yet, so the number handed in means nothing.
+    // The present count is irrelevant when loading.
     const std::uint64_t n = count(a, 0);
     std::optional<K> last;
     for (std::uint64_t i = 0; i < n; ++i) {
@@ -295,16 +299,15 @@ struct ArchiveParts {
       const Archive::Scope scope(a, i);
       K key{};
       part(a, key);
-      if (last && !v.key_comp()(*last, key)) a.fail("keys must ascend");
+      if (last && !v.key_comp()(*last, key)) a.fail("keys must be in ascending order");
       last = key;
       add(std::move(key));
     }
   }
 };
 
-// What follows are the members of Archive that know types. Each opens the field's scope first, so
-// that everything that goes wrong below it is told with the field's name. The one below is what
-// most visits consist of; the others are for fields that need a word more.
+// Members of Archive that depend on types. Each opens the field's scope first, so that errors name
+// the field.
 template <class T>
 void Archive::operator()(const char* name, T& field) {
   const Scope scope(*this, name);
@@ -316,26 +319,26 @@ void Archive::ranged(const char* name, T& field, const std::type_identity_t<T>& 
                      const std::type_identity_t<T>& high) {
   const Scope scope(*this, name);
   ArchiveParts::part(*this, field);
-  // Written so that a NaN is out of every range.
+  // NaN fails this comparison for every range.
   if (loading_ && !(field >= low && field <= high)) fail("is out of its range");
 }
 
 template <class T>
 void Archive::fixed(const char* name, std::vector<T>& field) {
   const Scope scope(*this, name);
-  // The length is hashed like any other, although it cannot differ. The answer differs from the
-  // length only when loading: other archives give back what they are handed.
+  // The length is hashed like any other. It differs from `count`'s result only when loading, since
+  // other archives return what they are given.
   if (ArchiveParts::count(*this, field.size()) != field.size())
-    fail("has another length than in the scene");
+    fail("must have the same length as in the scene");
   ArchiveParts::elements(*this, field);
 }
 
 template <class T>
 void Archive::constant(const char* name, const T& value, const std::string& rule) {
   const Scope scope(*this, name);
-  // Two runs of one scene cannot differ in it, so it would tell a hash nothing.
+  // Two runs of one scene cannot differ in it, so hashing it is useless.
   const Unhashed silent(*this, "");
-  // A copy, as the value of a scene is constant and a loading archive would write over it.
+  // A copy, since a loading archive overwrites what it visits.
   T found = value;
   ArchiveParts::part(*this, found);
   if (loading_ && !(found == value)) fail(rule);
@@ -344,8 +347,8 @@ void Archive::constant(const char* name, const T& value, const std::string& rule
 template <class Get, class Set>
 void Archive::property(const char* name, const Get& get, const Set& set) {
   const Scope scope(*this, name);
-  // A loading archive must not ask for what may not exist yet. So the type behind a property has to
-  // be default constructible and cheap to copy.
+  // `get` must not be called when loading, as the object may not exist yet. The value type must be
+  // default constructible and cheap to copy.
   std::decay_t<decltype(get())> value{};
   if (!loading_) value = get();
   ArchiveParts::part(*this, value);
@@ -354,22 +357,22 @@ void Archive::property(const char* name, const Get& get, const Set& set) {
 
 template <class Body>
 void Archive::unhashed(const char* reason, const Body& body) {
-  // For as long as the body runs, also when it throws.
+  // Lasts until the body returns or throws.
   const Unhashed silent(*this, reason);
   body();
 }
 
 template <class Body>
 void Archive::section(const char* tag, std::uint32_t version, const Body& body) {
-  // The tag is in the path, so that an error names the section even where its head is wrong.
+  // The tag is in the path, so an error in the section's head names the section.
   const Scope scope(*this, tag);
   begin_section(tag, version);
-  // An exception leaves the section open; the archive is of no use then.
+  // An exception leaves the section open; the archive is unusable afterwards.
   body();
   end_section();
 }
 
-// Nothing but the length: the caller visits the elements by `item`, with names that it chooses.
+// Visits the length only; the caller visits the elements with `item`.
 inline std::uint64_t Archive::size(const char* name, std::uint64_t present) {
   const Scope scope(*this, name);
   return ArchiveParts::count(*this, present);
@@ -381,8 +384,7 @@ void Archive::item(std::uint64_t number, const Body& body) {
   body();
 }
 
-// Out of line of the field itself: the rule may take several fields together, and `field` says
-// which one to look at.
+// The rule may involve several fields; `field` names the one to look at.
 inline void Archive::require(bool good, const char* field, const std::string& rule) {
   if (good || !loading_) return;
   const Scope scope(*this, field);

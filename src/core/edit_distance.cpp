@@ -7,14 +7,13 @@
 namespace navvy {
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  // One row of the table at a time, since only the row above and its left neighbour are ever asked
-  // for: memory follows the second word, time is the product of the lengths, and the words are
-  // names of a few letters.
+  // One row of the table at a time: an entry depends on the row above and on its left neighbour
+  // only. Memory is that of the second word, time the product of both lengths.
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    // Before it is overwritten, row[j - 1] of the row above is kept here, for it is what a
-    // replacement builds on.
+    // The entry of the row above at j - 1, which a substitution builds on, saved before it is
+    // overwritten.
     std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
@@ -28,7 +27,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 namespace {
 
-/// The words of a name, "sand_dry" or "sand-dry", sorted and joined by blanks.
+/// Returns the words of a name ("sand_dry" or "sand-dry"), sorted and joined by blanks.
 std::string sorted_words(const std::string& name) {
   std::vector<std::string> words(1);
   for (const char c : name) {
@@ -43,7 +42,8 @@ std::string sorted_words(const std::string& name) {
   return out;
 }
 
-/// As the edit distance, but words in another order ("dry_sand" for "sand_dry") are one slip.
+/// Returns the edit distance, where words in another order ("dry_sand" for "sand_dry") count as one
+/// edit.
 std::size_t unlikeness(const std::string& a, const std::string& b) {
   return std::min(edit_distance(a, b), 1 + edit_distance(sorted_words(a), sorted_words(b)));
 }
@@ -55,8 +55,7 @@ std::string nearest_name(const std::vector<std::string>& names, const std::strin
   std::size_t least = static_cast<std::size_t>(-1);
   for (const std::string& name : names) {
     const std::size_t distance = unlikeness(name, wanted);
-    // Strictly less, so that the first of equals wins and a message does not change with the order
-    // of a set.
+    // Strictly less: the first of equals wins, so a message does not depend on the order of a set.
     if (distance < least) least = distance, nearest = name;
   }
   return nearest;
@@ -64,13 +63,14 @@ std::string nearest_name(const std::vector<std::string>& names, const std::strin
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return "remove it";
-  // Long words come from broken files; their distance is of no use and would be slow.
+  // Long words come from broken files; their distance is useless and slow to compute.
   const std::string head = word.substr(0, 64);
   const std::string* best = nullptr;
+  // A candidate is near if at most half of the word, or two characters, have to change.
   std::size_t least = std::max<std::size_t>(2, head.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
     std::size_t distance = unlikeness(head, candidate);
-    // A forgotten unit ("cohesion" for "cohesion_pa") is the likeliest slip.
+    // A forgotten unit ("cohesion" for "cohesion_pa") is the most likely mistake.
     if (!head.empty() && candidate.rfind(head, 0) == 0) distance = 0;
     if (distance < least) {
       least = distance;

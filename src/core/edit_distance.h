@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How unlike two words are, for "did you mean" in messages.
+// Edit distance of words, for "did you mean" in messages.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,16 @@
 
 namespace navvy {
 
-/// Least number of insertions, removals and replacements of characters that turn a into b
-/// [Levenshtein 1966]. Costs the product of the lengths. Bytes are compared, not letters: a name
-/// outside ASCII is a little further away than it looks.
+/// Returns the least number of insertions, deletions and substitutions of bytes that turn `a` into
+/// `b` [Levenshtein 1966]. Costs the product of the lengths. A character outside ASCII counts as
+/// several bytes.
 std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The one of `names` most like `wanted`, the first of equals; empty without names. It answers
-/// however unlike the two are: whether the name is worth telling is for the caller to say.
+/// Returns the name that is closest to `wanted`, the first one of equals, or an empty string if
+/// `names` is empty. The caller decides whether the name is close enough to be worth suggesting.
 std::string nearest_name(const std::vector<std::string>& names, const std::string& wanted);
-/// The candidate most like `word` as "did you mean 'x'?", or a list of all when nothing is near.
+/// Returns "did you mean 'x'?" with the candidate closest to `word`, or a list of all candidates if
+/// none is close.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace navvy

@@ -6,8 +6,8 @@
 namespace navvy {
 
 std::string Fault::text() const {
-  // The layout of compilers, `file:line: error:`, which editors turn into links. Parts that are
-  // unknown leave no trace, not even a separator.
+  // The format of compilers, `file:line: error:`, which editors turn into links. Unknown parts
+  // leave no trace, not even a separator.
   std::string out;
   if (!file.empty()) {
     out += file;
@@ -23,9 +23,10 @@ std::string Fault::text() const {
 }
 
 namespace {
+/// Returns the texts of all faults, one per line.
 std::string join(const std::vector<Fault>& faults) {
   std::string out;
-  // A person sees every fault at once and mends them in one go.
+  // A person sees all faults at once and can correct them in one pass.
   for (const Fault& fault : faults) {
     if (!out.empty()) out += "\n";
     out += fault.text();

@@ -17,14 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As many as the system itself follows.
+/// Longest chain of symbolic links that is followed; the system follows as many.
 constexpr int kMostLinks = 40;
 
-// The code is handed in, as closing and unlinking on the way here may change errno.
+/// Throws with the system's reason. The code is a parameter, since closing and unlinking on the way
+/// here may change errno.
 [[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
 
+/// Returns what a file is, as words of a message.
 const char* kind_of(const struct stat& found) {
   return S_ISDIR(found.st_mode)    ? "a directory"
          : S_ISFIFO(found.st_mode) ? "a pipe"
@@ -32,8 +34,9 @@ const char* kind_of(const struct stat& found) {
                                    : "a device";
 }
 
-/// A rename takes the place of a pipe or a device node as of any other name, and those who use it
-/// would never know.
+/// Refuses a target that a rename must not replace: the users of a pipe or a device node would not
+/// notice.
+/// @throws FileError unless `path` is missing or a regular file.
 void require_replaceable(const std::string& path) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0) {
@@ -42,28 +45,29 @@ void require_replaceable(const std::string& path) {
   }
   if (!S_ISREG(found.st_mode))
     throw FileError("cannot write '" + path + "': it is " + kind_of(found) +
-                    ", and only a plain file is replaced (name a file)");
+                    ", and only a plain file can be replaced (name a file)");
 }
 
-/// Why the partial file of `path` could not be made; the missing folder is what people meet most.
+/// Reports why the partial file of `path` could not be created; a missing folder is the most
+/// frequent reason.
 [[noreturn]] void fail_to_create(const std::string& path, int code) {
   const fs::path folder = fs::path(followed(path)).parent_path();
   std::error_code ignored;
   if (code == ENOENT && !folder.empty() && !fs::exists(folder, ignored))
     throw FileError("cannot write '" + path + "': there is no folder '" + folder.string() +
-                    "' (make it: mkdir -p '" + folder.string() + "')");
+                    "' (create it: mkdir -p '" + folder.string() + "')");
   fail("create", partial_name(path), code);
 }
 
-// Until the rename of commit_file a reader of `path` sees the old content; whatever fails before it
-// leaves no partial file behind.
+// Writes the partial file and commits it. Readers of `path` see the old content until the rename in
+// commit_file, and no failure leaves a partial file behind.
 void write_bytes(const std::string& path, const char* data, std::size_t size) {
   require_replaceable(path);
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) fail_to_create(path, errno);
   while (size > 0) {
-    // A write may be interrupted by a signal or take a part only; neither is an error.
+    // A write may be interrupted by a signal or write only a part; neither is an error.
     const ssize_t n = ::write(fd, data, size);
     if (n < 0) {
       if (errno == EINTR) continue;
@@ -92,7 +96,7 @@ std::string followed(const std::string& path) {
   for (int links = 0; fs::is_symlink(fs::symlink_status(at, code)); ++links) {
     const fs::path to = fs::read_symlink(at, code);
     if (code || links == kMostLinks) return path;
-    // A relative one counts from where the link lies.
+    // A relative target is relative to the folder of the link.
     at = at.parent_path() / to;
   }
   return at.string();
@@ -103,13 +107,14 @@ std::string partial_name(const std::string& path) { return followed(path) + ".pa
 void commit_file(const std::string& path) {
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
-  // Without the flush a crash of the machine could leave the new name on an empty file: the rename
-  // may reach the disk before the data does.
+  // Without the flush, a crash of the machine could leave the new name on an empty file, as the
+  // rename may reach the disk before the data.
   if (fd < 0) {
     const int cause = errno;
     ::unlink(part.c_str());
     fail("open", part, cause);
   }
+  // Failures below remove the partial file; `path` still holds the old content then.
   const int flushed = ::fsync(fd);
   const int code = errno;
   ::close(fd);
@@ -131,8 +136,8 @@ void commit_file(const std::string& path) {
 }
 
 void require_writable(const std::string& path) {
-  // What is no file would let the partial file be made and only the rename at the end of the run
-  // fail.
+  // For a target that is no regular file, creating the partial file would succeed and only the
+  // rename at the end of the run would fail.
   require_replaceable(path);
   const std::string part = partial_name(path);
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
@@ -161,7 +166,7 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 std::vector<char> read_file(const std::string& path, std::size_t most) {
-  // Asked before it is opened: opening a pipe waits, and some devices act on it.
+  // Checked before opening: opening a pipe blocks, and some devices act on it.
   require_regular(path);
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (file == nullptr) fail("read", path, errno);
@@ -169,7 +174,7 @@ std::vector<char> read_file(const std::string& path, std::size_t most) {
   char buffer[65536];
   std::size_t n;
   while ((n = std::fread(buffer, 1, sizeof buffer, file)) > 0) {
-    // Counted while reading, as some files do not tell their size.
+    // Counted while reading, since some files do not report their size.
     if (n > most - content.size()) {
       std::fclose(file);
       throw FileError("cannot read '" + path + "': it has more than " + std::to_string(most) +
@@ -177,7 +182,7 @@ std::vector<char> read_file(const std::string& path, std::size_t most) {
     }
     content.insert(content.end(), buffer, buffer + n);
   }
-  // Asked for before fclose, after which the stream is gone and errno may be another.
+  // Queried before fclose, which invalidates the stream and may change errno.
   const bool bad = std::ferror(file) != 0;
   const int code = errno;
   std::fclose(file);

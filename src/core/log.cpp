@@ -6,8 +6,7 @@
 namespace navvy {
 namespace {
 LogSink& sink() {
-  // Made at its first use, so that a line may be logged before main by the construction of another
-  // file's globals.
+  // Created at first use, so that constructors of globals may log before main.
   static LogSink instance;
   return instance;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where libraries say things: they never print, they hand a line to whoever installed a sink (the
-// program does).
+// Log of the libraries. They never print: each message is passed to the sink that the program
+// installs.
 #pragma once
 
 #include <functional>
@@ -8,23 +8,24 @@
 
 namespace navvy {
 
-/// How much a person should care. A warning says what was done instead of what was asked for; an
-/// error is a line only, the exception that goes with it is thrown by the caller. Debug lines are
-/// for whoever works on the library.
+/// Severity of a message. A warning says what was done instead of what was asked for. An error is a
+/// message only; the caller throws the exception that goes with it. Debug messages are for
+/// developers of the library.
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
-/// Takes one line without its end. It is called from whatever thread logs, so it guards itself. It
-/// must not log itself.
+/// Takes one message, a line without its end. It is called from any thread that logs, so it must be
+/// thread-safe, and it must not log itself.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// Replaces the sink; an empty function (the state at start) drops every line. Not thread-safe
-/// against `log`. Install it before threads start.
+/// Replaces the sink; an empty function (the default) drops every message. Not thread-safe against
+/// `log`: install the sink before threads start.
 void set_log_sink(LogSink sink);
-/// Hands one line to the sink. Costs nothing but the text when there is none; never throws of its
-/// own.
+/// Passes one message to the sink. Without a sink it costs nothing but building the text. Throws
+/// only what the sink throws.
 void log(LogLevel level, const std::string& text);
-// Short forms for what libraries say most.
+/// Logs a message of level kInfo.
 inline void log_info(const std::string& text) { log(LogLevel::kInfo, text); }
+/// Logs a message of level kWarning.
 inline void log_warning(const std::string& text) { log(LogLevel::kWarning, text); }
 
 }  // namespace navvy

@@ -10,8 +10,7 @@
 
 namespace navvy {
 
-// Numbers are written as they lie in memory, so a state travels between little-endian machines
-// only.
+// Numbers are stored as in memory, so states are portable between little-endian machines only.
 static_assert(std::endian::native == std::endian::little, "states are little-endian");
 
 namespace {
@@ -19,26 +18,26 @@ namespace {
 constexpr std::size_t kTagSize = 16;
 using Tag = std::array<char, kTagSize>;
 
-/// Filled up with zeros, all of which are compared: no byte of a head is without meaning.
+/// Returns the tag padded with zeros. All bytes are compared on loading, so no byte of a head is
+/// without meaning.
 Tag tag_of(const char* text) {
   Tag tag{};
   const std::size_t size = std::strlen(text);
-  // A tag fills at most all but one byte, so that the zero which ends it is always there when it is
-  // read back.
+  // One byte stays free for the terminating zero.
   if (size == 0 || size >= kTagSize)
     throw Error("archive: bad section '" + std::string(text) + "'");
   std::memcpy(tag.data(), text, size);
   return tag;
 }
 
-/// Feeds fields to a hash. Sections have no say: the same values in another section are the same
-/// state.
+/// Adds fields to a hash. Heads of sections are left out: equal values in another section are the
+/// same state.
 class HashArchive final : public Archive {
  public:
   explicit HashArchive(StateHash& sum) : Archive(false), sum_(sum) {}
 
  private:
-  // Widened to a word with zeros above, as StateHash takes single values.
+  // Extended to a word with zeros, as StateHash takes single values.
   void scalar(void* data, std::size_t size) override {
     if (!hashed()) return;
     std::uint64_t word = 0;
@@ -54,7 +53,7 @@ class HashArchive final : public Archive {
   StateHash& sum_;
 };
 
-/// Collects bytes, and in a map whose they are.
+/// Collects bytes and, in a map, the field of each.
 class SaveArchive final : public Archive {
  public:
   explicit SaveArchive(ByteMap* map) : Archive(false), map_(map) {}
@@ -62,17 +61,19 @@ class SaveArchive final : public Archive {
 
  private:
   void scalar(void* data, std::size_t size) override {
-    if (size == 0) return;  // an empty list has no bytes to map
+    // An empty list has no bytes to map.
+    if (size == 0) return;
     if (map_) map_->fields.push_back({bytes_.size(), size, path(), hashed(), reason()});
     append(data, size);
   }
   void block(void* data, std::size_t size) override { scalar(data, size); }
-  // A head is {tag, version, size of the body}: 28 bytes.
+  // A head is {tag, version, size of the body}, 28 bytes.
   void begin_section(const char* tag, std::uint32_t version) override {
     const Tag name = tag_of(tag);
     append(name.data(), name.size());
     append(&version, sizeof version);
-    const std::uint64_t size = 0;  // known when the section ends
+    // Overwritten when the section ends.
+    const std::uint64_t size = 0;
     append(&size, sizeof size);
     open_.push_back(bytes_.size());
   }
@@ -88,20 +89,21 @@ class SaveArchive final : public Archive {
 
   ByteMap* map_;
   std::vector<char> bytes_;
-  std::vector<std::size_t> open_;  // where the bodies of open sections begin
+  // Offsets of the bodies of open sections.
+  std::vector<std::size_t> open_;
 };
 
-/// Reads what a SaveArchive wrote.
+/// Loads what SaveArchive wrote.
 class LoadArchive final : public Archive {
  public:
   explicit LoadArchive(std::vector<char> bytes) : Archive(true), bytes_(std::move(bytes)) {}
   void finish() const {
-    if (left() > 0) fail("the state holds more than this version reads");
+    if (left() > 0) fail("the state is longer than this version reads");
   }
 
  private:
-  // The one place that reads: whatever a visit asks for, nothing beyond the innermost section is
-  // touched. Sections' heads come this way too.
+  // The only place that reads, also for heads of sections: nothing beyond the innermost section is
+  // ever read.
   void scalar(void* data, std::size_t size) override {
     if (size > left()) fail("the section ends too early");
     if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
@@ -123,27 +125,26 @@ class LoadArchive final : public Archive {
            std::to_string(version));
     std::uint64_t size = 0;
     scalar(&size, sizeof size);
-    // `left` counts within the section around, so no section reaches out of another.
-    if (size > left()) fail("the section is cut short");
+    // `left` counts within the enclosing section, so no section extends beyond it.
+    if (size > left()) fail("the section is truncated");
     ends_.push_back(at_ + size);
   }
   void end_section() override {
-    // Bytes too many mean that the visit that saved had other fields: what was read before may be
-    // nonsense.
-    if (left() > 0) fail("the section holds more than this version reads");
+    // Left-over bytes mean that other fields were saved, so what was loaded may be nonsense.
+    if (left() > 0) fail("the section is longer than this version reads");
     ends_.pop_back();
   }
   std::size_t left() const override { return (ends_.empty() ? bytes_.size() : ends_.back()) - at_; }
 
   std::vector<char> bytes_;
   std::size_t at_ = 0;
-  std::vector<std::size_t> ends_;  // of open sections
+  // Ends of open sections.
+  std::vector<std::size_t> ends_;
 };
 
 }  // namespace
 
-// The last field that begins at or before the byte; heads of sections lie between fields.
-// Fields lie in the order of their offsets, so a search by halves finds it.
+// Finds the last field that begins at or before the byte. Heads of sections lie between fields.
 const ByteMap::Field* ByteMap::at(std::size_t offset) const {
   const auto after =
       std::upper_bound(fields.begin(), fields.end(), offset,
@@ -165,8 +166,7 @@ std::vector<char> saved_state::save(const Visit& visit, ByteMap* map) {
 }
 
 void saved_state::load(std::vector<char> bytes, const Visit& visit, bool whole) {
-  // When the visit throws, the object is half loaded, and the caller throws it away or loads it
-  // again.
+  // If the visit throws, the object is half loaded; the caller discards it or loads it again.
   LoadArchive archive(std::move(bytes));
   visit(archive);
   if (whole) archive.finish();

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hash, bytes and loading of any object with a `visit(Archive&)`. Whoever visits needs
-// core/archive.h only; this is for whoever asks.
+// Hash, bytes and loading of any object with a `visit(Archive&)`. A class that is visited includes
+// core/archive.h only; this header is for those who call the functions.
+//
+//   const std::vector<char> state = saved(world);
+//   world.step();
+//   load_saved(state, world);  // back to the saved state
+//   hash_of(world).hex();      // equal for equal states
 #pragma once
 
 #include <cstddef>
@@ -14,56 +19,60 @@
 
 namespace navvy {
 
-/// Bytes of the head of a section: tag, version, length of what follows.
+/// Size of a section's head [bytes]: tag, version and length of the content.
 inline constexpr std::size_t kSectionHead = 16 + 4 + 8;
 
-/// Which field the bytes of a saved state belong to; for tests and for whoever looks into a state.
-/// It is how a test says which field a flipped byte belongs to, and how a person finds out what
-/// differs between two states. It is never saved.
+/// Maps the bytes of a saved state to fields. Tests use it to name the field of a flipped byte, and
+/// people to see where two states differ. It is never saved itself.
 struct ByteMap {
   struct Field {
-    std::size_t offset = 0, size = 0;  ///< [bytes]
-    std::string path;                  ///< "world/tools[2]/force"
+    /// Place in the state [bytes].
+    std::size_t offset = 0, size = 0;
+    /// Path of the field, e.g. "world/tools[2]/force".
+    std::string path;
     bool hashed = true;
-    std::string reason;  ///< why not; empty for constants, which loading compares with the scene
+    /// Reason why the field is not hashed; empty for constants, which loading compares with the
+    /// scene.
+    std::string reason;
   };
-  // Empty lists have no bytes and are in no field, though their length is in one.
-  std::vector<Field> fields;  ///< ascending by offset; heads of sections are in none
+  /// Fields in ascending order of offset, without the heads of sections. An empty list has no entry
+  /// of its own; its length belongs to one.
+  std::vector<Field> fields;
 
-  /// The field of byte `offset`; null in the head of a section and beyond the end.
+  /// Returns the field of byte `offset`, or null in the head of a section and beyond the end.
   const Field* at(std::size_t offset) const;
 };
 
-/// What the functions below do for every type. Type-erased, so that the archives themselves are
-/// compiled once. The call through std::function is paid once an object, not once a field. `save`
-/// takes a null map where none is wanted.
+/// Type-erased implementation of the functions below, so that the archives are compiled once. The
+/// call through std::function costs once per object, not once per field.
 namespace saved_state {
 // A visit without its object's type.
 using Visit = std::function<void(Archive&)>;
+/// Implements add_to_hash.
 void hash(StateHash& sum, const Visit& visit);
+/// Implements `saved`. A null `map` is not filled.
 std::vector<char> save(const Visit& visit, ByteMap* map);
+/// Implements load_saved (`whole`: all bytes must be read) and load_front.
 void load(std::vector<char> bytes, const Visit& visit, bool whole);
 
-/// Hashing and saving read only, which is the one promise of a visit that the compiler cannot
-/// check. A visit that wrote while saving would change the run by looking at it; that is what the
-/// tests with flipped bytes find.
+/// Wraps the visit of a const object. Hashing and saving only read, which is the one promise of a
+/// visit that the compiler cannot check; the tests with flipped bytes find a visit that writes.
 template <class T>
 Visit reading(const T& object) {
   return [&object](Archive& archive) { const_cast<T&>(object).visit(archive); };
 }
 }  // namespace saved_state
 
-/// Feeds an object's state to a hash: numbers one by one, runs of plain values as bytes, lengths
-/// before elements. Sections and constants count for nothing, fields under `unhashed` neither. Two
-/// states of equal hash go on alike on one device, which is what every check of repeatability
-/// relies on.
+/// Adds an object's state to a hash: numbers one by one, runs of plain values as bytes, lengths
+/// before elements. Heads of sections, constants and `unhashed` fields are left out. On one device,
+/// two states of equal hash have the same future.
 template <class T>
 void add_to_hash(StateHash& sum, const T& object) {
   saved_state::hash(sum, saved_state::reading(object));
 }
 
-/// Hash of one object's state: `.digest()` or `.hex()`. One number for tests and prints; a world
-/// feeds its parts to one sum instead. Costs one pass over the object's numbers, no memory.
+/// Returns the hash of one object's state; call `.digest()` or `.hex()` on it. Costs one pass over
+/// the object's numbers and no memory.
 template <class T>
 StateHash hash_of(const T& object) {
   StateHash sum;
@@ -71,29 +80,26 @@ StateHash hash_of(const T& object) {
   return sum;
 }
 
-/// The bytes of one object's state; with a `map`, which field each belongs to (slow: a text a
-/// field). The map is cleared by nobody: hand in a new one. The bytes carry no length of their own;
-/// whoever writes them to a file frames them. Costs one pass and the bytes, which grow as they
-/// come.
+/// Returns the state of an object as bytes, and fills `map`, which must be empty, if it is given
+/// (slow: one text per field). The bytes hold no length of their own.
 /// @throws Error for a section whose tag is empty or too long.
 template <class T>
 std::vector<char> saved(const T& object, ByteMap* map = nullptr) {
   return saved_state::save(saved_state::reading(object), map);
 }
 
-/// Loads an object from what `saved` answered. Input of any length and content is safe: nothing is
-/// read beyond the end, and memory follows the bytes that are there. The object's own `require`s
-/// decide whether their content is. Costs the bytes and one pass.
-/// @throws InputError naming the field, also when bytes are left over; the object is then half
-/// loaded and must be loaded again or thrown away.
+/// Loads an object from the bytes that `saved` returned. Input of any length and content is safe:
+/// nothing is read beyond the end, and memory use follows the number of bytes; the object's own
+/// `require`s check the content.
+/// @throws InputError naming the field, also if bytes are left over. The object is then half
+/// loaded; load it again or discard it.
 template <class T>
 void load_saved(std::vector<char> bytes, T& object) {
   saved_state::load(
       std::move(bytes), [&object](Archive& archive) { object.visit(archive); }, true);
 }
 
-/// The same for an object that reads no more than the first sections of a longer state; what
-/// follows is left unread.
+/// Loads an object that reads only the first sections of a longer state; the rest is left unread.
 template <class T>
 void load_front(std::vector<char> bytes, T& object) {
   saved_state::load(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checksums round the sections of a saved state: a file with one bit changed is refused before
-// anything is read from it.
+// Checksums around the sections of a saved state: a file with a single wrong bit is refused before
+// anything is read.
 #pragma once
 
 #include <string>
@@ -8,20 +8,19 @@
 
 namespace navvy {
 
-/// A saved state (core/saved_state.h) that consists of sections, as the content of a file: a head
-/// with its length, and a checksum for each of the outermost sections, which counts their order
-/// too. Costs a copy and a pass.
+/// Returns a saved state that consists of sections (core/saved_state.h) as the content of a file: a
+/// head with its length, and a checksum for each outermost section that includes its position.
+/// Costs a copy and one pass.
 /// @throws Error for bytes outside of sections.
 std::vector<char> seal(const std::vector<char>& state);
 
-/// The state again. Everything is checked before it returns, in the order of the file, so a damaged
-/// one costs what lies before the damage. A checksum proves nothing against intent: whoever
-/// recomputes it is met by the ranges of the fields.
-/// @throws InputError that tells the damaged section by place and name.
+/// Returns the state inside a sealed content, after all checksums were verified in the order of the
+/// file. Checksums do not protect against a deliberate change; the ranges of the fields do.
+/// @throws InputError with the index and the name of the damaged section.
 std::vector<char> unseal(const std::vector<char>& content);
 
-/// Whether the plain file `path` begins as a sealed state does, of any version: names are the
-/// user's. False of what is not there.
+/// Returns true if the regular file at `path` begins like a sealed state of any version, whatever
+/// its name; false if the file is missing.
 bool is_sealed(const std::string& path);
 
 }  // namespace navvy

@@ -1,39 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wall time of stages. Never enters the state of a simulation.
+// Wall time of stages. It never enters the state of a simulation.
 #pragma once
 
 #include <chrono>
 
 namespace navvy {
 
-/// Seconds since construction or `restart`. The clock is monotonic: setting the machine's time does
-/// not show. Reading it costs some tens of nanoseconds, so it belongs around a stage and not around
-/// a particle.
+/// Measures the wall time since construction or `restart`. The clock is monotonic and unaffected by
+/// changes of the system time. Reading it costs some tens of nanoseconds: measure stages with it,
+/// not single particles.
 class Stopwatch {
  public:
-  /// Reading it does not stop it; ask as often as you like.
+  /// Returns the elapsed time [s] without stopping the clock.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  /// Starts again from zero.
+  /// Restarts from zero.
   void restart() { start_ = Clock::now(); }
 
  private:
-  // Never the time of day, which jumps when the clock is set.
+  // Not the time of day, which jumps when the clock is set.
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
 
-/// Adds its lifetime to a sum of seconds. The sum must outlive it. It counts also when the scope is
-/// left by an exception, and what is queued on a device within it is not waited for: only the
-/// host's time is meant. Laps of one sum must not nest, or time counts twice.
+/// Adds its lifetime [s] to a sum, also when an exception leaves the scope. The sum must outlive
+/// it. It measures host time: work queued on a device is not waited for. Laps of one sum must not
+/// nest, or time counts twice.
+///
+///   double rendering = 0;
+///   {
+///     const Lap lap(rendering);
+///     draw(frame);
+///   }
 class Lap {
  public:
+  /// Starts the clock; the destructor adds the time to `sum` [s].
   explicit Lap(double& sum) : sum_(sum) {}
   ~Lap() { sum_ += watch_.seconds(); }
   Lap(const Lap&) = delete;
   Lap& operator=(const Lap&) = delete;
 
  private:
-  // Written to once, at the end; reading the sum before gives the laps that are over.
+  // Written once, in the destructor; until then the sum holds the finished laps.
   double& sum_;
   Stopwatch watch_;
 };

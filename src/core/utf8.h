@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether bytes are text. What is written as JSON and CSV must be.
+// Check of UTF-8 text, as JSON and CSV files require it.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace navvy {
 
-/// The place of the first byte that is not part of well-formed UTF-8 (RFC 3629: no surrogates,
-/// nothing overlong, at most U+10FFFF); npos for good text.
+/// Returns the offset of the first byte that is not part of well-formed UTF-8 (RFC 3629: no
+/// surrogates, no overlong forms, at most U+10FFFF), or npos if all of the text is valid.
 std::size_t first_bad_utf8(std::string_view text);
 
 }  // namespace navvy

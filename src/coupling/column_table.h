@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is remembered of some columns of a site: a sparse table by column.
+// Sparse table of values by column of a site.
 #pragma once
 
 #include <bit>
@@ -12,25 +12,27 @@
 
 namespace navvy::coupling {
 
-/// A value for each column that was ever asked for by `at`, walked and saved by iy * nx + ix as a
-/// map of that key.
+/// Stores a value for each column that `at` was called for. Iterates and saves by iy * nx + ix, as
+/// a map of that key would.
 ///
-/// Columns of a row lie together, 32 to a strip, and a strip holds the values of those that have
-/// one side by side: 3 bytes a column beside the value itself where a rut runs along the rows, 24
-/// where one of four columns runs across them; a node of a map takes 56. To look a column up is to
-/// search the strips, of which there are fewer than columns.
+/// A row is divided into strips of 32 columns, and a strip stores the values of its columns side by
+/// side. This takes 3 bytes per column beside the value where a rut follows the rows, and 24 where
+/// a rut of four columns crosses them; a node of a map takes 56. A look-up searches the strips,
+/// which are fewer than the columns.
 template <class T>
 class ColumnTable {
  public:
+  /// Makes an empty table for a site of nx x ny columns.
   ColumnTable(int nx, int ny) : nx_(nx), ny_(ny) {}
 
-  /// The value of a column of the site, made if it has none. Good until the next call.
+  /// Returns the value of a column of the site and creates it if it is new. The reference is valid
+  /// until the next call.
   T& at(int ix, int iy) {
     Strip& strip = strips_[key_of(ix, iy)];
     const std::uint32_t bit = bit_of(ix);
     const auto place = static_cast<std::ptrdiff_t>(strip.before(bit));
     if ((strip.mask & bit) == 0) {
-      // By a few at a time: doubling would leave a third unused.
+      // Grow by a few entries: doubling would leave a third unused.
       if (strip.values.size() == strip.values.capacity())
         strip.values.reserve(strip.values.size() + kMoreClearance);
       strip.values.emplace(strip.values.begin() + place);
@@ -40,7 +42,7 @@ class ColumnTable {
     return strip.values[static_cast<std::size_t>(place)];
   }
 
-  /// Null where the column has none.
+  /// Returns the value of a column, null if it has none.
   const T* find(int ix, int iy) const {
     const auto found = strips_.find(key_of(ix, iy));
     const std::uint32_t bit = bit_of(ix);
@@ -48,9 +50,10 @@ class ColumnTable {
     return &found->second.values[found->second.before(bit)];
   }
 
+  /// Returns the number of columns with a value.
   std::size_t size() const { return size_; }
 
-  /// @throws InputError for a column beside the site.
+  /// Visits all values. @throws InputError for a column outside the site.
   void visit(Archive& a) {
     const std::uint64_t count = a.size("columns", size_);
     if (a.loading()) {
@@ -72,22 +75,28 @@ class ColumnTable {
   }
 
  private:
-  static constexpr int kStrip = 32;  // columns, a bit each
+  static constexpr int kStrip = 32;  // columns, one bit each
   static constexpr std::size_t kMoreClearance = 4;
 
+  /// Values of up to 32 neighbouring columns of a row.
   struct Strip {
-    std::uint32_t mask = 0;  // which columns have a value
-    std::vector<T> values;   // of those, in their order
+    std::uint32_t mask = 0;  // columns that have a value
+    std::vector<T> values;   // their values, in the same order
 
+    /// Returns the number of columns with a value before the one of `bit`.
     std::size_t before(std::uint32_t bit) const {
       return static_cast<std::size_t>(std::popcount(mask & (bit - 1)));
     }
   };
 
+  /// Returns the number of strips per row.
   std::int64_t strips_x() const { return (static_cast<std::int64_t>(nx_) + kStrip - 1) / kStrip; }
+  /// Returns the key of the strip that contains a column.
   std::int64_t key_of(int ix, int iy) const { return iy * strips_x() + ix / kStrip; }
+  /// Returns the bit of a column in its strip.
   static std::uint32_t bit_of(int ix) { return std::uint32_t{1} << (ix % kStrip); }
 
+  /// Loads `count` columns, which must be in ascending order.
   void load(Archive& a, std::uint64_t count) {
     strips_.clear();
     size_ = 0;
@@ -104,7 +113,8 @@ class ColumnTable {
 
   int nx_, ny_;
   std::size_t size_ = 0;
-  std::map<std::int64_t, Strip> strips_;  // by row, then along it: in the order of columns
+  // Strips by row, then along the row: in the order of columns.
+  std::map<std::int64_t, Strip> strips_;
 };
 
 }  // namespace navvy::coupling

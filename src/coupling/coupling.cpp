@@ -12,10 +12,12 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kForceCutoff = 3.0;  // [Hz], about v / (2 cell) at 0.6 m/s and 0.1 m
+// [Hz] about v / (2 cell) at 0.6 m/s and 0.1 m.
+constexpr double kForceCutoff = 3.0;
 
 }  // namespace
 
+// Adds machines and shells in the scene's order, so that their indices follow it.
 Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
                    vehicle::PhysicsEngine& kinematic, soil::Solver& solver,
                    heightfield::Ground& ground)
@@ -29,10 +31,13 @@ Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
       view_(ground, ground.setup().soils, &ruts_) {
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
-    // Both engines number their machines from 0: who asks for one says its number in the scene.
+    // Both engines number their machines from 0: store the index of each machine of the scene.
     vehicle::PhysicsEngine& mover = placed.machine.kinematic ? kinematic : engine;
     placed_.push_back({&mover, mover.add_machine(placed.machine, place(placed, ground))});
-    if (placed.machine.kinematic) placed_.back().mover = engine.add_mover(placed.machine);
+    // An engine without contacts has no use for obstacles.
+    if (vehicle::ObstacleCapability* obstacles = engine.obstacles();
+        obstacles && placed.machine.kinematic)
+      placed_.back().mover = obstacles->add_obstacle(placed.machine);
     for (const scene::Wheel& wheel : placed.machine.wheels) has_tracks_ |= wheel.track.has_value();
     for (std::size_t s = 0; s < placed.machine.shells.size(); ++s) {
       const scene::Shell& shell = placed.machine.shells[s];
@@ -44,10 +49,11 @@ Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
       tools_.push_back(load);
     }
   }
-  engine.set_rock(ground.datum());
+  if (vehicle::RockCapability* rock = engine.rock()) rock->set_rock(ground.datum());
   add_hitches(world, engine, [this](int machine) { return index(machine); });
 }
 
+// Passes the buckets that may reach into a bed, whose soil the solver then excludes.
 double Coupling::payload(const ToolLoad& tool) const {
   const auto pose = [&](const ToolLoad& t) {
     return engine(t.machine).link(index(t.machine), t.link).X_WL;
@@ -55,7 +61,7 @@ double Coupling::payload(const ToolLoad& tool) const {
   const auto machine = [&](const ToolLoad& t) -> const scene::Machine& {
     return world_.machines[static_cast<std::size_t>(t.machine)].machine;
   };
-  std::vector<soil::PlacedTool> buckets;  // that may reach into a bed
+  std::vector<soil::PlacedTool> buckets;  // buckets that may be inside the bed
   if (machine(tool).is_bed(tool.shell))
     for (const ToolLoad& other : tools_)
       if (other.tool != tool.tool && machine(other).is_bucket(other.shell))
@@ -63,11 +69,12 @@ double Coupling::payload(const ToolLoad& tool) const {
   return solver_.payload(tool.tool, pose(tool), buckets);
 }
 
+// Blades hold no soil, so only buckets and beds are passed.
 std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particles) const {
   std::vector<soil::PlacedTool> containers;
   for (const ToolLoad& tool : tools_) {
     const scene::Machine& machine = world_.machines[static_cast<std::size_t>(tool.machine)].machine;
-    // Soil before a blade lies on the ground, whatever the blade's hull says.
+    // Soil ahead of a blade is on the ground, even inside the blade's convex hull.
     if (machine.is_bucket(tool.shell) || machine.is_bed(tool.shell))
       containers.push_back(
           {tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
@@ -75,6 +82,7 @@ std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particl
   return solver_.held(particles, containers);
 }
 
+// Machines move first; the soil then answers over the same interval.
 void Coupling::step(double dt) {
   // Soil acts over the interval that starts at these poses.
   std::vector<Pose> before;
@@ -98,6 +106,7 @@ void Coupling::step(double dt) {
   ++steps_;
 }
 
+// Obstacles take the pose at the start of the step and the present velocity.
 void Coupling::show_movers() {
   std::vector<vehicle::LinkState> links;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
@@ -105,10 +114,11 @@ void Coupling::show_movers() {
     links.clear();
     for (std::size_t l = 0; l < world_.machines[m].machine.links.size(); ++l)
       links.push_back(placed_[m].engine->link(placed_[m].index, static_cast<int>(l)));
-    dynamic_.move(placed_[m].mover, links);
+    dynamic_.obstacles()->move_obstacle(placed_[m].mover, links);
   }
 }
 
+// Sends poses, velocities and inverse masses, and applies the impulses that come back.
 void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_before) {
   std::vector<soil::ToolMotion> motions(tools_.size());
   std::vector<soil::ToolImpulse> impulses(tools_.size());
@@ -130,8 +140,10 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.force_W = impulse.force_W;
     tool.moment_W = impulse.moment_W;
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
-    const Vec3 rock = engine(tool.machine).rock_impulse(index(tool.machine), tool.shell) / dt;
-    tool.rock_W += blend * (rock - tool.rock_W);
+    Vec3 rock_W = Vec3::Zero();
+    if (const vehicle::RockCapability* rock = engine(tool.machine).rock())
+      rock_W = rock->rock_impulse(index(tool.machine), tool.shell) / dt;
+    tool.rock_W += blend * (rock_W - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
       engine(tool.machine)
           .apply_impulse_of_step(index(tool.machine), tool.link, impulse.J_W, impulse.L_W,
@@ -139,15 +151,16 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
   }
 }
 
+// Counts tyres in the order of Ruts, which excludes tracks.
 std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
   std::vector<soil::SupportArea> out;
-  // Tyres as ruts number them.
+  // Index of the tyre in Ruts.
   std::size_t tyre = 0;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
       const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
-      // What moves as it is told stands on nothing.
+      // Kinematic machines have no weight on the ground.
       if (machine.kinematic) continue;
       add_support_areas(machine, *placed_[m].engine, placed_[m].index, static_cast<int>(w), load,
                         kRutInterval * dt, out);
@@ -156,8 +169,9 @@ std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
   return out;
 }
 
+// Collects all tyres and tracks before pressing any.
 void Coupling::press_ruts(double dt) {
-  // All at once: what one wheel does not bear another may.
+  // Press all at once: what one wheel leaves another may carry.
   std::vector<LoadedTyre> tyres;
   std::vector<terramechanics::TrackPatch> running_tracks;
   for (std::size_t m = 0; m < placed_.size(); ++m) {
@@ -167,7 +181,7 @@ void Coupling::press_ruts(double dt) {
       const int wheel = static_cast<int>(w);
       if (machine.wheels[w].track)
         for (const terramechanics::TrackPatch& patch :
-             engine.track_patches(placed_[m].index, wheel))
+             vehicle::track_patches(engine, placed_[m].index, wheel))
           running_tracks.push_back(patch);
       else
         tyres.push_back({machine.wheels[w], engine.wheel(placed_[m].index, wheel)});
@@ -179,7 +193,7 @@ void Coupling::press_ruts(double dt) {
 }
 
 void ToolLoad::visit(Archive& a) {
-  // Which shell it is, the scene says. All of the last step is what outputs show until the next
+  // The scene determines which shell it is. Outputs show the values of the last step until the next
   // one.
   a("force_W", force_W);
   a("moment_W", moment_W);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The heightfield as machines feel it.
+// The heightfield as machines read it.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@
 
 namespace navvy::coupling {
 
-/// Answers what wheels and bodies ask from the terrain it is given: the live ground means the
-/// columns of this very step, without loose soil. Of ruts it tells what they take, where it is
-/// given those who press them.
+/// Answers the questions of wheels and bodies from a terrain. For the live ground these are the
+/// columns of the current step, without loose soil. With `ruts` it also reports the compaction
+/// under tyres.
 ///
-/// Height and normal are bilinear between column centres, soil and density state are those at the
-/// surface of the column that holds the place; outside the site the nearest column answers. A call
-/// costs a lookup, no allocation. Terrain, soils and ruts must outlive the view.
+/// Height and normal are bilinear between column centres. Soil and density are those at the surface
+/// of the column that contains the place. Outside the site the nearest column answers. A call costs
+/// a look-up and allocates nothing. Terrain, soils and ruts must outlive the view.
 class GroundView final : public terramechanics::GroundQuery {
  public:
-  /// `soils` are those that the terrain's soil indices count.
+  /// Wraps `terrain`. Its soil indices refer to `soils`.
   GroundView(const heightfield::Terrain& terrain, const std::vector<scene::Soil>& soils,
              const Ruts* ruts = nullptr)
       : terrain_(terrain), soils_(soils), ruts_(ruts) {}
   double height(double x, double y) const override { return terrain_.sample(x, y); }
   double highest(const Vec2& low, const Vec2& high) const override {
-    // Between column centres heights are those of the columns around.
+    // Heights between column centres are bounded by the surrounding columns.
     const Vec2i first = terrain_.column_at(low.x(), low.y()),
                 last = terrain_.column_at(high.x(), high.y());
     return terrain_.highest({first.x() - 1, first.y() - 1, last.x() + 2, last.y() + 2});

@@ -8,8 +8,11 @@
 
 namespace navvy::coupling {
 
+// Checks the distance here, where file and line are known.
 void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine,
                  const std::function<int(int)>& index) {
+  if (scene.hitches.empty()) return;
+  vehicle::HitchCapability& hitches = vehicle::require_hitches(engine);
   for (const scene::Hitch& hitch : scene.hitches) {
     const int parent = index(hitch.parent), child = index(hitch.child);
     const Vec3 hook = engine.link(parent, hitch.parent_link).X_WL * hitch.hook;
@@ -29,7 +32,7 @@ void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine,
                              "a hitch that starts closed needs its eye within 0.1 m of the hook",
                              remedy.data()});
     }
-    engine.add_hitch(hitch, parent, child);
+    hitches.add_hitch(hitch, parent, child);
   }
 }
 

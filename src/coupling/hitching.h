@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hitches of a scene, once its machines stand on their ground.
+// Hitches of a scene, added after its machines stand on the ground.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,10 @@
 
 namespace navvy::coupling {
 
-/// Gives them to the engine in the order of the scene, so that both number them alike. `index`: of
-/// a machine of the scene in the engine. @throws InputError that names file and line for a closed
-/// one whose eye is out of the hook's reach.
+/// Adds the scene's hitches to the engine in the order of the scene, so that both use the same
+/// indices. `index` maps a machine of the scene to its index in the engine.
+/// @throws InputError with file and line for a closed hitch whose eye is out of the hook's reach,
+/// and for an engine that cannot couple machines.
 void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine,
                  const std::function<int(int)>& index);
 

@@ -11,8 +11,8 @@
 namespace navvy::coupling {
 namespace {
 
-/// The points of the wheels that touch the machine's own ground plane, its x and y axes, when it
-/// stands at X_WM [m].
+/// Returns the points of the wheels on the machine's own ground plane, its x and y axes, with the
+/// machine at X_WM [m].
 std::vector<Vec3> contacts(const scene::Machine& machine, const Pose& X_WM) {
   std::vector<double> q;
   for (const scene::Joint& joint : machine.joints) q.push_back(joint.initial);
@@ -40,11 +40,11 @@ Pose base_pose(const scene::Machine& machine, const Pose& X_WM) {
   return machine.links.empty() ? X_WM : X_WM * machine.links[0].X_ML;
 }
 
+// Fits a plane to the ground under the wheels, tilts the machine with it, and raises it.
 Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
   Pose X_WM = placed.X_WM;
   if (!placed.on_ground) return X_WM;
-  // As the machine would stand by itself: level, on the ground below its origin, turned about the
-  // vertical only.
+  // Start level, on the ground below its origin, rotated about the vertical only.
   const Vec3 origin(X_WM.translation().x(), X_WM.translation().y(),
                     ground.sample(X_WM.translation().x(), X_WM.translation().y()));
   const Vec3 ahead = X_WM.linear().col(0);
@@ -53,7 +53,7 @@ Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& groun
   X_WM.translation().z() += origin.z();
   const std::vector<Vec3> feet = contacts(placed.machine, standing);
   if (feet.size() < 3) return X_WM;
-  // Plane h = a + b x + c y through the ground's height over the feet, x and y from the origin.
+  // Fit the plane h = a + b x + c y to the ground's height above the feet, x and y from the origin.
   Mat3 normal_matrix = Mat3::Zero();
   Vec3 right = Vec3::Zero();
   double highest = 0;
@@ -72,7 +72,7 @@ Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& groun
   double raise = -std::numeric_limits<double>::infinity();
   for (const Vec3& foot : contacts(placed.machine, standing))
     raise = std::max(raise, ground.sample(foot.x(), foot.y()) - foot.z());
-  // What the scene asks for on top of that: its height over the ground, its roll and pitch.
+  // Add the height over the ground, roll and pitch of the scene.
   X_WM.linear() = tilt * X_WM.linear();
   X_WM.translation().z() += raise;
   return X_WM;

@@ -10,18 +10,20 @@
 namespace navvy::coupling {
 namespace {
 
-// A strip begins so many widths away at most: beyond the other tyre of a pair, and a second pair
-// beside it.
+// Largest distance to the start of a strip in widths: beyond the other tyre of a pair, and a second
+// pair beside it.
 constexpr double kFarthest = 4;
 
 }  // namespace
 
+// Overlap of two intervals across the direction of travel.
 double PushedSoil::covered(double off, double width, double cell) {
   const double low = std::max(off - 0.5 * cell, -0.5 * width),
                high = std::min(off + 0.5 * cell, 0.5 * width);
   return std::max(0.0, (high - low) / cell);
 }
 
+// Keeps the layers apart, so that each soil is laid down as itself.
 void PushedSoil::take(const Place& place, double depth) {
   const double height = ground_.height(place.ix, place.iy);
   Load load{place, {}};
@@ -29,8 +31,9 @@ void PushedSoil::take(const Place& place, double depth) {
   if (!load.layers.empty()) loads_.push_back(std::move(load));
 }
 
-std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
-                                                 const std::function<bool(int, int)>& borne) const {
+// Walks outward column by column until the strip is as wide as the tyre or track.
+std::vector<PushedSoil::Strip> PushedSoil::strip(
+    const Place& from, double sign, const std::function<bool(int, int)>& loaded) const {
   const double cell = ground_.cell();
   const Vec2 start = ground_.origin() + cell * Vec2(from.ix + 0.5, from.iy + 0.5);
   const Vec2 step = sign * cell * from.across;
@@ -43,8 +46,9 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
     const Vec2 p = start + i * step;
     const Vec2i column = ground_.column_at(p.x(), p.y());
     if (!ground_.contains(column.x(), column.y())) break;
-    // Askew to the columns a step may stay in one of them, which then lies in the strip twice.
-    if (!borne(column.x(), column.y())) out.push_back({column, std::min(left / cell, 1.0)});
+    // A strip at an angle to the columns may hit one column in two successive steps; it then counts
+    // twice.
+    if (!loaded(column.x(), column.y())) out.push_back({column, std::min(left / cell, 1.0)});
     if (!out.empty()) left -= cell;
   }
   return out;
@@ -53,7 +57,7 @@ std::vector<PushedSoil::Strip> PushedSoil::strip(const Place& from, double sign,
 void PushedSoil::spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip) {
   double all = 0;
   for (const Strip& one : strip) all += one.share;
-  // By what is left of the mass and of the shares, so that the last one takes the rest.
+  // Divide the remaining mass by the remaining shares, so that the last column takes the rest.
   std::int64_t left = layer.mass;
   for (const Strip& one : strip) {
     heightfield::SoilLayer part = layer;
@@ -67,14 +71,15 @@ void PushedSoil::spread(const heightfield::SoilLayer& layer, const std::vector<S
   }
 }
 
-void PushedSoil::deposit_down(const std::function<bool(int, int)>& borne) {
+// Loosens the soil before it is laid down.
+void PushedSoil::deposit_down(const std::function<bool(int, int)>& loaded) {
   const std::vector<scene::Soil>& soils = ground_.setup().soils;
   for (const Load& load : loads_) {
     const Place& from = load.place;
     const double pressed = ground_.height(from.ix, from.iy);
-    const std::vector<Strip> to_left = strip(from, 1, borne), to_right = strip(from, -1, borne);
-    // The part of the column that lies left of the middle goes left; all to one side where the
-    // other has no room.
+    const std::vector<Strip> to_left = strip(from, 1, loaded), to_right = strip(from, -1, loaded);
+    // The part of the column left of the middle line goes left. All goes to one side if the other
+    // has no space.
     double share = std::clamp(0.5 + from.left / ground_.cell(), 0.0, 1.0);
     if (to_left.empty()) share = 0;
     if (to_right.empty()) share = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil that flows out from under a wheel or a belt and raises the edges of its rut.
+// Soil that flows out from under a wheel or track and raises the edges of its rut.
 #pragma once
 
 #include <cstdint>
@@ -10,52 +10,61 @@
 
 namespace navvy::coupling {
 
-/// What was taken from under wheels and belts and is still to be laid down beside them.
+/// Holds soil taken from under wheels and tracks until it is laid down beside them.
 ///
-/// It lies down along a strip as wide as what pressed it out, the wedge that Prandtl's mechanism
-/// lifts in soil without friction [Prandtl 1920], beginning beside the wheel with the first column
-/// that bears nothing. As all soil that slides it lies loose and remoulded. In whole units of mass:
-/// what left one column arrives in others to the last unit.
+/// The soil is laid down along a strip as wide as the tyre or track that displaced it: the wedge
+/// that Prandtl's mechanism lifts in soil without friction [Prandtl 1920]. The strip starts beside
+/// the wheel at the first column that carries no load. The soil is loose and remoulded, as all soil
+/// that slides. Masses are whole mass quanta: every quantum that leaves a column arrives in another
+/// one.
 class PushedSoil {
  public:
-  /// How a column lies under what presses it.
+  /// Position of a column under a tyre or track.
   struct Place {
     int ix = 0, iy = 0;
-    Vec2 across = Vec2::UnitY();  ///< unit, to the left of the way
-    double left = 0;              ///< of the middle line of wheel or belt [m]
-    /// From there to the outside of the wheel, twins and all, or of the belt [m].
+    /// Unit vector to the left of the direction of travel.
+    Vec2 across = Vec2::UnitY();
+    /// Distance to the left of the middle line of wheel or track [m].
+    double left = 0;
+    /// Distance from the middle line to the outside of the wheel (twins included) or track [m].
     double reach = 0;
-    double width = 0;    ///< of one tyre or belt [m]
-    double covered = 1;  ///< share of the column that lies under that one [-]
+    /// Width of one tyre or track [m].
+    double width = 0;
+    /// Share of the column that is under that tyre or track [-].
+    double covered = 1;
   };
 
-  /// The ground must outlive it.
+  /// Starts empty. The ground must outlive this object.
   explicit PushedSoil(heightfield::Ground& ground) : ground_(ground) {}
 
-  /// Share of a column `off` [m] the middle of a tyre or belt that lies under it. Columns beside it
-  /// are pressed as well, as it feels the ground between two of them, but squeeze nothing out.
+  /// Returns the share of a column under a tyre or track whose middle is `off` [m] away. Columns
+  /// beside it are compacted as well, since the tyre senses the ground between two columns, but
+  /// they lose no soil.
   static double covered(double off, double width, double cell);
 
-  /// Takes of the uppermost `depth` [m] of a column what is covered.
+  /// Takes the covered share of the uppermost `depth` [m] of a column.
   void take(const Place& place, double depth);
-  /// Lays all of it down, in the order it was taken; columns that are `borne` receive nothing. What
-  /// finds no place, between what presses and the site's edge, is pressed into the column it came
-  /// from.
-  void deposit_down(const std::function<bool(int ix, int iy)>& borne);
+  /// Lays all soil down in the order in which it was taken. Columns for which `loaded` is true
+  /// receive none. Soil without a target, between the tyre and the site's edge, is compacted into
+  /// the column it came from.
+  void deposit_down(const std::function<bool(int ix, int iy)>& loaded);
 
  private:
+  /// Soil taken from one column.
   struct Load {
     Place place;
-    std::vector<heightfield::SoilLayer> layers;  ///< bottom first
+    /// Soil layers, bottom first.
+    std::vector<heightfield::SoilLayer> layers;
   };
-  /// A column of the strip and what share of it [-] lies in the strip.
+  /// Column of the strip and the share of it [-] inside the strip.
   struct Strip {
     Vec2i column;
     double share;
   };
-  /// To one side: `sign` 1 left, -1 right. Empty where there is no room.
+  /// Returns the strip on one side: `sign` 1 left, -1 right. Empty if there is no space.
   std::vector<Strip> strip(const Place& from, double sign,
-                           const std::function<bool(int, int)>& borne) const;
+                           const std::function<bool(int, int)>& loaded) const;
+  /// Deposits a layer on the columns of a strip by their shares.
   void spread(const heightfield::SoilLayer& layer, const std::vector<Strip>& strip);
 
   heightfield::Ground& ground_;

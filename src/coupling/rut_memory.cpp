@@ -9,14 +9,16 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kSameHeight = 1e-3;  // [m] a surface nobody else moved since it was pressed
+// [m] A surface this close has not been moved by others since it was pressed.
+constexpr double kSameHeight = 1e-3;
 
 }  // namespace
 
+// Compares heights to detect soil that was added or removed since.
 void RutMemory::find(double surface) {
   if (std::abs(surface - height) <= kSameHeight) return;
   if (surface > height) {
-    // The ground that has borne most is what counts below.
+    // Below fresh soil the ground with the largest pressure counts.
     if (pressure > floor_pressure) floor_pressure = pressure, floor_height = height;
     pressure = 0;
     return;
@@ -26,23 +28,24 @@ void RutMemory::find(double surface) {
   if (on_floor || surface < floor_height) floor_pressure = floor_height = 0;
 }
 
-RutMemory::Sinking RutMemory::press(const scene::Soil& soil, double width, double surface,
-                                    double borne, double at_most) {
-  if (borne <= pressure) return {};
+// Fresh soil and the ground below it are pressed by the same plate, each from its own history.
+RutMemory::Press RutMemory::press(const scene::Soil& soil, double width, double surface,
+                                  double applied, double at_most) {
+  if (applied <= pressure) return {};
   const double before = terramechanics::plate_sinkage(soil, pressure, width);
-  const double after = terramechanics::plate_sinkage(soil, borne, width);
+  const double after = terramechanics::plate_sinkage(soil, applied, width);
   double drop = after - before;
   const bool down = floor_pressure > 0 && surface - drop <= floor_height;
   if (down)
     drop = std::min(drop, std::max(0.0, surface - floor_height) +
                               std::max(0.0, after - terramechanics::plate_sinkage(
                                                         soil, floor_pressure, width)));
-  // Cut short, it has borne no more than what its depth by now bears.
+  // If the drop is limited, the record is only the pressure of the present depth.
   if (drop > at_most) {
     pressure = terramechanics::plate_pressure(soil, before + at_most, width);
     return {before, at_most};
   }
-  pressure = down ? std::max(borne, floor_pressure) : borne;
+  pressure = down ? std::max(applied, floor_pressure) : applied;
   if (down) floor_pressure = floor_height = 0;
   return {before, drop};
 }

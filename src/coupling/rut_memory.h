@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a column remembers of wheels and belts.
+// Load history of a column under wheels and tracks.
 #pragma once
 
 #include <limits>
@@ -9,30 +9,35 @@
 
 namespace navvy::coupling {
 
-/// The largest pressure a column has borne, and where its surface lay then: standing still or a
-/// second pass at the same load adds nothing, a heavier one what it presses more.
+/// Records the largest pressure on a column and the surface height at that time. A load
+/// that stands still, or passes again, adds nothing; a heavier one presses further.
 ///
-/// Soil that came onto it since is fresh, and is pressed from its own surface on; but what lies
-/// below has borne what it has. So a rut into which its walls slide is pressed to its old floor and
-/// not as deep again. Where ground was taken off below that floor, nothing is remembered.
+/// Soil that was added since is fresh and is compacted from its own surface on, but the ground
+/// below keeps its history: a rut whose walls slide in is pressed to its old floor and not as deep
+/// again. The history is cleared where ground was removed below that floor.
 struct RutMemory {
-  double pressure = 0;        ///< largest borne by the surface [Pa]
-  double height = 0;          ///< of that surface [m]
-  double floor_pressure = 0;  ///< borne by ground below fresh soil, 0 where there is none [Pa]
-  double floor_height = 0;    ///< [m]
+  /// Largest pressure on the surface [Pa].
+  double pressure = 0;
+  /// Height of that surface [m].
+  double height = 0;
+  /// Largest pressure on the ground below fresh soil, 0 if there is none [Pa].
+  double floor_pressure = 0;
+  /// Height of the ground below fresh soil [m].
+  double floor_height = 0;
 
-  /// Takes note of the column's `surface` [m] as it lies now.
+  /// Compares the record with the present height `surface` [m] of the column.
   void find(double surface);
 
-  /// How far the column goes down [m], `at_most`, under a plate of `width` [m] that presses with
-  /// `borne` [Pa], and the plate's sinkage in its soil before. Remembers it; the caller tells the
-  /// new surface by `height`.
-  struct Sinking {
+  /// Result of `press`: the plate's sinkage before, and how far the column is pressed down [m].
+  struct Press {
     double before = 0, drop = 0;
   };
-  Sinking press(const scene::Soil& soil, double width, double surface, double borne,
-                double at_most = std::numeric_limits<double>::infinity());
+  /// Presses the column by at most `at_most` [m] under a plate of `width` [m] with the pressure
+  /// `applied` [Pa]. Records the load; the caller stores the new surface in `height`.
+  Press press(const scene::Soil& soil, double width, double surface, double applied,
+              double at_most = std::numeric_limits<double>::infinity());
 
+  /// Visits pressures and heights.
   void visit(Archive& a);
 };
 

@@ -13,26 +13,27 @@
 namespace navvy::coupling {
 namespace {
 
-constexpr double kStays = 1e-3;  // [m] a way too short to matter
-// [s] several of a tyre's bounces, 3 to 4 Hz; a machine sinks within a second.
-// tuned: RideSoil.LoadsStayEvenInTheOwnRutWhateverTheCell
+constexpr double kStays = 1e-3;  // [m] negligible distance
+// [s] several periods of a bouncing tyre (3 to 4 Hz); a machine sinks within a second. tuned:
+// RideSoil.LoadsStayEvenInTheOwnRutWhateverTheCell
 constexpr double kBearingTime = 0.3;
 
 }  // namespace
 
+// Excess soil leaves the column before the rest is compacted to its new height.
 void Ruts::press_column(const PushedSoil::Place& place, double pressure, const Press& press) {
   const int ix = place.ix, iy = place.iy;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   const std::int64_t key = static_cast<std::int64_t>(iy) * ground_.nx() + ix;
   Memory& memory = memory_.at(ix, iy);
-  // A tyre that comes, not one that stays.
+  // Reset when a tyre arrives on the column, not while one stays.
   if (under_.insert(key).second && !ground_.held(ix, iy)) memory.sinking = {};
   const double height = ground_.height(ix, iy);
-  memory.borne.find(height);
-  // Slip sinks the soil as so much more pressure would.
+  memory.history.find(height);
+  // Slip increases the sinkage like this factor on the pressure.
   const double softer = std::pow(press.softer, soil.bekker_n);
   const double width = press.patch.width;
-  const auto [before, drop] = memory.borne.press(soil, width, height, pressure * softer);
+  const auto [before, drop] = memory.history.press(soil, width, height, pressure * softer);
   if (!(drop > 0)) return;
   const double after = before + drop;
   memory.sinking.depth += drop;
@@ -42,9 +43,10 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
   ground_.compact_to(ix, iy, height - drop);
-  memory.borne.height = ground_.height(ix, iy);
+  memory.history.height = ground_.height(ix, iy);
 }
 
+// Low-pass filters with the time constants described in the header.
 void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                            double interval) {
   const double now = wheel.force_W.z() - wheel.body_W.z();
@@ -53,12 +55,13 @@ void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& 
     return;
   }
   load -= std::expm1(-interval / kBearingTime) * (now - load);
-  // Soil is carried away by the way of the rim: about a radius from one end of the patch to the
-  // other.
+  // Slip excavates over the displacement of the rim: about a radius from one end of the patch to
+  // the other.
   const double way = interval * std::max(std::abs(wheel.spin) * tyre.radius, wheel.v_W.norm());
   slip -= std::expm1(-way / tyre.radius) * (wheel.slip - slip);
 }
 
+// Lays displaced soil down after all tyres have pressed, then holds the columns under them.
 void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
   under_.clear();
   bearing_.resize(tyres.size());
@@ -68,7 +71,7 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
     bearing.follow(tyres[i].tyre, wheel, interval);
     press_wheel(tyres[i].tyre, wheel, bearing, interval);
   }
-  // Where a belt or another tyre stands nothing can be laid down.
+  // Nothing can be laid down under a track or another tyre.
   pushed_.deposit_down([this](int ix, int iy) {
     return ground_.held(ix, iy) ||
            under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
@@ -76,42 +79,45 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
   ground_.hold(std::exchange(under_, {}));
 }
 
+// Derives the size of the patch from the soil under the wheel's middle.
 void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                        const Bearing& bearing, double interval) {
   const Pose& X = wheel.X_WWheel;
-  // A tyre in the air presses nothing, however it was loaded before.
+  // A tyre in the air presses nothing, whatever its earlier load.
   if (!(wheel.force_W.z() - wheel.body_W.z() > 0)) return;
   // The soil under the wheel's middle decides the size of the patch; each column then sinks by its
-  // own.
+  // own soil.
   const terramechanics::SoilState under =
       GroundView(ground_, ground_.setup().soils).soil(X.translation().x(), X.translation().y());
   Press press{terramechanics::tyre_patch(tyre, *under.soil, bearing.load), *under.soil,
               terramechanics::slip_sinkage(bearing.slip)};
   if (!(press.patch.half_length > 0)) return;
   press.patch.sinkage *= press.softer;
-  // Between two columns the surface is a chord, which stands over the tread's arc by so much.
+  // Between two columns the surface is a chord, which is above the tread's arc by this much.
   press.patch.deflection += ground_.cell() * ground_.cell() / (8 * tyre.radius);
   press.patch.half_length =
       0.5 * terramechanics::chord_length(tyre.radius, press.patch.deflection + press.patch.sinkage);
-  // The patch is a rectangle in the plane, along the wheel's heading.
+  // The patch is a rectangle in the horizontal plane along the wheel's heading.
   const Vec2 along = Vec2(X.linear()(0, 0), X.linear()(1, 0)).normalized();
   const Vec2 rolled =
       std::isfinite(interval) ? Vec2(interval * wheel.v_W.head<2>()) : Vec2(Vec2::Zero());
   const bool twin = tyre.twin_spacing > 0;
   for (const double side : twin ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0}) {
-    // Below the axle as the machine stands: on a slope that is not plumb.
+    // Below the axle in the machine's frame, which is not vertical on a slope.
     const double aside = side * tyre.twin_spacing;
     const Vec2 center = (X * Vec3(0, aside, -tyre.radius)).head<2>();
     press_patch(press, center, along, aside);
-    // Where it comes before the next press: it must not meet what it would have pressed as a wall.
+    // Also press where the tyre arrives before the next press. Otherwise it would meet unpressed
+    // soil as a wall.
     if (!rolled.isZero(kStays)) press_patch(press, center + rolled, along, aside);
   }
 }
 
+// Visits every column whose centre is in the rectangle of the patch.
 void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside) {
   const terramechanics::TyrePatch& patch = press.patch;
   const Vec2 across(-along.y(), along.x());
-  // At least a cell to either side: what the tyre feels lies between the columns there.
+  // At least one cell to either side, since the tyre senses the ground between those columns.
   const double half_width = std::max(0.5 * patch.width, ground_.cell());
   const double reach = std::hypot(patch.half_length, half_width);
   const Vec2i low = ground_.column_at(center.x() - reach, center.y() - reach);
@@ -121,7 +127,7 @@ void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along
       const Vec2 d = ground_.origin() + ground_.cell() * Vec2(ix + 0.5, iy + 0.5) - center;
       const double x = d.dot(along);
       if (std::abs(x) > patch.half_length || std::abs(d.dot(across)) > half_width) continue;
-      // Ahead and behind no deeper than the tread: a step there would be a wall the tyre has to
+      // Ahead and behind no deeper than the tread: a step there would be a wall for the tyre to
       // climb.
       const double tread = terramechanics::plate_pressure(
           press.soil, patch.tread_depth(x) / press.softer, patch.width);
@@ -140,7 +146,7 @@ terramechanics::Sinkage Ruts::sinking(double x, double y) const {
 }
 
 void Ruts::Memory::visit(Archive& a) {
-  a("borne", borne);
+  a("history", history);
   a.ranged("work", sinking.work, 0.0, 1e12);
   a.ranged("depth", sinking.depth, 0.0, 1e6);
 }

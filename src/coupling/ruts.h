@@ -19,85 +19,92 @@
 
 namespace navvy::coupling {
 
-/// One wheel, referred to, and how it stands.
+/// A wheel and its state.
 struct LoadedTyre {
   const scene::Wheel& tyre;
   vehicle::WheelState wheel;
 };
 
-/// Steps between presses; a wheel at 2.5 m/s moves 3 cm in between.
+/// Base steps between two presses. A wheel at 2.5 m/s moves 3 cm in between.
 constexpr int kRutInterval = 8;
 
-/// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and keeps what they do not
-/// know: the memory.
+/// Presses ruts by the laws of terramechanics (plate.h, tyre_patch.h) and stores their load
+/// history.
 ///
-/// Each column remembers the largest pressure it has borne (RutMemory), so standing still or a
-/// second pass at the same load adds nothing. Mass is kept: the column's density state rises, and
-/// what the ground cannot bear (terramechanics::pushed_depth) flows aside onto the rut's edges.
-/// Columns that bear a tyre are held (Ground::hold): the rut's walls do not slump under it
-/// [docs/machines.md, ruts].
+/// Each column records its largest pressure (RutMemory), so a load that stands still
+/// or passes again adds nothing. Mass is conserved: the column's density rises, and soil beyond the
+/// bearing capacity (terramechanics::pushed_depth) flows onto the rut's edges. Columns under a tyre
+/// are held (Ground::hold): the rut's walls do not slump below it [docs/machines.md, ruts].
 ///
-/// What a wheel presses with is its load of the last 0.3 s and its slip over the last radius of
-/// way: a tyre that bounces does not press its bounces into the ground, which it would feel as a
-/// washboard, the ground does not give way at once under what falls on it, and a wheel that starts
-/// has carried no soil away yet.
+/// The load is averaged over the last 0.3 s and the slip over the last radius travelled. A bouncing
+/// tyre therefore presses no washboard, the ground does not yield at once under a falling load, and
+/// a starting wheel has not excavated yet.
 class Ruts {
  public:
-  /// The ground must outlive it.
+  /// Starts without ruts. The ground must outlive this object.
   explicit Ruts(heightfield::Ground& ground)
       : ground_(ground), pushed_(ground), memory_(ground.nx(), ground.ny()) {}
 
-  /// Presses the contact patches of all wheels of the world, in the same order each time, as they
-  /// are and where they roll within `interval` [s], the time until the next call. Each carries what
-  /// of its `force_W` the ground gave; tyres of a twin pair each carry half. Their columns are held
-  /// until the next call. With an endless interval loads count as they are.
+  /// Presses the contact patches of all wheels of the world where they are and where they roll
+  /// within `interval` [s], the time until the next call. Pass the wheels in the same order each
+  /// time. Each wheel presses with the part of its `force_W` that the ground carries; tyres of a
+  /// twin pair carry half each. Columns under tyres are held until the next call. With an infinite
+  /// interval loads are not averaged.
   void press(const std::vector<LoadedTyre>& tyres,
              double interval = std::numeric_limits<double>::infinity());
 
-  /// What pressing the column at x, y took since a tyre came onto it; nothing where none stands.
+  /// Returns the compaction of the column at x, y since a tyre arrived on it; zero without a tyre.
   terramechanics::Sinkage sinking(double x, double y) const;
 
-  /// What a column of the site has borne of tyres and belts, made if it has borne nothing. Good
-  /// until the next call.
-  RutMemory& borne(int ix, int iy) { return memory_.at(ix, iy).borne; }
+  /// Returns the load history of a column and creates it if it is new. The reference is valid until
+  /// the next call.
+  RutMemory& history(int ix, int iy) { return memory_.at(ix, iy).history; }
 
-  /// Load [N] that wheel `i` of the last call's presses with, 0 before.
+  /// Returns the load [N] with which wheel `i` of the last call presses, 0 before.
   double load(std::size_t i) const { return i < bearing_.size() ? bearing_[i].load : 0; }
 
+  /// Visits load history and filtered loads.
   void visit(Archive& a);
 
  private:
+  /// Load history of a column and its present compaction.
   struct Memory {
-    RutMemory borne;
-    terramechanics::Sinkage sinking;  ///< since the tyre that stands on it came
+    RutMemory history;
+    /// Compaction since the tyre that stands on the column arrived.
+    terramechanics::Sinkage sinking;
     void visit(Archive& a);
   };
-  /// How a wheel loads the ground, low-passed.
+  /// Low-pass filtered load of a wheel on the ground.
   struct Bearing {
     double load = 0;  ///< [N]
     double slip = 0;  ///< [-]
     void follow(const scene::Wheel& tyre, const vehicle::WheelState& wheel, double interval);
     void visit(Archive& a);
   };
-  /// A tyre's patch on the soil that decides its size.
+  /// Patch of a tyre on the soil that determines its size.
   struct Press {
     terramechanics::TyrePatch patch;
     const scene::Soil& soil;
-    double softer;  ///< by slip: sinkage over that without
+    /// Factor of the sinkage by slip.
+    double softer;
   };
+  /// Presses the patches of one wheel where it is and where it rolls next.
   void press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                    const Bearing& bearing, double interval);
-  /// One tyre's patch, its middle at `center`, along the unit vector `along`, `aside` [m] left of
-  /// the wheel's middle.
+  /// Presses the patch of one tyre with its middle at `center`, along the unit vector `along`,
+  /// `aside` [m] left of the wheel's middle.
   void press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside);
-  /// One column under `pressure` [Pa], by its own soil.
+  /// Presses one column with `pressure` [Pa], by the law of its own soil.
   void press_column(const PushedSoil::Place& place, double pressure, const Press& press);
 
   heightfield::Ground& ground_;
-  PushedSoil pushed_;             ///< empty between two calls
-  std::set<std::int64_t> under_;  ///< columns under the tyres pressed so far in this call
+  /// Empty between two calls.
+  PushedSoil pushed_;
+  /// Columns under the tyres pressed so far in this call.
+  std::set<std::int64_t> under_;
   ColumnTable<Memory> memory_;
-  std::vector<Bearing> bearing_;  ///< by wheel of the world
+  /// Filtered loads by wheel of the world.
+  std::vector<Bearing> bearing_;
 };
 
 }  // namespace navvy::coupling

@@ -14,6 +14,7 @@
 
 namespace navvy::coupling {
 
+// Repeats the run's sequence of engine and ruts without the soil solver.
 std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time) {
   std::vector<Settled> out(scene.machines.size());
   const auto engine = vehicle::make_bullet_engine(scene.gravity, scene.materials);
@@ -25,7 +26,7 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
     of.push_back(m);
   }
   if (of.empty()) return out;
-  engine->set_rock(ground.datum());
+  if (vehicle::RockCapability* rock = engine->rock()) rock->set_rock(ground.datum());
   add_hitches(scene, *engine, [&of](int machine) {
     return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) -
                             of.begin());
@@ -48,7 +49,8 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
           tyres.push_back({wheels[w], engine->wheel(machine, wheel)});
           continue;
         }
-        for (const terramechanics::TrackPatch& patch : engine->track_patches(machine, wheel))
+        for (const terramechanics::TrackPatch& patch :
+             vehicle::track_patches(*engine, machine, wheel))
           running_tracks.push_back(patch);
       }
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines put on the ground and left to themselves, without soil that moves: for those who look
-// before a run.
+// Settles machines on the ground without moving soil, for checks before a run.
 #pragma once
 
 #include <vector>
@@ -12,16 +11,18 @@
 
 namespace navvy::coupling {
 
-/// How a machine stands after a while, and how fast it falls.
+/// State of a machine after settling.
 struct Settled {
   vehicle::Stability stability;
-  double fall_speed = 0;  ///< of the base link, downwards [m/s]
+  /// Speed of the base link, positive downwards [m/s].
+  double fall_speed = 0;
 };
 
-/// Puts the scene's machines on `ground` as a run does and lets engine, tyres and ruts work for
-/// `time` [s]; joints hold, drives brake as they do without a command. Presses ruts into `ground`.
-/// No particle wakes, so no device is needed. How each machine of the scene stands then; a
-/// kinematic one as it was made, free to nothing. Costs some 0.2 s a machine and second.
+/// Places the scene's machines on `ground` as a run does, steps physics engine, tyres and ruts for
+/// `time` [s], and returns the state of each machine of the scene. Joints hold and drives brake, as
+/// they do without a command. Presses ruts into `ground`. No particle becomes active, so no device
+/// is needed. A kinematic machine keeps its initial state and is not free. Costs about 0.2 s per
+/// machine and simulated second.
 std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time);
 
 }  // namespace navvy::coupling

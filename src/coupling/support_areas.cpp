@@ -8,11 +8,12 @@
 namespace navvy::coupling {
 namespace {
 
+// Twins are two areas side by side.
 void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
                soil::SupportArea footing, std::vector<soil::SupportArea>& support_areas) {
   const Pose& X = wheel.X_WWheel;
-  // Round in every direction of its way: however the machine leans, its lowest point is plumb below
-  // the axle.
+  // A tyre is round in every direction of travel: however the machine leans, its lowest point is
+  // below the axle.
   footing.ahead_W = Vec3(X.linear()(0, 0), X.linear()(1, 0), 0).normalized();
   footing.left_W = X.linear().col(1);
   footing.radius = tyre.radius;
@@ -28,7 +29,8 @@ void add_tyres(const scene::Wheel& tyre, const vehicle::WheelState& wheel,
   support_areas.push_back(footing);
 }
 
-/// One for the idler, one for the run from the first roller to the last, one for the sprocket.
+/// Appends one area for the idler, one for the run from the first roller to the last, one for the
+/// sprocket.
 void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier,
                const Vec3& p_WSprocket, soil::SupportArea footing,
                std::vector<soil::SupportArea>& support_areas) {
@@ -51,6 +53,7 @@ void add_track(const scene::Wheel& wheel, const vehicle::LinkState& carrier,
 
 }  // namespace
 
+// A crawler has its carrier's motion, a tyre its own.
 void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
                        int index, int wheel, double load, double ready,
                        std::vector<soil::SupportArea>& support_areas) {
@@ -60,14 +63,14 @@ void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngi
   footing.half_width = 0.5 * about.width;
   footing.ready = ready;
   if (!about.track) {
-    footing.give =
+    footing.flattening =
         std::clamp(load / about.stiffness, 0.0, terramechanics::kMaxDeflection * about.radius);
     add_tyres(about, state, footing, support_areas);
     return;
   }
   const scene::Joint& joint =
       machine.joints[static_cast<std::size_t>(machine.joint_index(about.joint))];
-  footing.give = std::max(0.0, state.force_W.z() / about.stiffness);
+  footing.flattening = std::max(0.0, state.force_W.z() / about.stiffness);
   add_track(about, engine.link(index, joint.parent), state.X_WWheel.translation(), footing,
             support_areas);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wheels and belts as the soil's exchange asks for them: where awake soil must become ground.
+// Support areas of wheels and tracks, where the soil's exchange must turn particles into ground.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace navvy::coupling {
 
-/// Adds the tyres of wheel `wheel` of machine `index` of `engine`, pressed flat by `load` [N] as
-/// ruts count it, or the idler, the rollers and the sprocket of its belt. The ground must be there
-/// `ready` [s] before them [docs/exchange.md, footings].
+/// Appends the support areas of wheel `wheel` of machine `index` of `engine`: its tyres, flattened
+/// by `load` [N] as Ruts reports it, or the idler, the rollers and the sprocket of its track. The
+/// ground must be there `ready` [s] before they arrive [docs/exchange.md, support areas].
 void add_support_areas(const scene::Machine& machine, const vehicle::PhysicsEngine& engine,
                        int index, int wheel, double load, double ready,
                        std::vector<soil::SupportArea>& support_areas);

@@ -13,11 +13,12 @@
 
 namespace navvy::coupling {
 
+// Excess soil leaves the column before the rest is compacted to its new height.
 void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, double most) {
   const int ix = place.ix, iy = place.iy;
   const double width = place.width;
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
-  RutMemory& memory = ruts_.borne(ix, iy);
+  RutMemory& memory = ruts_.history(ix, iy);
   const double height = ground_.height(ix, iy);
   memory.find(height);
   const auto [before, drop] = memory.press(soil, width, height, pressure, most);
@@ -28,15 +29,16 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   memory.height = ground_.height(ix, iy);
 }
 
+// Finds the heaviest segment over each column first, then presses every column once.
 void TrackRuts::press(const std::vector<terramechanics::TrackPatch>& patches, double most,
                       bool alone) {
-  // A column between two segments bears the heavier one, once: each presses further only by what it
-  // bears more.
+  // A column between two segments carries the heavier one once; each segment presses only by the
+  // excess of its pressure.
   std::map<std::int64_t, std::pair<double, PushedSoil::Place>> under;  // pressure [Pa]
   for (const terramechanics::TrackPatch& patch : patches) {
     const Vec2 along = patch.ahead_W.head<2>().normalized(), across(-along.y(), along.x());
     const Vec2 middle = patch.p_W.head<2>();
-    // Wide enough for a column to either side of its middle, as those of tyres: the belt stands
+    // Wide enough for one column on either side of its middle, as for tyres: the track is supported
     // between both.
     const double half_width = std::max(0.5 * patch.width, ground_.cell());
     const double reach = std::hypot(0.5 * patch.length, half_width);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ruts of crawlers: columns under a belt are pressed to the sinkage of their soil.
+// Ruts of crawlers: columns under a track are pressed to the sinkage of their soil.
 #pragma once
 
 #include <vector>
@@ -11,31 +11,36 @@
 
 namespace navvy::coupling {
 
-constexpr double kSinkSpeed = 0.2;  ///< of a belt into soil that gives way, at most [m/s]
+/// Largest speed of a track into yielding soil [m/s].
+constexpr double kSinkSpeed = 0.2;
 
-/// Presses what belts stand on, each segment as a plate of the belt's width under p = N / (b l)
-/// (plate.h): standing still, or another segment under the same load, adds nothing. What the ground
-/// cannot bear flows aside.
+/// Presses the ground under tracks, each segment as a plate of the track's width under p = N / (b
+/// l) (plate.h). A load that stands still, or another segment under the same load, adds nothing.
+/// Soil beyond the bearing capacity flows aside.
 ///
-/// As Ruts does for tyres, and with the same memory: what a tyre has pressed has borne its pressure
-/// when a belt comes, and the other way round.
+/// Shares the load history with Ruts: ground pressed by a tyre keeps its pressure on record when a
+/// track arrives, and vice versa.
 class TrackRuts {
  public:
-  /// The ground, and the ruts of tyres on it, which keep the memory, must outlive it.
+  /// Starts without loads. The ground and `ruts`, which store the history, must outlive this
+  /// object.
   TrackRuts(heightfield::Ground& ground, Ruts& ruts)
       : ground_(ground), ruts_(ruts), pushed_(ground) {}
 
-  /// Presses all patches of the world. No column sinks by more than `most` [m] at a time. Columns
-  /// under belts are held until the next call, those of tyres besides unless the belts are `alone`.
+  /// Presses all patches of the world. No column sinks by more than `most` [m] per call. Columns
+  /// under tracks are held until the next call; columns under tyres stay held unless the tracks are
+  /// `alone`.
   void press(const std::vector<terramechanics::TrackPatch>& patches, double most, bool alone);
 
  private:
-  /// One column under `pressure` [Pa] of a plate as wide as the belt, by its own soil.
+  /// Presses one column with `pressure` [Pa] of a plate as wide as the track, by the law of its own
+  /// soil.
   void press_column(const PushedSoil::Place& place, double pressure, double most);
 
   heightfield::Ground& ground_;
   Ruts& ruts_;
-  PushedSoil pushed_;  // empty between two calls
+  // Empty between two calls.
+  PushedSoil pushed_;
 };
 
 }  // namespace navvy::coupling

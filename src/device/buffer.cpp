@@ -12,13 +12,12 @@ struct RawBuffer::Memory {
   std::size_t size = 0;
 
   Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
-    // Memory that host and device share is allocated where both reach it, so that mapping moves no
-    // bytes.
+    // Memory that host and device share is allocated where both reach it, so that mapping copies
+    // nothing.
     const cl_mem_flags flags =
         CL_MEM_READ_WRITE | (device->info.shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0);
     cl_int code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
-    // A CPU's driver would take more than there is and be killed for it later: the sum is bounded
-    // here.
+    // A CPU driver would over-commit and be killed for it later, so the total is limited here.
     if (bytes <= device->info.memory && device->memory_used <= device->info.memory - bytes)
       memory = clCreateBuffer(device->context, flags, bytes, nullptr, &code);
     if (code != CL_SUCCESS) {
@@ -35,14 +34,13 @@ struct RawBuffer::Memory {
   Memory& operator=(const Memory&) = delete;
   ~Memory() {
     clReleaseMemObject(memory);
-    // What was queued with it still runs: the driver lets the memory go after the last command that
-    // uses it.
+    // Queued commands may still use the memory; the driver releases it after the last of them.
     device->memory_used -= size;
   }
 };
 
 namespace {
-// OpenCL has no empty buffers; a kernel argument needs one.
+// OpenCL has no empty buffers, but a kernel argument needs one.
 constexpr std::size_t kLeastBytes = 16;
 }  // namespace
 
@@ -52,8 +50,8 @@ RawBuffer::RawBuffer(Device& device, std::size_t bytes)
 
 void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
   if (!memory_) throw DeviceError("a buffer without a device cannot grow: construct it with one");
-  // Only what the caller counts as values is copied, on the device, behind what was queued before.
-  // The old memory may be released at once, as the queue holds it until the copy is done.
+  // Copies the values only, on the device, after all queued work. The old memory may be released at
+  // once, as the queue holds it until the copy is done.
   auto bigger = std::make_shared<Memory>(memory_->device, bytes);
   if (keep > 0) {
     const Device::State& device = *memory_->device;
@@ -67,8 +65,8 @@ void RawBuffer::reserve(std::size_t bytes, std::size_t keep) {
 
 void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, bool wait) {
   if (bytes == 0) return;
-  // With `wait` the driver has taken its copy of the data when this returns, which need not mean
-  // that earlier work is done: the notice of a compiling driver stays.
+  // With `wait` the driver has taken its copy of the data on return. Earlier work need not be done,
+  // so the notice of a slow compilation stays.
   const Device::State& device = *memory_->device;
   check(clEnqueueWriteBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, offset,
                              bytes, data, 0, nullptr, nullptr),
@@ -81,18 +79,9 @@ void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr,
                             nullptr),
         "clEnqueueReadBuffer", device);
-  // A blocking read returns after everything queued before it, compiling included: the queue is in
-  // order.
+  // The queue is in order, so a blocking read returns after everything queued before it,
+  // compilation included.
   device.compiling.reset();
-}
-
-void RawBuffer::copy_from(const RawBuffer& other, std::size_t from, std::size_t to,
-                          std::size_t bytes) {
-  if (bytes == 0) return;
-  const Device::State& device = *memory_->device;
-  check(clEnqueueCopyBuffer(device.queue, other.memory_->memory, memory_->memory, from, to, bytes,
-                            0, nullptr, nullptr),
-        "clEnqueueCopyBuffer", device);
 }
 
 void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t offset,
@@ -106,8 +95,8 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
           "clEnqueueFillBuffer", device);
     return;
   }
-  // OpenCL fills with powers of two only; other structs are repeated by the host. The write waits
-  // here, as the repeated values live in this call only.
+  // OpenCL fills with powers of two only; the host repeats other structs. The write waits, since
+  // the repeated values live in this call only.
   std::vector<char> values(bytes);
   const char* source = static_cast<const char*>(pattern);
   for (std::size_t at = 0; at < bytes; at += pattern_bytes) {
@@ -118,22 +107,18 @@ void RawBuffer::fill(const void* pattern, std::size_t pattern_bytes, std::size_t
 
 void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool wait) const {
   Device::State& device = *memory_->device;
-  cl_map_flags flags = CL_MAP_READ;
-  // What the region held is lost with this flag, which spares a copy to the host where memory is
-  // not shared.
-  if (access == Access::kOverwrite) flags = CL_MAP_WRITE_INVALIDATE_REGION;
-  if (access == Access::kUpdate) flags = CL_MAP_READ | CL_MAP_WRITE;
+  const cl_map_flags flags = access == Access::kRead ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
   void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags,
                                 offset, bytes, 0, nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);
-  // As with a blocking read, what was queued before is done now.
+  // As with a blocking read, all work queued before is done now.
   if (wait) device.compiling.reset();
   return at;
 }
 
 void RawBuffer::unmap(void* at) const noexcept {
-  // A failure here shows at the next call on the queue; a destructor must not throw.
+  // A failure appears at the next call on the queue; a destructor must not throw.
   clEnqueueUnmapMemObject(memory_->device->queue, memory_->memory, at, 0, nullptr, nullptr);
 }
 

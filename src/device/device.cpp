@@ -15,6 +15,7 @@
 namespace navvy::device {
 namespace {
 
+/// A device with its platform.
 struct Found {
   cl_platform_id platform = nullptr;
   cl_device_id device = nullptr;
@@ -27,8 +28,8 @@ std::string lower(std::string text) {
   return text;
 }
 
-// The two texts come with a zero at their end that is part of the size. A driver that refuses a
-// question answers nothing: one broken platform must not hide the others.
+/// Returns a text without the terminating zero that OpenCL counts, or "" if the driver refuses: one
+/// broken platform must not hide the others.
 std::string platform_text(cl_platform_id platform, cl_platform_info what) {
   std::size_t size = 0;
   if (clGetPlatformInfo(platform, what, 0, nullptr, &size) != CL_SUCCESS || size == 0) return "";
@@ -50,11 +51,12 @@ std::string device_text(cl_device_id device, cl_device_info what) {
 template <class T>
 T device_value(cl_device_id device, cl_device_info what) {
   T value{};
-  // A value a driver does not know stays zero, which switches the feature off.
+  // A value that the driver does not know stays zero, which disables the feature.
   clGetDeviceInfo(device, what, sizeof value, &value, nullptr);
   return value;
 }
 
+/// Queries all properties of a device.
 DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   DeviceInfo info;
   const auto type = device_value<cl_device_type>(device, CL_DEVICE_TYPE);
@@ -70,18 +72,19 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   info.memory = device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
   info.local_memory = device_value<cl_ulong>(device, CL_DEVICE_LOCAL_MEM_SIZE);
   info.max_work_group = device_value<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
-  // Drivers say so of CPUs and of graphics processors within them; there, mapping costs no copy.
+  // True for CPUs and for graphics processors that are part of them; mapping costs no copy there.
   info.shares_memory = device_value<cl_bool>(device, CL_DEVICE_HOST_UNIFIED_MEMORY) == CL_TRUE;
   const auto floats = device_value<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG);
   info.correct_divide_sqrt = (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   return info;
 }
 
+/// Returns the devices of all platforms.
 std::vector<Found> find_devices() {
-  // Before the first call into OpenCL: PoCL reads its folder from the environment when its platform
-  // comes up.
+  // Before the first OpenCL call: PoCL reads its cache folder from the environment when its
+  // platform starts.
   prepare_kernel_cache();
-  // One thread at a time: PoCL 3.1 shows devices to a second one before they have their names.
+  // One thread at a time: PoCL 3.1 shows devices to a second thread before they have their names.
   static std::mutex first;
   const std::lock_guard<std::mutex> alone(first);
   std::vector<Found> found;
@@ -91,8 +94,8 @@ std::vector<Found> find_devices() {
   std::vector<cl_platform_id> platforms(platform_count);
   if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
   for (cl_platform_id platform : platforms) {
-    // Two calls each, as OpenCL asks for the number first. A platform without devices reports an
-    // error instead of zero, so no error here ends the search.
+    // OpenCL wants two calls, the first for the number. A platform without devices reports an
+    // error, so errors do not end the search.
     cl_uint count = 0;
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS ||
         count == 0)
@@ -102,8 +105,7 @@ std::vector<Found> find_devices() {
       continue;
     for (cl_device_id device : devices) {
       Found entry{platform, device, describe(platform, device)};
-      // The index counts over all platforms, in the order that the loader gives them; it is what a
-      // user types.
+      // The index counts over all platforms in the loader's order; it is what a user types.
       entry.info.index = static_cast<int>(found.size());
       found.push_back(std::move(entry));
     }
@@ -111,7 +113,7 @@ std::vector<Found> find_devices() {
   return found;
 }
 
-/// Index of the device that `choice` means, -1 for none.
+/// Returns the index of the device that `choice` selects, or -1.
 int match(const std::vector<Found>& found, const std::string& choice) {
   const auto first = [&](auto&& accept) {
     const auto it = std::find_if(found.begin(), found.end(), accept);
@@ -121,7 +123,7 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   const auto of_kind = [&](Kind kind) {
     return first([=](const Found& f) { return f.info.kind == kind; });
   };
-  // A CPU first: it is the device that every machine can have.
+  // A CPU comes first, as every machine can have that device.
   if (wanted.empty()) {
     if (const int cpu = of_kind(Kind::kCpu); cpu >= 0) return cpu;
     if (const int gpu = of_kind(Kind::kGpu); gpu >= 0) return gpu;
@@ -140,15 +142,15 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   });
 }
 
+/// Reports that no device matches, lists the devices and says what to do.
 [[noreturn]] void fail_to_match(const std::vector<Found>& found, const std::string& choice,
                                 bool from_environment) {
   const KernelCacheStatus& cache = prepare_kernel_cache();
   if (found.empty() && cache.folder.empty()) {
-    // PoCL offers no device when it has nowhere to put its kernels: installing it again would not
-    // help.
+    // PoCL offers no device if it cannot store its kernels; installing it again would not help.
     throw DeviceError(
-        "no OpenCL device, and no folder can be written for compiled kernels, without which PoCL "
-        "offers none: " +
+        "no OpenCL device: PoCL needs a folder for compiled kernels, and no folder can be "
+        "written: " +
         cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
   }
   if (found.empty()) {
@@ -159,9 +161,9 @@ int match(const std::vector<Found>& found, const std::string& choice) {
   }
   std::string text = "no OpenCL device matches '" + choice + "'";
   if (from_environment) text += " (from the environment variable NAVVY_DEVICE)";
-  text += "; there is:";
+  text += "; available devices:";
   for (const Found& f : found) text += "\n  " + f.info.text();
-  text += "\nchoose cpu, gpu, an index or a part of a name";
+  text += "\nchoose cpu, gpu, an index or part of a name";
   throw DeviceError(text);
 }
 
@@ -171,8 +173,8 @@ const char* kind_name(Kind kind) {
 
 }  // namespace
 
-// Every call whose failure matters goes through here. The message names the call as OpenCL's books
-// do, so that it can be looked up.
+// All calls whose failure matters go through here. The message names the OpenCL call, so that it
+// can be looked up.
 void check(cl_int code, const char* call, const Device::State& state, const std::string& kernel) {
   if (code == CL_SUCCESS) return;
   std::string text = std::string(call) + " failed: " + error_name(code);
@@ -196,19 +198,19 @@ std::vector<DeviceInfo> list_devices() {
 
 Device::State::~State() {
   if (lost) return;
-  // Buffers, programs and kernels hold the state, so nothing of them is alive here; what is still
-  // queued is waited for, because releasing a queue does not.
+  // Buffers, programs and kernels hold the state, so none of them is alive here. Queued work is
+  // waited for, since releasing a queue does not wait.
   if (queue != nullptr) clFinish(queue);
   for (auto& [name, event] : events) clReleaseEvent(event);
   if (queue != nullptr) clReleaseCommandQueue(queue);
   if (context != nullptr) clReleaseContext(context);
-  // Also for a process that is killed later: what was compiled so far need not be compiled again.
+  // Seals now, in case the process is killed later: compiled kernels are then not compiled again.
   seal_kernel_cache();
 }
 
 void Device::State::open_queue() {
-  // A queue cannot be switched to profiling, so it is made anew. The caller has waited for the old
-  // one.
+  // Profiling cannot be switched on an existing queue, so a new one is created. The caller has
+  // waited for the old one.
   if (queue != nullptr) clReleaseCommandQueue(queue);
   cl_int code = CL_SUCCESS;
   queue = clCreateCommandQueue(context, device, profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
@@ -223,12 +225,11 @@ void Device::State::finish() {
 
 void Device::State::collect() {
   for (auto& [name, event] : events) {
-    // The times are of the device's own clock, in nanoseconds. A driver that does not know one
-    // leaves zero.
+    // Times of the device's clock [ns]; a driver that does not know one leaves zero.
     cl_ulong start = 0, end = 0;
     clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
     clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
-    // Every event holds memory of the driver until it is released.
+    // Every event holds driver memory until it is released.
     clReleaseEvent(event);
     KernelTime& time = times[name];
     time.name = name;
@@ -240,17 +241,16 @@ void Device::State::collect() {
 
 namespace {
 
-/// What the environment allows of a device's memory [bytes].
+/// Returns the part of a device's memory that the environment allows [bytes].
 std::uint64_t allowed_memory(std::uint64_t memory) {
-  // A bound below what the device has lets a test see the errors of full memory, and a run leave
-  // room for others.
+  // A limit below the device's memory lets tests cause out-of-memory errors, and a run leave memory
+  // to others.
   const char* variable = std::getenv("NAVVY_DEVICE_MEMORY_MIB");
   if (variable == nullptr || *variable == '\0') return memory;
   std::uint64_t mebibytes = 0;
   const std::string_view text(variable);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mebibytes);
-  // Refused rather than ignored: a run that was meant to be bounded must not take all memory
-  // because of a slip.
+  // Refused rather than ignored: a typing mistake must not remove the limit.
   if (error != std::errc() || end != text.data() + text.size() || mebibytes == 0 ||
       mebibytes > (1ULL << 40))
     throw DeviceError("NAVVY_DEVICE_MEMORY_MIB is '" + std::string(text) +
@@ -262,7 +262,7 @@ std::uint64_t allowed_memory(std::uint64_t memory) {
 
 Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   const char* variable = std::getenv("NAVVY_DEVICE");
-  // What the program was asked for goes before what the environment says.
+  // The program's choice takes precedence over the environment.
   const bool from_environment = choice.empty() && variable != nullptr && *variable != '\0';
   const std::string wanted = from_environment ? variable : choice;
   const std::vector<Found> found = find_devices();
@@ -272,7 +272,7 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   state_->info = pick.info;
   state_->info.memory = allowed_memory(pick.info.memory);
   state_->device = pick.device;
-  // What a context without a named platform means is left to the driver.
+  // Without a named platform, the meaning of a context is up to the driver.
   const cl_context_properties properties[] = {
       CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(pick.platform), 0};
   cl_int code = CL_SUCCESS;
@@ -288,11 +288,10 @@ Device& Device::operator=(Device&&) noexcept = default;
 const DeviceInfo& Device::info() const { return state_->info; }
 std::uint64_t Device::memory_used() const { return state_->memory_used; }
 void Device::finish() { state_->finish(); }
-void Device::flush() { check(clFlush(state_->queue), "clFlush", *state_); }
 
 void Device::set_profile(bool on) {
   if (on == state_->profiling) return;
-  // The events of the old queue are added up before it goes.
+  // The events of the old queue are collected before it is released.
   state_->finish();
   state_->profiling = on;
   state_->open_queue();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCL devices: list, pick, queue, profile. No other module sees OpenCL's headers.
+// OpenCL devices: listing, selection, queue, profile. No other module includes OpenCL headers.
 #pragma once
 
 #include <cstddef>
@@ -12,83 +12,93 @@
 
 namespace navvy::device {
 
-/// What a device is, as far as it decides how kernels are scheduled; never the name of a vendor.
+/// Type of a device, which decides how kernels are scheduled. The vendor never does.
 enum class Kind { kCpu, kGpu, kOther };
 
-/// What a device says about itself.
+/// Properties that a device reports.
 struct DeviceInfo {
-  int index = 0;  ///< in the list of all devices, platform by platform
+  /// Index in the list of all devices, platform by platform.
+  int index = 0;
+  /// Type by which kernels are scheduled.
   Kind kind = Kind::kOther;
+  /// Texts as the driver reports them.
   std::string name, vendor, platform, version, driver;
+  /// Number of units that run work-groups in parallel, the cores of a CPU.
   int compute_units = 0;
-  /// Global memory [bytes]; what NAVVY_DEVICE_MEMORY_MIB allows when that is less.
+  /// Global memory [bytes], or the limit from NAVVY_DEVICE_MEMORY_MIB if that is less.
   std::uint64_t memory = 0;
-  std::uint64_t local_memory = 0;    ///< of one work-group [bytes]
-  std::size_t max_work_group = 0;    ///< work-items
-  bool shares_memory = false;        ///< with the host: mapped buffers cost no copy
-  bool correct_divide_sqrt = false;  ///< single-precision divide and sqrt can be rounded correctly
+  /// Local memory of one work-group [bytes].
+  std::uint64_t local_memory = 0;
+  /// Largest work-group [work-items].
+  std::size_t max_work_group = 0;
+  /// True if the device shares the host's memory, so that mapping buffers costs no copy.
+  bool shares_memory = false;
+  /// True if the device can round single-precision division and square root correctly.
+  bool correct_divide_sqrt = false;
 
-  /// "0: cpu, pthread-haswell-AMD EPYC (Portable Computing Language, OpenCL 3.0 PoCL ...), 2
-  /// compute units, 7.6 GiB".
+  /// Returns e.g. "0: cpu, pthread-haswell-AMD EPYC (Portable Computing Language, OpenCL 3.0 PoCL
+  /// ...), 2 compute units, 7.6 GiB".
   std::string text() const;
 };
 
-/// Every OpenCL device of every platform; empty when there is none. Never throws for a broken
-/// platform, leaves it out. Opens the kernel cache first; the first call of a process loads the
-/// drivers.
+/// Returns the devices of all platforms, or none. A broken platform is left out without an
+/// exception. Opens the kernel cache first; the first call in a process loads the drivers.
 std::vector<DeviceInfo> list_devices();
 
-/// Time a kernel took on the device, summed over launches. Only counted while the profile is on. It
-/// is time on the device's own clock and leaves out launches, copies and waits.
+/// Time that a kernel took on the device, summed over launches, on the device's clock. Launch
+/// overhead, copies and waits are not included. Counted only while the profile is on.
 struct KernelTime {
+  /// Name of the kernel, without the name of its program.
   std::string name;
+  /// Number of launches since the profile was switched on or cleared.
   std::uint64_t launches = 0;
+  /// Time on the device [s].
   double seconds = 0;
 };
 
 /// One device with its context and one in-order queue.
 ///
-/// Buffers, programs and kernels made on it keep it alive. Everything is queued in the order it is
-/// called; only reads, maps and `finish` wait. Not thread-safe. One queue keeps the order of
-/// results independent of the driver: what is repeatable on a device stays so. Moving it is cheap
+/// Buffers, programs and kernels keep the device alive. Work runs in the order of the calls that
+/// queue it; only reads, maps and `finish` wait. With a single queue the order of results does not
+/// depend on the driver, so results on a device are repeatable. Not thread-safe. Moving is cheap
 /// and leaves the source without a device.
 class Device {
  public:
-  /// Picks a device: "cpu", "gpu", an index of `list_devices`, or a part of a name or platform
-  /// (case does not matter). Empty: what the environment variable NAVVY_DEVICE says, else the first
-  /// CPU, else the first GPU, else the first. NAVVY_DEVICE_MEMORY_MIB bounds the memory its buffers
-  /// may take together [MiB].
-  /// @throws DeviceError listing what exists and what to do when nothing matches.
+  /// Selects a device: "cpu", "gpu", an index of `list_devices`, or a part of a name or platform
+  /// (case-insensitive). For an empty choice the environment variable NAVVY_DEVICE decides, else
+  /// the first CPU, the first GPU or the first device is taken. NAVVY_DEVICE_MEMORY_MIB limits the
+  /// memory of all its buffers [MiB].
+  /// @throws DeviceError if nothing matches; the message lists the devices and says what to do.
   explicit Device(const std::string& choice = "");
-  // Waits for what is queued, when nothing else holds the device any more; never throws.
+  /// Waits for queued work if nothing else holds the device. Never throws.
   ~Device();
-  // Not copied: two owners of one queue would have to agree about the profile.
+  // Not copyable: two owners of one queue would have to agree about the profile.
   Device(Device&&) noexcept;
   Device& operator=(Device&&) noexcept;
 
-  /// What the device said when it was picked, with the memory that it is allowed.
+  /// Returns what the device reported when it was selected, with the memory that Navvy may use.
   const DeviceInfo& info() const;
-  /// Memory that buffers of this device hold now [bytes]. Buffers count in full from their
-  /// construction to the last copy's end; programs and the driver's own needs are not in it.
+  /// Returns the memory of all buffers on this device [bytes]. A buffer counts from its
+  /// construction until its last copy is destroyed; programs and the driver's own memory are not
+  /// included.
   std::uint64_t memory_used() const;
 
-  /// Waits until everything queued is done. @throws DeviceError when something queued failed.
+  /// Waits until all queued work is done.
+  /// @throws DeviceError if some of it failed.
   void finish();
-  /// Hands queued work to the device without waiting. For a host that has other work to do before
-  /// it waits; a driver may otherwise hold back launches until somebody does.
-  void flush();
 
-  /// Switches the per-kernel profile; off at start. Waits for the queue. Profiling slows a run down
-  /// a little, so it is never on by itself.
+  /// Switches the profile of kernels, which is off by default as it slows a run down slightly.
+  /// Waits for queued work.
   void set_profile(bool on);
-  /// Device time by kernel name, in alphabetical order, since the profile was switched on or
-  /// cleared. Waits.
+  /// Returns the device time of each kernel, in alphabetical order, since the profile was switched
+  /// on or cleared. Waits for queued work.
   std::vector<KernelTime> profile();
-  /// Forgets the times so far, and waits, so that what is queued now is not counted later.
+  /// Resets the profile. Waits first, so that work that is queued now is not counted later.
   void clear_profile();
 
-  /// Buffers, programs and kernels share it with the device.
-  struct State;  ///< private to src/device
+  /// OpenCL objects, shared with buffers, programs and kernels. Private to src/device.
+  struct State;
+  /// Returns the OpenCL objects.
   const std::shared_ptr<State>& state() const { return state_; }
 
  private:

@@ -10,7 +10,7 @@ struct Name {
   int code;
   const char* text;
 };
-// One macro writes symbol and text, so that the two cannot part.
+// The macro writes symbol and text, so that the two cannot differ.
 #define NAVVY_NAME(symbol) \
   Name { symbol, #symbol }
 constexpr Name kNames[] = {
@@ -78,7 +78,7 @@ constexpr Name kNames[] = {
 }  // namespace
 
 std::string error_name(int code) {
-  // A list of sixty is searched only when something has failed.
+  // A linear search is enough, as it runs only after a failure.
   for (const Name& name : kNames) {
     if (name.code == code) return name.text;
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cmake/EmbedKernels.cmake generates.
+// Interface of the file that cmake/EmbedKernels.cmake generates.
 #pragma once
 
 namespace navvy::device {
 
-/// One file of kernels/ as the build found it. Both texts are literals and live as long as the
-/// program.
+/// One file of kernels/ at build time. Both texts are literals.
 struct EmbeddedFile {
-  const char* path;  ///< relative to kernels/
+  /// Path relative to kernels/.
+  const char* path;
   const char* text;
 };
 
-/// Ends with a null path.
+/// Returns all files; the array ends with a null path.
 const EmbeddedFile* embedded_files();
 
 }  // namespace navvy::device

@@ -29,21 +29,23 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kManifestName = "navvy.manifest";
-/// Held while the manifest is read and written anew; begins as its name does, so that no list
-/// speaks of it.
+/// Locked while the manifest is read and rewritten. Its name begins like the manifest's, so that it
+/// is not listed.
 const char* const kManifestLockName = "navvy.manifest.lock";
-/// The manifest's first line; another one means another layout, and everything is compiled anew.
+/// First line of a manifest. With any other, the layout is unknown and everything is compiled
+/// again.
 constexpr std::string_view kManifestHead = "navvy kernel cache 1";
-/// All our kernels of one version take a few MB compiled. Above this the folder holds many
-/// versions: it is emptied.
+/// Size above which the folder is emptied. The kernels of one version take a few MB, so it holds
+/// many old versions then.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
-/// With less room on the disk the driver would leave half-written files behind.
+/// Free space on the disk below which the driver would leave half-written files.
 constexpr std::uintmax_t kLeastCapacity = std::uintmax_t{16} << 20;
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& cause) {
   throw FileError("kernel cache '" + folder.string() + "': " + cause);
 }
 
+/// Returns the hash of a file's content.
 std::string hash_of(const fs::path& file) {
   const std::vector<char> bytes = read_file(file.string());
   StateHash hash;
@@ -51,22 +53,22 @@ std::string hash_of(const fs::path& file) {
   return hash.hex();
 }
 
-/// What the manifest speaks of: the driver's files, without its time stamps, which it rewrites at
-/// every use. Listed, they would make every program look damaged.
+/// Returns true for files that the manifest lists: the driver's files without its time stamps,
+/// which it rewrites at every use and which would make every program look damaged.
 bool is_listed(const fs::path& relative) {
   const std::string name = relative.filename().string();
   return name != KernelCache::kLockName && name.rfind(kManifestName, 0) != 0 &&
          name != "last_accessed";
 }
 
-/// What the driver writes to before it gives a file its name.
+/// Returns true for files that the driver writes before it renames them.
 bool is_temporary(const fs::path& relative) {
   return relative.filename().string().rfind("tempfile_", 0) == 0;
 }
 
-/// Keeps neighbours from writing the manifest between our reading and our writing; one that holds
-/// it is waited for, a few milliseconds. Where its file cannot be made it keeps nobody: a list that
-/// lacks files only makes the next process compile again.
+/// Prevents other processes from writing the manifest between reading and writing it; waits for
+/// them, a few milliseconds. If the lock file cannot be created, there is no lock: an incomplete
+/// list only makes the next process compile again.
 class ManifestLock {
  public:
   explicit ManifestLock(const fs::path& folder)
@@ -83,23 +85,24 @@ class ManifestLock {
   int file_;
 };
 
+/// Returns all regular files of a folder, relative to it.
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
-  // A folder that cannot be listed to its end gives what was found: check() then misses files and
-  // takes their programs as spoiled, which is safe.
+  // If listing the folder fails, the files found so far are returned. check() then misses files and
+  // removes their programs, which is safe.
   std::error_code error;
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
        it.increment(error)) {
-    // A neighbour may rename its temporary file between the listing and the look at it
+    // Another process may rename its temporary file between listing and query.
     std::error_code gone;
     if (it->is_regular_file(gone) && !gone) files.push_back(it->path().lexically_relative(folder));
   }
   return files;
 }
 
-/// The part of the folder that is one compiled program: a changed file spoils the whole of it, as
-/// the driver takes the presence of some of its files as proof of the others. PoCL puts a program
-/// two folders deep, by the digits of its hash.
+/// Returns the part of the path that identifies one compiled program. The driver takes the presence
+/// of some files of a program as proof of the others, so one changed file invalidates all of them.
+/// PoCL stores a program two folders deep, by the digits of its hash.
 fs::path program_of(const fs::path& relative) {
   fs::path out;
   int depth = 0;
@@ -113,12 +116,12 @@ fs::path program_of(const fs::path& relative) {
 }  // namespace
 
 KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
-  // Made with all its parents, as ~/.cache may not exist on a fresh account.
+  // With all parents, as ~/.cache may not exist on a new account.
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) fail(folder_, "the folder cannot be made: " + error.message());
-  // The driver does not tell when it cannot write: it leaves files that are cut short, which is
-  // what this class is about.
+  if (error) fail(folder_, "the folder cannot be created: " + error.message());
+  // The driver does not report that it cannot write: it leaves truncated files, which this class
+  // protects against.
   struct statvfs disk {};
   if (statvfs(folder_.c_str(), &disk) == 0 &&
       std::uintmax_t{disk.f_bavail} * disk.f_frsize < kLeastCapacity)
@@ -126,8 +129,8 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   lock();
   try {
     check(alone_);
-    // Shared from now on. Between the two kinds of lock another process may check the folder too,
-    // which changes nothing.
+    // Shared from now on. Another process may check the folder between the two locks, which changes
+    // nothing.
     flock(lock_, LOCK_SH);
   } catch (...) {
     ::close(lock_);
@@ -135,13 +138,12 @@ KernelCache::KernelCache(const fs::path& folder) : folder_(folder) {
   }
 }
 
-// The lock goes with its file descriptor, so a process that is killed leaves none behind.
+// The lock is bound to its file descriptor, so a killed process leaves none behind.
 KernelCache::~KernelCache() {
   try {
     seal();
   } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch)
-    // Memory ended: what is not listed is compiled anew by the next process, and this one ends as
-    // it would have.
+    // Out of memory: what is not listed is compiled again by the next process.
   }
   ::close(lock_);
 }
@@ -150,16 +152,16 @@ void KernelCache::lock() {
   const std::string path = (folder_ / kLockName).string();
   lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (lock_ < 0) fail(folder_, std::string("it cannot be written: ") + std::strerror(errno));
-  // Exclusive first: only who is alone may remove files that nobody listed.
+  // Exclusive first: only a process that is alone may remove files that are not listed.
   alone_ = flock(lock_, LOCK_EX | LOCK_NB) == 0;
-  // A neighbour checks for milliseconds; a folder whose file system knows no locks is used as if
-  // alone.
+  // Another process checks for milliseconds. If the file system has no locks, the folder is used as
+  // if alone.
   if (!alone_ && errno != EWOULDBLOCK) alone_ = true;
   if (!alone_) flock(lock_, LOCK_SH);
 }
 
-// A manifest that is missing, of another layout or damaged lists less than there is, and what is
-// not listed is compiled again: reading it needs no error of its own.
+// A manifest that is missing, damaged or of another layout lists fewer files, and what is not
+// listed is compiled again. Reading it therefore needs no errors.
 KernelCache::Manifest KernelCache::read_manifest() const {
   Manifest out;
   std::string text;
@@ -167,14 +169,14 @@ KernelCache::Manifest KernelCache::read_manifest() const {
     const std::vector<char> bytes = read_file((folder_ / kManifestName).string());
     text.assign(bytes.begin(), bytes.end());
   } catch (const FileError&) {
-    return out;  // the first run here
+    // No manifest yet: the first run with this folder.
+    return out;
   }
   std::istringstream lines(text);
   std::string line;
   if (!std::getline(lines, line) || line != kManifestHead) return out;
   while (std::getline(lines, line)) {
-    // "<size> <hash> <path>"; a line that is cut short lists nothing, so that its file is compiled
-    // again.
+    // "<size> <hash> <path>"; a truncated line lists nothing, so its file is compiled again.
     std::istringstream words(line);
     Entry entry;
     std::string path;
@@ -191,17 +193,17 @@ void KernelCache::write_manifest(const Manifest& manifest) const {
   write_file_atomically((folder_ / kManifestName).string(), text);
 }
 
-// Programs go as a whole: the driver takes the presence of some files as proof of the others.
+// Removes whole programs: the driver takes the presence of some files as proof of the others.
 void KernelCache::remove_programs(const std::set<fs::path>& programs, Manifest manifest) {
   if (programs.empty()) return;
   for (const fs::path& program : programs) {
     std::error_code error;
     fs::remove_all(folder_ / program, error);
-    // What cannot be removed would be loaded: such a folder is no cache.
+    // A damaged file that stays would be loaded, so such a folder cannot be a cache.
     if (error) fail(folder_, "a file in it is damaged and cannot be removed: " + error.message());
   }
-  // Out of the list at once: a neighbour would find the files gone, and remove what this process
-  // compiles in their place.
+  // Removed from the list at once: otherwise another process would find the files missing and
+  // remove what this process compiles in their place.
   std::erase_if(manifest,
                 [&](const auto& listed) { return programs.count(program_of(listed.first)) > 0; });
   write_manifest(manifest);
@@ -213,8 +215,7 @@ void KernelCache::check(bool alone) {
   std::error_code unlisted;
   const fs::file_time_type listed = fs::last_write_time(folder_ / kManifestName, unlisted);
   const std::vector<fs::path> files = files_in(folder_);
-  // Three things are gathered: the programs of which one file is wrong, the files that were seen,
-  // and the size of all.
+  // Collects the programs with a damaged file, the files that exist, and their total size.
   std::uintmax_t bytes = 0;
   std::set<fs::path> bad;
   std::set<std::string> seen;
@@ -222,8 +223,8 @@ void KernelCache::check(bool alone) {
     if (!is_listed(file)) continue;
     std::error_code error;
     if (is_temporary(file)) {
-      // PoCL leaves one of these behind in every run: no damage. A neighbour's may be about to get
-      // its name.
+      // PoCL leaves one temporary file behind in every run, which is no damage. Another process may
+      // be about to rename its own.
       if (alone) fs::remove(folder_ / file, error);
       continue;
     }
@@ -233,23 +234,24 @@ void KernelCache::check(bool alone) {
     bytes += error ? 0 : size;
     bool good = !error;
     if (entry == manifest.end()) {
-      // Nobody has vouched for the file. Alone, it is left over from a process that was killed and
-      // may be cut short; beside others, a neighbour may have just finished it.
+      // The file is not listed. If this process is alone, a killed process left it, maybe
+      // truncated; otherwise another process may just have finished it.
       good = !alone;
     } else if (good) {
       try {
         good = size == entry->second.size && hash_of(folder_ / file) == entry->second.hash;
       } catch (const FileError&) {
-        good = false;  // there, but not to be read
+        // It exists but is not readable.
+        good = false;
       }
-      // Two neighbours that compile one program both name their file so: the later one is not
+      // If two processes compile one program, both use this file name, and the later file is not
       // listed yet.
       std::error_code gone;
       good = good || (!alone && fs::last_write_time(folder_ / file, gone) > listed && !gone);
     }
     if (!good) bad.insert(program_of(file));
   }
-  // A file that is gone spoils its program as one that changed.
+  // A missing file invalidates its program like a changed one.
   for (const auto& [path, entry] : manifest)
     if (seen.count(path) == 0) bad.insert(program_of(path));
   for (const fs::path& file : files) {
@@ -259,12 +261,13 @@ void KernelCache::check(bool alone) {
     if (!remove) found_.insert(file.generic_string());
   }
   remove_programs(bad, manifest);
-  // Emptied, not thinned out: old versions of Navvy have left the most of it, and compiling anew
-  // takes seconds.
+  // Emptied rather than thinned out: most of it is of old versions, and compiling again takes
+  // seconds.
   if (alone && bytes > kMostBytes) {
     std::error_code error;
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
-      std::error_code kept;  // what cannot be removed was found whole above
+      // Files that cannot be removed were found intact above.
+      std::error_code kept;
       if (it->path().filename() != kLockName) fs::remove_all(it->path(), kept);
     }
   }
@@ -273,19 +276,19 @@ void KernelCache::check(bool alone) {
 void KernelCache::seal() noexcept {
   try {
     const ManifestLock held(folder_);
-    // Read again, as neighbours may have listed files of theirs since this process began.
+    // Read again, as other processes may have listed files meanwhile.
     const Manifest old = read_manifest();
     Manifest now;
     for (const fs::path& file : files_in(folder_)) {
-      // PoCL writes to a file of this name first and renames it; half of one must not be vouched
-      // for.
+      // PoCL writes to a file of this name first and renames it; an incomplete file must not be
+      // listed.
       if (!is_listed(file) || is_temporary(file)) continue;
       const std::string name = file.generic_string();
       const auto entry = old.find(name);
-      // What was listed when this process began stays as listed: a file that changed since is found
-      // out by the next check. What a neighbour has listed since is looked at again: where both
-      // compiled one program, this process's file has taken the place of the other's, and the
-      // driver does not write the same bytes twice.
+      // Files that were listed when this process began keep their entry, so the next check finds
+      // those that changed since. Files that another process has listed since are read again: if
+      // both compiled one program, this process may have replaced the file, and the driver does not
+      // write the same bytes twice.
       if (entry != old.end() && found_.count(name) > 0) {
         now[name] = entry->second;
         continue;
@@ -294,22 +297,22 @@ void KernelCache::seal() noexcept {
         now[name] = Entry{fs::file_size(folder_ / file), hash_of(folder_ / file)};
       } catch (const FileError&) {             // NOLINT(bugprone-empty-catch)
       } catch (const fs::filesystem_error&) {  // NOLINT(bugprone-empty-catch)
-        // A neighbour has removed it meanwhile.
+        // Another process has removed the file meanwhile.
       }
     }
     write_manifest(now);
   } catch (const std::exception&) {
-    // The next process finds files that nobody listed and compiles them again.
+    // The next process finds files that are not listed and compiles them again.
   }
 }
 
 namespace {
 
-/// Of a temporary folder, for whoever cannot wait for a destructor.
+/// Path of a temporary folder, for a process that ends without destructors.
 std::atomic<const char*> temporary_folder{nullptr};
 
-/// The process's folder, and how it came about. The status is filled by the constructor and does
-/// not change afterwards, so references to it may be kept.
+/// Cache folder of this process. The constructor fills the status, which does not change
+/// afterwards, so references to it stay valid.
 struct ProcessCache {
   KernelCacheStatus status;
   std::unique_ptr<KernelCache> cache;
@@ -322,16 +325,19 @@ struct ProcessCache {
   void open_temporary();
 };
 
+/// Returns an environment variable, or "" if it is not set.
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
 }
 
-/// The usual folder; empty when the environment names no place for caches.
+/// Returns the usual folder, or an empty path if the environment names no place for caches.
 fs::path usual_folder() {
   const std::string given = environment("POCL_CACHE_DIR");
-  // A child inherits what its parent has set: one of our folders is taken as it is.
-  std::error_code closed;  // a folder that may not be looked into is none of ours
+  // A child process inherits the parent's setting, so a folder that holds our lock file is used as
+  // it is.
+  // A folder without access is not one of ours.
+  std::error_code closed;
   if (!given.empty() && fs::exists(fs::path(given) / KernelCache::kLockName, closed)) return given;
   if (!given.empty()) return fs::path(given) / "navvy" / "kernels";
   if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty())
@@ -344,8 +350,8 @@ fs::path usual_folder() {
 bool ProcessCache::open(const fs::path& folder) {
   try {
     cache = std::make_unique<KernelCache>(folder);
-    // A folder that cannot be used is no reason to stop: the next one is tried, and all reasons are
-    // told together.
+    // An unusable folder is no reason to stop: the next one is tried, and all reasons are reported
+    // together.
   } catch (const std::exception& error) {
     status.trouble += (status.trouble.empty() ? "" : "; ") + std::string(error.what());
     return false;
@@ -355,7 +361,7 @@ bool ProcessCache::open(const fs::path& folder) {
 }
 
 void ProcessCache::open_temporary() {
-  // /dev/shm is the last resort: what lies there takes memory from the run.
+  // /dev/shm is the last choice, as files there take memory from the run.
   std::vector<std::string> places = {environment("TMPDIR"), "/tmp", "/var/tmp", "/dev/shm"};
   for (const std::string& place : places) {
     if (place.empty()) continue;
@@ -378,25 +384,25 @@ ProcessCache::ProcessCache() {
   if (folder.empty() || !open(folder)) open_temporary();
   if (status.folder.empty()) {
     log_warning("no folder can be written for compiled kernels (" + status.trouble +
-                "): set POCL_CACHE_DIR to one that can");
+                "); set POCL_CACHE_DIR to a folder that can");
     return;
   }
   if (status.temporary) temporary_folder = status.folder.c_str();
-  // Loud where the user pays for it at every run, quiet where it happened once.
+  // A warning if every run pays for it, otherwise an information.
   if (status.temporary)
-    log_warning(status.trouble + ": kernels are compiled anew for this run, in " + status.folder);
+    log_warning(status.trouble + ": kernels are compiled again for this run, in " + status.folder);
   if (!status.temporary && cache->removed() > 0) {
     status.trouble = std::to_string(cache->removed()) + " files of compiled kernels in " +
                      status.folder +
                      " were damaged or left over from a killed run: they are compiled again";
     log_info(status.trouble);
   }
-  // From here on the driver uses this folder, and so do programs that this one starts.
+  // The driver, and programs that this one starts, use this folder.
   ::setenv("POCL_CACHE_DIR", status.folder.c_str(), 1);
 }
 
 ProcessCache::~ProcessCache() {
-  // The cache closes its lock before the folder of a temporary one is removed.
+  // The cache closes its lock before a temporary folder is removed.
   cache.reset();
   temporary_folder = nullptr;
   if (!status.temporary) return;
@@ -409,8 +415,8 @@ ProcessCache::~ProcessCache() {
 }
 
 ProcessCache& process_cache() {
-  // Made by the first call and gone after every Device: devices call prepare_kernel_cache() in
-  // their construction, and what is constructed later is destroyed earlier.
+  // Created by the first call and destroyed after every Device: devices call prepare_kernel_cache()
+  // in their construction, and static objects are destroyed in reverse order.
   static ProcessCache cache;
   return cache;
 }

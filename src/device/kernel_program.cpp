@@ -9,7 +9,7 @@
 
 namespace navvy::device {
 
-// Shared by a program and its kernels, so that a kernel may outlive the Program it came from.
+// Shared by a program and its kernels, so that a kernel may outlive its Program object.
 struct KernelProgram::State {
   std::shared_ptr<Device::State> device;
   std::string name;
@@ -27,10 +27,12 @@ struct Kernel::State {
   std::shared_ptr<KernelProgram::State> program;
   std::string name;
   cl_kernel kernel = nullptr;
-  // What the kernel says of itself, asked once: a launch asks the driver nothing.
+  // Properties of the kernel, queried once so that a launch queries nothing.
   cl_uint arguments = 0;
-  std::size_t group[3] = {1, 1, 1};  ///< work-group the kernel asks for
-  bool launched = false;             ///< at least once
+  // Work-group size that the kernel requires.
+  std::size_t group[3] = {1, 1, 1};
+  // True after the first launch.
+  bool launched = false;
 
   State() = default;
   State(const State&) = delete;
@@ -42,17 +44,17 @@ struct Kernel::State {
 
 namespace {
 
-/// What is told of a driver that takes its time over `what`.
+/// Returns a notice that is logged if the driver takes long to compile `what`.
 std::unique_ptr<SlowCall> log_if_slow(const Device::State& device, const std::string& what) {
   const std::string& folder = prepare_kernel_cache().folder;
   return std::make_unique<SlowCall>(
       "the OpenCL driver (" + device.info.platform + ") is still compiling " + what + " for " +
       device.info.name + ", after " + std::to_string(static_cast<int>(SlowCall::kPatience)) +
       " s; some drivers take minutes" +
-      (folder.empty() ? "" : ", once: the result is kept in " + folder));
+      (folder.empty() ? "" : ", once: the result is cached in " + folder));
 }
 
-// Drivers end logs with zeros or empty lines, which would split an error's text.
+/// Returns the build log without trailing zeros and empty lines, which would split an error's text.
 std::string build_log(cl_program program, const Device::State& device) {
   std::size_t size = 0;
   if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) !=
@@ -67,21 +69,24 @@ std::string build_log(cl_program program, const Device::State& device) {
   return log;
 }
 
-/// Compilers are written in C++ and take what they need by `new`: out of memory they throw through
-/// the driver's C code, which then keeps its locks for ever. All that the driver made is given up
-/// with them: releasing any program, also one that was built before, would wait for one.
+/// Builds a program. Compilers are written in C++ and allocate with `new`: when out of memory they
+/// throw through the driver's C code, which then keeps its locks for ever. All objects of the
+/// driver are then given up, since releasing any program would wait for a lock.
 cl_int build_or_give_up(KernelProgram::State& state, const std::string& flags) {
   try {
     return clBuildProgram(state.program, 1, &state.device->device, flags.c_str(), nullptr, nullptr);
   } catch (const std::exception& error) {
     state.program = nullptr;
     state.device->lost = true;
-    throw DeviceError("the OpenCL driver failed within itself (" + std::string(error.what()) +
-                          ") while it built kernels/" + state.name + "; is there memory left?",
+    throw DeviceError("the OpenCL driver threw an exception (" + std::string(error.what()) +
+                          ") while building kernels/" + state.name +
+                          "; check whether the machine is out of memory",
                       CL_OUT_OF_HOST_MEMORY);
   }
 }
 
+/// Builds a program from a text.
+/// @throws DeviceError with options and build log.
 std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& name,
                                             const std::string& text,
                                             const std::vector<std::string>& options) {
@@ -115,28 +120,16 @@ std::string define(const std::string& name, int value) {
   return "-D" + name + "=" + std::to_string(value);
 }
 
-std::string define(const std::string& name, float value) {
-  // Hexadecimal keeps every bit; brackets keep a sign apart from what stands before it.
-  char text[64];
-  std::snprintf(text, sizeof text, "=(%af)", static_cast<double>(value));
-  return "-D" + name + text;
-}
-
-// Text goes in as it is, so it must hold no blanks: flags are joined by them.
-std::string define(const std::string& name, const std::string& value) {
-  return "-D" + name + "=" + value;
-}
-
 std::vector<std::string> compiler_flags(const DeviceInfo& device) {
   std::vector<std::string> flags;
-  // The common denominator of PoCL and the GPU vendors, and what the kernels are written in.
+  // The common denominator of PoCL and the GPU vendors; the kernels are written in it.
   flags.emplace_back("-cl-std=CL1.2");
-  // Without it a GPU may round a quotient 2.5 ulp and a root 3 ulp off, each vendor in its own way.
+  // Without it a GPU may round quotients to 2.5 ulp and roots to 3 ulp, each vendor differently.
   if (device.correct_divide_sqrt) flags.emplace_back("-cl-fp32-correctly-rounded-divide-sqrt");
-  // Not here on purpose: -cl-fast-relaxed-math, -cl-finite-math-only,
+  // Deliberately absent: -cl-fast-relaxed-math, -cl-finite-math-only,
   // -cl-unsafe-math-optimizations, -cl-mad-enable. They gain nothing measurable, hide NaNs and
-  // change bits. Contraction is switched off by common/portable.h, as OpenCL C has a pragma for it
-  // and no flag.
+  // change bits. common/portable.h switches off contraction, for which OpenCL C has a pragma and no
+  // flag.
   return flags;
 }
 
@@ -159,7 +152,7 @@ Kernel::Kernel(const KernelProgram& program, const std::string& name)
   const Device::State& device = *state_->program->device;
   cl_int code = CL_SUCCESS;
   state_->kernel = clCreateKernel(state_->program->program, name.c_str(), &code);
-  // The message names the file, as a wrong name is mostly one that was renamed there.
+  // The message names the file, as a wrong name is usually one that was renamed there.
   check(code, "clCreateKernel", device, name + " of kernels/" + state_->program->name);
   check(clGetKernelInfo(state_->kernel, CL_KERNEL_NUM_ARGS, sizeof state_->arguments,
                         &state_->arguments, nullptr),
@@ -167,19 +160,8 @@ Kernel::Kernel(const KernelProgram& program, const std::string& name)
   check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_COMPILE_WORK_GROUP_SIZE,
                                  sizeof state_->group, state_->group, nullptr),
         "clGetKernelWorkGroupInfo", device, name);
-  // 0: it asks for none
+  // 0: the kernel requires none.
   for (std::size_t& size : state_->group) size = std::max<std::size_t>(size, 1);
-}
-
-const std::string& Kernel::name() const { return state_->name; }
-
-std::size_t Kernel::max_work_group() const {
-  const Device::State& device = *state_->program->device;
-  std::size_t size = 0;
-  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_WORK_GROUP_SIZE,
-                                 sizeof size, &size, nullptr),
-        "clGetKernelWorkGroupInfo", device, state_->name);
-  return size;
 }
 
 void Kernel::expect(std::size_t count) const {
@@ -190,13 +172,14 @@ void Kernel::expect(std::size_t count) const {
 }
 
 void Kernel::set_buffer(unsigned index, const RawBuffer& buffer) {
-  void* memory = buffer.handle();  // a cl_mem is a pointer; its address and size are the argument
+  // A cl_mem is a pointer; its value is the argument.
+  void* memory = buffer.handle();
   set_bytes(index, &memory, sizeof(void*));
 }
 
 void Kernel::set_bytes(unsigned index, const void* data, std::size_t bytes) {
-  // Set at every launch anew by some callers, so the text of an error is put together only when
-  // there is one.
+  // Called before every launch by some callers, so the text of an error is built only if there is
+  // one.
   const cl_int code = clSetKernelArg(state_->kernel, index, bytes, data);
   if (code == CL_SUCCESS) return;
   check(code, "clSetKernelArg", *state_->program->device,
@@ -209,7 +192,7 @@ void Kernel::enqueue(WorkSize global, WorkSize local) {
   for (int axis = 0; axis < 3; ++axis) {
     if (local.n[axis] == 0)
       throw DeviceError("kernel " + state_->name + ": a work-group needs at least one work-item");
-    // The kernel guards its index against the work-items this adds.
+    // The kernel guards its index against the work-items that this adds.
     global.n[axis] = (global.n[axis] + local.n[axis] - 1) / local.n[axis] * local.n[axis];
   }
   launch(global, local.n);
@@ -224,8 +207,8 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   if (global.n[0] == 0 || global.n[1] == 0 || global.n[2] == 0) return;
   Device::State& device = *state_->program->device;
   cl_event event = nullptr;
-  // The driver may compile a kernel's machine code at its first launch and not at the build; the
-  // notice ends at the next wait.
+  // The driver may compile machine code at the first launch instead of at the build; the notice
+  // ends at the next wait.
   if (!state_->launched && !device.compiling)
     device.compiling = log_if_slow(device, "kernel " + state_->name);
   state_->launched = true;
@@ -236,7 +219,7 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
         "clEnqueueNDRangeKernel", device, state_->name);
   if (event == nullptr) return;
   device.events.emplace_back(state_->name, event);
-  // Bounds the number of events alive in a long profiled run.
+  // Bounds the number of live events in a long profiled run.
   constexpr std::size_t kMostEvents = 4096;
   if (device.events.size() >= kMostEvents) device.finish();
 }

@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels built from files of kernels/, and their launches.
+//
+//   Device device;
+//   Buffer<float> heights(device, 1000);
+//   const Program program(device, "example/scale.cl", {define("FACTOR", 2)});
+//   Kernel kernel(program, "scale");
+//   kernel.args(heights, 1000).enqueue(1000);
+//   const std::vector<float> result = heights.read();  // waits for the kernel
 #pragma once
 
 #include <cstddef>
@@ -14,32 +21,31 @@
 
 namespace navvy::device {
 
-/// "-DNAME=value" with the value written so that the kernel's compiler gets the same bits. Numbers
-/// that a kernel knows when it is compiled let the driver unroll loops and drop branches; each
-/// other value makes another program, compiled and kept on its own, so give only what takes few
-/// values in a run.
+/// Returns the compiler option "-DNAME=value". A number known at compile time lets the driver
+/// unroll loops and drop branches. Each value makes another program to compile and store, so use it
+/// for numbers with few values.
 std::string define(const std::string& name, int value);
-std::string define(const std::string& name, float value);
-std::string define(const std::string& name, const std::string& value);
 
-/// The flags every program is built with on this device; the reason of each is in program.cpp. They
-/// are the same for every program, so that two kernels cannot round one formula in two ways.
+/// Returns the flags that all programs on this device are built with; program.cpp gives the
+/// reasons. They are common to all, so that two kernels round the same formula alike.
 std::vector<std::string> compiler_flags(const DeviceInfo& device);
 
-/// One kernel file with its includes, built for one device. Costs up to a second at the first
-/// build; the driver caches it. Copies share one program.
+/// One kernel file with its includes, built for one device. The first build costs up to a second;
+/// the driver caches the result. Copies share the program.
 class KernelProgram {
  public:
-  /// Builds kernels/`path` with `options` (from `define`) after the common flags.
-  /// @throws DeviceError with the driver's log, whose lines name our files.
+  /// Builds kernels/`path` with the common flags and `options` (from `define`).
+  /// @throws DeviceError with the driver's log, which names files of kernels/.
   KernelProgram(Device& device, const std::string& path,
                 const std::vector<std::string>& options = {});
-  /// Builds a text instead of a file; `name` is what the log calls it. The text may include files
-  /// of kernels/ as a file there could. For small kernels of tests and benches.
+  /// Builds a text instead of a file, for small kernels of tests and benches. The log calls it
+  /// `name`. The text may include files of kernels/.
+  /// @throws DeviceError with the driver's log.
   static KernelProgram from_text(Device& device, const std::string& name, const std::string& text,
                                  const std::vector<std::string>& options = {});
 
-  struct State;  ///< private to src/device
+  /// Private to src/device.
+  struct State;
   const std::shared_ptr<State>& state() const { return state_; }
 
  private:
@@ -47,31 +53,31 @@ class KernelProgram {
   std::shared_ptr<State> state_;
 };
 
-/// Number of work-items along each axis. Axes after the last one that is more than 1 are left out
-/// of the launch. The numbers are of work-items, not of groups.
+/// Number of work-items (not groups) along each axis. Trailing axes of 1 are left out of the
+/// launch.
 struct WorkSize {
   WorkSize(std::size_t nx, std::size_t ny = 1, std::size_t nz = 1)
       : n{nx, ny, nz} {}  // NOLINT: a number is a range
   std::size_t n[3];
 };
 
-/// An argument that reserves `bytes` of local memory. Every work-group has its own; its content is
-/// undefined at the start of each.
+/// Argument that reserves `bytes` of local memory per work-group; its content is undefined at the
+/// start of each.
 struct LocalMemory {
   std::size_t bytes = 0;
 };
 
-/// One kernel of a program. Arguments stay set between launches; a buffer that was replaced
-/// (resized) must be set again. Copies share the arguments too. Not thread-safe; one kernel is used
-/// from one place. Launches run in the order of the queue.
+/// One kernel of a program. Arguments persist between launches; set a buffer again after it was
+/// resized. Copies share the arguments. Launches run in the order of the queue. Not thread-safe.
 class Kernel {
  public:
-  /// @throws DeviceError when the program has no kernel of this name.
+  /// Looks up a kernel by name.
+  /// @throws DeviceError if the program has no such kernel.
   Kernel(const KernelProgram& program, const std::string& name);
 
-  /// Sets all arguments in order: buffers, numbers, plain structs, LocalMemory. Every argument is
-  /// set, so a kernel never runs with one left over from a launch before.
-  /// @throws DeviceError when their count or the size of one does not fit the kernel.
+  /// Sets all arguments in order: buffers, numbers, plain structs, LocalMemory. As all are set, no
+  /// kernel runs with an argument of an earlier launch.
+  /// @throws DeviceError if their number, or the size of one, does not match the kernel.
   template <class... Args>
   Kernel& args(const Args&... values) {
     expect(sizeof...(values));
@@ -79,15 +85,16 @@ class Kernel {
     (set(index++, values), ...);
     return *this;
   }
-  /// One argument by its place, from 0. A buffer must stay as it is until the launches that use it
-  /// are queued.
+  /// Sets one argument by its index, from 0. The buffer must not be resized until the launches that
+  /// use it are queued.
   template <class T>
   void set(unsigned index, const Buffer<T>& buffer) {
     set_buffer(index, buffer.raw());
   }
+  /// Reserves local memory.
   void set(unsigned index, LocalMemory memory) { set_bytes(index, nullptr, memory.bytes); }
-  /// A number or a plain struct, which must have the layout that the kernel's compiler gives it:
-  /// shared headers assert it.
+  /// Sets a number or a plain struct, whose layout must equal that of the kernel's compiler; shared
+  /// headers assert it.
   template <class T>
   void set(unsigned index, const T& value) {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
@@ -96,29 +103,22 @@ class Kernel {
     set_bytes(index, &value, sizeof value);
   }
 
-  /// Queues one launch over at least `global` work-items: each axis is rounded up to a multiple of
-  /// `local`, so the kernel guards its index. Without `local` the driver chooses and nothing is
+  /// Queues one launch of at least `global` work-items: each axis is rounded up to a multiple of
+  /// `local`, so kernels guard their index. Without `local` the driver chooses and nothing is
   /// rounded. An axis of 0 launches nothing. Returns at once; the first launch of a kernel may
   /// compile for seconds.
+  /// @throws DeviceError if the driver refuses the launch.
   void enqueue(WorkSize global);
   void enqueue(WorkSize global, WorkSize local);
-  /// Queues `groups` work-groups of the size the kernel was written for (reqd_work_group_size;
-  /// without it, one work-item).
+  /// Queues `groups` work-groups of the kernel's own size (reqd_work_group_size, or one work-item).
   void enqueue_groups(std::size_t groups);
 
-  /// As in the file, without the name of its program.
-  const std::string& name() const;
-  /// Largest work-group this kernel can have on its device. It depends on the registers and the
-  /// local memory that the kernel uses; ask it before choosing `local`.
-  std::size_t max_work_group() const;
-
  private:
-  // Refuses a wrong number of arguments before the driver would report it, at the launch, without
-  // saying which.
+  // Reports a wrong number of arguments by name; the driver would only fail at the launch.
   void expect(std::size_t count) const;
   void set_buffer(unsigned index, const RawBuffer& buffer);
   void set_bytes(unsigned index, const void* data, std::size_t bytes);
-  // The one place that launches: counts the profile and tells of a first compilation.
+  // All launches go through here: it records the profile and announces a first compilation.
   void launch(const WorkSize& global, const std::size_t* local);
   struct State;
   std::shared_ptr<State> state_;

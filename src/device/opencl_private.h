@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only header that sees OpenCL; included by src/device/*.cpp alone and not installed.
+// The only header that includes OpenCL; included by src/device/*.cpp only and not installed.
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -16,37 +16,42 @@
 
 namespace navvy::device {
 
-/// The OpenCL objects behind a Device, in the order in which they must go: the queue before the
-/// context.
+/// OpenCL objects behind a Device; the queue is released before the context.
 struct Device::State {
   DeviceInfo info;
+  /// Handles of OpenCL; null until the constructor of Device has created them.
   cl_device_id device = nullptr;
   cl_context context = nullptr;
   cl_command_queue queue = nullptr;
   bool profiling = false;
-  /// The driver threw within itself and keeps its locks: nothing is released any more.
+  /// True after the driver threw within itself. It keeps its locks, so nothing is released any
+  /// more.
   bool lost = false;
-  std::uint64_t memory_used = 0;  ///< by buffers [bytes]
-  // An event holds driver memory, so the list is emptied when it is long and at every wait.
-  std::vector<std::pair<std::string, cl_event>> events;  ///< launches not yet added to `times`
+  /// Memory of all buffers [bytes].
+  std::uint64_t memory_used = 0;
+  /// Launches that are not yet added to `times`. Events hold driver memory, so the list is emptied
+  /// at every wait and when it grows long.
+  std::vector<std::pair<std::string, cl_event>> events;
+  /// Profile by kernel name.
   std::map<std::string, KernelTime> times;
-  /// Since a kernel was launched for the first time: the driver may compile its machine code only
-  /// then. Ends with the next wait.
+  /// Notice of a slow compilation, alive from the first launch of a kernel, when the driver may
+  /// compile machine code, until the next wait.
   std::unique_ptr<SlowCall> compiling;
 
   State() = default;
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State();
-  // Makes `queue` from `context`, with profiling as the flag says.
+  /// Creates `queue` in `context`, with profiling as set.
   void open_queue();
-  // Waits for the queue, ends the notice of a compiling driver and adds up events.
+  /// Waits for the queue, ends the notice of a slow compilation and collects events.
   void finish();
-  /// Adds finished launches to `times`; the queue must be done.
+  /// Adds finished launches to `times`. All queued work must be done.
   void collect();
 };
 
-/// @throws DeviceError "<call> failed: <symbol>[, kernel <kernel>], on device <name>" unless code
+/// Checks the result of an OpenCL call.
+/// @throws DeviceError "<call> failed: <symbol>[, kernel <kernel>], on device <name>" unless `code`
 /// is CL_SUCCESS.
 void check(cl_int code, const char* call, const Device::State& state,
            const std::string& kernel = "");

@@ -10,8 +10,8 @@ namespace navvy::device {
 
 SlowCall::SlowCall(std::string text, double seconds)
     : thread_([this, text = std::move(text), seconds] {
-        // The lock and the condition are members declared before the thread, so they exist when it
-        // starts and last until it is joined.
+        // The mutex and the condition are declared before the thread, so they exist from its start
+        // until it is joined.
         std::unique_lock lock(mutex_);
         const bool ended =
             over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return done_; });
@@ -20,8 +20,8 @@ SlowCall::SlowCall(std::string text, double seconds)
 
 SlowCall::~SlowCall() {
   {
-    // Set under the lock, or the thread might miss it between its look and its sleep and wait out
-    // its time.
+    // Set under the lock: otherwise the thread might miss it between test and sleep, and wait until
+    // its timeout.
     const std::lock_guard lock(mutex_);
     done_ = true;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says what a long wait is for.
+// Log message about a long wait.
 #pragma once
 
 #include <condition_variable>
@@ -10,25 +10,25 @@
 
 namespace navvy::device {
 
-/// While it lives, a thread waits beside the caller; after `seconds` it hands `text` to the log,
-/// once. For calls into a driver that may compile for minutes without a word. The end of its life
-/// ends the thread and waits for it. Costs a thread, some tens of microseconds, so it goes around a
-/// build or a first launch and not around every call.
+/// Logs `text` once if it is alive for longer than `seconds`, for driver calls that may compile for
+/// minutes in silence. A thread waits beside the caller. It costs some tens of microseconds: use it
+/// around a build or a first launch, not around every call.
 class SlowCall {
  public:
-  /// Starts waiting at once. The text is made beforehand: the thread must not ask a device that is
-  /// busy.
+  /// Starts waiting at once. The text is prepared beforehand, as the thread must not query a busy
+  /// device.
   explicit SlowCall(std::string text, double seconds = kPatience);
-  /// Returns at once, also before `seconds` are over; waits only for a line that is being logged.
+  /// Ends the thread at once; waits only for a message that is being logged.
   ~SlowCall();
   SlowCall(const SlowCall&) = delete;
   SlowCall& operator=(const SlowCall&) = delete;
 
-  static constexpr double kPatience = 15;  ///< [s]; all our kernels take PoCL 2 to 10 s
+  /// Default wait [s]; PoCL compiles each of our kernels in 2 to 10 s.
+  static constexpr double kPatience = 15;
 
  private:
-  // The thread is the last member: it starts when the others are there and is joined before they
-  // go.
+  // The thread is the last member, so it starts after the others exist and is joined before they
+  // are destroyed.
   std::mutex mutex_;
   std::condition_variable over_;
   bool done_ = false;

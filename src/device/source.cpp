@@ -12,11 +12,11 @@
 namespace navvy::device {
 namespace {
 
-/// The file an include line names; empty when the line is none.
+/// Returns the file that an include line names, or "" for any other line.
 std::string included_path(const std::string& line) {
   std::size_t at = line.find_first_not_of(" \t");
-  // The same leniency about blanks as a compiler's, so that a file which another tool accepts is
-  // not taken in silence without its include. An include in angle brackets is none of ours.
+  // Accepts blanks like a compiler does, so that no include that other tools accept is ignored.
+  // Includes in angle brackets are not ours.
   if (at == std::string::npos || line[at] != '#') return "";
   at = line.find_first_not_of(" \t", at + 1);
   if (at == std::string::npos || line.compare(at, 7, "include") != 0) return "";
@@ -28,19 +28,19 @@ std::string included_path(const std::string& line) {
 
 bool is_pragma_once(const std::string& line) { return line.compare(0, 12, "#pragma once") == 0; }
 
-// The order is that of reading, depth first, as a compiler would see it. Each file counts once for
-// the whole program, so a header that two files include needs no guard in the kernel language.
+/// Appends a file with its includes, depth first as a compiler reads it. Each file is included once
+/// per program, so headers need no guards.
 void expand(const std::string& path, const std::string& text, std::set<std::string>& seen,
             std::string& out) {
   seen.insert(path);
   out += "#line 1 \"" + path + "\"\n";
   std::istringstream lines(text);
   std::string line;
-  // The number of lines is kept, one for one, so that a build log's numbers are those of the file.
+  // Line numbers are preserved, so that a build log refers to lines of the file.
   for (int number = 1; std::getline(lines, line); ++number) {
     const std::string child = included_path(line);
     if (child.empty()) {
-      // The whole program is one text for the driver, where "once" would only warn.
+      // The driver sees a single text, where "once" would only cause a warning.
       out += is_pragma_once(line) ? "\n" : line + "\n";
       continue;
     }
@@ -61,7 +61,7 @@ void expand(const std::string& path, const std::string& text, std::set<std::stri
 
 std::string kernel_source(const std::string& path) {
   const char* folder = std::getenv("NAVVY_KERNEL_DIR");
-  // Read anew at every call: edit a kernel, run again, no build in between.
+  // Read anew at every call: edit a kernel and run again without a build.
   if (folder != nullptr && *folder != '\0') {
     try {
       const std::vector<char> text = read_file(std::string(folder) + "/" + path);
@@ -71,20 +71,12 @@ std::string kernel_source(const std::string& path) {
                         " (the folder comes from the environment variable NAVVY_KERNEL_DIR)");
     }
   }
-  // The list is short, and a program asks for a few files, so no map is kept.
+  // The list is short and a program asks for few files, so there is no map.
   for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file) {
     if (path == file->path) return file->text;
   }
   throw DeviceError("no kernel file '" + path +
                     "' was embedded by the build (it looks in kernels/)");
-}
-
-std::vector<std::string> kernel_paths() {
-  std::vector<std::string> paths;
-  for (const EmbeddedFile* file = embedded_files(); file->path != nullptr; ++file)
-    paths.emplace_back(file->path);
-  std::sort(paths.begin(), paths.end());
-  return paths;
 }
 
 std::string expand_includes(const std::string& path, const std::string& text) {

@@ -3,26 +3,23 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "device/device_error.h"
 
 namespace navvy::device {
 
-/// Text of one kernel file, named relative to kernels/, e.g. "soil/lanes/particle_to_grid.cl". Read
-/// from the folder in the environment variable NAVVY_KERNEL_DIR when it is set (edit and run), else
-/// what the build embedded.
-/// @throws DeviceError when there is no such file.
+/// Returns the text of one kernel file, named relative to kernels/, e.g.
+/// "soil/lanes/particle_to_grid.cl". It is read from the folder in the environment variable
+/// NAVVY_KERNEL_DIR if that is set, so that a kernel can be edited and run without a build, else
+/// from the embedded files.
+/// @throws DeviceError if there is no such file.
 std::string kernel_source(const std::string& path);
 
-/// Paths of all embedded files in alphabetical order. Headers that kernels include are among them.
-std::vector<std::string> kernel_paths();
-
-/// `text` of file `path` with every `#include "..."` (relative to kernels/) replaced by that file,
-/// each file once, and `#line` so that a build log names our files. `#include <...>` is left alone
-/// (shared headers hide it from OpenCL). An include stands alone on its line and outside
-/// conditionals.
-/// @throws DeviceError naming file and line of an include that is not there.
+/// Returns `text` of file `path` with every `#include "..."` (relative to kernels/) replaced by
+/// that file, each file once, and with `#line` directives so that a build log names the files.
+/// `#include <...>` is left in place; shared headers hide it from OpenCL. An include must be alone
+/// on its line and outside of conditionals.
+/// @throws DeviceError naming file and line of an include that does not exist.
 std::string expand_includes(const std::string& path, const std::string& text);
 
 }  // namespace navvy::device

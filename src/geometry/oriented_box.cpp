@@ -9,13 +9,13 @@ namespace navvy::geometry {
 
 double penetration(const OrientedBox& a, const OrientedBox& b) {
   const Vec3 between = b.X_WO.translation() - a.X_WO.translation();
-  // Half the extent of a box along a direction.
+  // Half of the extent of a box along a direction.
   const auto extent = [](const OrientedBox& box, const Vec3& axis) {
     return (box.X_WO.linear().transpose() * axis).cwiseAbs().dot(box.half);
   };
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](const Vec3& direction) {
-    // Edges side by side give no axis of their own: the faces' axes stand for it.
+    // Parallel edges give no axis of their own; the axes of the faces cover them.
     const double length = direction.norm();
     if (length < 1e-6) return;
     const Vec3 axis = direction / length;

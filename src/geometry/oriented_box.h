@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes turned in space, and how far two of them reach into each other.
+// Oriented boxes and their penetration.
 #pragma once
 
 #include "core/math.h"
 
 namespace navvy::geometry {
 
-/// A box about the origin of its own frame O.
+/// Box centred at the origin of its own frame O.
 struct OrientedBox {
+  /// Pose in W.
   Pose X_WO = Pose::Identity();
-  Vec3 half = Vec3::Zero();  ///< half its edges [m]
+  /// Half of the edge lengths [m].
+  Vec3 half = Vec3::Zero();
 };
 
-/// How far the two must be moved apart to touch no more [m]; zero or less: there is a gap of at
-/// least minus that. By the fifteen axes on which two boxes can be told apart.
+/// Returns the distance by which the boxes must be separated to touch no more [m], the least over
+/// the fifteen separating axes. Zero or negative: the boxes are apart by at least its magnitude.
 double penetration(const OrientedBox& a, const OrientedBox& b);
 
 }  // namespace navvy::geometry

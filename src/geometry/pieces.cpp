@@ -4,8 +4,8 @@
 namespace navvy::geometry {
 namespace {
 
-/// Hands each piece to `take` until that answers false. Depth first: a handful of open pieces,
-/// however many there are.
+/// Passes each piece to `take` until that returns false. Depth first, so that few pieces are open
+/// at a time.
 template <class Take>
 void each_piece(const TriangleMesh& mesh, double longest, const Take& take) {
   std::vector<MeshPiece> open;
@@ -28,7 +28,7 @@ void each_piece(const TriangleMesh& mesh, double longest, const Take& take) {
         if (!take(piece)) return;
         continue;
       }
-      // Halve the longest edge.
+      // Halves the longest edge.
       const Vec3 a = piece.corner[worst], b = piece.corner[(worst + 1) % 3],
                  c = piece.corner[(worst + 2) % 3];
       const Vec3 middle = 0.5 * (a + b);

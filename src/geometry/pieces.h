@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes cut to pieces of a bounded size.
+// Meshes cut into pieces of bounded size.
 #pragma once
 
 #include <array>
@@ -10,23 +10,25 @@
 
 namespace navvy::geometry {
 
-/// Longest edge of the pieces that the solver cuts shells to [cells]: shorter ones fit the zone
-/// near a shell tighter, longer ones cost fewer look-ups.
+/// Longest edge of the pieces that the solver cuts shells into [cells]. Shorter pieces fit the zone
+/// near a shell more tightly, longer ones cost fewer look-ups.
 inline constexpr double kShellPieceCells = 3;
 
-/// A part of a triangle.
+/// Part of a triangle.
 struct MeshPiece {
+  /// Corners [m].
   std::array<Vec3, 3> corner;
-  int triangle;  ///< of the mesh
+  /// Index of the triangle in the mesh.
+  int triangle;
 };
 
-/// Halves triangles at their longest edge until no edge is longer than `longest` [m], in the
-/// triangles' order. The pieces' number follows from the area over the square of `longest`: ask
-/// `count_pieces` first of meshes that are not one's own.
+/// Halves triangles at their longest edge until no edge exceeds `longest` [m], in the order of the
+/// triangles. The number of pieces grows with the area over the square of `longest`: call
+/// `count_pieces` first for meshes from users.
 std::vector<MeshPiece> cut_to_pieces(const TriangleMesh& mesh, double longest);
 
-/// How many pieces that gives. Counting ends with the first beyond `most`, so it costs no more than
-/// that.
+/// Counts the pieces that cut_to_pieces would return. Counting stops with the first piece beyond
+/// `most`, which bounds the cost.
 std::size_t count_pieces(const TriangleMesh& mesh, double longest, std::size_t most);
 
 }  // namespace navvy::geometry

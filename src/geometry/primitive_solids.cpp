@@ -4,7 +4,8 @@
 namespace navvy::geometry {
 namespace {
 
-/// About the origin, from the mean squares of the coordinates over the volume.
+/// Returns the properties about the origin, from the mean squares of the coordinates over the
+/// volume.
 SolidProperties from_squares(double volume, const Vec3& mean_squares) {
   SolidProperties out;
   out.volume = volume;
@@ -13,7 +14,7 @@ SolidProperties from_squares(double volume, const Vec3& mean_squares) {
   return out;
 }
 
-/// Steiner: what a mass of 1 at r from the centre adds.
+/// Returns the inertia of a unit mass at r (parallel axis theorem).
 Mat3 lever(const Vec3& r) { return r.squaredNorm() * Mat3::Identity() - r * r.transpose(); }
 
 }  // namespace
@@ -33,7 +34,7 @@ SolidProperties solid_cylinder(double radius, double length) {
 }
 
 SolidProperties solid_cone(double radius, double length) {
-  // Of the slices' squares, weighed by their areas; along z about the centre of mass.
+  // Mean squares of the slices, weighted by their areas; along z about the centre of mass.
   const double r2 = 3 * radius * radius / 20;
   SolidProperties out =
       from_squares(kPi * radius * radius * length / 3, Vec3(r2, r2, 3 * length * length / 80));
@@ -43,8 +44,8 @@ SolidProperties solid_cone(double radius, double length) {
 
 SolidProperties solid_capsule(double radius, double length) {
   const SolidProperties middle = solid_cylinder(radius, length);
-  // Half a sphere has its centre of mass 3/8 of the radius from its flat face, and half of the
-  // sphere's inertia about the middle of that face.
+  // The centre of mass of a hemisphere is 3/8 of the radius from its flat face, and its inertia
+  // about the centre of that face is half of the sphere's.
   SolidProperties cap;
   cap.volume = 2.0 / 3 * kPi * radius * radius * radius;
   cap.inertia = 0.5 * solid_sphere(radius).inertia - cap.volume * lever(Vec3(0, 0, 3 * radius / 8));

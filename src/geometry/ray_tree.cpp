@@ -12,16 +12,16 @@
 namespace navvy::geometry {
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;  // triangles that are not worth two more boxes
-// Halving 2^32 triangles takes 32 levels, each keeps one sibling waiting
+// Largest number of triangles in a leaf.
+constexpr std::uint32_t kLeaf = 4;
+// Halving 2^32 triangles takes 32 levels, each with one waiting sibling.
 constexpr std::size_t kDepth = 64;
 
-// Distances to boxes are rounded a few times, each by 1e-16 of itself; so is the hit on a triangle
-// inside. The margin lets the box keep what its triangle would answer.
+// Distances to boxes carry a few relative rounding errors of 1e-16, and so does a hit on a triangle
+// inside. The margin ensures that a box is never farther than a hit in it.
 constexpr double kMargin = 1e-12;
 
-/// Along which axis a ray goes most, and by how much others are sheared so that it runs along that
-/// axis [Woop 2013].
+/// Shear that aligns a ray with the axis along which it is longest [Woop 2013].
 struct Shear {
   int x, y, z;
   double sx, sy, sz;
@@ -30,7 +30,7 @@ struct Shear {
     direction.cwiseAbs().maxCoeff(&z);
     x = (z + 1) % 3;
     y = (x + 1) % 3;
-    // Keeps the winding, hence the sign of the edge functions.
+    // Preserves the winding, hence the sign of the edge functions.
     if (direction[z] < 0) std::swap(x, y);
     sx = direction[x] / direction[z];
     sy = direction[y] / direction[z];
@@ -38,40 +38,43 @@ struct Shear {
   }
 };
 
+/// Returns the distance at which a ray hits a triangle.
 std::optional<double> meet(const Vec3& origin, const Shear& s, const std::array<Vec3, 3>& corners) {
-  std::array<Vec3, 3> p;  // corners as seen along the ray
+  // Corners as seen along the ray.
+  std::array<Vec3, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 d = corners[i] - origin;
     p[i] = Vec3(d[s.x] - s.sx * d[s.z], d[s.y] - s.sy * d[s.z], s.sz * d[s.z]);
   }
-  // Each edge's function is worked out from the same two numbers in both its triangles, so a ray on
-  // the edge is on the border of both, and no gap opens between them. Rounding is the same either
-  // way as a product does not depend on the order of its factors.
+  // Each edge function is computed from the same two numbers in both adjacent triangles, so a ray
+  // on the edge is on the border of both and no gap opens. The rounding is equal, as a product does
+  // not depend on the order of its factors.
   const double u = p[2].x() * p[1].y() - p[2].y() * p[1].x();
   const double v = p[0].x() * p[2].y() - p[0].y() * p[2].x();
   const double w = p[1].x() * p[0].y() - p[1].y() * p[0].x();
   if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return std::nullopt;
-  // u, v, w are the areas opposite to the corners: their shares weigh the corners' distances.
+  // u, v, w are the areas opposite to the corners, and hence the weights of the corners' distances.
   const double sum = u + v + w;
-  if (sum == 0) return std::nullopt;  // seen edge-on, or without area
+  // Seen edge-on, or without area.
+  if (sum == 0) return std::nullopt;
   const double distance = (u * p[0].z() + v * p[1].z() + w * p[2].z()) / sum;
   if (!(distance >= 0)) return std::nullopt;
   return distance;
 }
 
-/// A ray prepared for boxes.
+/// Ray prepared for boxes.
 struct Slabs {
   Vec3 origin, inverse;
 
   Slabs(const Vec3& p, const Vec3& direction) : origin(p), inverse(direction.cwiseInverse()) {}
 
-  /// The distance at which the ray enters the box, lowered by the margin; none when it passes by or
-  /// enters beyond `limit`.
+  /// Returns the distance at which the ray enters the box, reduced by the margin, or nothing if it
+  /// misses the box or enters beyond `limit`.
   std::optional<double> enter(const Box& box, double limit) const {
     double near = 0, far = limit;
     for (int k = 0; k < 3; ++k) {
-      // Along a plane of the box a product would be 0 x inf: such a ray is inside the slab all the
-      // way, or never.
+      // Parallel to a plane of the box, a product would be 0 x inf; such a ray is always or never
+      // within the slab.
       if (!std::isfinite(inverse[k])) {
         const double slack = kMargin * std::max(std::abs(origin[k]), box.high[k] - box.low[k]);
         if (origin[k] < box.low[k] - slack || origin[k] > box.high[k] + slack) return std::nullopt;
@@ -79,7 +82,7 @@ struct Slabs {
       }
       const double a = (box.low[k] - origin[k]) * inverse[k],
                    b = (box.high[k] - origin[k]) * inverse[k];
-      // Which of the two planes is met first depends on the way the ray goes.
+      // The direction of the ray decides which of the two planes is hit first.
       const double enters = std::min(a, b), leaves = std::max(a, b);
       near = std::max(near, enters - kMargin * std::abs(enters));
       far = std::min(far, leaves + kMargin * std::abs(leaves));
@@ -98,15 +101,10 @@ struct Slabs {
 
 }  // namespace
 
-std::optional<double> ray_triangle(const Vec3& origin, const Vec3& direction,
-                                   const std::array<Vec3, 3>& corners) {
-  return meet(origin, Shear(direction), corners);
-}
-
 RayTree::RayTree(const TriangleMesh& mesh, const std::string& name) {
   require_valid(mesh, name);
   std::vector<Vec3> centres;
-  // Corners side by side: a leaf reads them without going through the vertices.
+  // Corners are stored side by side, so that a leaf reads them without indirection.
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     triangles_.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
     centres.push_back((triangles_[t][0] + triangles_[t][1] + triangles_[t][2]) / 3);
@@ -132,8 +130,8 @@ void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last,
   }
   nodes_[node] = {box, first, last - first};
   if (last - first <= kLeaf) return;
-  // Halves of equal number along the longest way between the middles; the triangle's number settles
-  // ties, so that the tree is the same on every machine.
+  // Halves of equal number along the longest extent of the centres. The triangle's index breaks
+  // ties, so that the tree is equal on every machine.
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const std::uint32_t middle = first + (last - first) / 2;
@@ -141,8 +139,8 @@ void RayTree::split(std::size_t node, std::uint32_t first, std::uint32_t last,
                    [&](std::uint32_t a, std::uint32_t b) {
                      return std::pair(centres[a][axis], a) < std::pair(centres[b][axis], b);
                    });
-  // Children lie side by side, and `nodes_` may move while they are made: nodes are known by
-  // number.
+  // Children are stored side by side. `nodes_` may be reallocated meanwhile, so nodes are referred
+  // to by index.
   const std::size_t child = nodes_.size();
   nodes_[node].first = static_cast<std::uint32_t>(child);
   nodes_[node].count = 0;
@@ -155,22 +153,24 @@ std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& directi
                                          double reach) const {
   if (!origin.allFinite() || !direction.allFinite()) refuse("origin and direction must be finite");
   if (std::isnan(reach)) refuse("the reach must be a number");
-  // Normalised in two steps, so that a direction of 1e-200 has a length too.
+  // Normalised in two steps, so that even a direction of 1e-200 has a length.
   const double longest = direction.cwiseAbs().maxCoeff();
   if (!(longest > 0)) refuse("the direction must have a length");
   const Vec3 along = (direction / longest).normalized();
   if (nodes_.empty()) return std::nullopt;
   const Slabs slabs(origin, along);
   const Shear shear(along);
-  // What is nearer than `best` is still of interest, and what is as near and has a lower number.
+  // A closer hit replaces `best`, and so does an equally close one of a lower index.
   double best = reach;
   int hit = -1;
-  std::array<std::pair<double, std::uint32_t>, kDepth> waiting;  // boxes entered at, and which
+  // Distance at which a box is entered, and its node.
+  std::array<std::pair<double, std::uint32_t>, kDepth> waiting;
   std::size_t count = 0;
   if (const auto enters = slabs.enter(nodes_[0].box, best)) waiting[count++] = {*enters, 0};
   while (count > 0) {
     const auto [enters, number] = waiting[--count];
-    if (enters > best) continue;  // something nearer was found since it was put aside
+    // A closer hit was found since the box was put aside.
+    if (enters > best) continue;
     const Node& node = nodes_[number];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const int triangle = static_cast<int>(order_[i]);
@@ -181,7 +181,7 @@ std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& directi
       hit = triangle;
     }
     if (node.count > 0) continue;
-    // The nearer box is looked at first and shortens the ray for the other.
+    // The closer box is visited first and shortens the ray for the other.
     auto left = slabs.enter(nodes_[node.first].box, best),
          right = slabs.enter(nodes_[node.first + 1].box, best);
     const bool left_first = left && (!right || *left <= *right);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// First hit of a ray on a triangle mesh, over a tree of boxes.
+// First hit of a ray on a triangle mesh, found with a tree of boxes.
 #pragma once
 
 #include <cstdint>
@@ -12,44 +12,48 @@
 
 namespace navvy::geometry {
 
-/// Where a ray meets a mesh first. The point is origin + distance * direction, direction made unit.
+/// First hit of a ray on a mesh, at origin + distance * unit direction.
 struct RayHit {
-  int triangle = -1;    ///< index into the mesh's triangles
-  double distance = 0;  ///< from the ray's origin [m]
-  /// Unit, of the triangle's front, in the mesh's frame; the ray may come from behind.
+  /// Index of the triangle in the mesh.
+  int triangle = -1;
+  /// Distance from the ray's origin [m].
+  double distance = 0;
+  /// Unit normal of the triangle's front, in the mesh's frame; the ray may come from behind.
   Vec3 normal = Vec3::Zero();
 };
 
-/// A mesh prepared for rays. Immutable and readable from several threads.
+/// Triangle mesh prepared for ray queries. Immutable, so that several threads may query it.
 ///
-/// A ray meets both sides of a triangle. Rays through an edge or a corner never slip between the
-/// triangles that share it [Woop 2013]. Of hits at equal distance the lowest triangle wins, so the
-/// answer depends on the mesh alone, not on the tree. Triangles without area are never met. The
-/// ground has a ray of its own, on its columns.
+/// A ray hits both sides of a triangle. Rays through an edge or a corner never pass between the
+/// triangles that share it [Woop 2013]. Of hits at equal distance the triangle of lowest index
+/// wins, so the result depends on the mesh alone and not on the tree. Triangles without area are
+/// never hit. For rays on the ground use heightfield::Terrain::ray.
 class RayTree {
  public:
-  /// Copies what it needs: 120 bytes a triangle; takes half a microsecond a triangle.
-  /// @throws InputError naming `name` as `require_valid` does.
+  /// Builds the tree from a copy of the mesh: 120 bytes and half a microsecond per triangle.
+  /// @throws InputError naming `name`, like `require_valid`.
   explicit RayTree(const TriangleMesh& mesh, const std::string& name = "mesh");
 
-  /// The first triangle along a ray, none when nothing lies within `reach` [m]; half a microsecond
-  /// for 10^5 triangles. `origin` [m] and `direction` (any length above zero) are in the mesh's
-  /// frame.
-  /// @throws InputError when the origin or the direction is not finite, the direction has no
-  /// length, or `reach` is NaN.
+  /// Returns the first hit within `reach` [m], or nothing; takes half a microsecond for 10^5
+  /// triangles. `origin` [m] and `direction` (any length above zero) are in the mesh's frame.
+  /// @throws InputError if the origin or the direction is not finite, the direction has no length,
+  /// or `reach` is NaN.
   std::optional<RayHit> first_hit(const Vec3& origin, const Vec3& direction,
                                   double reach = std::numeric_limits<double>::infinity()) const;
 
-  std::size_t size() const { return triangles_.size(); }  ///< triangles
+  /// Returns the number of triangles.
+  std::size_t size() const { return triangles_.size(); }
 
  private:
-  /// Children are known by number, so a tree may be copied and moved.
+  /// Node of the tree. Children are referred to by index, so that the tree is copyable and movable.
   struct Node {
     Box box;
-    /// A leaf's first triangle in `order_`, else the left child; the right one follows it.
+    /// First triangle of a leaf in `order_`, else the left child; the right child follows it.
     std::uint32_t first = 0;
-    std::uint32_t count = 0;  ///< of triangles; 0: not a leaf
+    /// Number of triangles of a leaf, 0 for an inner node.
+    std::uint32_t count = 0;
   };
+  /// Splits a node at the median of the triangles' centres, recursively.
   void split(std::size_t node, std::uint32_t first, std::uint32_t last,
              const std::vector<Vec3>& centres);
 
@@ -57,10 +61,5 @@ class RayTree {
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };
-
-/// A ray against one triangle: the distance, none when it passes by or runs in the triangle's
-/// plane. `direction` is unit. This is what `RayTree` asks of every triangle that its boxes leave.
-std::optional<double> ray_triangle(const Vec3& origin, const Vec3& direction,
-                                   const std::array<Vec3, 3>& corners);
 
 }  // namespace navvy::geometry

@@ -9,7 +9,7 @@
 namespace navvy::geometry {
 namespace {
 
-/// Faults name the part by its number in the mesh; a file's line is known to its reader only.
+/// Faults name the part by its index in the mesh; only the reader knows a file's lines.
 [[noreturn]] void refuse(const std::string& name, const std::string& part, std::size_t number,
                          const std::string& rule) {
   Fault fault;
@@ -21,7 +21,7 @@ namespace {
 
 }  // namespace
 
-// Loose vertices count: shells and hulls take all of them.
+// Unused vertices count, as shells and hulls use all of them.
 Box bounds(const TriangleMesh& mesh) {
   Box box;
   if (mesh.vertices.empty()) return box;
@@ -34,7 +34,7 @@ Box bounds(const TriangleMesh& mesh) {
 }
 
 void require_valid(const TriangleMesh& mesh, const std::string& name) {
-  // A single NaN would pass every comparison of a box or a plane unseen.
+  // A single NaN would pass comparisons with boxes and planes unnoticed.
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!mesh.vertices[v].allFinite())
       refuse(name, "vertex", v, "coordinates must be finite numbers");
@@ -44,8 +44,8 @@ void require_valid(const TriangleMesh& mesh, const std::string& name) {
       if (v < 0 || v >= count)
         refuse(name, "triangle", t,
                "a corner names vertex " + std::to_string(v) + " of " + std::to_string(count));
-  // Materials travel beside the triangles; lists of different length would shift every colour by
-  // one.
+  // Materials are stored in a list beside the triangles; a list of another length would shift all
+  // colours.
   if (mesh.material_of.empty()) return;
   const int materials = static_cast<int>(mesh.materials.size());
   if (mesh.material_of.size() != mesh.triangles.size())
@@ -61,15 +61,15 @@ void require_valid(const TriangleMesh& mesh, const std::string& name) {
 TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh out = mesh;
   out.vertices.clear();
-  // Exactly the same place: a tolerance would depend on the order in which vertices are met.
+  // Exactly the same place: the result of a tolerance would depend on the order of the vertices.
   std::map<std::array<double, 3>, int> number;
   std::vector<int> merged;
   merged.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) {
-    // Minus zero is the same place as zero; adding zero makes them one key.
+    // Minus zero equals zero; adding zero makes them one key.
     const std::array<double, 3> place = {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
     const auto [at, is_new] = number.try_emplace(place, static_cast<int>(out.vertices.size()));
-    // The first one keeps its place, so that welding a mesh without doubles changes nothing.
+    // The first vertex is kept, so that welding a mesh without duplicates changes nothing.
     if (is_new) out.vertices.push_back(v);
     merged.push_back(at->second);
   }

@@ -26,8 +26,6 @@ CellRect CellRect::cut(const CellRect& other) const {
           std::min(y1, other.y1)};
 }
 
-void CellRect::include(int ix, int iy) { include(CellRect{ix, iy, ix + 1, iy + 1}); }
-
 // An empty rectangle has no place, so it neither adds nor pulls.
 void CellRect::include(const CellRect& other) {
   if (other.empty()) return;

@@ -23,7 +23,6 @@ struct CellRect {
   /// The part that lies in `other` too; may be empty.
   CellRect cut(const CellRect& other) const;
   /// Grows to the smallest rectangle that holds both.
-  void include(int ix, int iy);
   void include(const CellRect& other);
 };
 

@@ -219,20 +219,6 @@ std::vector<std::int64_t> Ground::mass_change() const {
   return sum;
 }
 
-void Ground::volume_change(double& raised, double& lowered) const {
-  // From heights, as a surveyor would; with mass_change it tells how much was loosened.
-  raised = lowered = 0;
-  for (const auto& [key, tile] : state_->tiles.touched()) {
-    const SurfaceTile* surface = table_.find(static_cast<int>(key % table_.tiles_x()),
-                                             static_cast<int>(key / table_.tiles_x()));
-    for (std::size_t i = 0; i < kTileColumns; ++i)
-      if (tile->slot[i] >= 0) {
-        const double change = (surface->height[i] - (*surface->start)[i]) * cell() * cell();
-        (change > 0 ? raised : lowered) += std::abs(change);
-      }
-  }
-}
-
 CellRect Ground::changed_since(std::uint64_t sequence) const {
   return state_->changes.since(sequence, site_rect());
 }

@@ -67,9 +67,6 @@ class Ground final : public Terrain {
   /// Sum over the touched tiles of mass now minus mass at the start, per soil, recounted from the
   /// columns.
   std::vector<std::int64_t> mass_change() const;
-  /// Sum over the touched tiles of (height now - height at start) x cell^2, positive part and
-  /// negative part [m3].
-  void volume_change(double& raised, double& lowered) const;
 
   /// Bounding rectangle of what changed after sequence number n (exact for recent n, a superset for
   /// older ones). For the soil, whose own state holds n; all others use a ChangeFollower.

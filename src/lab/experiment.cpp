@@ -11,6 +11,7 @@
 #include "core/math.h"
 #include "lab/soils.h"
 #include "scene/soil_values.h"
+#include "soil/scheme.h"
 
 namespace navvy::lab {
 namespace {
@@ -22,22 +23,32 @@ InputError refused(const std::string& where, const std::string& value, const std
   return InputError(Fault{Fault::Severity::kError, "", 0, where, value, rule, remedy});
 }
 
+const std::string kSchemePrefix = "scheme.";
+
+/// Returns true for a setting of the particle scheme, false for one of the soil.
+bool is_scheme_setting(const std::string& name) { return name.rfind(kSchemePrefix, 0) == 0; }
+
+/// Returns the number of a setting. All of the text must be the number: 0.02m is a mistake.
+double number_of(const std::string& name, const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data(), end, number);
+  if (failed != std::errc() || stop != end)
+    throw refused("--set " + name, text, "must be a number", "");
+  return number;
+}
+
 /// Sets a number of the soil by its name in scene files, in that file's unit.
 void set_value(scene::Soil& soil, const std::string& name, const std::string& text) {
   std::vector<std::string> names;
-  for (const scene::SoilValue& value : scene::soil_values()) {
+  for (const scene::SoilValue& value : scene::soil_values(soil)) {
     names.emplace_back(value.name);
     if (name != value.name) continue;
-    double number = 0;
-    const char* end = text.data() + text.size();
-    // All of the text must be the number: 0.02m is a mistake.
-    const auto [stop, failed] = std::from_chars(text.data(), end, number);
-    if (failed != std::errc() || stop != end)
-      throw refused("--set " + name, text, "must be a number", "");
-    soil.*value.value = number * value.factor;
+    *value.value = number_of(name, text) * value.factor;
     return;
   }
-  throw refused("--set", name, "must be a number of a soil, by its name in scene files",
+  throw refused("--set", name,
+                "must be a number of a soil, by its name in scene files, or scheme.NAME",
                 "did you mean '" + nearest_name(names, name) + "'?");
 }
 
@@ -103,6 +114,10 @@ std::vector<Axis> axes_of(const Experiment& experiment, const Rig& rig) {
 Setup setup_of(const Experiment& experiment, const Rig& rig, device::Device& device) {
   Setup setup = default_setup(rig, device);
   setup.soil = soil_of(experiment, experiment.soil.value_or(setup.soil));
+  for (const auto& [name, text] : experiment.settings)
+    if (is_scheme_setting(name))
+      soil::set_scheme_constant(setup.scheme, name.substr(kSchemePrefix.size()),
+                                number_of(name, text));
   if (!experiment.cells.empty()) setup.cell = experiment.cells.front();
   set_written(setup, experiment.geometry);
   setup.energy = experiment.energy;
@@ -153,7 +168,8 @@ scene::Soil soil_of(const Experiment& experiment, scene::Soil soil) {
     if (const double value = given(experiment, option.name);
         option.value != nullptr && !std::isnan(value))
       soil.*option.value = value;
-  for (const auto& [name, text] : experiment.settings) set_value(soil, name, text);
+  for (const auto& [name, text] : experiment.settings)
+    if (!is_scheme_setting(name)) set_value(soil, name, text);
   const auto is_set = [&](const std::string& name) {
     return std::any_of(experiment.settings.begin(), experiment.settings.end(),
                        [&](const auto& setting) { return setting.first == name; });

@@ -32,7 +32,8 @@ struct Experiment {
   std::optional<scene::Soil> soil;  ///< none: the rig's own
   /// Values by SoilOption::name, in the unit of the option.
   std::map<std::string, std::vector<double>> soil_values;
-  /// Numbers by their names in scene files (scene/soil_values.h), in that unit. They win over
+  /// Numbers of the soil by their names in scene files (scene/soil_values.h), in that unit, or
+  /// constants of the particle scheme as "scheme.NAME" (soil/scheme.h). They win over
   /// `soil_values`.
   std::vector<std::pair<std::string, std::string>> settings;
   /// By Parameter::name, as written; lists with commas.

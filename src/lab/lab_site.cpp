@@ -13,7 +13,7 @@ namespace {
 /// Share of the experiment between two calls of the progress report.
 constexpr double kProgressStep = 0.01;
 
-/// A world without machines, of the given soils.
+/// Returns a world without machines, of the given soils.
 scene::Scene make_world(std::vector<scene::Soil> soils, double cell, const SiteOptions& options) {
   scene::Scene world;
   world.name = "lab";
@@ -21,23 +21,24 @@ scene::Scene make_world(std::vector<scene::Soil> soils, double cell, const SiteO
   world.gravity = options.gravity;
   world.solver.cell = cell;
   world.solver.courant = options.courant;
-  // Rigs that measure particles alone leave the exchange with the ground off.
+  // Rigs that measure particles alone switch the exchange with the ground off.
   world.solver.exchange = options.exchange;
   return world;
 }
 
-SiteOptions with_step(SiteOptions options, double courant) {
-  options.courant = courant;
+SiteOptions with_setup(SiteOptions options, const Setup& setup) {
+  options.courant = setup["courant"];
+  options.scheme = setup.scheme;
   return options;
 }
 
-/// One layer of the first soil from the surface down to bedrock.
+/// Returns one layer of the first soil from the surface down to bedrock.
 heightfield::Ground::Setup make_ground(const scene::Scene& world, const SiteOptions& options) {
   heightfield::Ground::Setup out;
   const double cell = world.solver.cell;
-  // Even in number, so that W's origin is a corner of cells whatever the size.
+  // An even number, so that the origin of W is a corner of cells for any size.
   const int half = static_cast<int>(std::lround(options.size / cell / 2));
-  // The middle, unless a test wants its coordinates to start at a corner.
+  // The centre, unless a test wants its coordinates to start at a corner.
   const Vec2 corner = options.corner.value_or(Vec2::Constant(-half * cell));
   out.nx = out.ny = 2 * half;
   out.cell = cell;
@@ -45,7 +46,7 @@ heightfield::Ground::Setup make_ground(const scene::Scene& world, const SiteOpti
   // Whole cells of depth: nodes then lie at z = 0.
   out.datum = -std::ceil(options.depth / cell - 1e-9) * cell;
   out.soils = world.soils;
-  // Bedrock lies under the layer: deeper than anything a rig does.
+  // Bedrock lies under the layer, deeper than any rig reaches.
   out.layers = {{world.soils.front().name, options.depth}};
   out.surface = [surface = options.surface, corner, cell](int ix, int iy) {
     return surface ? surface(corner.x() + (ix + 0.5) * cell, corner.y() + (iy + 0.5) * cell) : 0.0;
@@ -53,8 +54,8 @@ heightfield::Ground::Setup make_ground(const scene::Scene& world, const SiteOpti
   return out;
 }
 
-/// The pose after `dt` with this twist; the rotation is exact, so that a turning tool keeps its
-/// shape.
+/// Returns the pose after `dt` with this twist. The rotation is exact, so that a turning tool keeps
+/// its shape.
 Pose turned(const Pose& X, const Vec3& v, const Vec3& w, double dt) {
   Pose out = X;
   const double angle = w.norm() * dt;
@@ -69,7 +70,7 @@ double whole_cells(double length, double cell) { return cell * std::ceil(length 
 
 std::function<double(double, double)> pit(const SiteBox& box) {
   return [box](double x, double y) {
-    // Walls belong to the ground: a cell whose middle is on the border is not dug.
+    // Walls belong to the ground: a cell whose centre is on the border is not dug.
     const bool inside = x > box.low.x() && x < box.high.x() && y > box.low.y() && y < box.high.y();
     return inside ? box.low.z() : 0.0;
   };
@@ -81,24 +82,24 @@ Site::Site(device::Device& device, std::vector<scene::Soil> soils, double cell,
       world_(make_world(std::move(soils), cell, options)),
       ground_(make_ground(world_, options)),
       crowding_(options.crowding),
-      energy_(options.energy) {
+      energy_(options.energy),
+      scheme_(options.scheme) {
   make_solver();
 }
 
-/// The usual way: what the setup holds, and nobody told of progress unless it wants to be.
+/// Default case: the soil of the setup.
 Site::Site(const Setup& setup, const SiteOptions& options) : Site(setup, {setup.soil}, options) {}
 
 Site::Site(const Setup& setup, std::vector<scene::Soil> soils, const SiteOptions& options)
-    : Site(*setup.device, std::move(soils), setup.cell, with_step(options, setup["courant"])) {
+    : Site(*setup.device, std::move(soils), setup.cell, with_setup(options, setup)) {
   progress_ = setup.progress;
   energy_ = energy_ || setup.energy;
   solver_->record_energy(energy_);
 }
 
 void Site::make_solver() {
-  // Tools first exist in the solver: their numbers are the order in which they are added, here as
-  // before.
-  solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_);
+  // Tools first exist in the solver: their numbers follow the order in which they are added.
+  solver_ = std::make_unique<soil::Solver>(*device_, world_, ground_, scheme_);
   for (const scene::Shell& shell : shells_) solver_->add_tool(shell);
   solver_->set_crowding(crowding_);
   solver_->record_energy(energy_);
@@ -106,8 +107,8 @@ void Site::make_solver() {
 
 soil::Particle Site::particle(const Vec3& p_W, double volume, int soil) const {
   soil::Particle p;
-  // Positions are stored within a block of cells: a float then resolves micrometres anywhere on the
-  // site.
+  // Positions are stored relative to a block of cells: a float then resolves micrometres anywhere
+  // on the site.
   const Vec3 grid =
       (p_W - Vec3(ground_.origin().x(), ground_.origin().y(), ground_.datum())) / cell();
   for (int a = 0; a < 3; ++a) {
@@ -125,7 +126,7 @@ std::vector<soil::Particle> Site::fill(const SiteBox& box,
                                        int soil) const {
   std::vector<soil::Particle> out;
   const double h = cell() / 2;
-  // Rounded: a box that is meant to be whole half cells is, in spite of its sums.
+  // Rounded: a box that is meant to have whole half cells has them despite rounding errors.
   const Vec3 count = (box.high - box.low) / h;
   const int nx = static_cast<int>(std::lround(count.x())),
             ny = static_cast<int>(std::lround(count.y())),
@@ -145,14 +146,14 @@ void Site::rest(std::vector<soil::Particle>& particles,
   for (soil::Particle& p : particles) {
     const scene::Soil& soil = world_.soils[p.soil];
     const Vec3 p_W = position(p);
-    // Nothing over the surface is under stress.
+    // There is no stress above the surface.
     const double depth = std::max(0.0, surface(p_W.x(), p_W.y()) - p_W.z());
     // Uniaxial strain of an elastic body.
     const double k0 = soil.poisson / (1 - soil.poisson);
     const double sz = soil.bank_density * world_.gravity.z() * depth - surcharge;
     const double mean = -(1 + 2 * k0) * sz / 3;
-    // The pressure lives in the volume ratio, the rest of the stress in the deviator s = (xx, yy,
-    // zz, ...).
+    // The pressure is stored in the volume ratio, the rest of the stress in the deviator s = (xx,
+    // yy, zz, ...).
     p.j = static_cast<float>(p.j0 * (1 - mean / soil::law_constants(soil, cell()).bulk));
     p.s[0] = p.s[1] = static_cast<float>(k0 * sz + mean);
     p.s[2] = static_cast<float>(sz + mean);
@@ -178,7 +179,7 @@ double Site::pressure(const soil::Particle& particle) const {
 }
 
 int Site::add_tool(const scene::Shell& shell, const Pose& X_WT) {
-  // Kept beside the solver, for its steps' limit and for making it anew.
+  // Stored beside the solver, for the step limit and for creating the solver again.
   shells_.push_back(shell);
   Tool tool;
   tool.motion.tool = solver_->add_tool(shell);
@@ -199,17 +200,17 @@ double Site::step_limit(double speed) const {
 
 void Site::push_tool(Tool& tool, double dt) const {
   soil::ToolMotion& motion = tool.motion;
-  // A tool without mass does not answer impulses: infinitely heavy for the solver, driven by its
-  // twist.
+  // A tool without mass does not respond to impulses: infinitely heavy for the solver, driven by
+  // its twist.
   motion.inverse_mass = Mat6::Zero();
   if (!(tool.mass > 0)) return;
-  // One free direction; the others are the carriage's.
+  // One free direction; the carriage prescribes the others.
   if (tool.only_sinks) {
     motion.inverse_mass(5, 5) = 1 / tool.mass;
     motion.v_WT.z() += (world_.gravity.z() + tool.force_W.z() / tool.mass) * dt;
     return;
   }
-  // Rows as in a twist: turning first, then translation.
+  // Rows as in a twist: rotation first, then translation.
   motion.inverse_mass.bottomRightCorner<3, 3>() = Mat3::Identity() / tool.mass;
   motion.v_WT += (world_.gravity + tool.force_W / tool.mass) * dt;
   if (tool.lock_rotation) return;
@@ -224,18 +225,18 @@ void Site::move_tool(Tool& tool, double dt) {
   soil::ToolMotion& motion = tool.motion;
   Vec6 impulse;
   impulse << tool.impulse.L_W, tool.impulse.J_W;
-  // The solver answers an impulse; a free tool takes it up at once, a scripted one not at all.
+  // The solver returns an impulse; a free tool receives it at once, a scripted one not at all.
   const Vec6 change = motion.inverse_mass * impulse;
   motion.w_WT += change.head<3>();
   motion.v_WT += change.tail<3>();
-  // Speeds first, then the place: the semi-implicit Euler step.
+  // Velocities first, then positions: semi-implicit Euler.
   motion.X_WT = turned(motion.X_WT, motion.v_WT, motion.w_WT, dt);
 }
 
 void Site::step(double dt) {
   motions_.clear();
   impulses_.resize(tools_.size());
-  // Forces from outside act first: the contact then sees the speed that it must change.
+  // External forces act first: contact then sees the velocity that it must change.
   for (Tool& tool : tools_) {
     push_tool(tool, dt);
     motions_.push_back(tool.motion);
@@ -244,7 +245,7 @@ void Site::step(double dt) {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const soil::ToolImpulse& impulse = impulses_[i];
     tools_[i].impulse = impulse;
-    // Action and reaction: what tools and nodes got must cancel, relative to what was exchanged.
+    // Action and reaction: impulses on tools and nodes must cancel, relative to what was exchanged.
     if (impulse.scale > 0)
       worst_residual_ = std::max(worst_residual_, impulse.residual.norm() / impulse.scale);
     if (impulse.scale_moment > 0)
@@ -254,7 +255,7 @@ void Site::step(double dt) {
   }
   time_ += dt;
   if (!progress_ || !(expected_ > 0)) return;
-  // A terminal needs no more than a hundred lines of progress.
+  // A terminal needs at most a hundred lines of progress.
   const double share = std::min(1.0, time_ / expected_);
   if (share - shown_ < kProgressStep) return;
   shown_ = share;
@@ -267,22 +268,22 @@ void Site::run(double seconds, const std::function<void()>& each, double dt) {
   // Equal steps that end exactly at `seconds`.
   const int steps = static_cast<int>(std::ceil(seconds / limit - 1e-9));
   for (int i = 0; i < steps; ++i) {
-    // The limit is that of the speeds at the start; a rig that speeds up asks again.
+    // The limit is that of the speeds at the start; a rig that accelerates calls again.
     step(seconds / steps);
     if (each) each();
   }
 }
 
 void Site::set_gravity(const Vec3& gravity) {
-  // A solver keeps the world it was made with; its snapshot holds no gravity.
+  // A solver keeps the world it was created with; its snapshot holds no gravity.
   const std::vector<char> state = saved(*solver_);
-  // The next account begins with what there is now as its first exchange.
+  // The next account starts with the present energy as its first exchange.
   energy_before_ = energy();
   energy_before_.exchanged -= energy_before_.kinetic + energy_before_.elastic;
   energy_before_.kinetic = energy_before_.elastic = 0;
   world_.gravity = gravity;
   make_solver();
-  // Particles, clocks and ledger as they were.
+  // Particles, clocks and ledger as before.
   load_saved(state, *solver_);
 }
 
@@ -297,8 +298,8 @@ std::string Site::digest() const { return hash_of(*solver_).hex(); }
 
 void Site::finish(Report& report) const {
   const soil::SolverStats& stats = solver_->stats();
-  // A rig may run several sites into one report: counts and times add up, the hash is the last
-  // one's.
+  // A rig may run several sites for one report: counts and times add up, the hash is that of the
+  // last.
   report.particles_peak = std::max(report.particles_peak, stats.particles_peak);
   report.steps += stats.steps;
   report.simulated_time += time_;

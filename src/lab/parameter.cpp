@@ -10,7 +10,7 @@
 namespace navvy::lab {
 namespace {
 
-/// The words of the choices as a sentence has them: "plane or round", "a, b or c".
+/// Returns the words of the choices as in a sentence: "plane or round", "a, b or c".
 std::string joined(const std::vector<Choice>& choices) {
   std::string out;
   for (std::size_t i = 0; i < choices.size(); ++i)
@@ -21,7 +21,7 @@ std::string joined(const std::vector<Choice>& choices) {
 }  // namespace
 
 bool ParameterRange::contains(double value) const {
-  // Infinite limits alone would let infinity pass.
+  // Infinite limits alone would accept infinity.
   if (!std::isfinite(value) || (whole && value != std::round(value))) return false;
   const bool high_enough = open_least ? value > least : value >= least;
   const bool low_enough = open_most ? value < most : value <= most;
@@ -30,9 +30,10 @@ bool ParameterRange::contains(double value) const {
 
 std::string ParameterRange::text() const {
   const bool from = std::isfinite(least), to = std::isfinite(most);
-  // A count says so first: most ranges are of lengths.
+  // A count is named first: most ranges are lengths.
   const std::string kind = whole ? "a whole number, " : "";
-  // Both ends closed is the common case and has the shortest form; anything else is said in words.
+  // Both ends closed is the common case and has the shortest form; other cases are expressed in
+  // words.
   if (from && to && !open_least && !open_most)
     return kind + short_text(least) + " .. " + short_text(most);
   std::string out;
@@ -46,7 +47,7 @@ std::string ParameterRange::text() const {
 
 ParameterRange any() { return {}; }
 
-// These five are all that rigs need; a half-open range is made by setting its flags.
+// These five are all that rigs need; flags make a half-open range.
 ParameterRange above(double least) {
   ParameterRange out;
   out.least = least;
@@ -74,7 +75,7 @@ ParameterRange count_from(int least) {
 }
 
 bool Parameter::allows(double wanted) const {
-  // Choices are numbers of their own, with nothing between them.
+  // Choices are discrete numbers.
   if (choices.empty()) return range.contains(wanted);
   for (const Choice& choice : choices)
     if (choice.number == wanted) return true;
@@ -83,7 +84,7 @@ bool Parameter::allows(double wanted) const {
 
 std::string Parameter::rule() const {
   if (!choices.empty()) return joined(choices);
-  // The unit closes the rule, so that an error needs no look at the help.
+  // The unit completes the rule, so that an error is clear without the help.
   return range.text() + (unit.empty() ? "" : " " + unit);
 }
 
@@ -96,7 +97,7 @@ std::string Parameter::text(double wanted) const {
 std::optional<double> Parameter::read(const std::string& written) const {
   for (const Choice& choice : choices)
     if (choice.word == written) return choice.number;
-  // from_chars takes no leading '+', which people write before angles and travels that may be
+  // from_chars accepts no leading '+', which people write before angles and travels that may be
   // negative.
   const char* begin = written.data() + (written.rfind('+', 0) == 0 ? 1 : 0);
   const char* end = written.data() + written.size();
@@ -108,7 +109,7 @@ std::optional<double> Parameter::read(const std::string& written) const {
 
 Parameter choice(const std::string& name, const std::string& word, const std::string& help,
                  const std::vector<Choice>& choices) {
-  // The default is given by its word: no rig then counts on the order of its choices.
+  // The default is given by its word, so that no rig depends on the order of its choices.
   Parameter out{name, 0, "", help, any(), choices};
   for (const Choice& one : choices) {
     if (one.word != word) continue;
@@ -121,13 +122,13 @@ Parameter choice(const std::string& name, const std::string& word, const std::st
 
 Parameter yes_no(const std::string& name, bool value, const std::string& yes,
                  const std::string& no) {
-  // Kept as 1 and 0 in the setup and in result files.
+  // Stored as 1 and 0 in the setup and in result files.
   return choice(name, value ? "yes" : "no", "", {{"yes", 1, yes}, {"no", 0, no}});
 }
 
 std::string short_text(double value) {
   char buffer[32];
-  // Five digits are more than any rig measures and fit every value into a column.
+  // Five digits are more than any rig resolves, and every value fits into a column.
   std::snprintf(buffer, sizeof buffer, "%.5g", value);
   return buffer;
 }

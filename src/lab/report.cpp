@@ -18,7 +18,7 @@ bool Quantity::missed() const {
 
 Quantity& Report::add(const std::string& name, double measured, const std::string& unit,
                       double expected, double low, double high, const std::string& source) {
-  // Order of adding is order of printing.
+  // Results print in the order in which they were added.
   results.push_back({name, measured, unit, expected, low, high, source});
   return results.back();
 }
@@ -33,7 +33,7 @@ bool Report::missed() const {
 }
 
 const Quantity* Report::find(const std::string& name) const {
-  // A dozen results: a search by name costs nothing and keeps their order.
+  // A dozen results: a search by name is cheap and keeps their order.
   for (const Quantity& quantity : results)
     if (quantity.name == name) return &quantity;
   return nullptr;

@@ -10,18 +10,19 @@
 namespace navvy::lab {
 namespace {
 
-/// No file, no line: the fault is on the command line or in a caller's setup.
+/// Returns a fault without file and line: it is on the command line or in a caller's setup.
 Fault fault(const std::string& where, const std::string& value, const std::string& rule,
             const std::string& remedy) {
   return Fault{Fault::Severity::kError, "", 0, where, value, rule, remedy};
 }
 
-/// A remedy; empty when there is nothing to be near to.
+/// Returns a remedy; empty without candidates.
 std::string did_you_mean(const std::vector<std::string>& names, const std::string& wanted) {
   return names.empty() ? "" : "did you mean '" + nearest_name(names, wanted) + "'?";
 }
 
-/// "lab column --l0", or "lab column" for the rig as a whole. A setup made by hand may have no rig.
+/// Returns "lab column --l0", or "lab column" for the rig as a whole. A setup made by hand may have
+/// no rig.
 std::string place(const Rig* rig, const std::string& parameter = "") {
   return "lab" + (rig == nullptr ? "" : " " + rig->name) +
          (parameter.empty() ? "" : " --" + parameter);
@@ -41,7 +42,7 @@ std::vector<std::string> words(const Parameter& parameter) {
 }  // namespace
 
 double Setup::operator[](const std::string& name) const {
-  // A misspelt name in a rig itself ends here too, at its first run.
+  // A misspelt name in a rig itself ends here, too, at its first run.
   const auto found = geometry.find(name);
   if (found != geometry.end()) return found->second;
   std::vector<std::string> names;
@@ -71,7 +72,7 @@ const Parameter* Rig::find(const std::string& parameter) const {
 }
 
 Report Rig::run(const Setup& setup) const {
-  // Checked here and not by the program alone: tests and bindings run rigs as well.
+  // Checked here and not only by the program: tests and bindings run rigs as well.
   check(*this, setup);
   return experiment(setup);
 }
@@ -92,13 +93,14 @@ Setup default_setup(const Rig& rig, device::Device& device) {
   setup.device = &device;
   setup.soil = rig.default_soil;
   setup.cell = rig.default_cell;
-  // Every parameter is in the setup from the start: a rig never asks whether it was given.
+  // Every parameter is in the setup from the start, so a rig never has to test whether it was
+  // given.
   for (const Parameter& parameter : rig.parameters)
     setup.geometry[parameter.name] = parameter.value;
   return setup;
 }
 
-// Texts come as they were typed, and all faults go back at once.
+// Collects all faults before it throws.
 void set_written(Setup& setup, const std::map<std::string, std::string>& written) {
   std::vector<Fault> faults;
   for (const auto& [name, text] : written) {
@@ -109,7 +111,7 @@ void set_written(Setup& setup, const std::map<std::string, std::string>& written
       faults.push_back(no_such_parameter(setup.rig, name, names));
       continue;
     }
-    // Ranges are left to check, which knows of values set in other ways too.
+    // check() tests ranges, also of values set in other ways.
     const std::optional<double> value = parameter->read(text);
     if (value)
       setup.geometry[name] = *value;
@@ -121,8 +123,7 @@ void set_written(Setup& setup, const std::map<std::string, std::string>& written
 }
 
 void check(const Rig& rig, const Setup& setup) {
-  // All faults at once: who mends one wants to know of the next. The soil's here too: a rig may
-  // compute without a site.
+  // All faults at once, including those of the soil: a rig may compute without a site.
   std::vector<Fault> faults = scene::check_soil(setup.soil);
   for (const Parameter& p : rig.parameters) {
     const double value = setup[p.name];

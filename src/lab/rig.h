@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual soil laboratory: rigs that measure one quantity of the soil, as a geotechnical
-// laboratory does.
+// Virtual soil laboratory: rigs that measure one quantity of the soil, as a geotechnical laboratory
+// does.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include "lab/parameter.h"
 #include "lab/report.h"
 #include "scene/soil.h"
+#include "soil/scheme_constants.h"
 
 namespace navvy::device {
 class Device;
@@ -20,67 +21,82 @@ namespace navvy::lab {
 
 struct Rig;
 
-/// What one experiment is made with. `geometry` holds every parameter of the rig (see
-/// default_setup).
+/// Inputs of one experiment. `geometry` holds every parameter of the rig (see default_setup).
 struct Setup {
-  const Rig* rig = nullptr;  ///< whose parameters these are
+  /// Rig whose parameters these are.
+  const Rig* rig = nullptr;
+  /// Device to run on.
   device::Device* device = nullptr;
+  /// Soil of the experiment.
   scene::Soil soil;
-  double cell = 0.1;                       ///< [m]
-  std::map<std::string, double> geometry;  ///< by Parameter::name
-  /// The report shall tell the soil's energy, which takes time.
+  /// Edge of a cell [m].
+  double cell = 0.1;
+  /// Values by Parameter::name.
+  std::map<std::string, double> geometry;
+  /// Constants of the particle method; defaults unless an experiment changes one.
+  soil::SchemeConstants scheme;
+  /// The report includes the soil's energy account, which takes time.
   bool energy = false;
-  std::function<void(double share)> progress;  ///< called now and then with 0 .. 1; may be empty
+  /// Called now and then with 0 .. 1; may be empty.
+  std::function<void(double share)> progress;
 
-  /// A parameter's value. @throws InputError naming the nearest parameter when the rig has none of
-  /// this name.
+  /// Returns a parameter's value.
+  /// @throws InputError naming the nearest parameter when the rig has none of this name.
   double operator[](const std::string& name) const;
-  /// The same as a whole number, for counts.
+  /// Returns a parameter's value as a whole number, for counts.
   int whole(const std::string& name) const;
-  /// Whether the choice `name` is the one of this word. @throws InputError for a word that is none
-  /// of its choices.
+  /// Returns true if the choice `name` is the one of this word.
+  /// @throws InputError for a word that is none of its choices.
   bool is(const std::string& name, const std::string& word) const;
 };
 
-/// A way of running a rig that is worth a line of its own, mostly one published experiment.
+/// A notable way to run a rig, mostly one published experiment.
 struct Example {
+  /// Description in one line.
   std::string what;
-  std::string arguments;  ///< of `navvy lab RIG`
+  /// Arguments of `navvy lab RIG`.
+  std::string arguments;
 };
 
 /// One apparatus.
 struct Rig {
-  std::string name;     ///< one word, or two joined by '-'
-  std::string summary;  ///< one line
-  /// The rig in words, one paragraph: what stands where, what moves, what is read.
+  /// One word, or two joined by '-'.
+  std::string name;
+  /// One line.
+  std::string summary;
+  /// Description of the rig in one paragraph: arrangement, motion, readings.
   std::string drawing;
   std::vector<Example> examples;
   std::vector<Parameter> parameters;
   scene::Soil default_soil;
-  double default_cell = 0.1;                     ///< [m]
-  Report (*experiment)(const Setup&) = nullptr;  ///< called by `run` after `check`
-  /// Results that tables of many runs show (lab/sweep.h), the drawn one first.
+  /// [m].
+  double default_cell = 0.1;
+  /// Called by `run` after `check`.
+  Report (*experiment)(const Setup&) = nullptr;
+  /// Results that tables of many runs show (lab/sweep.h); the plot shows the first one.
   std::vector<std::string> headline = {};
-  const Parameter* find(const std::string& parameter) const;  ///< null when there is none
+  /// Returns null when there is none.
+  const Parameter* find(const std::string& parameter) const;
 
   /// Checks the setup, then blocks until the experiment is over.
-  /// @throws InputError for a setup that makes no sense, SimulationError when the soil stops
-  /// itself.
+  /// @throws InputError for a setup that makes no sense.
+  /// @throws SimulationError when the soil stops itself.
   Report run(const Setup& setup) const;
 };
 
-/// Every rig, in the order in which a reader meets them.
+/// Returns all rigs, in the order of the documentation.
 const std::vector<Rig>& rigs();
+/// Returns a rig by its name.
 /// @throws InputError naming the nearest rig.
 const Rig& find_rig(const std::string& name);
-/// Default soil, cell and geometry.
+/// Returns a setup with default soil, cell and geometry.
 Setup default_setup(const Rig& rig, device::Device& device);
-/// Sets parameters as a person wrote them: numbers, or the words of choices.
+/// Sets parameters from text: numbers, or the words of choices. Ranges are left to `check`.
 /// @throws InputError with every name that the rig does not have and every text that is no value,
-/// each with the nearest that is. What a number may be is for `check` to say.
+/// each with the nearest that is.
 void set_written(Setup& setup, const std::map<std::string, std::string>& written);
-/// @throws InputError with every parameter outside its range or choices: rig, parameter, value,
-/// rule, and its default.
+/// Checks ranges and choices of all parameters, and the soil.
+/// @throws InputError with every fault: rig, parameter, value, rule, and its default.
 void check(const Rig& rig, const Setup& setup);
 
 }  // namespace navvy::lab

@@ -11,10 +11,10 @@ namespace navvy::lab {
 scene::Soil clean_sand(double phi_degrees) {
   scene::Soil soil;
   soil.name = "sand";
-  // A soil made for experiments, not one that was measured.
+  // A soil for experiments, not a measured one.
   soil.source = "laboratory default";
   soil.bank_density = 1600;
-  // No swell: a bed keeps its volume whatever is done to it, which most closed forms suppose.
+  // No swell: a bed keeps its volume, which most closed forms assume.
   soil.swell = 1;
   soil.friction_angle = radians(phi_degrees);
   soil.cohesion = soil.residual_cohesion = 0;
@@ -25,7 +25,7 @@ scene::Soil clean_sand(double phi_degrees) {
 scene::Soil cohesive(double phi_degrees, double cohesion) {
   scene::Soil soil = clean_sand(phi_degrees);
   soil.name = "cohesive";
-  // Remoulding costs nothing: a failed cut is held against the same strength as a standing one.
+  // Remoulding changes nothing: a failed cut has the strength of a standing one.
   soil.cohesion = soil.residual_cohesion = cohesion;
   return soil;
 }
@@ -36,9 +36,9 @@ scene::Soil without_tool_friction(scene::Soil soil) {
 }
 
 double friction_from_repose(double repose) {
-  // Flowing soil mobilises tau / sigma_n = sin phi on the slope it comes to rest at.
+  // Flowing soil mobilises tau / sigma_n = sin phi on the slope at which it comes to rest.
   const double sine = std::tan(repose);
-  // Beyond 45 degrees no friction alone holds a slope by this rule.
+  // By this rule friction alone holds no slope beyond 45 degrees.
   if (repose > 0 && sine < 1) return std::asin(sine);
   throw InputError(Fault{Fault::Severity::kError, "", 0, "repose",
                          std::to_string(degrees(repose)) + " deg", "above 0 and below 45 degrees",

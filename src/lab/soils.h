@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soils that rigs start from when the user names none.
+// Default soils of rigs.
 #pragma once
 
 #include "scene/soil.h"
 
 namespace navvy::lab {
 
-/// Dry sand without cohesion and without swell: 1600 kg/m3, E 1 MPa, tool friction 20 degrees. phi
+/// Returns dry sand without cohesion and swell: 1600 kg/m3, E 1 MPa, tool friction 20 degrees. phi
 /// in degrees.
 scene::Soil clean_sand(double phi_degrees);
-/// The same with cohesion that does not fall with remoulding [Pa].
+/// Returns the same soil with a cohesion [Pa] that remoulding does not reduce.
 scene::Soil cohesive(double phi_degrees, double cohesion);
-/// The same soil against smooth walls: no friction and no adhesion on tools, for the side plates of
-/// plane-strain rigs.
+/// Returns the soil against smooth walls, without friction and adhesion on tools, for the side
+/// plates of plane-strain rigs.
 scene::Soil without_tool_friction(scene::Soil soil);
-/// Plane-strain friction angle of a soil of which only the angle of repose is known, both [rad]:
-/// flowing soil mobilises tau / sigma_n = sin phi, so sin phi = tan repose. @throws InputError
-/// above 45 degrees.
+/// Returns the plane-strain friction angle of a soil of which only the angle of repose is known,
+/// both [rad]. Flowing soil mobilises tau / sigma_n = sin phi, so sin phi = tan repose.
+/// @throws InputError above 45 degrees.
 double friction_from_repose(double repose);
 
-/// Whether remoulding takes cohesion away. No formula for a constant cohesion speaks of such a
-/// soil.
+/// Returns true if remoulding reduces the cohesion. Formulas for a constant cohesion do not apply
+/// to such a soil.
 bool softens(const scene::Soil& soil);
 
 }  // namespace navvy::lab

@@ -13,14 +13,14 @@
 namespace navvy::lab {
 namespace {
 
-// The frame inside the picture; the legend stands right of it.
+// Frame inside the picture; the legend is to its right.
 constexpr double kWidth = 760, kHeight = 480, kLeft = 80, kRight = 540, kTop = 46, kBottom = 420;
 
-/// Told apart by those who see no red or green too.
+/// Colours that remain distinct with red-green deficiency.
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#000000", "#7f7f7f"};
 
-/// An axis from `low` to `high`, drawn from `from` to `to`.
+/// Axis of the values `low` to `high`, drawn from `from` to `to`.
 struct Axis {
   double low = 0, high = 1, from = 0, to = 1;
   bool logarithmic = false;
@@ -38,7 +38,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// A tenth of a unit is finer than anybody sees.
+/// A tenth of a unit is finer than visible.
 std::string at(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1f", value);
@@ -60,7 +60,7 @@ bool drawn(const PlotLine& l, std::size_t i) {
   return std::isfinite(l.x[i]) && std::isfinite(l.y[i]);
 }
 
-/// All abscissae once, in order.
+/// Returns all abscissae once, in order.
 std::set<double> abscissae(const Plot& plot) {
   std::set<double> out;
   for (const PlotLine& l : plot.lines)
@@ -74,7 +74,7 @@ Axis x_axis(const std::set<double>& values) {
   if (values.empty()) return out;
   out.low = *values.begin(), out.high = *values.rbegin();
   out.logarithmic = out.low > 0 && out.high > 5 * out.low;
-  // One value alone stands in the middle.
+  // A single value is drawn in the middle.
   if (!(out.high > out.low)) out.low -= 1, out.high += 1;
   return out;
 }
@@ -89,13 +89,13 @@ Axis y_axis(const Plot& plot) {
   for (const double v : plot.expected) take(v);
   for (const auto& [from, to] : plot.tolerances) take(from), take(to);
   if (!(low <= high)) low = 0, high = 1;
-  // Zero is a good beginning where the values are not crowded far from it.
+  // The axis starts at zero unless the values are far from it.
   if (low > 0 && low < 0.4 * high) low = 0;
   const double margin = high > low ? 0.08 * (high - low) : std::max(1e-9, 0.1 * std::abs(high));
   return {low == 0 ? 0 : low - margin, high + margin, kBottom, kTop, false};
 }
 
-/// One mark a line, so that a print in grey can be read too.
+/// One marker shape per line, so that a grey print is readable, too.
 std::string mark(double x, double y, std::size_t index, const std::string& fill) {
   if (index % 2 == 0)
     return "<circle cx=\"" + at(x) + "\" cy=\"" + at(y) + "\" r=\"4\" " + fill + "/>\n";
@@ -109,7 +109,7 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y, const std::set
     out += line(kLeft, y.at(tick), kRight, y.at(tick), "stroke=\"#dddddd\"");
     out += text(kLeft - 8, y.at(tick) + 4, "end", short_text(tick));
   }
-  // The values themselves where they are few: they are what was asked for.
+  // Few values label the axis themselves.
   const bool few = values.size() <= 8;
   const std::vector<double> ticks =
       few ? std::vector<double>(values.begin(), values.end()) : round_ticks(x.low, x.high, 6);
@@ -136,9 +136,10 @@ std::vector<double> round_ticks(double low, double high, int count) {
                                : rough > power     ? 2
                                                    : 1);
   std::vector<double> out;
-  // By whole numbers of steps: a sum would drift, and zero would not be zero.
+  // In whole numbers of steps: a sum would drift and miss zero.
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1)
-    out.push_back(i == 0 ? 0 : i * step);  // not -0
+    // Avoids -0.
+    out.push_back(i == 0 ? 0 : i * step);
   return out;
 }
 

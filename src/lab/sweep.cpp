@@ -14,14 +14,14 @@ std::string heading(const std::string& name, const std::string& unit) {
   return name + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-/// The axis of the picture: the first that varies.
+/// Returns the axis of the plot: the first that varies.
 std::size_t drawn_axis(const Sweep& sweep) {
   for (std::size_t i = 0; i < sweep.axes.size(); ++i)
     if (sweep.axes[i].values.size() > 1) return i;
   return 0;
 }
 
-/// What a line of the picture is called: where its runs stand on the other axes that vary.
+/// Returns the name of a line of the plot: the values of its runs on the other varied axes.
 std::string line_name(const Sweep& sweep, const SweepRun& run, std::size_t drawn) {
   std::string out;
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
@@ -31,7 +31,7 @@ std::string line_name(const Sweep& sweep, const SweepRun& run, std::size_t drawn
   return out.empty() ? "measured" : out;
 }
 
-/// Whether all values are one.
+/// Returns true if all values are equal.
 bool same(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
 }
@@ -72,7 +72,7 @@ std::vector<std::string> shown_results(const Rig& rig, const Report& report) {
   std::vector<std::string> out;
   for (const std::string& name : rig.headline)
     if (report.find(name) != nullptr) out.push_back(name);
-  // A rig without a headline is told by what it measures first.
+  // A rig without a headline shows its first result.
   if (out.empty() && !report.results.empty()) out.push_back(report.results.front().name);
   return out;
 }
@@ -123,7 +123,8 @@ Plot plot_of(const Rig& rig, const Sweep& sweep) {
   const std::string name = shown_results(rig, sweep.runs.front().report).front();
   out.x_label = heading(sweep.axes[drawn].name, sweep.axes[drawn].unit);
   out.y_label = heading(name, sweep.runs.front().report.find(name)->unit);
-  std::map<std::string, std::size_t> lines;  // by name, in the order of the runs
+  // By name, in the order of the runs.
+  std::map<std::string, std::size_t> lines;
   std::vector<double> expected, low, high;
   for (const SweepRun& run : sweep.runs) {
     const Quantity* q = run.report.find(name);
@@ -135,7 +136,7 @@ Plot plot_of(const Rig& rig, const Sweep& sweep) {
     out.lines[found->second].y.push_back(q->measured);
     expected.push_back(q->expected), low.push_back(q->low), high.push_back(q->high);
   }
-  // NaN is not equal to itself: what none has is not drawn.
+  // NaN is not equal to itself: a value that no run has is not drawn.
   if (same(expected)) out.expected.push_back(expected.front());
   if (same(low) && same(high)) out.tolerances.emplace_back(low.front(), high.front());
   return out;

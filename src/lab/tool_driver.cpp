@@ -13,17 +13,17 @@ const Pose& ToolDriver::pose() const { return site_->tool(tool_).motion.X_WT; }
 void ToolDriver::set_twist(const Vec3& v_W, const Vec3& w_W) {
   site_->tool(tool_).motion.v_WT = v_W;
   site_->tool(tool_).motion.w_WT = w_W;
-  // Shells of one rig have one frame.
+  // Shells of one rig share one frame.
   for (const int other : carried_)
     site_->tool(other).motion.v_WT = v_W, site_->tool(other).motion.w_WT = w_W;
 }
 
 void ToolDriver::step(double dt) {
   const Vec3 before = pose().translation();
-  // Every tool of the site moves; this driver books its own.
+  // Every tool of the site moves; this driver records its own.
   site_->step(dt);
   const soil::ToolImpulse& impulse = site_->tool(tool_).impulse;
-  // Length of the way of the frame's origin, whatever direction it takes.
+  // Length of the path of the frame's origin, in any direction.
   travelled_ += (pose().translation() - before).norm();
   trace_.time.push_back(site_->time());
   trace_.travel.push_back(travelled_);
@@ -32,7 +32,7 @@ void ToolDriver::step(double dt) {
 }
 
 Vec3 ToolDriver::run(double seconds, double dt) {
-  // At the speed set before the stretch.
+  // At the speed set before.
   double limit = site_->step_limit();
   if (dt > 0) limit = std::min(limit, dt);
   // Equal steps, so that the plain mean over entries is the mean over time.
@@ -40,14 +40,14 @@ Vec3 ToolDriver::run(double seconds, double dt) {
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < steps; ++i) {
     step(seconds / steps);
-    // Impulses over the time are the mean force: nothing is lost between two stretches.
+    // Impulses over time are the mean force: nothing is lost between two intervals.
     sum += site_->tool(tool_).impulse.J_W;
   }
   return sum / seconds;
 }
 
 Vec3 ToolDriver::advance(double distance, const Vec3& v_W, double dt) {
-  // The origin moves straight; a turning tool is driven by set_twist and run.
+  // The origin moves straight; use set_twist and run for a turning tool.
   set_twist(v_W);
   return run(distance / v_W.norm(), dt);
 }
@@ -55,13 +55,13 @@ Vec3 ToolDriver::advance(double distance, const Vec3& v_W, double dt) {
 Vec3 ToolDriver::start(double distance, const Vec3& v_W, double ramp) {
   const double speed = v_W.norm(), rise = std::min(ramp, distance);
   if (!(rise > 0)) return advance(distance, v_W);
-  // The stable step of the full speed serves the slower ones too.
+  // The stable step of the full speed is valid for lower speeds, too.
   set_twist(v_W);
   const double limit = site_->step_limit(), seconds = 2 * rise / speed;
   const int steps = std::max(1, static_cast<int>(std::ceil(seconds / limit - 1e-9)));
   Vec3 impulse = Vec3::Zero();
   for (int i = 0; i < steps; ++i) {
-    // The speed of the step's middle: the path is then exactly that of even acceleration.
+    // The speed at mid-step: the path is then exactly that of constant acceleration.
     set_twist((i + 0.5) / steps * v_W);
     step(seconds / steps);
     impulse += trace_.force.back() * seconds / steps;
@@ -74,18 +74,18 @@ Vec3 ToolDriver::start(double distance, const Vec3& v_W, double ramp) {
 void ToolDriver::write(Report& report, double cutoff, const std::string& prefix) const {
   report.series.push_back({prefix + "time", "s", trace_.time});
   report.series.push_back({prefix + "travel", "m", trace_.travel});
-  // Components in W; a tool that turns is still read in the world's axes.
+  // Components in W, also for a tool that turns.
   const char* const names[] = {"force_x", "force_y", "force_z"};
   for (int a = 0; a < 3; ++a) {
     std::vector<double> values;
     for (const Vec3& force : trace_.force) values.push_back(force[a]);
-    // Only what is written is smoothed; results are means of the raw forces.
+    // Only the written series is smoothed; results are means of the raw forces.
     if (cutoff > 0) values = low_pass(trace_.time, values, cutoff);
     report.series.push_back({prefix + names[a], "N", std::move(values)});
   }
 }
 
-// By travel, not by time: windows of experiments are given along the way.
+// By travel, not by time: windows of experiments are given along the path.
 Vec3 mean_force(const Trace& trace, double from, double to) {
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -99,7 +99,7 @@ Vec3 mean_force(const Trace& trace, double from, double to) {
 }
 
 Vec3 force_scatter(const Trace& trace, double from, double to) {
-  // Two passes: the mean is a hundred times the scatter at times.
+  // Two passes: the mean may be a hundred times the scatter.
   const Vec3 mean = mean_force(trace, from, to);
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -119,7 +119,7 @@ std::vector<double> low_pass(const std::vector<double>& time, const std::vector<
     const double step = 2 * kPi * cutoff * std::abs(time[to] - time[from]);
     out[to] = out[from] + (out[to] - out[from]) * step / (1 + step);
   };
-  // Forth and back: the lags cancel.
+  // Forward and backward: the lags cancel.
   for (std::size_t i = 1; i < out.size(); ++i) follow(i, i - 1);
   for (std::size_t i = out.size(); i-- > 1;) follow(i - 1, i);
   return out;

@@ -321,8 +321,8 @@ json ControlRequests::info() const {
             {"cell_m", ground.cell()},
             {"nx", ground.nx()},
             {"ny", ground.ny()}}},
-          {"inputs", units(world.inputs())},
-          {"outputs", units(world.outputs())},
+          {"inputs", units(world.inputs().channels())},
+          {"outputs", units(world.outputs().channels())},
           {"arrays", arrays},
           {"layers", layers},
           {"cameras", cameras}};

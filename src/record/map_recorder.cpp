@@ -38,8 +38,8 @@ formats::ros::BodyState body_of(const sim::MachineHandle& machine, int link) {
 /// Returns the state of every machine of a world.
 std::vector<formats::ros::MachineState> machine_states(const sim::World& world) {
   std::vector<formats::ros::MachineState> out;
-  for (int m = 0; m < world.machine_count(); ++m) {
-    const sim::MachineHandle machine = world.machine(m);
+  for (int m = 0; m < world.machines().count(); ++m) {
+    const sim::MachineHandle machine = world.machines().at(m);
     formats::ros::MachineState& state = out.emplace_back();
     state.name = machine.name();
     for (int i = 0; i < static_cast<int>(machine.description().links.size()); ++i)

@@ -276,4 +276,9 @@ render::Image Recorder::draw(const std::string& camera) {
 std::string Recorder::summary(bool with_hash) const { return state_->summary(with_hash); }
 const RunStatus& Recorder::status() const { return state_->status; }
 
+double wall_time_left(double simulated, double real_time_factor) {
+  // The last step may end a rounding error after the duration; "-0 s left" would be printed then.
+  return real_time_factor > 0 && simulated > 0 ? simulated / real_time_factor : 0;
+}
+
 }  // namespace navvy::record

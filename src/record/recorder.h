@@ -32,6 +32,10 @@ struct Options {
   std::vector<std::string> command;
 };
 
+/// Returns the wall time [s] that `simulated` more seconds take at `real_time_factor`. The result
+/// is never negative, and 0 while the factor is still unknown (0).
+double wall_time_left(double simulated, double real_time_factor);
+
 /// Records a session into a folder.
 ///
 /// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and

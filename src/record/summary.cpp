@@ -85,15 +85,16 @@ json tip_list(const session::Session& session) {
 json carried(const session::Session& session) {
   json out = json::object();
   // Blades and plates carry no payload.
-  for (const sim::ToolHandle& tool : session.world().tools())
+  for (const sim::ToolHandle& tool : session.world().machines().tools())
     if (tool.is_bucket() || tool.is_bed())
-      out[session.world().machine(tool.machine()).name() + "/" + tool.name()] = tool.payload();
+      out[session.world().machines().at(tool.machine()).name() + "/" + tool.name()] =
+          tool.payload();
   return out;
 }
 
 /// Returns the mass ledger. Its error is an exact integer; kilograms are for people.
 json ledger(const session::Session& session, const sim::ActivePlaces& active) {
-  const sim::MassLedger sums = session.world().mass_ledger();
+  const sim::MassLedger sums = session.world().soil().mass_ledger();
   json soils = json::array();
   // One entry per soil, with its name in the scene.
   for (std::size_t i = 0; i < sums.columns.size(); ++i)
@@ -128,13 +129,14 @@ json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
 
 }  // namespace
 
-/// The keys are an interface (scenarios/README.md lists them): they may be added and never renamed.
+/// The keys are an interface (docs/reference/results.md lists them): they may be added and never
+/// renamed.
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
   // One pass over the particles serves all that follows.
   const sim::ActivePlaces active = sim::active_places(world);
   const Earthwork earth = measure_earthwork(world, active.lying);
-  const sim::SoilCounts counts = world.soil_counts();
+  const sim::SoilCounts counts = world.soil().counts();
   json out;
   // Scene, status and speed.
   out["schema_version"] = kSummarySchemaVersion;
@@ -153,7 +155,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["real_time_factor"] =
       status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
-  for (const auto& [stage, seconds] : world.soil_stage_times())
+  for (const auto& [stage, seconds] : world.soil().stage_times())
     out["soil_stage_s"][stage] = seconds;
   // Results of the programs.
   out["programs"] = program_list(session, status.status);
@@ -177,7 +179,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   // Sum over all machines.
   out["energy_j"] = session.energy();
   // Energy account of the active soil, if it was opened.
-  if (const auto energy = world.soil_energy()) out["soil_energy_j"] = soil_energy(*energy, nullptr);
+  if (const auto energy = world.soil().energy())
+    out["soil_energy_j"] = soil_energy(*energy, nullptr);
   // Forces are evaluated in every step, not at the rate of telemetry.
   out["bucket_force_peak_n"] = session.force().peak;
   out["bucket_draft_peak_n"] = session.force().draft_peak;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// summary.json: what a run came to. Its keys are an interface, documented in scenarios/README.md.
+// summary.json: what a run came to. Its keys are an interface, documented in
+// docs/reference/results.md.
 #pragma once
 
 #include <string>

@@ -37,12 +37,13 @@ std::string time_stamp(double time) {
 void Telemetry::sample() {
   const auto& world = session_.world();
   // The first channel is time.
-  row_ = time_stamp(world.get(0));
+  row_ = time_stamp(world.outputs().get(0));
   // Seven digits resolve some hundred metres to 0.1 mm.
   char number[32];
   // snprintf instead of a stream, as formatting is most of the cost of a row.
   for (std::size_t i = 1; i < channels_; ++i) {
-    const int n = std::snprintf(number, sizeof number, ",%.7g", world.get(static_cast<int>(i)));
+    const int n =
+        std::snprintf(number, sizeof number, ",%.7g", world.outputs().get(static_cast<int>(i)));
     row_.append(number, static_cast<std::size_t>(n));
   }
   for (std::size_t m = 0; m < world.description().machines.size(); ++m)

@@ -18,7 +18,7 @@ void write_terrain(const sim::World& world, const std::string& path) {
   std::vector<heightfield::MapBand> more;
   // Beside the heights, where not all of the soil rests.
   const map::LayerInfo& loose = map::info(map::MapLayer::kLooseDepth);
-  if (world.soil_counts().particles > 0)
+  if (world.soil().counts().particles > 0)
     more.push_back({loose.name, loose.unit, [&](int y0, int y1, std::vector<float>& out) {
                       out = map::layer_values(view, loose.layer, {0, y0, view.nx(), y1});
                     }});

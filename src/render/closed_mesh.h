@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells bodies whose inner sides are never seen.
+// Detects closed bodies, whose inner sides are never visible.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace navvy::render {
 
-/// Whether faces enclose space piece by piece, each piece turned outwards: every edge is walked as
-/// often one way as the other and every connected piece has positive volume. Points at one place
-/// count as one. `indices` as Coin wants them: point numbers, -1 after each face. Costs the edges,
-/// times the logarithm of their number; asked once a body.
+/// Returns true when the faces enclose space piece by piece, each piece oriented outwards: every
+/// edge is used equally often in both directions, and every connected piece has positive volume.
+/// Coincident points count as one. `indices` are in Coin's form: point numbers, -1 after each face.
+/// Costs O(n log n) in the number of edges; called once per body.
 bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>& indices);
 
 }  // namespace navvy::render

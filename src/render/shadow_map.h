@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sun's view of machines and falling soil: which light rays they hold up, and how near the sun.
+// The view of the sun: which light rays machines and falling soil intercept, and at what depth.
 #pragma once
 
 #include <vector>
@@ -8,49 +8,48 @@
 
 namespace navvy::render {
 
-/// A square of texels across the sun's rays. `mask` (255 = lit) is laid over the ground as a
-/// texture along the rays; points in the air ask `sun_at`, which compares depths. One map for a
-/// picture: casters inside a box share its texels, so a machine far from the others makes them
-/// coarse.
+/// A square of texels across the sun's rays. `mask` (255 = lit) is projected on the ground as a
+/// texture; points in the air ask `sun_at`, which compares depths. One map per picture: casters
+/// share its texels, so a machine far from the others makes them coarse.
 class ShadowMap {
  public:
   /// Texels along an edge.
   static constexpr int kSize = 512;
 
-  /// Starts anew for casters inside the box `low`..`high` of W. The box should hold all casters, or
-  /// their shadows end at it.
+  /// Starts a new map for casters inside the box `low`..`high` of W. Shadows of casters outside it
+  /// are cut off.
   void begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high);
-  /// Of a solid body only the triangles that face the sun count.
+  /// Adds a triangle. Of a solid body only triangles that face the sun count.
   void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool solid);
-  /// A round particle, as a square of its width.
+  /// Adds a round particle as a square of its width.
   void add_point(const Vec3f& p, float radius);
-  /// Makes the mask, its edge softened. Without it the mask is that of the map before.
+  /// Computes the mask with a soft edge. Until then the mask is that of the previous map.
   void finish();
 
-  /// True when nothing was added since `begin`; then everything is lit.
+  /// Returns true when nothing was added since `begin`; everything is lit then.
   bool empty() const { return !used_; }
-  /// Changes with every new mask.
+  /// Number that changes with every new mask.
   std::uint64_t version() const { return version_; }
-  /// Whether the shadow may fall on anything inside a box (never false where it does).
+  /// Returns false only when the shadow cannot fall on anything inside a box.
   bool reaches(const Vec3f& low, const Vec3f& high) const;
   const std::vector<std::uint8_t>& mask() const { return mask_; }
-  /// Texture coordinate = dot(plane.head<3>(), p) + plane.w. The coordinate runs from 0 to 1 over
-  /// the map.
+  /// Texture coordinates = dot(plane.head<3>(), p) + plane.w, 0 to 1 over the map.
   const Eigen::Vector4f& plane_s() const { return plane_s_; }
   const Eigen::Vector4f& plane_t() const { return plane_t_; }
-  /// Share of the sun (0..1) at p, behind nothing nearer the sun than `bias` [m]. Beyond the map it
-  /// is 1.
+  /// Returns the share of the sun (0..1) at p, ignoring casters less than `bias` [m] nearer the
+  /// sun. 1 beyond the map.
   float sun_at(const Vec3f& p, float bias) const;
 
  private:
-  // Place of p on the map in texels, and its height along the sun's direction [m].
+  // Returns p's position on the map in texels, and its height along the sun's direction [m].
   Vec3f project(const Vec3f& p) const;
 
   bool used_ = false;
   std::uint64_t version_ = 0;
   Vec3f to_sun_ = Vec3f::UnitZ();
   Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
-  std::vector<float> nearest_;  ///< largest height along the sun's direction, per texel
+  // Largest height along the sun's direction, per texel [m].
+  std::vector<float> nearest_;
   std::vector<std::uint8_t> mask_, blur_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera as numbers: where it stands, what it can see, how large a metre is in its picture.
+// A camera as numbers: its pose, its field of view, and the size of a metre in its picture.
 #pragma once
 
 #include <array>
@@ -9,27 +9,33 @@
 
 namespace navvy::render {
 
-/// Perspective view of one FrameCamera with square pixels. Made from a camera for one picture;
-/// everything that depends on the camera alone is worked out here, once.
+/// Perspective view of one FrameCamera with square pixels. Built for one picture; everything that
+/// depends on the camera alone is computed here, once.
 struct View {
-  // The depth buffer's digits are shared out between the two, so the nearer one is as far as a
-  // close look allows.
-  static constexpr double kNear = 0.12, kFar = 1500;  ///< clipping distances [m]
+  /// Clipping distances [m]. They share the depth buffer's precision, so the near one is as large
+  /// as a close view permits.
+  static constexpr double kNear = 0.12, kFar = 1500;
 
+  /// Computes the view of a camera.
   explicit View(const scene::FrameCamera& camera);
 
-  /// True when the box may be visible (never false for a visible one). Five planes are asked: the
-  /// four sides and the eye's; what lies beyond the far distance counts as seen.
+  /// Returns false only when a box cannot be visible. Tests five planes: the four sides and the
+  /// eye's; boxes beyond the far distance count as visible.
   bool sees(const Vec3f& low, const Vec3f& high) const;
 
-  // In W [m].
+  // Position in W [m].
   Vec3f eye;
-  Mat3 rotation;            ///< axes of the camera in W: right, up, back
-  float pixels_per_radian;  ///< at the picture's centre
-  double tan_x, tan_y;      ///< half the picture at distance 1
+  /// Axes of the camera in W: right, up, back.
+  Mat3 rotation;
+  /// Resolution at the picture's centre.
+  float pixels_per_radian;
+  /// Half the picture's size at distance 1.
+  double tan_x, tan_y;
   int width, height;
-  std::array<double, 16> projection, model_view;  ///< column-major, as OpenGL wants
-  std::array<Eigen::Vector4f, 5> planes;          ///< inside is positive: four sides and behind
+  /// Column-major matrices for OpenGL.
+  std::array<double, 16> projection, model_view;
+  /// Planes of four sides and of the eye; positive inside.
+  std::array<Eigen::Vector4f, 5> planes;
 };
 
 }  // namespace navvy::render

@@ -80,8 +80,8 @@ struct Simulation::State {
 
 /// Builds a session. Samplers are added before any state is loaded, as a state contains theirs.
 std::unique_ptr<session::Session> Simulation::State::make_session(scene::Scene scene) const {
-  auto out =
-      std::make_unique<session::Session>(std::move(scene), *device, planner::path_planners());
+  auto out = std::make_unique<session::Session>(std::move(scene), *device, planner::path_planners(),
+                                                options.make_engine);
   if (options.set_up) options.set_up(*out);
   return out;
 }
@@ -319,12 +319,14 @@ void Simulation::load(const std::string& path, bool anyway) {
 
 std::uint64_t Simulation::replacements() const { return state_->replacements; }
 
-const std::vector<sim::Channel>& Simulation::inputs() const { return world().inputs(); }
-const std::vector<sim::Channel>& Simulation::outputs() const { return world().outputs(); }
-int Simulation::input(const std::string& name) const { return world().input(name); }
-int Simulation::output(const std::string& name) const { return world().output(name); }
+const std::vector<sim::Channel>& Simulation::inputs() const { return world().inputs().channels(); }
+const std::vector<sim::Channel>& Simulation::outputs() const {
+  return world().outputs().channels();
+}
+int Simulation::input(const std::string& name) const { return world().inputs().index(name); }
+int Simulation::output(const std::string& name) const { return world().outputs().index(name); }
 void Simulation::set(int input, double value) { state_->session->set(input, value); }
-double Simulation::get(int output) const { return world().get(output); }
+double Simulation::get(int output) const { return world().outputs().get(output); }
 const sim::ArrayOutputs& Simulation::arrays() const { return world().arrays(); }
 
 void Simulation::watch(const std::string& link) {
@@ -361,7 +363,7 @@ RunProgress Simulation::progress() const {
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
   if (out.real_time_factor > 0)
     out.remaining = std::max(0.0, (out.duration - out.time) / out.real_time_factor);
-  out.particles = s.world().soil_counts().particles;
+  out.particles = s.world().soil().counts().particles;
   out.cycles = static_cast<int>(s.session->cycles().size());
   out.pictures = s.recorder ? s.recorder->status().frames : 0;
   out.phase = s.world().description().machines.empty() ? "" : s.session->phase(0);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "vehicle/physics_engine_factory.h"
+
 namespace navvy::device {
 class Device;
 }
@@ -25,6 +27,9 @@ struct SimulationOptions {
   std::string device;
   /// Device to use in place of `device`, for several simulations in one process.
   std::shared_ptr<device::Device> shared_device;
+
+  /// Makes the physics engine of the machines, as for sim::World. Empty: the built-in ones.
+  vehicle::PhysicsEngineFactory make_engine;
 
   // Values that replace those of the scene.
   std::optional<double> duration;        ///< maximum simulated time [s]

@@ -43,4 +43,17 @@ bool turns_freely(const LinkageDrive& drive) {
   return true;
 }
 
+void describe_drive(Fields& f, Drive& drive) {
+  // Every alternative of the variant by its name, the default first.
+  static const std::vector<Drive> kinds = {AckermannDrive(), DifferentialDrive(), LinkageDrive()};
+  Types types{"type", "Kind of the drive.", {}, drive.index(), {}, {}};
+  for (const Drive& kind : kinds) types.names.push_back(drive_name(kind));
+  types.choose = [&drive](std::size_t i) { drive = kinds.at(i); };
+  types.describe = [&drive](std::size_t i, Fields& inner) {
+    Drive fresh = kinds.at(i);
+    std::visit([&inner](auto& kind) { kind.describe(inner); }, i == drive.index() ? drive : fresh);
+  };
+  f.types(types);
+}
+
 }  // namespace navvy::scene

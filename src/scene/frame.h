@@ -47,8 +47,8 @@ struct FrameGround {
   // Linear RGB by soil number, for ground and particles alike.
   std::vector<Color> soil_color;
   std::uint64_t revision = 0;  ///< changes whenever any height changed
-  /// Hold all that changed since the frame of the last revision; may overlap.
-  std::vector<FrameRect> changed;
+  std::vector<FrameRect>
+      changed;  ///< hold all that changed since the frame of the last revision; may overlap
 };
 
 /// Loose soil: one entry a particle, all arrays in one order. Positions are floats about `origin`,
@@ -57,11 +57,11 @@ struct FrameParticles {
   std::vector<float> position;  ///< xyz in W [m], relative to `origin`
   Vec3 origin = Vec3::Zero();
   std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
-  /// Unique for life, so that a lump keeps its looks; empty: the place in the list.
-  std::vector<std::uint32_t> id;
+  std::vector<std::uint32_t>
+      id;  ///< unique for life, so that a lump keeps its looks; empty: the place in the list
   double radius = 0.04;  ///< [m]
-  /// To the closest plate [m], so that no lump sticks out through it; empty: no plates.
-  std::vector<float> room;
+  std::vector<float>
+      room;  ///< to the closest plate [m], so that no lump sticks out through it; empty: no plates
 };
 
 /// All that a renderer needs of one instant. Filled anew for each picture; filling and drawing need

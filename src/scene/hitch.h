@@ -1,26 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// What couples two machines of a world.
+// Coupling of two machines of a world.
 #pragma once
 
 #include <string>
 
-#include "core/math.h"
+#include "scene/fields.h"
 
 namespace navvy::scene {
 
-/// A ball joint between two machines that can be opened and closed: the eye of the one in the hook
-/// of the other. A joint inside of a machine's file stays.
+/// A ball joint between two machines that can be opened and closed: the eye of the child in the
+/// hook of the parent. A joint inside of a machine's file cannot be opened.
 struct Hitch {
   std::string name;
-  // Machines by their index in the scene, links by theirs in the machine.
-  int parent = 0, child = 0;
-  int parent_link = 0, child_link = 0;
+  std::string parent_name, child_name;           ///< MACHINE::LINK as the file writes it
+  int parent = 0, child = 0;                     ///< indices of machines in the scene
+  int parent_link = 0, child_link = 0;           ///< indices of links in their machines
   Vec3 hook = Vec3::Zero(), eye = Vec3::Zero();  ///< in the parent's and the child's link [m]
-  /// How far [rad] the x axes of both links may lean from each other, and the child turn about them
-  /// either way.
-  double cone = kPi, twist = kPi;
-  bool closed = true;  ///< at the start
-  int line = 0;        ///< of the scene's file, for messages
+  double cone = kPi, twist = kPi;                ///< [rad]; pi: free
+  bool closed = true;
+  int line = 0;  ///< in the scene's file, for messages
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the hitch; its input is CHILD/NAME/closed.", kNeeded);
+    f("parent", parent_name, "Link with the hook, as MACHINE::LINK; of a dynamic machine.",
+      kNeeded | kShown);
+    f("child", child_name, "Link with the eye, as MACHINE::LINK; of another dynamic machine.",
+      kNeeded | kShown);
+    f("hook_m", hook, "Hook in the frame of the parent link.", kNeeded);
+    f("eye_m", eye,
+      "Eye in the frame of the child link; at most 0.1 m from the hook if the hitch starts closed.",
+      kNeeded);
+    f("cone_deg", cone, {0.1, 180}, "Largest angle between the x axes of both links.");
+    f("twist_deg", twist, {0.1, 180}, "Largest turn of the child about its x axis, either way.");
+    f("closed", closed, "State at the start.");
+    f.derived("parent_machine", parent);
+    f.derived("child_machine", child);
+    f.derived("parent_link", parent_link);
+    f.derived("child_link", child_link);
+  }
 };
 
 }  // namespace navvy::scene

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
+#include "core/hash.h"
+
 namespace navvy::scene {
 namespace {
 
-// Buckets and beds name their shells; a shell that neither names holds nothing that counts as a
-// load.
+// A shell that no bucket or bed names holds nothing that counts as a load.
 template <class Container>
 bool names_shell(const std::vector<Container>& containers, const Shell& shell) {
   return std::any_of(containers.begin(), containers.end(),
@@ -15,6 +16,13 @@ bool names_shell(const std::vector<Container>& containers, const Shell& shell) {
 }
 
 }  // namespace
+
+std::string Shell::surface_hash() const {
+  StateHash sum;
+  for (const Vec3& vertex : vertices) sum.bytes(vertex.data(), sizeof vertex);
+  for (const auto& triangle : triangles) sum.bytes(triangle.data(), sizeof triangle);
+  return sum.hex();
+}
 
 int Machine::link_index(const std::string& name_of_link) const {
   for (std::size_t i = 0; i < links.size(); ++i)

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // A machine as data: links, joints, hydraulics, drive train, tyres and the shells that touch soil.
-// Frames: M machine (x forward, y left, z up, at the ground under the rear axle or as its SDF
-// says), L link, J joint.
+// Frames: M machine (x forward, y left, z up, origin as its SDF says), L link, J joint. All values
+// are in SI units, angles in radians; `describe` documents what a file gives.
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/limits.h"
 #include "core/math.h"
 #include "geometry/triangle_mesh.h"
 #include "scene/drive.h"
+#include "scene/fields.h"
 #include "scene/material.h"
 
 namespace navvy::scene {
@@ -21,35 +24,65 @@ struct Color {
   float r = 0.7f, g = 0.7f, b = 0.7f, a = 1.0f;
 };
 
-/// A shape about its own origin. Members that its kind does not use are ignored; lengths in metres.
+/// A shape about its own origin, lengths in metres. A kind ignores the members it does not use.
 struct Geometry {
   enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane, kCone, kCapsule };
   Kind kind = Kind::kBox;
-  Vec3 size = Vec3::Ones();  ///< box edges [m]; plane: x, y
-  double radius = 0.5;       ///< cylinder, capsule (axis z), sphere, a cone's foot [m]
-  /// Cylinder, cone (tip at +z); capsule: between the middles of its caps [m].
-  double length = 1.0;
-  std::string mesh_file;  ///< absolute path of an OBJ file
-  // For meshes: factors along the file's axes.
-  Vec3 scale = Vec3::Ones();
+  Vec3 size = Vec3::Ones();   ///< edges of a box; x and y of a plane
+  double radius = 0.5;        ///< of a cylinder, capsule (axis z) or sphere, or a cone's foot
+  double length = 1.0;        ///< of a cylinder or cone (tip at +z); of a capsule without its caps
+  std::string mesh_file;      ///< absolute path of an OBJ file
+  Vec3 scale = Vec3::Ones();  ///< factors along the axes of a mesh file
+
+  void describe(Fields& f) {
+    f.derived_kind("kind", kind);
+    f.derived("size", size);
+    f.derived("radius", radius);
+    f.derived("length", length);
+    // The folder of a mesh depends on the installation.
+    f.derived_text("mesh", [this] { return std::filesystem::path(mesh_file).filename().string(); });
+    f.derived("scale", scale);
+  }
 };
 
-/// What a link looks like. V is the visual's frame; nothing here touches anything.
+/// Documentation and range of the density that links and shapes may have.
+inline void describe_density(Fields& f, double& density) {
+  f("navvy:density_kg_per_m3", density, {1, 25000},
+    "Density of the link or shape, from which mass, centre and inertia follow without <inertial>. "
+    "Collision shapes count, visuals where there are none; each is solid and counted whole.",
+    kShown);
+}
+
+/// Appearance of a link. V is the frame of the visual.
 struct Visual {
   std::string name;
   Geometry geometry;
   Pose X_LV = Pose::Identity();
   Color color;
+  double density = 0;  ///< [kg/m3]; 0: not given
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the visual.");
+    describe_density(f, density);
+  }
 };
 
-/// What a link touches rigid bodies with. Soil is touched by shells instead, so a bucket has both.
+/// Contact shape of a link against rigid bodies. Soil touches shells instead, so a bucket has both.
 struct Collision {
   std::string name;
   Geometry geometry;
   Pose X_LC = Pose::Identity();
-  // Coulomb coefficient of this surface [-]; how two that touch combine is the engine's rule.
-  double friction = 0.8;
-  bool derived = false;  ///< from a visual, as the machine's file gave no collision
+  double friction = 0.8;  ///< Coulomb coefficient [-]; the physics engine combines those of a pair
+  bool derived = false;   ///< made from a visual, as the machine's file gave no collision
+  double density = 0;     ///< [kg/m3]; 0: not given
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the collision.");
+    describe_density(f, density);
+    geometry.describe(f);
+    f.derived("pose", X_LC);
+    f.derived("friction", friction);
+  }
 };
 
 /// A rigid body of a machine. `p_LCom` is a point of L; the inertia is about that point, in L's
@@ -59,187 +92,376 @@ struct Link {
   Pose X_ML = Pose::Identity();     ///< at zero joint positions
   double mass = 1;                  ///< [kg]
   Vec3 p_LCom = Vec3::Zero();       ///< centre of mass [m]
-  Mat3 inertia = Mat3::Identity();  ///< about the centre of mass, axes of L [kg m2]
+  Mat3 inertia = Mat3::Identity();  ///< [kg m2]
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
-  LinkMaterial material;  ///< of its collisions and of its shells against bodies
+  LinkMaterial material;  ///< of its collisions and shells against bodies
+  double density = 0;     ///< [kg/m3]; 0: not given
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the link.");
+    f("navvy:material", material.name,
+      "Material of the collision shapes and shells, one word. The world's navvy:materials must "
+      "hold a pair for all that may touch.");
+    describe_density(f, density);
+    f.derived("pose", X_ML);
+    f.derived("mass", mass);
+    f.derived("centre_of_mass", p_LCom);
+    f.derived("inertia", inertia);
+    f("visual", visuals, limits::kShapes, "Appearance.", kSdf | kShown);
+    f("collision", collisions, limits::kShapes, "Contact shape.", kSdf);
+  }
 };
 
-/// Two links and how one moves against the other. Positive is about or along `axis` by the right
-/// hand.
+/// A joint between two links. A positive position is about or along `axis` by the right hand.
 struct Joint {
   enum class Type { kFixed, kRevolute, kPrismatic, kBall };
   std::string name;
   Type type = Type::kFixed;
-  int parent = -1;  ///< index into Machine::links; -1 = world
+  int parent = -1;  ///< index into Machine::links; -1: world
   int child = -1;
-  Pose X_LcJ = Pose::Identity();  ///< joint frame in the child link
-  Vec3 axis = Vec3::UnitZ();      ///< unit, in the joint frame at zero position
-  bool has_limits = false;        ///< false: continuous
-  double lower = 0, upper = 0;    ///< [rad] or [m]
-  double effort = 1e9;            ///< [N m] or [N]; hydraulics may limit further
-  double velocity = 1e9;          ///< [rad/s] or [m/s]
-  // Of the joint's speed: [N m s/rad] or [N s/m], and dry friction [N m] or [N].
-  double damping = 0, friction = 0;
-  double initial = 0;  ///< position at the start
-  /// Most that its brake holds, which a command puts on [N m] or [N]; 0: it has none.
-  double brake = 0;
-  /// Of a ball: how far the joint's x axis on the child may lean from where it points at the start,
-  /// and how far the child may turn about it either way [rad]; pi is free.
-  double cone = kPi, twist = kPi;
+  Pose X_LcJ = Pose::Identity();   ///< joint frame in the child link
+  Vec3 axis = Vec3::UnitZ();       ///< unit, in the joint frame at zero position
+  bool has_limits = false;         ///< false: continuous
+  double lower = 0, upper = 0;     ///< [rad] or [m]
+  double effort = 1e9;             ///< [N m] or [N]; hydraulics may limit further
+  double velocity = 1e9;           ///< [rad/s] or [m/s]
+  double damping = 0;              ///< [N m s/rad] or [N s/m]
+  double friction = 0;             ///< dry friction [N m] or [N]
+  double initial = 0;              ///< position at the start [rad] or [m]
+  double brake = 0;                ///< holding torque [N m] or force [N]; 0: no brake
+  double cone = kPi, twist = kPi;  ///< limits of a ball joint [rad]; pi: free
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the joint.");
+    f.group({"navvy:ball", "Limits of a ball joint.", kShown}, [this](Fields& g) {
+      g("cone_deg", cone, {0.1, 180},
+        "Largest angle by which the joint's x axis on the child leaves its direction at the "
+        "start.");
+      g("twist_deg", twist, {0.1, 180}, "Largest turn of the child about this axis, either way.");
+    });
+    f.group({"navvy:brake",
+             "Brake that the input MACHINE/JOINT/brake sets; not for joints of wheels.", kShown},
+            [this](Fields& g) {
+              g("torque_nm", brake, {1e-3, 1e9}, "Greatest holding torque, of a revolute joint.");
+              g("force_n", brake, {1e-3, 1e9}, "Greatest holding force, of a prismatic joint.");
+            });
+    f.derived_kind("type", type);
+    f.derived("parent", parent);
+    f.derived("child", child);
+    f.derived("pose", X_LcJ);
+    f.derived("axis", axis);
+    f.derived("has_limits", has_limits);
+    f.derived("lower", lower);
+    f.derived("upper", upper);
+    f.derived("effort", effort);
+    f.derived("velocity", velocity);
+    f.derived("damping", damping);
+    f.derived("friction", friction);
+    f.derived("initial", initial);
+    f.derived("brake", brake);
+    f.derived("cone", cone);
+    f.derived("twist", twist);
+  }
 };
 
-/// A hydraulic cylinder acting on one joint. Length and lever arm follow from two pins, or from a
-/// four-bar linkage. The pump fills the head side when the cylinder extends. Pressures become
-/// forces by bore and rod, forces become joint torques by the lever arm, which the geometry gives
-/// at every position [docs/machines.md, hydraulics].
+/// Position of a joint at the start, from a file or from a scene that includes it.
+struct InitialPosition {
+  std::string joint;
+  double angle = 0;   ///< [rad]
+  double length = 0;  ///< [m]
+  bool has_angle = false, has_length = false;
+
+  void describe(Fields& f) {
+    f.attribute("name", joint, "Joint of the machine.");
+    f("initial_deg", angle, {-3600, 3600}, "Position of a revolute joint.", given(has_angle));
+    f("initial_m", length, {-1000, 1000}, "Position of a prismatic joint.", given(has_length));
+  }
+};
+
+/// A hydraulic cylinder acting on one joint. Its length and lever arm follow from two pins, or from
+/// a four-bar linkage. The pump fills the head side when the cylinder extends. Pressures become
+/// forces by bore and rod, forces become joint torques by the lever arm at each position
+/// [docs/machines.md, hydraulics].
 struct Cylinder {
   std::string name;
   std::string joint;
-  std::string base_link, rod_link;  ///< links that carry the pins
-  Vec3 p_base = Vec3::Zero();       ///< pin on base_link, in that link's frame [m]
-  Vec3 p_rod = Vec3::Zero();        ///< pin on rod_link [m] (without a linkage)
-  /// Rod pin sits on a rocker that pushes a coupler to the bucket.
-  bool has_linkage = false;
-  Vec3 p_rocker = Vec3::Zero();               ///< rocker pivot on base_link [m]
-  double rocker_rod = 0, rocker_coupler = 0;  ///< pivot to rod pin, pivot to coupler pin [m]
-  double coupler = 0;                         ///< coupler length [m]
-  Vec3 p_coupler = Vec3::Zero();              ///< coupler pin on rod_link (the bucket) [m]
-  int count = 1;                              ///< cylinders side by side
-  double bore = 0.12, rod = 0.085;            ///< [m]
-  double pressure = 35e6;                     ///< relief [Pa]
-  /// Between the middles of cylinders side by side, for pictures [m].
-  double spacing = 0.68;
-  double flow = 0.004;  ///< most oil for this function [m3/s]
+  std::string base_link, rod_link;
+  Vec3 p_base = Vec3::Zero();
+  Vec3 p_rod = Vec3::Zero();
+  bool has_linkage = false;  ///< the rod turns a rocker, whose coupler turns the bucket
+  Vec3 p_rocker = Vec3::Zero();
+  double rocker_rod = 0, rocker_coupler = 0;
+  double coupler = 0;
+  Vec3 p_coupler = Vec3::Zero();
+  int count = 1;
+  double bore = 0.12, rod = 0.085;
+  double pressure = 35e6;
+  double spacing = 0.68;  ///< between the middles of cylinders side by side, for pictures [m]
+  double flow = 0.004;
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the cylinder.", kNeeded);
+    f("joint", joint, Refers::kJoint, "Joint that the cylinder moves.", kNeeded);
+    f("base_link", base_link, Refers::kLink, "Link that carries the pin of the barrel.", kNeeded);
+    f("base_pin_m", p_base, "Pin of the barrel in the frame of base_link.", kNeeded);
+    f("rod_link", rod_link, Refers::kLink, "Link that carries the pin of the rod.", kNeeded);
+    f("rod_pin_m", p_rod, "Pin of the rod in the frame of rod_link; not with a linkage.");
+    f.group({"linkage", "Four-bar linkage between rod and rod_link.", given(has_linkage)},
+            [this](Fields& g) {
+              g("rocker_pin_m", p_rocker, "Pivot of the rocker on base_link.", kNeeded);
+              g("rocker_to_rod_m", rocker_rod, {0.01, 10}, "From that pivot to the rod.", kNeeded);
+              g("rocker_to_coupler_m", rocker_coupler, {0.01, 10},
+                "From that pivot to the coupler.", kNeeded);
+              g("coupler_length_m", coupler, {0.01, 10}, "Length of the coupler.", kNeeded);
+              g("coupler_pin_m", p_coupler, "Pin of the coupler on rod_link.", kNeeded);
+            });
+    f("count", count, {1, 8}, "Number of equal cylinders side by side.");
+    f("bore_m", bore, {0.005, 1}, "Diameter of the piston.");
+    f("rod_m", rod, {0.002, 1}, "Diameter of the rod, less than that of the piston.");
+    f("pressure_pa", pressure, {1e5, 1e8}, "Relief pressure.");
+    f("flow_m3_per_s", flow, {1e-7, 1}, "Greatest flow of oil for this function.");
+  }
 };
 
-/// The pump that all cylinders of a machine share. Cylinders that ask for more than it can give
-/// share it [docs/machines.md, pump].
+/// The load-sensing pump that all cylinders of a machine share. If the valves ask for more than its
+/// flow or power, all of them slow down by the same share [docs/machines.md, pump].
 struct Pump {
-  double flow = 0;   ///< most oil at any pressure it can drive [m3/s]
-  double power = 0;  ///< flow x pressure at most [W]
+  double flow = 0;
+  double power = 0;
+
+  void describe(Fields& f) {
+    f("flow_m3_per_s", flow, {1e-7, 10}, "Greatest flow of oil.", kNeeded);
+    f("power_w", power, {0.1, 1e7}, "Greatest flow x pressure.", kNeeded);
+  }
 };
 
-/// The belt of a crawler. It runs round a sprocket, an idler and the rollers between them, which
-/// press its lower run on the ground; it does not stretch [docs/machines.md, tracks]. Points are in
-/// the frame of the link that carries it, the parent of the sprocket's joint, x ahead and z up.
+/// Track of a crawler. It runs round a sprocket, an idler and the rollers between them, which press
+/// its lower run on the ground; it does not stretch [docs/machines.md, tracks]. Points are in the
+/// frame of the link that carries it, the parent of the sprocket's joint, x ahead and z up.
 struct Track {
-  Vec3 p_idler = Vec3::Zero();  ///< middle of the idler [m]
-  double idler_radius = 0.35;   ///< [m]
-  std::vector<Vec3> rollers;    ///< middles, from the foremost to the last, two at least [m]
-  double roller_radius = 0.1;   ///< [m]
-  /// Of the belt, from the rims of wheels and rollers to the ground [m].
+  Vec3 p_idler = Vec3::Zero();
+  double idler_radius = 0.35;
+  std::vector<Vec3> rollers;  ///< from the foremost to the last
+  double roller_radius = 0.1;
   double thickness = 0.05;
 
-  /// Where the lower run ends: on the ground under the first and the last roller [m].
+  void describe(Fields& f) {
+    f("idler_m", p_idler, "Middle of the idler.", kNeeded);
+    f("idler_radius_m", idler_radius, {0.01, 5}, "Radius of the idler's rim.", kNeeded);
+    f("roller_m", rollers, {-1e3, 1e3},
+      "Middle of a roller between idler and sprocket; two or more, all at about one height.",
+      kNeeded);
+    f("roller_radius_m", roller_radius, {0.005, 5}, "Radius of a roller's rim.", kNeeded);
+    f("thickness_m", thickness, {0, 1}, "Thickness of the track, from rim to ground.");
+  }
+  /// Returns the ends of the lower run: on the ground under the first and the last roller [m].
   std::array<Vec3, 2> lower_run() const {
     const Vec3 down(0, 0, -roller_radius - thickness);
     return {Vec3(rollers.front() + down), Vec3(rollers.back() + down)};
   }
 };
 
-/// A tyre (or a twin pair as one) with its own force law on the ground. Its forces come from
-/// pressure, slip and load [docs/machines.md, tyres]; what it presses for good is a rut
-/// [docs/machines.md, ruts].
+/// A tyre (or a twin pair as one) with its own force law on the ground, or the sprocket of a track.
+/// Its forces follow from pressure, slip and load [docs/machines.md, tyres]; soil that it compacts
+/// for good is a rut [docs/machines.md, ruts].
 struct Wheel {
-  std::string joint;        ///< spin joint
+  std::string joint;
   std::string steer_joint;  ///< empty: not steered
   bool driven = false;
-  double radius = 0.525;             ///< [m]
-  double width = 0.28;               ///< of one tyre [m]
-  double twin_spacing = 0;           ///< centre to centre; 0 = single tyre [m]
-  double stiffness = 1.2e6;          ///< radial, per wheel (pair) [N/m]
-  double damping = 1.5e4;            ///< [N s/m]
-  double friction = 0.8;             ///< tyre on firm ground [-]
-  double rolling_resistance = 0.02;  ///< share of the load [-]
-  /// It is the sprocket of a crawler's belt: radius is that of its rim, width the belt's, stiffness
-  /// and damping those of all rollers together.
+  double radius = 0.525;
+  double width = 0.28;
+  double twin_spacing = 0;  ///< 0: single tyre
+  double stiffness = 1.2e6;
+  double damping = 1.5e4;
+  double friction = 0.8;
+  double rolling_resistance = 0.02;
+  /// Of a sprocket; stiffness and damping are then those of all rollers together.
   std::optional<Track> track;
+  std::string name;
+
+  /// Returns a sprocket with the default values of a machine of 18 t (U).
+  static Wheel sprocket() {
+    Wheel wheel;
+    wheel.driven = true;
+    wheel.width = 0.6;
+    wheel.stiffness = 1.2e7;
+    wheel.damping = 1.2e5;
+    wheel.radius = 0.35;
+    wheel.track.emplace();
+    return wheel;
+  }
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the wheel, for the reader of the file.", kShown);
+    if (track) {
+      f("joint", joint, Refers::kJoint,
+        "Joint that spins the sprocket about y of the link that carries the track.", kNeeded);
+      f("sprocket_radius_m", radius, {0.01, 5}, "Radius of the sprocket's rim.", kNeeded);
+      track->describe(f);
+    } else {
+      f("joint", joint, Refers::kJoint, "Joint that spins the wheel.", kNeeded);
+      f("steer_joint", steer_joint, Refers::kJoint, "Joint that steers the wheel.");
+      f("driven", driven, "The drive turns the wheel.");
+      f("radius_m", radius, {0.01, 5}, "Radius of the tyre without load.");
+      f("twin_spacing_m", twin_spacing, {0, 5},
+        "Distance of the middles of twin tyres; 0: single.");
+    }
+    f("width_m", width, {0.005, 5}, "Width of one tyre, or of the track.");
+    f("stiffness_n_per_m", stiffness, {100, 1e9},
+      "Radial stiffness of the wheel or pair, or of all rollers together.");
+    f("damping_n_s_per_m", damping, {0, 1e8}, "Damping beside the stiffness.");
+    f("friction", friction, {0, 3}, "Coefficient of friction on firm ground.");
+    f("rolling_resistance", rolling_resistance, {0, 1}, "Rolling resistance / load.");
+  }
 };
 
-/// An incremental encoder on a joint that turns: a counter of a few bits that wraps, as a real
-/// robot hands it to its controller [docs/machines.md, encoders]. It measures the joint and may be
-/// told to measure wrongly.
+/// An incremental encoder on a joint that turns: a counter of a few bits that wraps, as a robot
+/// hands it to its controller [docs/machines.md, encoders]. It can simulate faults.
 struct Encoder {
   std::string joint;
-  double counts_per_turn = 4096;  ///< of the joint, gears included [1]
-  int bits = 16;                  ///< of the counter: it goes from 0 to 2^bits - 1
-  /// Longitudinal slip that the counts pretend, s = 1 - v / (w r) [-].
+  double counts_per_turn = 4096;
+  int bits = 16;
   double slip = 0;
-  double missed = 0;  ///< share of the counts that are lost, by chance [-]
+  double missed = 0;
+
+  void describe(Fields& f) {
+    f("joint", joint, Refers::kJoint, "Revolute or continuous joint; one encoder per joint.",
+      kNeeded);
+    f("counts_per_turn", counts_per_turn, {1, 1e7}, "Counts per turn of the joint, gears included.",
+      kNeeded);
+    f("bits", bits, {2, 32}, "Width of the counter, which wraps at 2^bits.");
+    // Beyond this range a wheel would turn ten times as far as it rolls.
+    f("slip", slip, {-0.9, 0.9}, "Fault: longitudinal slip s = 1 - v / (w r) in the counts.");
+    f("missed", missed, {0, 1}, "Fault: share of the counts that are lost at random.");
+  }
 };
 
-/// Two levers of an excavator's operator, [ISO 10968] or the pattern of backhoes with boom and
+/// The two levers of an excavator's operator, [ISO 10968] or the pattern of backhoes with boom and
 /// stick exchanged.
 struct Levers {
   enum class Pattern { kIso, kSae };
   bool given = false;  ///< by the machine's file
   Pattern pattern = Pattern::kIso;
-  /// Share of a lever's way either side of its middle that opens no valve [-].
   double dead_band = 0.05;
+
+  void describe(Fields& f) {
+    f("pattern", pattern, {{"iso", Pattern::kIso}, {"sae", Pattern::kSae}},
+      "Assignment of the levers to the joints.");
+    f("dead_band", dead_band, {0, 0.5},
+      "Share of a lever's travel on either side of the middle that opens no valve.");
+  }
 };
 
 /// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate,
-/// bed. The triangles' front is the inside. Edges used by one triangle only are free edges (lip,
-/// rim). It has two sides and a thickness and may be open: what it holds is the soil on its front
+/// bed. The front of the triangles is the inside. Edges of one triangle only are free edges. A
+/// shell has two sides and a thickness and may be open: it holds the soil on its front
 /// [docs/tools.md, shells].
 struct Shell : geometry::TriangleMesh {
   std::string name;
   std::string link;
-  double half_thickness = 0.015;  ///< [m]
-  // What of a soil's tool friction (its tangent) and adhesion this surface has; 0 = smooth, no
-  // shear at all.
+  double half_thickness = 0.015;
   double friction_share = 1, adhesion_share = 1;
+  std::string mesh;
+  std::vector<double> vertex_numbers, corner_numbers;  ///< as read; empty afterwards
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the shell.", kNeeded);
+    f("link", link, Refers::kLink, "Link that carries the shell.", kNeeded);
+    f("mesh", mesh, "OBJ file of the surface; of a bucket best the middle surface of its plates.",
+      kShown);
+    f("vertices_m", vertex_numbers, {-1000, 1000}, "Vertices x y z, instead of a mesh.", kShown);
+    f("triangles", corner_numbers, {0, 1e6},
+      "Three numbers of vertices, from 0, per triangle; counter-clockwise as seen from the inside "
+      "of a bucket, or from outside of a closed body.",
+      kShown);
+    f.derived_text("surface", [this] { return surface_hash(); });
+    f("half_thickness_m", half_thickness, {1e-4, 1}, "Half the thickness of the plate.");
+    f("friction_share", friction_share, {0, 2},
+      "Share of the tangent of a soil's tool friction angle; 0 with adhesion_share 0: smooth.");
+    f("adhesion_share", adhesion_share, {0, 2}, "Share of a soil's adhesion.");
+  }
+
+ private:
+  /// Returns one number for thousands of vertices.
+  std::string surface_hash() const;
 };
 
-/// What makes a link a digging bucket. Operators use it to know where the edge points; soil knows
-/// only the shell.
+/// Makes a link a digging bucket. Operators use it to aim the edge; soil sees only the shell.
 struct Bucket {
   std::string link;
   std::string shell;
-  double capacity = 0.8;      ///< heaped [m3]
-  double width = 1.05;        ///< of the cut [m]
-  Vec3 p_tip = Vec3::Zero();  ///< centre of the cutting edge, link frame [m]
-  /// Unit, link frame: the way the edge points (along the floor, outward).
+  double capacity = 0.8;
+  double width = 1.05;
+  Vec3 p_tip = Vec3::Zero();
   Vec3 cut_direction = Vec3::UnitX();
-  Vec3 opening = Vec3::UnitZ();  ///< unit, link frame: out of the mouth
+  Vec3 opening = Vec3::UnitZ();
+  std::string name;
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the bucket, for the reader of the file.", kShown);
+    f("link", link, Refers::kLink, "Link of the bucket.", kNeeded);
+    f("shell", shell, Refers::kShell, "Shell of the bucket.", kNeeded);
+    f("capacity_m3", capacity, {1e-4, 100}, "Heaped capacity.");
+    f("width_m", width, {0.01, 20}, "Width of the cut.");
+    f("tip_m", p_tip, "Middle of the cutting edge in the frame of the link.", kNeeded);
+    f("cut_direction", Direction{&cut_direction},
+      "Direction of the edge, along the floor and outward.");
+    f("opening", Direction{&opening}, "Direction out of the mouth.");
+  }
 };
 
-/// What makes a link a container that tips its load: a dumper's bed, a skip. The struck volume is
-/// that level with the rim.
+/// Makes a link a container that tips its load: a dumper's bed, a skip. One per machine.
 struct Bed {
   std::string link;
   std::string shell;
-  std::string joint;      ///< tips it
-  double capacity = 3.0;  ///< struck [m3]
+  std::string joint;
+  double capacity = 3.0;
+  std::string name;
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the bed, for the reader of the file.", kShown);
+    f("link", link, Refers::kLink, "Link of the bed.", kNeeded);
+    f("shell", shell, Refers::kShell, "Shell of the bed, on the same link.", kNeeded);
+    f("joint", joint, Refers::kJoint, "Revolute joint that tips the bed.", kNeeded);
+    f("capacity_m3", capacity, {1e-4, 1000}, "Struck capacity, level with the rim.");
+  }
 };
 
-/// The joints of an excavator's arm by their roles: names of joints, empty where the machine has
-/// none.
+/// Joints of an excavator's arm by their roles; empty where the machine has none.
 struct Arm {
-  std::string swing;   ///< upper structure about the chassis
-  std::string boom;    ///< boom about the upper structure
-  std::string stick;   ///< stick about the boom
-  std::string bucket;  ///< bucket about the stick
+  std::string swing, boom, stick, bucket;
+
+  void describe(Fields& f) {
+    f("swing_joint", swing, Refers::kJoint, "Upper structure about the chassis.");
+    f("boom_joint", boom, Refers::kJoint, "Boom about the upper structure.");
+    f("stick_joint", stick, Refers::kJoint, "Stick about the boom.");
+    f("bucket_joint", bucket, Refers::kJoint, "Bucket about the stick.");
+  }
 };
 
-/// What a machine can drive on; maps for planners grade the ground by it.
+/// Limits of the ground that a machine can drive on, for maps and planned paths (U).
 struct Traversability {
-  bool given = false;                           ///< by the machine's file
-  double slope = radians(30);                   ///< [rad] (U)
-  double step_height = 0.30, roughness = 0.10;  ///< [m] (U)
-  /// Half the side of the square that both look at [m].
+  bool given = false;  ///< by the machine's file
+  double slope = radians(30);
+  double step_height = 0.30, roughness = 0.10;
   double window = 0.20;
+
+  void describe(Fields& f) {
+    f("slope_deg", slope, {1, 89}, "Steepest slope.");
+    f("step_m", step_height, {0.001, 100}, "Highest step within the window.");
+    f("roughness_m", roughness, {0.001, 100}, "Greatest rms deviation from a plane in the window.");
+    f("window_m", window, {0.01, 10}, "Half the side of the square window.");
+  }
 };
 
-/// A machine as data, as one SDF file describes it; where it stands and what it does is in
-/// MachineInWorld. Indices refer to the lists here and hold as long as nothing is inserted.
+/// A machine as one SDF file describes it; MachineInWorld holds its place and task. Indices refer
+/// to the lists here and are valid until something is inserted.
 struct Machine {
   std::string name;
-  std::string file;        ///< SDF it came from
-  bool kinematic = false;  ///< moved by joint positions only, no dynamics ("engine" kinematic)
+  std::string file;        ///< SDF file it came from
+  bool kinematic = false;  ///< moved by joint positions only, no dynamics
   bool fixed_base = false;
-  // Every parent stands before its children, and joint i moves link i + 1.
+  // Every parent comes before its children, and joint i moves link i + 1.
   std::vector<Link> links;  ///< links[0] is the base
   std::vector<Joint> joints;
   std::vector<Cylinder> cylinders;
@@ -253,18 +475,51 @@ struct Machine {
   std::vector<Bed> beds;
   Arm arm;
   Traversability traversability;
-  std::vector<Encoder> encoders;  ///< one a joint at most
+  std::vector<Encoder> encoders;  ///< one per joint at most
   Levers levers;
-  // What the file leaves to be derived, in words: collision shapes from visuals, masses from
-  // densities.
+  bool derive_collisions = true;
+  std::vector<InitialPosition> initial_positions;
+  /// Sentences about collision shapes from visuals and masses from densities.
   std::vector<std::string> derived;
 
-  /// Index by name, -1 when there is none. The search is linear: names are resolved once, at the
-  /// start.
+  void describe(Fields& f) {
+    f("navvy:physics", kinematic, {{"dynamic", false}, {"kinematic", true}},
+      "Physics of the machine: masses, forces and hydraulics, or motion exactly as commanded.");
+    f("navvy:derive_collisions", derive_collisions,
+      "Visuals collide in a model without any collision, except planes and links with a shell or "
+      "tyre.",
+      kShown);
+    f.derived("fixed_base", fixed_base);
+    f("link", links, limits::kLinks, "Rigid body.", kSdf);
+    f("joint", joints, limits::kLinks, "Joint between two links.", kSdf);
+    f("navvy:joint", initial_positions, limits::kLinks, "Position of a joint at the start.",
+      kShown);
+    f("navvy:arm", arm, "Joints of an excavator's arm by their roles.");
+    f("navvy:cylinder", cylinders, limits::kLinks, "Hydraulic cylinder on one joint.");
+    f("navvy:pump", pump,
+      "Load-sensing pump that all cylinders share; without it each has its own.", given(has_pump));
+    f.list("wheel", wheels, limits::kLinks,
+           std::vector<Start<Wheel>>{
+               {"navvy:wheel", "Tyre, or twin pair of tyres.", Wheel()},
+               {"navvy:track", "Track of a crawler, one per side, with a differential drive.",
+                Wheel::sprocket()}});
+    f.group({"navvy:drive", "Drive of the wheels or tracks.", given(has_drive)},
+            [this](Fields& g) { describe_drive(g, drive); });
+    f("navvy:shell", shells, limits::kShells, "Steel that touches soil, as a thin shell.");
+    f("navvy:bucket", buckets, limits::kShells, "Makes a link a digging bucket.");
+    f("navvy:bed", beds, limits::kShells, "Makes a link a container that tips its load.");
+    f("navvy:encoder", encoders, limits::kLinks, "Counter of the turns of a joint.");
+    f("navvy:levers", levers,
+      "Two levers for the joints of the arm; a joint without a cylinder needs a velocity limit.",
+      given(levers.given));
+    f("navvy:traversability", traversability, "Limits of the ground that the machine can drive on.",
+      given(traversability.given));
+  }
+
+  /// Returns an index by name, -1 if there is none. The search is linear.
   int link_index(const std::string& name_of_link) const;
   int joint_index(const std::string& name_of_joint) const;
-  /// What a shell is for, by its index: the first holds soil that is dug, the second soil that is
-  /// carried.
+  /// Returns true if a shell, by its index, holds soil that is dug (bucket) or carried (bed).
   bool is_bucket(int shell) const;
   bool is_bed(int shell) const;
 };

@@ -1,30 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rigid bodies are made of, told by pairs: how two materials touch is a property of neither
-// alone.
+// Materials of rigid bodies. Friction and rebound are properties of pairs of materials.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
+#include "core/limits.h"
+#include "scene/fields.h"
+
 namespace navvy::scene {
 
-/// How two materials touch, in either order.
+/// Contact properties of two materials, in either order.
 struct MaterialPair {
   std::array<std::string, 2> materials;
-  double static_friction = 0.8;   ///< tan of the steepest slope on which a body at rest stays [-]
-  double kinetic_friction = 0.8;  ///< of sliding, at most the static one [-]
-  double restitution = 0;         ///< speed of parting / speed of meeting, along the normal [-]
-  /// How deep two bodies reach into each other by the force between them [m/N].
+  double static_friction = 0.8;
+  double kinetic_friction = 0.8;
+  double restitution = 0;
   double softness = 0;
+  std::string names;  ///< both materials as the file writes them
+
+  void describe(Fields& f) {
+    f.attribute("materials", names, "The two materials, separated by a blank, in either order.");
+    f("static_friction", static_friction, {0, 5},
+      "Tangent of the steepest slope on which a body stays at rest.", kNeeded);
+    f("kinetic_friction", kinetic_friction, {0, 5},
+      "Coefficient of sliding friction, at most the static one, which is its default.");
+    f("restitution", restitution, {0, 1}, "Normal speed of separation / normal speed of approach.");
+    f("softness_m_per_n", softness, {0, 0.01}, "Penetration depth / contact force; 0: rigid.");
+  }
 };
 
-/// The table of a scene. A link without a material touches by its own friction.
+/// Table of the pairs of a scene. A link without a material uses its own coefficient of friction.
 struct Materials {
-  std::string ground;  ///< material of the ground; empty: none
+  std::string file;
+  std::string ground;  ///< empty: none
   std::vector<MaterialPair> pairs;
 
-  /// Null for a pair that is not in the table. The search is linear: names are resolved once.
+  void describe(Fields& f) {
+    f("file", file,
+      "Table of pairs: a file beside the scene or a shipped one (`materials.sdf`: steel, stone, "
+      "rubber, earth).",
+      kShown);
+    f("ground", ground, "Material of the ground.");
+    f("pair", pairs, limits::kMaterialPairs, "Contact properties of two materials.");
+  }
+  /// Returns the entry of a pair, null if the table has none. The search is linear.
   const MaterialPair* pair(const std::string& a, const std::string& b) const {
     for (const MaterialPair& each : pairs)
       if ((each.materials[0] == a && each.materials[1] == b) ||
@@ -34,10 +55,10 @@ struct Materials {
   }
 };
 
-/// The material of a link.
+/// Material of a link.
 struct LinkMaterial {
   std::string name;  ///< empty: none
-  int line = 0;      ///< of the machine's file, for messages
+  int line = 0;      ///< in the machine's file, for messages
 };
 
 }  // namespace navvy::scene

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every value of a scene that decides how a run of it goes, by name: to hash it, and to tell how
-// two scenes differ.
+// Parameters of a scene: every value that a run depends on, by name.
 #pragma once
 
 #include <map>
@@ -10,17 +9,17 @@
 
 namespace navvy::scene {
 
-/// Values as text with all their digits, in SI units, by paths such as "soil[loam]/cohesion".
+/// Values as text in the unit of the file, exact to the last bit, by paths such as
+/// "soil[loam]/cohesion_pa".
 using Parameters = std::map<std::string, std::string>;
 
-/// Of soils, ground, solver, machines, where they stand and what they shall do. Left out is what a
-/// run only shows or records (cameras, lights, colours, pictures of links, names of files, how long
-/// it lasts, design and maps). Steps of a program that no file described count by their kind alone.
-/// Costs a few milliseconds.
+/// Returns the parameters of a scene: soils, ground, solver, machines, their places and programs.
+/// Cameras, lights, colors, names of files, durations, the design and records are left out, as they
+/// do not influence the motion. It takes a few milliseconds.
 Parameters parameters(const Scene& scene);
 
-/// What differs, "path: 'before', here 'now'", separated by "; "; the first `most` of them and how
-/// many more there are. Empty when nothing does.
+/// Returns the differences as "path: 'before', here 'now'", separated by "; ": the first `most` of
+/// them and the number of the others. Returns an empty text for equal parameters.
 std::string differences(const Parameters& before, const Parameters& now, int most = 8);
 
 }  // namespace navvy::scene

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/limits.h"
 #include "core/math.h"
 #include "scene/design.h"
+#include "scene/fields.h"
 #include "scene/ground.h"
 #include "scene/hitch.h"
 #include "scene/machine.h"
@@ -16,90 +18,166 @@
 
 namespace navvy::scene {
 
-/// How the soil is computed. None of it is a property of the soil.
+/// Settings of the soil solver. None of them is a property of the soil.
 struct SolverSettings {
-  double cell = 0.1;         ///< edge of a soil cell and of a column [m]
-  double courant = 0.5;      ///< share of cell / sound speed
-  double max_step = 0.0017;  ///< base step never exceeds this [s]
-  /// A whole number of base steps makes up its period [1/s]; 0: no such rate.
-  double control_rate = 0;
-  int max_particles = 2000000;  ///< the awake budget
-  double active_zone = 1;       ///< multiplies how far around and below itself a tool wakes soil
-  /// false: ground neither wakes nor takes soil back by itself (rigs, tests).
-  bool exchange = true;
+  double cell = 0.1;
+  double courant = 0.5;
+  double max_step = 0.0017;
+  double control_rate = 0;  ///< [1/s]; 0: none
+  int max_particles = 2000000;
+  double active_zone = 1;
+  bool exchange = true;  ///< false: ground neither activates nor deposits soil (rigs, tests)
+
+  void describe(Fields& f) {
+    f("cell_m", cell, {0.005, 2}, "Edge of a soil cell and of a ground column.");
+    f("courant", courant, {0.05, 1}, "Time step / longest stable time step.");
+    f("max_step_s", max_step, {1e-6, 0.02}, "Longest base step.");
+    // It acts through the base step alone, which the state holds: a controller may resume the
+    // snapshot of a run without one.
+    f("control_rate_hz", control_rate, {0.001, 1e5},
+      "Rate whose period is a whole number of base steps.", kShown);
+    f("max_particles", max_particles, {1000, limits::kParticles},
+      "Budget of particles. Beyond it, the ground farthest from the tools is not activated.");
+    f("awake_zone", active_zone, {0.5, 4},
+      "Factor of the zone around and below a tool in which soil is active.");
+    f.derived("exchange", exchange);
+  }
 };
 
-/// Soil in a machine's first bed at the start.
+/// Loose soil in a machine's first bed at the start.
 struct BedLoad {
   std::string soil;
   double mass = 0;  ///< [kg]; 0: empty
+
+  void describe(Fields& f) {
+    f("soil", soil, Refers::kSoil, "Soil of the load; by default the first one.");
+    f("mass_kg", mass, {0, 1e6}, "Mass of the load.", kNeeded);
+  }
 };
 
-/// A machine and what is said of it here: its place, its load and what it does. W is the world, M
-/// the machine's own frame.
+/// A machine in a scene: its place, its load and its program. W is the world, M the machine's own
+/// frame.
 struct MachineInWorld {
   std::string name;
   Machine machine;
   Pose X_WM = Pose::Identity();
-  bool on_ground = true;  ///< z of the pose counts from the ground under the machine
+  bool on_ground = true;
   BedLoad load;
   Program program;
-  int line = 0;  ///< of the scene's file, for messages
+  int line = 0;           ///< in the scene's file, for messages
+  bool in_scene = false;  ///< a <model> of the scene itself, not an <include>
+  std::vector<InitialPosition> initial_positions;  ///< of an <include>
+
+  void describe(Fields& f) {
+    if (in_scene) {
+      f.attribute("name", name, "Name of the machine.", kSdf);
+      machine.describe(f);
+    }
+    describe_instance(f);
+  }
+  /// Lists the fields of an <include>, and those that a <model> has in a scene alone.
+  void describe_instance(Fields& f) {
+    if (!in_scene) {
+      f("uri", machine.file, "SDF file, its directory, or model://NAME of a shipped machine.",
+        kSdf | kShown | kNeeded);
+      f("name", name, "Name of the machine; by default that of its model.", kSdf | kShown);
+      f("navvy:physics", machine.kinematic, {{"dynamic", false}, {"kinematic", true}},
+        "kinematic: commands alone move a machine whose file is dynamic.", kShown);
+      f("navvy:joint", initial_positions, limits::kLinks, "Position of a joint at the start.",
+        kShown);
+      f.elsewhere([this](Fields& g) {
+        g.attribute("name", name, "");
+        machine.describe(g);
+      });
+    }
+    f("pose", X_WM, "Place x y z [m] and turn roll pitch yaw [rad] in W.", kSdf);
+    f("navvy:on_ground", on_ground,
+      "z of the pose counts from the ground, and a machine on three wheels or more is tilted with "
+      "the plane under them.");
+    f.group({"navvy:load", "Loose soil in the machine's bed at the start.", {}, load.mass > 0, {}},
+            [this](Fields& g) { load.describe(g); });
+    f("navvy:program", program, "Steps of the machine, in order.", kOwnReader);
+  }
 };
 
-/// A camera that records pictures at a rate. The frame in which its two points are given follows
-/// from the kind.
+/// A camera that records images at a rate. The frame of its two points follows from its kind.
 struct Camera {
   enum class Kind { kFixed, kChase, kOnLink };
   std::string name;
   Kind kind = Kind::kFixed;
   std::string machine, link;       ///< chase: machine; on_link: both
-  Vec3 position = Vec3(8, -8, 5);  ///< W (fixed), M (chase), L (on link) [m]
-  Vec3 target = Vec3::Zero();      ///< same frame [m]
-  double fov = radians(50);        ///< horizontal [rad]
+  Vec3 position = Vec3(8, -8, 5);  ///< in W (fixed), M (chase) or L (on link) [m]
+  Vec3 target = Vec3::Zero();      ///< in the same frame [m]
+  double fov = radians(50);
   int width = 1280, height = 720;
-  double rate = 4;  ///< frames per simulated second
+  double rate = 4;
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the image files.", kNeeded);
+    f("machine", machine, "Machine that the camera follows; without it the camera is fixed in W.");
+    f("link", link, "Link of the machine that carries the camera.");
+    f("position_m", position, kPlaceRange, "Place in W, or in the frame of machine or link.");
+    f("target_m", target, kPlaceRange, "Point in the middle of the image, in the same frame.");
+    f("fov_deg", fov, {1, 170}, "Horizontal field of view.");
+    f("width_px", width, {16, 8192}, "Width of an image.");
+    f("height_px", height, {16, 8192}, "Height of an image.");
+    f("rate_hz", rate, {0.001, 1000}, "Images per simulated second.");
+  }
 };
 
-/// A light from far away: it has a direction and no place. The first one is the sun and throws
-/// shadows.
+/// A directional light. The first one is the sun and casts shadows.
 struct Light {
-  Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< the way the light travels
+  Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< of the light's travel
   Color color{1.0f, 0.97f, 0.9f, 1.0f};
+
+  void describe(Fields&) {}
 };
 
-/// What a run writes and how long it lasts, all in simulated time.
+/// Length and output of a run, all in simulated time.
 struct Recording {
-  /// Most simulated time [s]; the run ends earlier when every program has ended.
   double duration = 60;
-  /// After the last program ended; six times as long while soil is awake [s].
   double settle = 1.0;
-  double telemetry_rate = 50;  ///< [1/s]
+  double telemetry_rate = 50;
   bool render = true;
+
+  void describe(Fields& f) {
+    f("duration_s", duration, {1e-3, 1e6},
+      "Longest simulated time; the run ends earlier when every program has ended.");
+    f("settle_s", settle, {0, 1e5},
+      "Time after the last program ended; up to six times as long while soil is active.");
+    f("telemetry_rate_hz", telemetry_rate, {0.01, 1e5}, "Rows of telemetry per simulated second.");
+    f("render", render, "Cameras draw images.");
+  }
 };
 
-/// Maps or messages written while a scene runs, at a rate. They decide nothing of what the run
-/// comes to.
+/// Maps or messages that a run writes at a rate. They do not influence the run.
 struct MapRecord {
-  static constexpr double kMachineRate = 50;  ///< of a bag that names none [1/s]
+  static constexpr double kMachineRate = 50;  ///< of a bag that gives none [1/s]
 
-  int line = 0;                     ///< of the scene's file, for messages
+  int line = 0;                     ///< in the scene's file, for messages
   std::string name;                 ///< of the files in the run's folder
-  std::string format;               ///< as the planner's formats are called, or "mcap", "bag"
-  std::vector<std::string> layers;  ///< by name; empty: what the format is made for
-  double rate = 1;                  ///< of maps [1/s]
-  /// Of a bag's poses, joints and clock [1/s]; 0: not named, so kMachineRate.
-  double machine_rate = 0;
+  std::string format;               ///< a map format, "mcap" or "bag"
+  std::vector<std::string> layers;  ///< empty: the usual ones of the format
+  double rate = 1;
+  double machine_rate = 0;  ///< [1/s]; 0: not given, so kMachineRate
+  std::string layer_names;  ///< `layers` as the file writes them
+
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the files.", kNeeded);
+    f("format", format, "A format of `navvy map`, or mcap or bag for ROS 2.", kNeeded);
+    f("layers", layer_names, "Layers, separated by blanks; by default those of the format.");
+    f("rate_hz", rate, {0.001, 1000}, "Maps per simulated second.");
+    f("machine_rate_hz", machine_rate, {0.001, 1000},
+      "Rate of poses, joints and clock in mcap and bag; by default 50.");
+  }
 };
 
-/// A scene as data: everything that a run starts from, resolved and in SI units. Two equal worlds
-/// give equal runs on one device.
+/// A scene as data: everything that a run starts from, resolved and in SI units. Equal scenes give
+/// equal runs on one device.
 struct Scene {
   std::string name;
-  // Path of the file it came from; relative names in the scene were resolved against it.
-  std::string file;
-  // In W [m/s2]; soil and machines both take it from here.
-  Vec3 gravity = Vec3(0, 0, -kGravity);
+  std::string file;                      ///< path of the file it came from
+  Vec3 gravity = Vec3(0, 0, -kGravity);  ///< in W [m/s2]
   std::uint64_t seed = 1;
   SolverSettings solver;
   std::vector<Soil> soils;
@@ -113,7 +191,31 @@ struct Scene {
   Recording recording;
   std::vector<MapRecord> records;
 
-  /// Index by name, -1 when there is none. The search is linear: names are resolved once.
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name of the scene and of the folder of its results.", kSdf | kShown);
+    f("gravity", gravity, "Acceleration of gravity in W [m/s2].", kSdf);
+    f("navvy:seed", seed, "Seed of everything random: hills and faults of encoders.");
+    f("navvy:soil", soils, limits::kSoils, "Soil, by values of its own or by a shipped one.",
+      kNeeded);
+    f("navvy:ground", ground, "Ground of the site.", kNeeded);
+    f("navvy:design", design, "Design surface: either a file or areas. It steers nothing.", kShown);
+    f("navvy:solver", solver, "Settings of the soil solver.");
+    f("navvy:materials", materials, "Contact properties of rigid bodies, by pairs of materials.");
+    MachineInWorld model;
+    model.in_scene = true;
+    f.list("machine", machines, limits::kMachines,
+           std::vector<Start<MachineInWorld>>{
+               {"include", "Machine of a file of its own.", MachineInWorld()},
+               {"model", "Machine that stands in the scene file.", model}},
+           kSdf);
+    f("navvy:hitch", hitches, limits::kMachines, "Ball joint between two machines that can open.");
+    f("navvy:camera", cameras, limits::kMachines, "Camera that records images.", kShown);
+    f("light", lights, limits::kMachines, "Directional light.", kSdf | kShown);
+    f("navvy:recording", recording, "Length and output of a run.", kShown);
+    f("navvy:record", records, limits::kMachines, "Maps that a run writes at a rate.", kShown);
+  }
+
+  /// Returns an index by name, -1 if there is none. The search is linear.
   int soil_index(const std::string& name_of_soil) const;
   int machine_index(const std::string& name_of_machine) const;
 };

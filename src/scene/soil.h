@@ -1,51 +1,102 @@
 // SPDX-License-Identifier: Apache-2.0
-// One soil, as a scene or terrain/soils/*.sdf gives it. All angles [rad].
+// One soil, from a scene or from terrain/soils/*.sdf.
 #pragma once
 
 #include <string>
 
+#include "scene/fields.h"
+
 namespace navvy::scene {
 
-/// Plain numbers in SI units, each within the range of soil_values.h. The law that uses them is in
-/// [docs/soil.md, law]; a soil changes nothing about itself during a run.
+/// Parameters of one soil in SI units, angles in radians. They do not change during a run. The
+/// constitutive law that uses them is in [docs/soil.md, law]; `describe` documents each of them.
 struct Soil {
   std::string name;
-  std::string source;              ///< where the numbers come from
-  double bank_density = 1540;      ///< undisturbed [kg/m3]
-  double swell = 1.23;             ///< loose volume / bank volume [-], >= 1
-  double friction_angle = 0.5236;  ///< plane-strain internal friction angle phi [rad]
-  /// By which soil that hardly shears is stronger than soil that flows [-].
+  std::string ref;
+  std::string source;
+  double bank_density = 1540;
+  double swell = 1.23;
+  double friction_angle = 0.5236;
+  double repose_angle = 0;
   double static_friction_share = 0.1;
-  double cohesion = 5000;           ///< c of intact soil [Pa]
-  double residual_cohesion = 1000;  ///< c_r after remoulding [Pa]
-  /// c_l of remoulded soil at its loose density, at most c_r [Pa].
+  double cohesion = 5000;
+  double residual_cohesion = 1000;
   double loose_cohesion = 200;
-  /// gamma_c: plastic shear at which (c - c_r) has fallen to a quarter [-].
   double remoulding_strain = 0.5;
-  double loosening_strain = 0.3;  ///< plastic shear over which the swell develops [-]
-  /// eps: volume ratio above closed at which cohesion is gone [-].
+  double loosening_strain = 0.3;
   double opening_strain = 0.05;
-  /// Softened for speed [Pa]; default_stiffness(cohesion) where none is given.
   double young_modulus = 1.0e6;
   double poisson = 0.3;
-  double dilatancy_angle = 0;  ///< psi in bank state, fades to 0 at the loose density [rad]
-  /// That of fast flow in mu(I) [rad]; not above phi: friction knows no rate.
+  double dilatancy_angle = 0;
   double fast_friction_angle = 0;
-  /// For the inertial number I = shear rate x diameter x sqrt(grain density / p) [m].
   double grain_diameter = 0.001;
-  /// I at which half the way from phi to the fast angle is done [-].
   double inertial_number = 0.279;
-  /// Mean pressure above which bank soil gets denser for good; 0: never [Pa].
   double compaction_pressure = 0;
-  double compaction_strain = 0.05;  ///< volume strain over which that pressure grows by itself [-]
-  double tool_friction_angle = 0.349;  ///< delta [rad]
-  double adhesion = 0;                 ///< soil on steel [Pa]
-  // Bekker-Wong plate and Janosi-Hanamoto shear, for tyres on resting ground.
-  double bekker_kc = 5270;       ///< [N/m^(n+1)]
-  double bekker_kphi = 1515040;  ///< [N/m^(n+2)]
+  double compaction_strain = 0.05;
+  double tool_friction_angle = 0.349;
+  double adhesion = 0;
+  double bekker_kc = 5270;
+  double bekker_kphi = 1515040;
   double bekker_n = 0.7;
-  double janosi_k = 0.02;                  ///< [m]
-  float color[3] = {0.45f, 0.33f, 0.22f};  ///< linear RGB 0..1
+  double janosi_k = 0.02;
+  float color[3] = {0.45f, 0.33f, 0.22f};
+
+  /// Lists the fields. Ranges are those that any soil keeps, snow and lunar dust included.
+  void describe(Fields& f) {
+    f.attribute("name", name, "Name by which layers, loads and results refer to the soil.");
+    f.attribute("ref", ref,
+                "Shipped soil, or *.sdf file with one soil, whose values the elements replace.",
+                kShown);
+    f("source", source, "Origin of the values.", kShown);
+    f("bank_density_kg_per_m3", bank_density, {50, 20000}, "Density of undisturbed, moist soil.");
+    f("swell", swell, {1, 2}, "Loose volume / bank volume.");
+    f("friction_angle_deg", friction_angle, {0, 60},
+      "Internal friction angle phi in plane strain.");
+    f("repose_angle_deg", repose_angle, {0, 44},
+      "Angle of repose t, to give instead of phi: sin phi = tan t.", kShown);
+    f("static_friction_share", static_friction_share, {0, 0.1},
+      "Share by which soil at rest, or sheared slower than 0.1 /s, is stronger than flowing soil.");
+    f("cohesion_pa", cohesion, {0, 1e6}, "Cohesion of intact soil.");
+    f("residual_cohesion_pa", residual_cohesion, {0, 1e6},
+      "Cohesion after remoulding; at most the cohesion, which it follows down if it is not given.");
+    f("loose_cohesion_pa", loose_cohesion, {0, 1e6},
+      "Cohesion of remoulded soil at its loose density; by default a fifth of the residual one.");
+    f("remoulding_strain", remoulding_strain, {1e-3, 100},
+      "Plastic shear after which a quarter of the cohesion that remoulding takes is left.");
+    f("loosening_strain", loosening_strain, {1e-3, 100},
+      "Plastic shear over which the swell develops.");
+    f("opening_strain", opening_strain, {1e-4, 1},
+      "Volume ratio above closed at which cohesion is gone.");
+    f("young_modulus_pa", young_modulus, {1e4, 1e9},
+      "Stiffness, softened for longer time steps; by default 200 times the cohesion or 1 MPa, "
+      "whichever is more. Below 100 times the cohesion a warning reports the loss of strength.");
+    f("poisson", poisson, {0, 0.49}, "Poisson's ratio.");
+    f("dilatancy_angle_deg", dilatancy_angle, {0, 30},
+      "Dilatancy angle psi in the bank state, at most phi; it fades to 0 at the loose density, so "
+      "it needs a swell.");
+    f("fast_friction_angle_deg", fast_friction_angle, {0, 60},
+      "Friction angle of fast flow in mu(I); up to phi, friction does not depend on the rate.");
+    f("grain_diameter_m", grain_diameter, {1e-6, 0.5},
+      "Grain diameter in I = shear rate x diameter x sqrt(2650 kg/m3 / pressure).");
+    f("inertial_number", inertial_number, {1e-3, 10},
+      "Inertial number I at half the increase from phi to the angle of fast flow.");
+    f("compaction_pressure_pa", compaction_pressure, {0, 1e8},
+      "Mean pressure above which bank soil compacts for good; 0: only tyres compact. A value below "
+      "the pressure of the ground's own weight makes ground settle where it becomes active.");
+    f("compaction_strain", compaction_strain, {1e-3, 1},
+      "Volume strain over which the compaction pressure grows by its own value.");
+    f("tool_friction_angle_deg", tool_friction_angle, {0, 60}, "Friction angle of soil on steel.");
+    f("adhesion_pa", adhesion, {0, 1e5},
+      "Shear stress of soil on steel without pressure; it never pulls.");
+    f("bekker_kc_n_per_m_n1", bekker_kc, {-1e9, 1e9},
+      "Cohesive modulus of Bekker's pressure-sinkage law, for tyres.");
+    f("bekker_kphi_n_per_m_n2", bekker_kphi, {1, 1e9},
+      "Frictional modulus of Bekker's pressure-sinkage law.");
+    f("bekker_n", bekker_n, {0.05, 3}, "Exponent of Bekker's pressure-sinkage law.");
+    f("janosi_k_m", janosi_k, {1e-4, 1},
+      "Shear displacement at which soil under tyres and tracks has 63 % of its strength.");
+    f("color", Rgb{color}, "Linear red, green and blue.", kShown);
+  }
 };
 
 }  // namespace navvy::scene

@@ -4,30 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <utility>
-
-#include "core/math.h"
 
 namespace navvy::scene {
 namespace {
 
-constexpr double kDegree = kPi / 180;
 /// A bound in degrees comes back from radians with the last bits changed.
 constexpr double kRounding = 1e-12;
-
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
 
 // The element is written as a scene writes it, so that a loader can find the line.
 Fault fault(const Soil& soil, const char* name, double value, const std::string& rule,
             const std::string& remedy) {
   Fault out;
   out.element = "soil[" + soil.name + "]/" + name;
-  out.value = text_of(value);
+  out.value = short_text(value);
   out.rule = rule;
   out.remedy = remedy;
   return out;
@@ -36,8 +28,7 @@ Fault fault(const Soil& soil, const char* name, double value, const std::string&
 constexpr double kSoftest = 1e6;               ///< at which sand is as strong as when stiffer [Pa]
 constexpr double kStiffnessPerCohesion = 200;  ///< default
 constexpr double kLooseShare = 0.2;            ///< default loose cohesion / residual cohesion
-/// Stiffness / cohesion below which a warning is due.
-constexpr double kTooSoft = 100;
+constexpr double kTooSoft = 100;  ///< stiffness / cohesion below which a warning is due
 
 /// Smooth blade 0.3 m deep in soil of phi 30 deg and c 50 kPa, plane strain, cells of 0.1 m, 0.1
 /// m/s: force over [Rankine 1857] where it has come up, and its travel over the depth. measured:
@@ -50,34 +41,10 @@ constexpr Mobilised kMobilised[] = {{20, 0.63, 0.37}, {50, 0.86, 0.30}, {100, 0.
 
 }  // namespace
 
-const std::vector<SoilValue>& soil_values() {
-  static const std::vector<SoilValue> table = {
-      {"bank_density_kg_per_m3", &Soil::bank_density, 50, 20000},
-      {"swell", &Soil::swell, 1, 2},
-      {"friction_angle_deg", &Soil::friction_angle, 0, 60, kDegree},
-      {"static_friction_share", &Soil::static_friction_share, 0, 0.1},
-      {"cohesion_pa", &Soil::cohesion, 0, 1e6},
-      {"residual_cohesion_pa", &Soil::residual_cohesion, 0, 1e6},
-      {"loose_cohesion_pa", &Soil::loose_cohesion, 0, 1e6},
-      {"remoulding_strain", &Soil::remoulding_strain, 1e-3, 100},
-      {"loosening_strain", &Soil::loosening_strain, 1e-3, 100},
-      {"opening_strain", &Soil::opening_strain, 1e-4, 1},
-      {"young_modulus_pa", &Soil::young_modulus, 1e4, 1e9},
-      {"poisson", &Soil::poisson, 0, 0.49},
-      {"dilatancy_angle_deg", &Soil::dilatancy_angle, 0, 30, kDegree},
-      {"fast_friction_angle_deg", &Soil::fast_friction_angle, 0, 60, kDegree},
-      {"grain_diameter_m", &Soil::grain_diameter, 1e-6, 0.5},
-      {"inertial_number", &Soil::inertial_number, 1e-3, 10},
-      {"compaction_pressure_pa", &Soil::compaction_pressure, 0, 1e8},
-      {"compaction_strain", &Soil::compaction_strain, 1e-3, 1},
-      {"tool_friction_angle_deg", &Soil::tool_friction_angle, 0, 60, kDegree},
-      {"adhesion_pa", &Soil::adhesion, 0, 1e5},
-      {"bekker_kc_n_per_m_n1", &Soil::bekker_kc, -1e9, 1e9},
-      {"bekker_kphi_n_per_m_n2", &Soil::bekker_kphi, 1, 1e9},
-      {"bekker_n", &Soil::bekker_n, 0.05, 3},
-      {"janosi_k_m", &Soil::janosi_k, 1e-4, 1},
-  };
-  return table;
+std::vector<SoilValue> soil_values(Soil& soil) {
+  std::vector<SoilValue> all = numbers_of([&soil](Fields& f) { soil.describe(f); });
+  std::erase_if(all, [](const SoilValue& value) { return !value.parameter; });
+  return all;
 }
 
 double default_stiffness(double cohesion) {
@@ -125,7 +92,7 @@ std::vector<Fault> check_relations(const Soil& soil) {
   std::vector<Fault> out;
   if (soil.residual_cohesion > soil.cohesion)
     out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
-                        "must not exceed cohesion_pa, " + text_of(soil.cohesion),
+                        "must not exceed cohesion_pa, " + short_text(soil.cohesion),
                         "remoulding only weakens soil"));
   // A swell that is not a number fails as well.
   if (soil.dilatancy_angle > 0 && !(soil.swell > 1))
@@ -135,22 +102,24 @@ std::vector<Fault> check_relations(const Soil& soil) {
   if (soil.dilatancy_angle > soil.friction_angle)
     out.push_back(
         fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
-              "must not exceed friction_angle_deg, " + text_of(soil.friction_angle / kDegree),
+              "must not exceed friction_angle_deg, " + short_text(soil.friction_angle / kDegree),
               "soil that dilates more than it rubs makes energy"));
   return out;
 }
 
 std::vector<Fault> check_soil(const Soil& soil) {
   std::vector<Fault> out;
-  for (const SoilValue& v : soil_values()) {
-    const double value = v.written(soil);
-    // Written so that a NaN is outside. The slack is relative, as bounds span nine decades.
+  Soil copy = soil;
+  for (const SoilValue& v : soil_values(copy)) {
+    const double value = v.written();
+    // The comparison refuses NaN. The slack is relative, as bounds span nine decades.
     const bool ok = value >= v.low - kRounding * std::abs(v.low) &&
                     value <= v.high + kRounding * std::abs(v.high);
     if (!ok)
-      out.push_back(fault(soil, v.name, value,
-                          "must be a number from " + text_of(v.low) + " to " + text_of(v.high),
-                          "correct the soil"));
+      out.push_back(
+          fault(soil, v.name, value,
+                "must be a number from " + short_text(v.low) + " to " + short_text(v.high),
+                "correct the soil"));
   }
   for (Fault& fault : check_relations(soil)) out.push_back(std::move(fault));
   return out;

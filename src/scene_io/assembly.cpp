@@ -9,6 +9,7 @@
 
 #include "core/limits.h"
 #include "scene_io/mesh_path.h"
+#include "scene_io/schema.h"
 #include "scene_io/sdf_rules.h"
 #include "scene_io/xml_limits.h"
 
@@ -23,17 +24,15 @@ bool is_called(const Element& element, const char* name) {
 /// Elements of a machine that hold for it as a whole, and for a part of another one no more.
 bool is_of_whole(const Element& element) {
   for (const char* name : {"pose", "static", "self_collide", "allow_auto_disable", "enable_wind",
-                           "navvy:engine", "navvy:traversability"})
+                           "navvy:physics", "navvy:traversability"})
     if (is_called(element, name)) return true;
   return false;
 }
 
-/// Elements whose text is the name of a link, joint, frame or shell.
+/// Returns true if the text of the element is the name of a link, joint, frame or shell.
 bool holds_name(const Element& element) {
-  for (const char* name : {"parent", "child", "link", "joint", "shell", "steer_joint", "base_link",
-                           "rod_link", "swing_joint", "boom_joint", "stick_joint", "bucket_joint"})
-    if (is_called(element, name)) return true;
-  return false;
+  return is_called(element, "parent") || is_called(element, "child") ||
+         schema().refers_to_part(element.Name());
 }
 
 /// Copies a part's elements into the whole under the part's name.

@@ -6,7 +6,6 @@
 
 #include "geometry/obj/read_obj.h"
 #include "geometry/primitive_solids.h"
-#include "scene_io/fields.h"
 #include "scene_io/mesh_path.h"
 
 namespace navvy::scene_io {
@@ -65,7 +64,7 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
     const Element* element = named_child(model, "link", link.name);
     if (element == nullptr || touches_otherwise(machine, l)) continue;
     const bool moves = l > 0 || !machine.fixed_base;
-    std::string told;
+    std::string text_of_link;
     for (const scene::Visual& visual : link.visuals) {
       const Element* from = named_child(*element, "visual", visual.name);
       if (from == nullptr || !may_collide(*from, visual.geometry, moves, faults)) continue;
@@ -74,14 +73,16 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
       shape.geometry = visual.geometry;
       shape.X_LC = visual.X_LV;
       shape.derived = true;
+      shape.density = visual.density;
       link.collisions.push_back(shape);
       const bool hull = moves && visual.geometry.kind == Kind::kMesh;
-      told += (told.empty() ? "" : ", ") +
-              std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) + " '" +
-              visual.name + "'";
+      text_of_link += (text_of_link.empty() ? "" : ", ") +
+                      std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) +
+                      " '" + visual.name + "'";
     }
-    if (!told.empty())
-      machine.derived.push_back("link '" + link.name + "' collides as its visuals: " + told);
+    if (!text_of_link.empty())
+      machine.derived.push_back("link '" + link.name +
+                                "' collides as its visuals: " + text_of_link);
   }
 }
 
@@ -123,36 +124,23 @@ bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
   return true;
 }
 
-/// The number of an element's density; false when it has none or a faulty one.
-bool read_density(const Element& element, double& density, Faults& faults) {
-  const Element* e = element.FirstChildElement(kDensity);
-  std::vector<double> number;
-  // Foam to gold.
-  if (e == nullptr || !read_numbers(*e, 1, {1, 25000}, number, faults)) return false;
-  density = number[0];
-  return true;
-}
-
 void weigh(const Element& element, scene::Link& link, scene::Machine& machine, Faults& faults) {
-  double whole = 0;
-  bool any = read_density(element, whole, faults);
+  bool any = link.density > 0;
   geometry::SolidProperties sum;
-  // Collisions are what a link is made of; visuals are often thinner than the thing or hollow.
-  const auto add = [&](const char* kind, const std::string& name, const scene::Geometry& shape,
-                       const Pose& X_LS) {
-    const Element* of = named_child(element, kind, name);
-    double density = whole;
-    if (of != nullptr && read_density(*of, density, faults)) any = true;
+  // Collisions are the shape of a link; visuals are often thinner or hollow.
+  const auto add = [&](const char* kind, const auto& shape, const Pose& X_LS) {
+    const Element* of = named_child(element, kind, shape.name);
+    const double density = shape.density > 0 ? shape.density : link.density;
+    any = any || shape.density > 0;
     geometry::SolidProperties solid;
-    if (density > 0 && solid_of(of != nullptr ? *of : element, shape, X_LS, solid, faults))
+    if (density > 0 && solid_of(of ? *of : element, shape.geometry, X_LS, solid, faults))
       sum = geometry::joined(sum, geometry::weighed(solid, density));
   };
   const std::size_t before = faults.error_count();
   if (link.collisions.empty())
-    for (const scene::Visual& visual : link.visuals)
-      add("visual", visual.name, visual.geometry, visual.X_LV);
+    for (const scene::Visual& visual : link.visuals) add("visual", visual, visual.X_LV);
   for (const scene::Collision& one : link.collisions)
-    add(one.derived ? "visual" : "collision", one.name, one.geometry, one.X_LC);
+    add(one.derived ? "visual" : "collision", one, one.X_LC);
   if (!any || faults.error_count() > before) return;
   if (element.FirstChildElement("inertial")) {
     faults.error(element, "", std::string("has both <inertial> and <") + kDensity + ">",
@@ -175,12 +163,9 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
 }  // namespace
 
 void derive_parts(const Element& model, scene::Machine& machine, Faults& faults) {
-  bool wanted = true;
-  if (const Element* e = model.FirstChildElement("navvy:derive_collisions"))
-    read_flag(*e, wanted, faults);
   const bool given = std::any_of(machine.links.begin(), machine.links.end(),
                                  [](const scene::Link& link) { return !link.collisions.empty(); });
-  if (wanted && !given) derive_collisions(model, machine, faults);
+  if (machine.derive_collisions && !given) derive_collisions(model, machine, faults);
   for (scene::Link& link : machine.links)
     if (const Element* element = named_child(model, "link", link.name))
       weigh(*element, link, machine, faults);

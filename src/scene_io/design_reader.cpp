@@ -2,21 +2,22 @@
 #include "scene_io/design_reader.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/limits.h"
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
+#include "scene_io/ground_reader.h"
 #include "scene_io/landxml.h"
-#include "scene_io/raster_reader.h"
 
 namespace navvy::scene_io {
 namespace {
 
-/// On which side of the line a-b c lies: above 0 left, 0 on it.
+/// Returns the side of the line a-b on which c is: above 0 left, 0 on it.
 double side(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Whether two edges without a common corner meet.
+/// Returns true if two edges without a common corner meet.
 bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0 &&
          std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) &&
@@ -25,7 +26,7 @@ bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
 }
 
-/// A floor needs an inside: corners apart, edges that meet at their corners only.
+/// A floor needs an inside: separate corners, and edges that meet at their corners only.
 void check_polygon(const Element& at, const std::vector<Vec2>& polygon, Faults& faults) {
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -45,67 +46,52 @@ void check_polygon(const Element& at, const std::vector<Vec2>& polygon, Faults& 
   }
 }
 
-scene::DesignArea read_area(Element& element, Faults& faults) {
-  scene::DesignArea area;
+void finish_area(const Element& element, scene::DesignArea& area, Faults& faults) {
   area.line = element.GetLineNum();
-  std::vector<double> numbers;
-  Fields fields(element, faults);
-  // An odd number of coordinates is told of the polygon, not of a corner.
-  fields.list("polygon_m", numbers, {-1e6, 1e6})
-      .required("polygon_m")
-      .number("depth_m", area.depth, {-1000, 1000})
-      .required("depth_m")
-      .number("fall_deg", area.fall, {0, 60}, kDegree)
-      .number("fall_yaw_deg", area.fall_yaw, {-360, 360}, kDegree)
-      .number("batter_deg", area.batter, {5, 90}, kDegree)
-      .finish();
-  const Element* polygon = fields.child("polygon_m");
-  if (polygon == nullptr) return area;
+  const Element* polygon = element.FirstChildElement("polygon_m");
+  if (polygon == nullptr) return;
+  const std::vector<double> numbers = std::move(area.polygon_numbers);
   if (numbers.size() < 6 || numbers.size() % 2 != 0 ||
       numbers.size() > 2 * limits::kDesignCorners) {
     faults.error(
         *polygon, std::to_string(numbers.size()) + " numbers",
         "a polygon is x and y of 3 to " + std::to_string(limits::kDesignCorners) + " corners",
         "e.g. 0 0 4 0 4 2 0 2");
-    return area;
+    return;
   }
   for (std::size_t i = 0; i < numbers.size(); i += 2)
     area.polygon.emplace_back(numbers[i], numbers[i + 1]);
   check_polygon(*polygon, area.polygon, faults);
-  if (fields.has("depth_m") && area.depth == 0)
-    faults.error(*fields.child("depth_m"), "0", "a pit is deeper than 0, a pad less",
-                 "0.8 digs, -0.8 fills");
-  return area;
+  if (const Element* depth = element.FirstChildElement("depth_m"); depth && area.depth == 0)
+    faults.error(*depth, "0", "a pit is deeper than 0, a pad less", "0.8 digs, -0.8 fills");
 }
 
 }  // namespace
 
 scene::Design read_design(Element& element, Faults& faults) {
   scene::Design design;
-  std::string surface;
-  Fields fields(element, faults);
-  fields.text("file", design.file).text("surface", surface);
-  read_raster_scale(fields, design.scale);
-  fields.each("area", [&](Element& area) { design.areas.push_back(read_area(area, faults)); })
-      .finish();
+  read_element(element, design, nullptr, faults);
+  design.scale.take_heights();
+  std::size_t i = 0;
+  for (const Element* area : children_of(element, {"area"}))
+    finish_area(*area, design.areas[i++], faults);
   if (design.file.empty() == design.areas.empty())
     faults.error(element, design.file, "needs either a <file> or an <area>",
                  "remove one of them, or add one");
   if (design.file.empty()) return design;
-  Element& file = *fields.child("file");
+  const Element& file = *element.FirstChildElement("file");
   const std::size_t before = faults.error_count();
   resolve_raster(file, design.file, faults);
-  // What is no plain file is not opened: a pipe would wait for its writer for ever.
+  // Only plain files are opened: a pipe would wait for its writer for ever.
   if (faults.error_count() > before) return design;
   const bool landxml = is_landxml(design.file);
-  if (landxml) design.tin = read_landxml(design.file, surface, faults);
+  if (landxml) design.tin = read_landxml(design.file, design.surface, faults);
   if (landxml && design.scale.any())
     faults.error(file, text_of(file),
                  "map_cell_m, map_heights_m, map_corner_m and map_rows are for PNG and NPY only",
-                 "remove them: LandXML tells its own unit and coordinates");
-  if (!landxml && fields.has("surface"))
-    faults.error(*fields.child("surface"), surface, "only LandXML has surfaces by name",
-                 "remove it");
+                 "remove them: LandXML holds its own unit and coordinates");
+  if (const Element* surface = element.FirstChildElement("surface"); surface && !landxml)
+    faults.error(*surface, design.surface, "only LandXML has surfaces by name", "remove it");
   return design;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <navvy:design>: what the site shall become.
+// The design surface of a site.
 #pragma once
 
 #include "scene/design.h"
@@ -7,7 +7,7 @@
 
 namespace navvy::scene_io {
 
-/// Reads the design, a LandXML file it names at once; rasters are read when the ground is known.
+/// Reads <navvy:design> and the LandXML file it names. A raster is read later, with the ground.
 scene::Design read_design(Element& element, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// The ground of a world, and maps that ground and design are read from.
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "scene/ground.h"
@@ -10,11 +12,13 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:ground>; layers may only name `soils`. Without a layer and with one soil, that soil
-/// fills the ground. Hills without a seed take `seed`. What contradicts itself, such as shapes on a
-/// map, is a fault; whether the site has a sensible number of cells is checked with the whole
-/// world.
+/// Reads <navvy:ground>. Layers may name `soils` only; without a layer, a single soil fills the
+/// ground. Hills without a seed use `seed`. Contradictions, such as shapes on a map, are faults.
 scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>& soils,
                                std::uint64_t seed, Faults& faults);
+
+/// Turns the name of a map into a path: in a scene it counts from the scene's file, on the command
+/// line from the working directory. A missing file is a fault.
+void resolve_raster(const Element& element, std::string& path, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -4,19 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "scene_io/fields.h"
-#include "scene_io/xml_limits.h"
+#include "scene_io/element_reader.h"
 
 namespace navvy::scene_io {
 
 namespace {
 
-/// One end: the machine and link that `at` names. False after a fault, or for a machine that could
+/// Finds the machine and link that `at` names. Returns false after a fault, or if the machine could
 /// not be read.
 bool find_end(const Element& at, const scene::Scene& world, int& machine, int& link,
               Faults& faults) {
   const std::string text = text_of(at);
-  // Machines and links may both have names of several parts.
+  // Names of machines and links may contain "::" themselves.
   std::size_t cut = text.find("::");
   for (; cut != std::string::npos; cut = text.find("::", cut + 2))
     if (world.machine_index(text.substr(0, cut)) >= 0) break;
@@ -32,67 +31,46 @@ bool find_end(const Element& at, const scene::Scene& world, int& machine, int& l
   const scene::Machine& built = world.machines[static_cast<std::size_t>(machine)].machine;
   if (built.links.empty()) return false;
   if (built.kinematic) {
-    faults.error(at, text, "a hitch joins machines that forces move, and this one moves as told",
-                 "set <navvy:engine>dynamic</navvy:engine>");
+    faults.error(at, text, "a hitch joins dynamic machines, and this one is kinematic",
+                 "set <navvy:physics>dynamic</navvy:physics>");
     return false;
   }
   link = built.link_index(text.substr(cut + 2));
   if (link >= 0) return true;
   for (const scene::Link& one : built.links) names.push_back(text.substr(0, cut + 2) + one.name);
-  faults.error(at, text, "no link of this name in the machine", faults.nearest(text, names));
-  return false;
+  return require_name(at, text, "link of this name in the machine", names, faults);
 }
 
-scene::Hitch read_hitch(Element& element, const scene::Scene& world, Faults& faults) {
-  scene::Hitch hitch;
-  hitch.name = attribute(element, "name");
-  hitch.line = element.GetLineNum();
-  std::string parent, child;
-  Fields fields(element, faults);
-  fields.attribute("name")
-      .text("parent", parent)
-      .required("parent")
-      .text("child", child)
-      .required("child")
-      .vec3("hook_m", hitch.hook)
-      .required("hook_m")
-      .vec3("eye_m", hitch.eye)
-      .required("eye_m")
-      .number("cone_deg", hitch.cone, {0.1, 180}, kDegree)
-      .number("twist_deg", hitch.twist, {0.1, 180}, kDegree)
-      .flag("closed", hitch.closed)
-      .finish();
-  if (hitch.name.empty())
-    faults.error(element, "", "needs an attribute name=\"...\"",
-                 "its input is called CHILD/NAME/closed");
-  else
-    check_name(element, hitch.name, faults);
-  if (parent.empty() || child.empty()) return hitch;
-  const Element& at_child = *fields.child("child");
-  const bool known =
-      find_end(*fields.child("parent"), world, hitch.parent, hitch.parent_link, faults);
-  if (!find_end(at_child, world, hitch.child, hitch.child_link, faults) || !known) return hitch;
+void finish_hitch(const Element& element, scene::Hitch& hitch, const scene::Scene& world,
+                  Faults& faults) {
+  if (hitch.parent_name.empty() || hitch.child_name.empty()) return;
+  const Element& at_parent = child_or_self(element, "parent");
+  const Element& at_child = child_or_self(element, "child");
+  const bool known = find_end(at_parent, world, hitch.parent, hitch.parent_link, faults);
+  if (!find_end(at_child, world, hitch.child, hitch.child_link, faults) || !known) return;
   if (hitch.parent == hitch.child)
-    faults.error(at_child, child, "a machine cannot hang on itself",
+    faults.error(at_child, hitch.child_name, "a machine cannot be hitched to itself",
                  "name a link of another machine");
   for (const scene::Hitch& other : world.hitches)
     if (other.child == hitch.child)
-      faults.error(at_child, child, "this machine hangs on hitch '" + other.name + "' already",
+      faults.error(at_child, hitch.child_name,
+                   "this machine is the child of hitch '" + other.name + "' already",
                    "name it as the <parent> of one of them");
-  return hitch;
 }
 
 }  // namespace
 
 void read_hitches(Element& world_element, scene::Scene& world, Faults& faults) {
-  for (Element* e = world_element.FirstChildElement("navvy:hitch"); e;
-       e = e->NextSiblingElement("navvy:hitch")) {
+  for (Element* e : children_of(world_element, {"navvy:hitch"})) {
     const std::size_t before = faults.error_count();
-    scene::Hitch hitch = read_hitch(*e, world, faults);
+    scene::Hitch hitch;
+    hitch.line = e->GetLineNum();
+    read_element(*e, hitch, nullptr, faults);
+    finish_hitch(*e, hitch, world, faults);
     for (const scene::Hitch& other : world.hitches)
       if (!hitch.name.empty() && other.name == hitch.name)
         faults.error(*e, hitch.name, "there is already a hitch of this name", "rename one of them");
-    // What has a fault is told of once, and no other is held against it.
+    // Later hitches are not compared with a faulty one.
     if (faults.error_count() == before) world.hitches.push_back(std::move(hitch));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <navvy:hitch>: what couples two machines of a world.
+// Couplings of machines.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,8 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Reads every hitch of a world, after its machines. Each joins `machine::link` with another
-/// machine's, both moved by forces; a machine hangs on one hook at most.
+/// Reads every <navvy:hitch> of a world, after its machines. Each joins links of two dynamic
+/// machines; a machine is the child of one hitch at most.
 void read_hitches(Element& world_element, scene::Scene& world, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -3,7 +3,7 @@
 // faults without a line.
 #pragma once
 
-#include "scene_io/machine_names.h"
+#include "scene_io/element_reader.h"
 
 namespace navvy::scene_io {
 

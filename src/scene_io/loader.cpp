@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "scene_io/machine_reader.h"
 #include "scene_io/materials_reader.h"
 #include "scene_io/overrides.h"
 #include "scene_io/resolved.h"
@@ -25,6 +26,7 @@ scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& ki
     // the command line's.
     apply_overrides(*document, overrides, faults);
     world = read_world(*document, kinds, faults);
+    warn_of_unused_seed(*document, overrides, world, faults);
   }
   faults.finish();
   // Only now: what has a fault cannot be written out.
@@ -104,6 +106,7 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
     check_resolved(*document, faults);
     apply_overrides(*document, overrides, faults);
     scene::Scene read = read_world(*document, kinds, faults);
+    warn_of_unused_seed(*document, overrides, read, faults);
     // Warnings do not keep a scene from being used.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }

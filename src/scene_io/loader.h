@@ -22,15 +22,14 @@ namespace navvy::scene_io {
 /// What the command line changes in a scene file before it is read, so that the same rules apply.
 struct Overrides {
   /// Pairs such as {"soil[loam].cohesion_pa", "8000"}: `<object>.<element>` or deeper, `[name]` or
-  /// `[1]` picks one of several, without it all of them change. Objects: soil, ground, solver,
-  /// recording, camera, machine.
+  /// `[1]` picks one of several, without it all of them change. Objects are the elements of a
+  /// world, without "navvy:".
   std::vector<std::pair<std::string, std::string>> set;
   std::optional<std::uint64_t> seed;
   std::optional<double> duration;  ///< [s]
   std::optional<bool> render;
   std::optional<std::string>
-      /// Heightmap file, relative to the working directory; replaces procedural shapes.
-      terrain;
+      terrain;  ///< heightmap file, relative to the working directory; replaces procedural shapes
   std::optional<Vec2> at;    ///< centre of the crop [m]
   bool at_is_local = false;  ///< `at` counts from the file's lower-left corner
   std::optional<Vec2> size;  ///< extent of the site [m]

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+// Machines: a <model> of a scene or of a file of its own.
 #pragma once
 
 #include <string>
 
 #include "scene/machine.h"
-#include "scene_io/machine_names.h"
+#include "scene_io/element_reader.h"
 
 namespace navvy::scene_io {
 
-/// Reads a <model> with links, joints and all `navvy:` elements of a machine (not its program).
-/// `static_base` is set by an including world. The element must have passed `check_sdf`;
-/// `sdf_sound` says that it passed without a fault.
+/// Reads a <model> with links, joints and all `navvy:` elements of a machine, without its program.
+/// The element must have passed `check_sdf`; `sdf_sound` is false if that found a fault.
 scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults);
 
-/// The `navvy:` elements of a <model> alone, beside the links and joints that `machine` has
-/// already; without links only what can be said without them.
+/// Reads and checks the `navvy:` elements of a <model> alone, with the links and joints that
+/// `machine` has already.
 void read_extensions(Element& model, const Names& names, scene::Machine& machine, Faults& faults);
 
-/// Sets the initial position of the joint named by a <navvy:joint name="...">.
-void read_initial_position(Element& element, scene::Machine& machine, Faults& faults);
+/// Reads the <model> of a machine file; returns an empty machine after a fault. Elements that
+/// belong to a world, such as a program, are faults.
+scene::Machine read_machine_file(const std::string& file, Faults& faults);
 
 }  // namespace navvy::scene_io

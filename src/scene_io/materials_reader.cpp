@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/loader.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_rules.h"
@@ -14,38 +14,32 @@
 namespace navvy::scene_io {
 namespace {
 
-void read_pair(Element& element, scene::Materials& into, Faults& faults) {
-  scene::MaterialPair pair;
-  const std::string names = attribute(element, "materials");
-  const std::vector<std::string> words = words_of(names);
-  Fields fields(element, faults);
-  fields.attribute("materials")
-      .number("static_friction", pair.static_friction, {0, 5})
-      .required("static_friction")
-      .number("kinetic_friction", pair.kinetic_friction, {0, 5})
-      .number("restitution", pair.restitution, {0, 1})
-      .number("softness_m_per_n", pair.softness, {0, 0.01})
-      .finish();
-  if (words.size() != 2) {
-    faults.error(element, names, "a pair has two materials", "e.g. materials=\"steel stone\"");
-    return;
-  }
-  pair.materials = {words[0], words[1]};
-  // One number serves for both.
-  if (const Element* kinetic = fields.child("kinetic_friction")) {
-    if (pair.kinetic_friction > pair.static_friction)
+/// Adds the pairs of a table to `into`, whose own pairs were read before.
+void take_pairs(Element& table, std::vector<scene::MaterialPair> pairs, scene::Materials& into,
+                Faults& faults) {
+  const std::vector<Element*> elements = children_of(table, {"pair"});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    scene::MaterialPair& pair = pairs[i];
+    const Element& element = *elements.at(i);
+    const std::vector<std::string> words = words_of(pair.names);
+    if (words.size() != 2) {
+      faults.error(element, pair.names, "a pair has two materials",
+                   "e.g. materials=\"steel stone\"");
+      continue;
+    }
+    pair.materials = {words[0], words[1]};
+    const Element* kinetic = element.FirstChildElement("kinetic_friction");
+    if (kinetic == nullptr) pair.kinetic_friction = pair.static_friction;
+    if (kinetic != nullptr && pair.kinetic_friction > pair.static_friction)
       faults.error(*kinetic, text_of(*kinetic),
-                   "must not exceed static_friction: what rests holds at least as well",
-                   "exchange the two, or leave kinetic_friction out where both are the same");
-  } else {
-    pair.kinetic_friction = pair.static_friction;
+                   "must not exceed static_friction: friction at rest is the greater one",
+                   "exchange the two, or remove kinetic_friction if both are the same");
+    if (into.pair(words[0], words[1]) != nullptr)
+      faults.error(element, pair.names, "this pair is in the table already",
+                   "remove one of them; the order of names is free");
+    else
+      into.pairs.push_back(std::move(pair));
   }
-  if (into.pair(words[0], words[1]) != nullptr) {
-    faults.error(element, names, "this pair is in the table already",
-                 "remove one of them; the order of names is free");
-    return;
-  }
-  into.pairs.push_back(std::move(pair));
 }
 
 /// Names in the table, each once.
@@ -94,33 +88,36 @@ void read_materials_file(const std::string& file, scene::Materials& into, Faults
     faults.error(*document->root(), "", "a table of materials needs <navvy:materials>");
     return;
   }
-  // Tables must not refer to others: no loops to follow.
-  Fields(*table, faults)
-      .each("pair", [&](Element& pair) { read_pair(pair, into, faults); })
-      .finish();
+  scene::Materials read;
+  read_element(*table, read, nullptr, faults);
+  // A table refers to no other one, so there are no loops.
+  for (const char* name : {"file", "ground"})
+    if (const Element* child = table->FirstChildElement(name))
+      faults.error(*child, text_of(*child), "unknown element", "only a scene's own table has it");
+  take_pairs(*table, std::move(read.pairs), into, faults);
 }
 
 scene::Materials read_materials(Element& element, Faults& faults) {
-  scene::Materials out;
-  std::string file;
-  Fields fields(element, faults);
-  fields.text("file", file).text("ground", out.ground).each("pair", [](Element&) {}).finish();
-  // The file first: what stands in the scene is blamed for a pair that is told twice.
-  if (const Element* child = fields.child("file"); child != nullptr && !file.empty()) {
+  scene::Materials read, out;
+  read_element(element, read, nullptr, faults);
+  out.ground = read.ground;
+  out.file = read.file;
+  // The file first, so that a second entry of a pair is reported in the scene.
+  if (const Element* child = element.FirstChildElement("file"); child && !read.file.empty()) {
     if (const std::string path = materials_file(*child); !path.empty())
       read_materials_file(path, out, faults);
     else
-      faults.error(*child, file, why_no_file(file),
+      faults.error(*child, read.file, why_no_file(read.file),
                    "paths count from the scene file; a bare name may be a shipped table, such as "
                    "materials.sdf");
   }
-  for (Element* pair = element.FirstChildElement("pair"); pair;
-       pair = pair->NextSiblingElement("pair"))
-    read_pair(*pair, out, faults);
-  const std::vector<std::string> known = known_in(out);
-  if (!out.ground.empty() && std::find(known.begin(), known.end(), out.ground) == known.end())
-    faults.error(*fields.child("ground"), out.ground, "no pair has this material",
-                 faults.nearest(out.ground, known));
+  take_pairs(element, std::move(read.pairs), out, faults);
+  if (!out.ground.empty()) {
+    const Element& at = child_or_self(element, "ground");
+    const std::vector<std::string> known = known_in(out);
+    if (std::find(known.begin(), known.end(), out.ground) == known.end())
+      faults.error(at, out.ground, "no pair has this material", faults.nearest(out.ground, known));
+  }
   return out;
 }
 

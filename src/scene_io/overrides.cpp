@@ -4,22 +4,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <map>
 
 #include "core/utf8.h"
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
+#include "scene_io/schema.h"
+#include "scene_io/soil_reader.h"
 
 namespace navvy::scene_io {
 
 namespace {
-
-// The fewest digits that read back to the same number, so that a value given on the command line
-// arrives unchanged.
-std::string shortest(double value) {
-  char text[40];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  return std::string(text, result.ptr);
-}
 
 /// One part of a key: `soil[loam]` has name "soil" and which "loam".
 struct Part {
@@ -60,7 +54,7 @@ void key_fault(const std::string& key, const std::string& value, const std::stri
   faults.add(fault);
 }
 
-/// "ew180" of model://ew180, ../ew180/model.sdf, ew180/ and ew180.sdf.
+/// Returns "ew180" for model://ew180, ../ew180/model.sdf, ew180/ and ew180.sdf.
 std::string model_of(std::string uri) {
   const std::string file = "/model.sdf", ending = ".sdf";
   if (uri.size() >= file.size() && uri.compare(uri.size() - file.size(), file.size(), file) == 0)
@@ -73,17 +67,18 @@ std::string model_of(std::string uri) {
   return uri;
 }
 
+/// Returns true if `which` names the element: by place, counted from 1 among those that match, by
+/// its name, or by the name of what it refers to.
 bool is_called(const Element& element, const std::string& which, int place) {
-  // By place, counted from 1 among those that match, by name, or by the name of what it refers to.
   if (which.empty() || which == std::to_string(place)) return true;
   if (attribute(element, "name") == which || child_text(element, "name") == which) return true;
   if (!element.Attribute("name") && attribute(element, "ref") == which) return true;
-  // An included machine without a <name> goes by its file's directory.
-  return !element.FirstChildElement("name") && model_of(child_text(element, "uri")) == which;
+  // An included machine without a <name> has the name of its file's directory.
+  return !has(element, "name") && model_of(child_text(element, "uri")) == which;
 }
 
+/// Machines are <include> or <model> in a scene; to a user they are machines.
 bool matches(const Element& element, const std::string& name) {
-  // Machines stand in a scene as <include> or <model>; to a user they are machines.
   const std::string own = element.Name();
   if (own == name || own == "navvy:" + name) return true;
   return name == "machine" && (own == "include" || own == "model");
@@ -97,7 +92,7 @@ std::vector<Element*> children_matching(Element& parent, const Part& part) {
   return found;
 }
 
-// A value of the file is replaced by a new element, whose line 0 marks it as not of the file.
+/// Replaces a value by a new element, whose line 0 marks it as given on the command line.
 void set_value(Element& parent, const std::string& name, const std::string& value) {
   while (Element* old = parent.FirstChildElement(name.c_str())) parent.DeleteChild(old);
   parent.InsertNewChildElement(name.c_str())->SetText(value.c_str());
@@ -110,8 +105,7 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     if (names[i].empty() || names[i] != name) continue;
     Element* pose = machine.FirstChildElement("pose");
     std::vector<std::string> words = pose ? words_of(text_of(*pose)) : std::vector<std::string>{};
-    const bool in_degrees =
-        pose && (attribute(*pose, "degrees") == "true" || attribute(*pose, "degrees") == "1");
+    const bool in_degrees = pose && is_true(attribute(*pose, "degrees"));
     bool quaternion = pose && attribute(*pose, "rotation_format") == "quat_xyzw";
     // A quaternion stays as it is where only the place is set, and gives way to angles for a new
     // yaw.
@@ -120,7 +114,8 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     if (quaternion && i == 5 && read_pose(*pose, X, unread)) {
       const Vec3 turn = fixed_angles(X.linear());
       words.resize(6);
-      for (int k = 0; k < 3; ++k) words[static_cast<std::size_t>(3 + k)] = shortest(turn[k]);
+      for (int k = 0; k < 3; ++k)
+        words[static_cast<std::size_t>(3 + k)] = scene::exact_text(turn[k]);
       quaternion = false;
     }
     // A pose that is not there, or is shorter than six numbers, counts as zeros.
@@ -128,7 +123,8 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     double number = 0;
     words[i] = value;
     // A pose counts in radians unless it says otherwise; the key says degrees.
-    if (i == 5 && !in_degrees && to_number(value, number)) words[i] = shortest(number * kDegree);
+    if (i == 5 && !in_degrees && to_number(value, number))
+      words[i] = scene::exact_text(number * kDegree);
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
     if (pose) machine.DeleteChild(pose);
@@ -141,78 +137,161 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
   return false;
 }
 
-void apply_setting(Element& world, const std::string& key, const std::string& value,
-                   Faults& faults) {
-  std::vector<Part> parts;
-  if (!split_key(key, parts) || !parts.back().which.empty()) {
-    key_fault(key, value, "a setting must look like object.element=value",
-              "e.g. soil.cohesion_pa=8000", faults);
-    return;
-  }
-  const std::vector<std::string> objects = {"soil",      "ground", "solver",
-                                            "recording", "camera", "machine"};
-  bool known = false;
-  for (const std::string& object : objects) known = known || object == parts[0].name;
-  if (first_bad_utf8(key + value) != std::string::npos) {
-    key_fault("", "", "a setting must be text in UTF-8", "check the terminal's encoding", faults);
-    return;
-  }
-  // The scene is written out as it ran, and no XML holds them.
-  const auto is_control = [](char c) {
-    return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;
-  };
-  if (std::any_of(value.begin(), value.end(), is_control) ||
-      std::any_of(key.begin(), key.end(), is_control)) {
-    key_fault("", "", "a setting must hold no control characters",
-              "look for what the shell made of its value", faults);
-    return;
-  }
-  if (!known) {
-    key_fault(key, value, "unknown object '" + parts[0].name + "'",
-              faults.nearest(parts[0].name, objects), faults);
-    return;
-  }
-  std::vector<Element*> targets = {&world};
-  // A key goes down from the world, part by part; each part may pick several, and all of them are
-  // set.
-  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    std::vector<Element*> next;
-    for (Element* target : targets)
-      for (Element* child : children_matching(*target, parts[i])) next.push_back(child);
-    // Objects that a scene has once, and may leave out with all values at their defaults, are made
-    // when they are needed; others must be there to be meant.
-    const bool single =
-        parts[i].name == "ground" || parts[i].name == "solver" || parts[i].name == "recording";
-    if (next.empty() && i == 0 && single)
-      next.push_back(world.InsertNewChildElement(("navvy:" + parts[0].name).c_str()));
-    if (next.empty()) {
-      const std::string part =
-          parts[i].name + (parts[i].which.empty() ? "" : "[" + parts[i].which + "]");
-      key_fault(key, value, "the scene has no '" + part + "'", "see the names in the scene file",
-                faults);
-      return;
-    }
-    targets = next;
-  }
-  const std::string& leaf = parts.back().name;
-  for (Element* target : targets) {
-    // One level below a machine only its place can be set; deeper keys reach what the scene says of
-    // it, such as its program.
-    if (parts[0].name == "machine" && parts.size() == 2) {
-      if (!set_place(*target, leaf, value))
-        key_fault(key, value, "unknown element '" + leaf + "'",
-                  faults.nearest(leaf, {"x_m", "y_m", "z_m", "yaw_deg"}), faults);
-      continue;
-    }
-    // A soil's strength is given by one of two elements; the new one replaces the other.
-    if (leaf == "friction_angle_deg" || leaf == "repose_angle_deg")
-      for (const char* other : {"friction_angle_deg", "repose_angle_deg"})
-        if (Element* old = target->FirstChildElement(other)) target->DeleteChild(old);
-    set_value(*target, leaf, value);
-  }
+/// Returns true if two texts hold equal numbers or words.
+bool same_value(const std::string& a, const std::string& b) {
+  const std::vector<std::string> left = words_of(a), right = words_of(b);
+  return std::equal(left.begin(), left.end(), right.begin(), right.end(),
+                    [](const std::string& x, const std::string& y) {
+                      double u = 0, v = 0;
+                      return x == y || (to_number(x, u) && to_number(y, v) && u == v);
+                    });
 }
 
-std::string shortest(const Vec2& v) { return shortest(v.x()) + " " + shortest(v.y()); }
+/// Applies the settings of one command line, one after the other.
+class Settings {
+ public:
+  Settings(Element& world, Faults& faults) : world_(world), faults_(faults) {}
+
+  void apply(const std::string& key, const std::string& value) {
+    std::vector<Part> parts;
+    if (!check_text(key, value)) return;
+    if (!split_key(key, parts) || !parts.back().which.empty())
+      return key_fault(key, value, "a setting must look like object.element=value",
+                       "e.g. soil.cohesion_pa=8000", faults_);
+    const SchemaNode* node = schema().root().child("world");
+    std::vector<Element*> targets = {&world_};
+    if (!find_targets(key, value, parts, targets, node)) return;
+    // The node is null inside of a program: its steps are unknown here, and their reader checks
+    // them.
+    const std::string& leaf = parts.back().name;
+    bool changed = false;
+    for (Element* target : targets) changed = set(*target, node, key, leaf, value) || changed;
+    if (!changed)
+      warn(key, value, "has no effect: the scene has this value already", "remove the setting");
+  }
+
+ private:
+  void warn(const std::string& key, const std::string& value, const std::string& rule,
+            const std::string& remedy) {
+    faults_.add({Fault::Severity::kWarning, "command line", 0, key, value, rule, remedy});
+  }
+
+  /// The scene is written out as it ran, so settings must be text that XML may hold.
+  bool check_text(const std::string& key, const std::string& value) {
+    const auto is_control = [](char c) {
+      return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;
+    };
+    const std::string all = key + value;
+    if (first_bad_utf8(all) != std::string::npos)
+      key_fault("", "", "a setting must be text in UTF-8", "check the terminal's encoding",
+                faults_);
+    else if (std::any_of(all.begin(), all.end(), is_control))
+      key_fault("", "", "a setting must hold no control characters",
+                "check how the shell has changed its value", faults_);
+    else
+      return true;
+    return false;
+  }
+
+  /// Goes down from the world, part by part; each part may select several elements.
+  bool find_targets(const std::string& key, const std::string& value,
+                    const std::vector<Part>& parts, std::vector<Element*>& targets,
+                    const SchemaNode*& node) {
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+      const SchemaNode* child = node != nullptr ? node->child(parts[i].name) : nullptr;
+      if (i == 0 && (child == nullptr || child->type != "element")) {
+        key_fault(key, value, "unknown object '" + parts[0].name + "'",
+                  faults_.nearest(parts[0].name, objects()), faults_);
+        return false;
+      }
+      std::vector<Element*> next;
+      for (Element* target : targets)
+        for (Element* e : children_matching(*target, parts[i])) next.push_back(e);
+      // A part that is no element may be the name of an object: machine.digger.uri.
+      const bool by_name = i > 0 && next.empty() && child == nullptr && parts[i].which.empty();
+      if (by_name)
+        for (Element* target : targets)
+          if (is_called(*target, parts[i].name, 0)) next.push_back(target);
+      // An object that a scene has once, and may leave out, is created when it is needed.
+      if (next.empty() && i == 0 && !child->repeats)
+        next.push_back(world_.InsertNewChildElement(child->name.c_str()));
+      if (next.empty()) {
+        const std::string which = parts[i].which.empty() ? "" : "[" + parts[i].which + "]";
+        key_fault(key, value, "the scene has no '" + parts[i].name + which + "'",
+                  "see the names in the scene file", faults_);
+        return false;
+      }
+      targets = std::move(next);
+      if (by_name) continue;
+      node = child != nullptr && child->name != "navvy:program" ? child : nullptr;
+    }
+    return true;
+  }
+
+  static std::vector<std::string> objects() {
+    std::vector<std::string> out;
+    for (const SchemaNode& child : schema().root().child("world")->children)
+      if (child.type == "element" && child.name != "light" && child.name != "model")
+        out.push_back(child.key);
+    return out;
+  }
+
+  /// Sets one value of `target`; returns false if it had this value already.
+  bool set(Element& target, const SchemaNode* node, const std::string& key, const std::string& leaf,
+           const std::string& value) {
+    const SchemaNode* child = node != nullptr ? node->child(leaf) : nullptr;
+    if (node != nullptr && node->key == "machine") {
+      const std::string before = child_text(target, "pose");
+      if (set_place(target, leaf, value)) return !same_value(before, child_text(target, "pose"));
+      if (child == nullptr || child->type == "element") {
+        std::vector<std::string> known = {"x_m", "y_m", "z_m", "yaw_deg"};
+        for (const SchemaNode& one : node->children)
+          if (one.type != "element") known.push_back(one.key);
+        key_fault(key, value, "unknown element '" + leaf + "'", faults_.nearest(leaf, known),
+                  faults_);
+        return true;
+      }
+    }
+    // An unknown name is written as it is, and the reader reports it.
+    const std::string name = child != nullptr ? child->name : leaf;
+    if (const auto [at, is_new] = written_.try_emplace({&target, name}, key); !is_new)
+      warn(at->second, "", "has no effect: a later setting gives the value", "remove one of them");
+    if (child != nullptr && child->attribute) {
+      const bool changed = attribute(target, name.c_str()) != value;
+      target.SetAttribute(name.c_str(), value.c_str());
+      return changed;
+    }
+    const bool changed = !same_value(value, present_value(target, child, name));
+    // A soil's strength is given by one of two elements; the new one replaces the other.
+    if (name == "friction_angle_deg" || name == "repose_angle_deg")
+      for (const char* other : {"friction_angle_deg", "repose_angle_deg"})
+        if (Element* old = target.FirstChildElement(other)) target.DeleteChild(old);
+    set_value(target, name, value);
+    return changed;
+  }
+
+  /// Returns the value that `target` has without the setting: its own, that of the soil it refers
+  /// to, or the default.
+  std::string present_value(const Element& target, const SchemaNode* child,
+                            const std::string& name) const {
+    if (has(target, name.c_str())) return child_text(target, name.c_str());
+    const std::string ref = attribute(target, "ref");
+    if (ref.empty()) return child != nullptr ? child->initial : "";
+    Faults unread;
+    const auto document = Document::open(soil_file(target, ref), unread);
+    const Element* soil = document ? document->root()->FirstChildElement("navvy:soil") : nullptr;
+    return soil != nullptr ? child_text(*soil, name.c_str()) : "";
+  }
+
+  Element& world_;
+  Faults& faults_;
+  /// Keys of settings by the value that they have written.
+  std::map<std::pair<const Element*, std::string>, std::string> written_;
+};
+
+std::string pair_text(const Vec2& v) {
+  return scene::exact_text(v.x()) + " " + scene::exact_text(v.y());
+}
 
 Element& section(Element& world, const char* name) {
   Element* found = world.FirstChildElement(name);
@@ -231,9 +310,9 @@ void apply_terrain(Element& world, const Overrides& overrides) {
   if (overrides.at) {
     for (const char* other : {"at_m", "at_local_m"})
       if (Element* old = ground.FirstChildElement(other)) ground.DeleteChild(old);
-    set_value(ground, overrides.at_is_local ? "at_local_m" : "at_m", shortest(*overrides.at));
+    set_value(ground, overrides.at_is_local ? "at_local_m" : "at_m", pair_text(*overrides.at));
   }
-  if (overrides.size) set_value(ground, "size_m", shortest(*overrides.size));
+  if (overrides.size) set_value(ground, "size_m", pair_text(*overrides.size));
 }
 
 }  // namespace
@@ -258,10 +337,28 @@ void apply_overrides(Document& document, const Overrides& overrides, Faults& fau
   if (overrides.terrain || overrides.at || overrides.size) apply_terrain(*world, overrides);
   if (overrides.seed) set_value(*world, "navvy:seed", std::to_string(*overrides.seed));
   if (overrides.duration)
-    set_value(section(*world, "navvy:recording"), "duration_s", shortest(*overrides.duration));
+    set_value(section(*world, "navvy:recording"), "duration_s",
+              scene::exact_text(*overrides.duration));
   if (overrides.render)
     set_value(section(*world, "navvy:recording"), "render", *overrides.render ? "true" : "false");
-  for (const auto& [key, value] : overrides.set) apply_setting(*world, key, value, faults);
+  Settings settings(*world, faults);
+  for (const auto& [key, value] : overrides.set) settings.apply(key, value);
+}
+
+void warn_of_unused_seed(Document& document, const Overrides& overrides, const scene::Scene& world,
+                         Faults& faults) {
+  const Element* element = document.root()->FirstChildElement("world");
+  if (!overrides.seed || element == nullptr) return;
+  bool used = false;
+  for (const scene::GroundFeature& shape : world.ground.features)
+    used = used || (shape.kind == scene::GroundFeature::Kind::kHills && !shape.has_seed);
+  for (const scene::MachineInWorld& placed : world.machines)
+    used = used || !placed.machine.encoders.empty();
+  if (!used)
+    faults.add({Fault::Severity::kWarning, "command line", 0, "--seed",
+                std::to_string(*overrides.seed),
+                "has no effect: the scene has neither hills without a seed nor encoders",
+                "remove it, or set ground.hills.seed"});
 }
 
 }  // namespace navvy::scene_io

@@ -2,7 +2,6 @@
 #include "scene_io/resolved.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,7 +10,7 @@
 
 #include "core/hash.h"
 #include "scene_io/assembly.h"
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/loader.h"
 #include "scene_io/materials_reader.h"
 #include "scene_io/mesh_path.h"
@@ -24,9 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kScheme = "model://";
-constexpr std::size_t kHashedMost = std::size_t{64}  // [bytes]: maps may hold gigabytes of which a
-                                                     // run reads a corner
-                                    << 20;
+constexpr std::size_t kHashedMost =
+    std::size_t{64} << 20;  // [bytes]: maps may hold gigabytes of which a run reads a corner
 
 std::string absolute(const std::string& path) {
   std::error_code failed;
@@ -70,14 +68,6 @@ std::string hash_of(const std::string& path) {
   return hash.hex();
 }
 
-// The fewest digits that read back to the same number: the text must give the same world, bit by
-// bit.
-std::string shortest(double value) {
-  char text[40];
-  const auto result = std::to_chars(text, text + sizeof text, value);
-  return std::string(text, result.ptr);
-}
-
 /// Every element of `parent`, however deep, in the order of the file.
 template <class Visit>
 void visit_all(Element& parent, const Visit& visit) {
@@ -114,8 +104,7 @@ class Resolver {
   }
 
   Element& world_;
-  /// The readers have reported what there was to report.
-  Faults none_;
+  Faults none_;  ///< the readers have reported what there was to report
   std::map<std::string, std::string> files_;  ///< hash by name
 };
 
@@ -140,7 +129,7 @@ void Resolver::soil(Element& element, const scene::Soil& read) {
   // out.
   if (Element* old = element.FirstChildElement("residual_cohesion_pa")) element.DeleteChild(old);
   element.InsertNewChildElement("residual_cohesion_pa")
-      ->SetText(shortest(read.residual_cohesion).c_str());
+      ->SetText(scene::exact_text(read.residual_cohesion).c_str());
   element.DeleteAttribute("ref");
   element.SetAttribute("name", read.name.c_str());
 }
@@ -210,8 +199,8 @@ void Resolver::include(Element& element) {
       while (Element* own = inlined.FirstChildElement("static")) inlined.DeleteChild(own);
     }
     // The scene's choice takes the place of the file's.
-    if (is_called(child, "navvy:engine"))
-      while (Element* own = inlined.FirstChildElement("navvy:engine")) inlined.DeleteChild(own);
+    if (is_called(child, "navvy:physics"))
+      while (Element* own = inlined.FirstChildElement("navvy:physics")) inlined.DeleteChild(own);
     inlined.InsertEndChild(child->DeepClone(element.GetDocument()));
   }
   // In its place, as machines are numbered in the order of the file.
@@ -266,17 +255,18 @@ void check_resolved(Document& document, Faults& faults) {
                  "use the version of Navvy that wrote it");
     return;
   }
-  Fields(*list, faults)
-      .attribute("format")
-      .each("file",
-            [&](Element& file) {
-              // One that is gone is reported where it is used.
-              const std::string path = file_behind(text_of(file));
-              if (!path.empty() && hash_of(path) != attribute(file, "hash"))
-                faults.warning(file, text_of(file), "this file has changed since the run",
-                               "results may differ from the run's");
-            })
-      .finish();
+  for (Element* e = list->FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const Element& file = *e;
+    if (std::strcmp(file.Name(), "file") != 0) {
+      faults.error(file, text_of(file), "unknown element", "only <file> has a place here");
+      continue;
+    }
+    // A missing file is reported where it is used.
+    const std::string path = file_behind(text_of(file));
+    if (!path.empty() && hash_of(path) != attribute(file, "hash"))
+      faults.warning(file, text_of(file), "this file has changed since the run",
+                     "results may differ from the run's");
+  }
 }
 
 }  // namespace navvy::scene_io

@@ -5,12 +5,16 @@
 
 #include "core/limits.h"
 #include "geometry/topology.h"
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/mesh_path.h"
 
 namespace navvy::scene_io {
 
 namespace {
+
+std::string corners_text(const std::array<int, 3>& t) {
+  return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
+}
 
 void read_triangles(Element& element, const std::vector<double>& vertices,
                     const std::vector<double>& corners, scene::Shell& shell, Faults& faults) {
@@ -28,16 +32,13 @@ void read_triangles(Element& element, const std::vector<double>& vertices,
 /// The solver needs areas, and one side that is the inside: two triangles run along a shared edge
 /// in opposite directions.
 void check_surface(const Element& element, const scene::Shell& shell, Faults& faults) {
-  const auto named = [&](std::size_t n) {
-    const std::array<int, 3>& t = shell.triangles[n];
-    return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
-  };
   for (std::size_t n = 0; n < shell.triangles.size(); ++n)
     if (!(shell.area_vector(n).norm() > 1e-10))
-      faults.error(element, named(n), "triangle " + std::to_string(n) + " has no area",
-                   "remove it or mend its corners");
+      faults.error(element, corners_text(shell.triangles[n]),
+                   "triangle " + std::to_string(n) + " has no area",
+                   "remove it or correct its corners");
   if (const auto clash = geometry::find_winding_clash(shell))
-    faults.error(element, named(clash->second),
+    faults.error(element, corners_text(shell.triangles[clash->second]),
                  "triangles " + std::to_string(clash->first) + " and " +
                      std::to_string(clash->second) +
                      " are wound against each other along their edge",
@@ -46,58 +47,40 @@ void check_surface(const Element& element, const scene::Shell& shell, Faults& fa
 
 }  // namespace
 
-scene::Shell read_shell(Element& element, const Names& names, Faults& faults) {
-  scene::Shell shell;
-  shell.name = attribute(element, "name");
-  require_attribute_name(element, faults);
-  std::string mesh;
-  std::vector<double> vertices, corners;
-  Fields fields(element, faults);
-  fields.attribute("name")
-      .text("link", shell.link)
-      .required("link")
-      .text("mesh", mesh)
-      .list("vertices_m", vertices, {-1000, 1000})
-      .list("triangles", corners, {0, 1e6})
-      .number("half_thickness_m", shell.half_thickness, {1e-4, 1})
-      .number("friction_share", shell.friction_share, {0, 2})
-      .number("adhesion_share", shell.adhesion_share, {0, 2})
-      .finish();
-  require_name(element, "link", "link", names.links, faults);
-  const bool inline_given = fields.has("vertices_m") && fields.has("triangles");
-  if (fields.has("mesh") == inline_given)
+void finish_shell(Element& element, scene::Shell& shell, Faults& faults) {
+  const bool inline_given = has(element, "vertices_m") && has(element, "triangles");
+  if (has(element, "mesh") == inline_given)
     faults.error(element, "", "needs either <mesh> or <vertices_m> with <triangles>");
-  if (inline_given) read_triangles(element, vertices, corners, shell, faults);
+  if (inline_given)
+    read_triangles(element, shell.vertex_numbers, shell.corner_numbers, shell, faults);
+  shell.vertex_numbers.clear();
+  shell.corner_numbers.clear();
   std::string path;
-  if (Element* child = fields.child("mesh"); child && resolve_mesh(*child, path, faults))
+  if (Element* child = element.FirstChildElement("mesh");
+      child && resolve_mesh(*child, path, faults))
     read_shell_mesh(path, *child, shell, faults);
   if (shell.triangles.size() > limits::kShellTriangles) {
     faults.error(element, std::to_string(shell.triangles.size()) + " triangles",
                  "a shell may have at most " + std::to_string(limits::kShellTriangles) +
-                     ": the soil near it is held against each",
-                 "thin the mesh out; what is drawn may stay as fine as it is");
+                     ": soil near it is checked against each",
+                 "simplify the mesh; visuals may keep theirs");
     shell.triangles.clear();
-    return shell;
+    return;
   }
-  for (const auto& triangle : shell.triangles) {
-    const int count = static_cast<int>(shell.vertices.size());
+  const int count = static_cast<int>(shell.vertices.size());
+  for (const auto& t : shell.triangles) {
     const bool inside =
-        std::all_of(triangle.begin(), triangle.end(), [&](int i) { return i >= 0 && i < count; });
-    if (!inside || triangle[0] == triangle[1] || triangle[1] == triangle[2] ||
-        triangle[0] == triangle[2]) {
-      faults.error(
-          element,
-          std::to_string(triangle[0]) + " " + std::to_string(triangle[1]) + " " +
-              std::to_string(triangle[2]),
-          "a triangle must name three different vertices from 0 to " + std::to_string(count - 1));
-      shell.triangles.clear();
-      return shell;
-    }
+        std::all_of(t.begin(), t.end(), [count](int i) { return i >= 0 && i < count; });
+    if (inside && t[0] != t[1] && t[1] != t[2] && t[0] != t[2]) continue;
+    faults.error(
+        element, corners_text(t),
+        "a triangle must name three different vertices from 0 to " + std::to_string(count - 1));
+    shell.triangles.clear();
+    return;
   }
   if (shell.triangles.empty() && (inline_given || !path.empty()))
     faults.error(element, "", "holds no triangle");
   check_surface(element, shell, faults);
-  return shell;
 }
 
 }  // namespace navvy::scene_io

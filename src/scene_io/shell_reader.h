@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shells, the surfaces that touch soil.
+// Triangles of shells, the surfaces that touch soil.
 #pragma once
 
 #include "scene/machine.h"
-#include "scene_io/machine_names.h"
+#include "scene_io/xml.h"
 
 namespace navvy::scene_io {
 
-/// Reads a <navvy:shell> with triangles of its own or those of an OBJ file.
-scene::Shell read_shell(Element& element, const Names& names, Faults& faults);
+/// Gives a shell, whose <navvy:shell> was read, its triangles: those in the element or those of an
+/// OBJ file. Checks that every triangle has an area and that all are wound alike.
+void finish_shell(Element& element, scene::Shell& shell, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -6,46 +6,13 @@
 #include <filesystem>
 
 #include "scene/soil_values.h"
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/loader.h"
 #include "scene_io/sdf_rules.h"
 
 namespace navvy::scene_io {
 
 namespace {
-
-// The names, ranges and units are those of scene/soil_values.h, so that the laboratory's files and
-// the scenes agree.
-void read_values(Element& element, scene::Soil& soil, Faults& faults) {
-  std::vector<double> color;
-  double repose = 0;
-  Fields fields(element, faults);
-  fields.attribute("name").attribute("ref").text("source", soil.source);
-  // Values that are not given keep what the soil had before: the defaults, or those of the soil it
-  // refers to.
-  for (const scene::SoilValue& v : scene::soil_values())
-    fields.number(v.name, soil.*v.value, {v.low, v.high}, v.factor);
-  fields.number("repose_angle_deg", repose, {0, 44}, kDegree).list("color", color, {0, 1}).finish();
-  if (Element* child = fields.child("color")) {
-    // A fault in the list has been reported, so only a wrong number of numbers is left to tell.
-    if (color.size() == 3) {
-      for (int i = 0; i < 3; ++i)
-        soil.color[i] = static_cast<float>(color[static_cast<std::size_t>(i)]);
-    } else if (!color.empty() || text_of(*child).empty()) {
-      faults.error(*child, text_of(*child), "must be 3 numbers from 0 to 1: red green blue");
-    }
-  }
-  // Plane strain without dilatancy: loose soil flows above atan(sin phi), so a repose angle t means
-  // sin phi = tan t.
-  if (Element* child = fields.child("repose_angle_deg")) {
-    if (fields.has("friction_angle_deg")) {
-      faults.error(*child, text_of(*child), "give either repose_angle_deg or friction_angle_deg",
-                   "remove one");
-    } else {
-      soil.friction_angle = std::asin(std::min(1.0, std::tan(repose)));
-    }
-  }
-}
 
 // Relations are judged once all values are read, and told at the element that the scene wrote, if
 // it did.
@@ -108,7 +75,15 @@ scene::Soil read_soil(Element& element, Faults& faults) {
     faults.error(element, "",
                  "needs an attribute name=\"...\" (own values) or ref=\"...\" (a shipped soil)");
   const double cohesion = soil.cohesion, residual = soil.residual_cohesion;
-  read_values(element, soil, faults);
+  read_element(element, soil, nullptr, faults);
+  // In plane strain without dilatancy, loose soil flows above atan(sin phi).
+  if (const Element* repose = element.FirstChildElement("repose_angle_deg")) {
+    if (has(element, "friction_angle_deg"))
+      faults.error(*repose, text_of(*repose), "give either repose_angle_deg or friction_angle_deg",
+                   "remove one");
+    else
+      soil.friction_angle = std::asin(std::min(1.0, std::tan(soil.repose_angle)));
+  }
   // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one
   // line only.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)

@@ -2,8 +2,6 @@
 #include "scene_io/world_reader.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <map>
 
@@ -12,14 +10,12 @@
 #include "scene/soil_values.h"
 #include "scene_io/assembly.h"
 #include "scene_io/design_reader.h"
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/hitch_reader.h"
-#include "scene_io/machine_reader.h"
+#include "scene_io/instance_reader.h"
 #include "scene_io/materials_reader.h"
-#include "scene_io/mesh_path.h"
 #include "scene_io/program_order.h"
-#include "scene_io/program_reader.h"
 #include "scene_io/sdf_rules.h"
 #include "scene_io/soil_reader.h"
 #include "scene_io/xml_limits.h"
@@ -28,31 +24,10 @@ namespace navvy::scene_io {
 
 namespace {
 
-/// What has been read of a machine's file.
-struct MachineFile {
-  scene::Machine machine;
-  std::size_t elements = 0;
-};
-
-void read_solver(Element& element, scene::SolverSettings& solver, Faults& faults) {
-  // A cell below 5 mm or above 2 m is a slip of units; the particles' number follows from its cube.
-  Fields(element, faults)
-      .number("cell_m", solver.cell, {0.005, 2})
-      .number("courant", solver.courant, {0.05, 1})
-      .number("max_step_s", solver.max_step, {1e-6, 0.02})
-      .number("control_rate_hz", solver.control_rate, {0.001, 1e5})
-      .whole("max_particles", solver.max_particles, {1000, limits::kParticles})
-      .number("awake_zone", solver.active_zone, {0.5, 4})
-      .finish();
-}
-
-void read_recording(Element& element, scene::Recording& recording, Faults& faults) {
-  Fields(element, faults)
-      .number("duration_s", recording.duration, {1e-3, 1e6})
-      .number("settle_s", recording.settle, {0, 1e5})
-      .number("telemetry_rate_hz", recording.telemetry_rate, {0.01, 1e5})
-      .flag("render", recording.render)
-      .finish();
+/// Reads a section of a world that stands by itself, if the world has it.
+template <class T>
+void read_section(Element& world, const char* name, T& into, Faults& faults) {
+  if (Element* e = world.FirstChildElement(name)) read_element(*e, into, nullptr, faults);
 }
 
 /// Names of scenes, cameras and maps become names of files.
@@ -65,72 +40,59 @@ void require_file_name(const Element& element, const std::string& name, Faults& 
                  "use letters, digits, _ and -");
 }
 
-/// Formats and layers are known to whoever writes them: they are checked there, with the line that
-/// is kept here.
-scene::MapRecord read_record(Element& element, Faults& faults) {
-  scene::MapRecord record;
-  record.line = element.GetLineNum();
-  record.name = attribute(element, "name");
-  std::string layers;
-  Fields(element, faults)
-      .attribute("name")
-      .text("format", record.format)
-      .required("format")
-      .text("layers", layers)
-      .number("rate_hz", record.rate, {0.001, 1000})
-      .number("machine_rate_hz", record.machine_rate, {0.001, 1000})
-      .finish();
-  record.layers = words_of(layers);
-  if (record.name.empty())
-    faults.error(element, "", "needs an attribute name=\"...\"", "it names the files");
-  require_file_name(element, record.name, faults);
-  check_name(element, record.name, faults);
-  return record;
+/// Reports an object with the name of an earlier one of its kind.
+template <class T>
+void require_new_name(const Element& at, const std::string& name, const char* kind,
+                      const std::vector<T>& others, const char* remedy, Faults& faults) {
+  for (const T& other : others)
+    if (!name.empty() && other.name == name)
+      faults.error(at, name, std::string("there is already a ") + kind + " of this name", remedy);
 }
 
-scene::Camera read_camera(Element& element, const scene::Scene& world, Faults& faults) {
-  scene::Camera camera;
-  camera.name = attribute(element, "name");
-  // Everything is read first and judged then, so that one camera can have several faults at once.
-  Fields fields(element, faults);
-  fields.attribute("name")
-      .text("machine", camera.machine)
-      .text("link", camera.link)
-      .vec3("position_m", camera.position, {-1e6, 1e6})
-      .vec3("target_m", camera.target, {-1e6, 1e6})
-      .number("fov_deg", camera.fov, {1, 170}, kDegree)
-      .whole("width_px", camera.width, {16, 8192})
-      .whole("height_px", camera.height, {16, 8192})
-      .number("rate_hz", camera.rate, {0.001, 1000})
-      .finish();
-  if (camera.name.empty())
-    faults.error(element, "", "needs an attribute name=\"...\"", "it names the pictures");
-  require_file_name(element, camera.name, faults);
-  if (!camera.machine.empty())
-    // The frame of the two points follows from what is named: nothing, a machine, or a link of it.
-    camera.kind = camera.link.empty() ? scene::Camera::Kind::kChase : scene::Camera::Kind::kOnLink;
-  if (camera.machine.empty() && !camera.link.empty())
-    faults.error(element, camera.link, "a camera on a link needs <machine>, too");
-  // A camera that looks at its own place has no direction.
-  if ((camera.position - camera.target).norm() < 1e-3)
-    faults.error(element, "", "position_m and target_m must not be the same place");
-  if (camera.machine.empty()) return camera;
-  const int index = world.machine_index(camera.machine);
-  std::vector<std::string> names;
-  if (index < 0) {
-    for (const auto& machine : world.machines) names.push_back(machine.name);
-    faults.error(*fields.child("machine"), camera.machine, "no machine of this name in the world",
-                 faults.nearest(camera.machine, names));
-    return camera;
+/// Reads records. The code that writes maps knows formats and layers; it checks them with the line.
+void read_records(Element& world_element, scene::Scene& world, Faults& faults) {
+  for (Element* e : children_of(world_element, {"navvy:record"})) {
+    scene::MapRecord record;
+    record.line = e->GetLineNum();
+    read_element(*e, record, nullptr, faults);
+    record.layers = words_of(record.layer_names);
+    require_file_name(*e, record.name, faults);
+    require_new_name(*e, record.name, "record", world.records, "rename one of them", faults);
+    world.records.push_back(std::move(record));
   }
+}
+
+/// Checks the machine and link that a camera names.
+void check_camera_names(const Element& element, const scene::Camera& camera,
+                        const scene::Scene& world, Faults& faults) {
+  if (camera.machine.empty()) return;
+  if (!require_name(child_or_self(element, "machine"), camera.machine,
+                    "machine of this name in the world", names_in_list(world.machines), faults))
+    return;
+  const int index = world.machine_index(camera.machine);
   const scene::Machine& machine = world.machines[static_cast<std::size_t>(index)].machine;
-  // Without links the machine had faults of its own, which have been reported.
-  if (camera.link.empty() || machine.links.empty() || machine.link_index(camera.link) >= 0)
-    return camera;
-  for (const scene::Link& link : machine.links) names.push_back(link.name);
-  faults.error(*fields.child("link"), camera.link, "no link of this name in the machine",
-               faults.nearest(camera.link, names));
-  return camera;
+  // A machine without links has faults of its own, which have been reported.
+  if (!camera.link.empty() && !machine.links.empty())
+    require_name(child_or_self(element, "link"), camera.link, "link of this name in the machine",
+                 names_in_list(machine.links), faults);
+}
+
+void read_cameras(Element& world_element, scene::Scene& world, Faults& faults) {
+  using Kind = scene::Camera::Kind;
+  for (Element* e : children_of(world_element, {"navvy:camera"})) {
+    scene::Camera camera;
+    read_element(*e, camera, nullptr, faults);
+    require_file_name(*e, camera.name, faults);
+    // The frame of the two points follows from the names: none, a machine, or a link of it.
+    if (!camera.machine.empty()) camera.kind = camera.link.empty() ? Kind::kChase : Kind::kOnLink;
+    if (camera.machine.empty() && !camera.link.empty())
+      faults.error(*e, camera.link, "a camera on a link needs <machine>, too");
+    if ((camera.position - camera.target).norm() < 1e-3)
+      faults.error(*e, "", "position_m and target_m must not be the same place");
+    check_camera_names(*e, camera, world, faults);
+    require_new_name(*e, camera.name, "camera", world.cameras, "rename one of them", faults);
+    world.cameras.push_back(std::move(camera));
+  }
 }
 
 void read_light(Element& element, std::vector<scene::Light>& lights, Faults& faults) {
@@ -162,147 +124,14 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
   lights.push_back(light);
 }
 
-void read_load(Element& element, scene::MachineInWorld& instance, const scene::Scene& world,
-               Faults& faults) {
-  // A world of one soil need not name it.
-  if (!world.soils.empty()) instance.load.soil = world.soils[0].name;
-  Fields fields(element, faults);
-  fields.text("soil", instance.load.soil)
-      .number("mass_kg", instance.load.mass, {0, 1e6})
-      .required("mass_kg")
-      .finish();
-  if (fields.has("soil") && world.soil_index(instance.load.soil) < 0) {
-    std::vector<std::string> names;
-    for (const scene::Soil& soil : world.soils) names.push_back(soil.name);
-    faults.error(*fields.child("soil"), instance.load.soil, "no soil of this name in the world",
-                 faults.nearest(instance.load.soil, names));
-  }
-  if (!instance.machine.links.empty() && instance.machine.beds.empty())
-    // A machine without links is one that could not be read.
-    faults.error(element, instance.name, "only a machine with <navvy:bed> carries a load");
-  const int soil = world.soil_index(instance.load.soil);
-  if (soil < 0 || instance.machine.beds.empty()) return;
-  const scene::Soil& kind = world.soils[static_cast<std::size_t>(soil)];
-  // Loose soil: the bank density divided by the swell.
-  const double struck = instance.machine.beds[0].capacity * kind.bank_density / kind.swell;
-  if (instance.load.mass > struck)
-    faults.warning(element, child_text(element, "mass_kg"),
-                   "more than the bed holds struck, " + std::to_string(std::lround(struck)) +
-                       " kg of loose '" + kind.name + "'",
-                   "what is heaped may fall off");
-}
-
-/// What has been settled before the machines are read.
-struct Known {
-  const scene::StepKinds& kinds;
-  bool ground = false;     ///< the site was read without errors
-  bool sdf_sound = false;  ///< and so was the SDF of the file
-  /// Machines by their files: forty excavators are read once, and a fault in their file is told
-  /// once.
-  std::map<std::string, MachineFile>& files;
-};
-
-/// The machine of a file, read at its first use.
-const scene::Machine& machine_of(const std::string& path, const Known& known, Faults& faults) {
-  const auto [at, is_new] = known.files.try_emplace(path);
-  MachineFile& file = at->second;
-  const std::size_t before = faults.work.elements;
-  if (is_new) {
-    file.machine = read_machine_file(path, faults);
-    file.elements = faults.work.elements - before;
-  } else {
-    // A copy is cheaper than reading, but not for nothing: the scene that is written out holds them
-    // all.
-    faults.work.elements += file.elements;
-  }
-  return file.machine;
-}
-
-// What <include> and an inline <model> share: place, joints, program.
-void read_instance(Element& element, scene::MachineInWorld& instance, const scene::Scene& world,
-                   const Known& known, Faults& faults) {
-  if (Element* pose = element.FirstChildElement("pose")) {
-    // A pose that is too short is reported by check_sdf; it is not read a second time here.
-    if (words_of(text_of(*pose)).size() >= 6) read_pose(*pose, instance.X_WM, faults);
-    if (pose->Attribute("relative_to"))
-      faults.error(*pose, attribute(*pose, "relative_to"), "relative_to is not supported here",
-                   "give the pose in the world");
-    const Vec2 place = instance.X_WM.translation().head<2>();
-    const Vec2 low = world.ground.origin, high = low + world.ground.size;
-    // The site's edges count as on it. Without a sound ground there is no site to be off.
-    if (known.ground &&
-        ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
-      faults.error(*pose, text_of(*pose), "the machine must stand on the site",
-                   "move it, or enlarge size_m of the ground");
-  }
-  if (Element* e = element.FirstChildElement("navvy:on_ground"))
-    read_flag(*e, instance.on_ground, faults);
-  // A model that stands in the world itself gives its joints among its own elements.
-  if (!instance.machine.links.empty() && std::string(element.Name()) == "include")
-    for (Element* e = element.FirstChildElement("navvy:joint"); e;
-         e = e->NextSiblingElement("navvy:joint"))
-      read_initial_position(*e, instance.machine, faults);
-  if (Element* e = element.FirstChildElement("navvy:load")) read_load(*e, instance, world, faults);
-  if (Element* e = element.FirstChildElement("navvy:program"))
-    // Read against machine and ground, so that what neither allows is found before the run.
-    instance.program = read_program(*e, known.kinds, &instance.machine,
-                                    known.ground ? &world.ground : nullptr, faults);
-}
-
-/// A scene may move a machine by its commands alone that its file gives masses; it cannot give
-/// masses to one without.
-void choose_engine(const Element& engine, scene::Machine& machine, Faults& faults) {
-  const std::string value = text_of(engine);
-  if (value != "kinematic" && value != "dynamic")
-    faults.error(engine, value, "must be dynamic or kinematic");
-  else if (value == "dynamic" && machine.kinematic)
-    faults.error(engine, value, "the machine's own file says kinematic: its links need no masses",
-                 "set <navvy:engine>dynamic</navvy:engine> in " + machine.file);
-  else if (value == "kinematic")
-    machine.kinematic = true;
-}
-
-scene::MachineInWorld read_include(Element& element, const scene::Scene& world, const Known& known,
-                                   Faults& faults) {
-  scene::MachineInWorld instance;
-  Element* uri = element.FirstChildElement("uri");
-  std::string path;
-  if (!uri) {
-    faults.error(element, "", "needs an element <uri>", "e.g. <uri>model://ew180</uri>");
-  } else if (!text_of(*uri).empty() && resolve_model(*uri, path, faults)) {
-    if (faults.work.elements > limits::kSceneElements) {
-      faults.error(element, text_of(*uri),
-                   "a scene and its machines may have at most " +
-                       std::to_string(limits::kSceneElements) + " elements together",
-                   "use fewer or simpler machines");
-      return instance;
-    }
-    instance.machine = machine_of(path, known, faults);
-  }
-  // Unnamed, it goes by its model's name; two of one kind must be told apart by <name>.
-  instance.name =
-      element.FirstChildElement("name") ? child_text(element, "name") : instance.machine.name;
-  if (const Element* name = element.FirstChildElement("name"))
-    check_name(*name, instance.name, faults);
-  const std::string is_static = child_text(element, "static");
-  if (is_static == "true" || is_static == "1") instance.machine.fixed_base = true;
-  if (const Element* engine = element.FirstChildElement("navvy:engine"))
-    choose_engine(*engine, instance.machine, faults);
-  read_instance(element, instance, world, known, faults);
-  return instance;
-}
-
 void read_soils(Element& world_element, scene::Scene& world, Faults& faults) {
-  for (Element* e = world_element.FirstChildElement("navvy:soil"); e;
-       e = e->NextSiblingElement("navvy:soil")) {
+  for (Element* e : children_of(world_element, {"navvy:soil"})) {
     scene::Soil soil = read_soil(*e, faults);
-    if (!soil.name.empty() && world.soil_index(soil.name) >= 0)
-      // Found in the order of the file, so the second one is blamed.
-      faults.error(*e, soil.name, "there is already a soil of this name",
-                   "give this one another name=\"...\"");
+    require_new_name(*e, soil.name, "soil", world.soils, "give this one another name=\"...\"",
+                     faults);
     world.soils.push_back(std::move(soil));
   }
-  if (!world_element.FirstChildElement("navvy:soil"))
+  if (world.soils.empty())
     faults.error(world_element, "", "a world needs a soil", "add <navvy:soil ref=\"loam\"/>");
 }
 
@@ -344,13 +173,6 @@ void check_cell(const Element& world_element, const scene::Scene& world, Faults&
       }
       left -= pieces;
     }
-}
-
-void read_seed(const Element& element, std::uint64_t& seed, Faults& faults) {
-  const std::string text = text_of(element);
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
-    faults.error(element, text, "must be a whole number from 0 to 18446744073709551615");
 }
 
 /// Takes the planes of what stands still out of its shapes: a level one is the rock under the
@@ -398,54 +220,32 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
 
 void read_machines(Element& world_element, scene::Scene& world, const Known& known,
                    Faults& faults) {
-  // Both kinds in one walk, as machines are numbered in the order of the file and programs wait for
-  // each other by name.
-  for (Element* e = world_element.FirstChildElement(); e; e = e->NextSiblingElement()) {
-    const std::string kind = e->Name();
-    if (kind != "include" && kind != "model") continue;
-    scene::MachineInWorld instance;
-    if (kind == "include") {
-      instance = read_include(*e, world, known, faults);
-    } else {
-      instance.machine = read_machine(*e, known.sdf_sound, faults);
-      instance.name = instance.machine.name;
-      read_instance(*e, instance, world, known, faults);
-    }
+  // Both kinds in one walk: machines are numbered in the order of the file.
+  for (Element* e : children_of(world_element, {"include", "model"})) {
+    scene::MachineInWorld instance = read_instance(*e, world, known, faults);
     instance.line = e->GetLineNum();
     take_planes(world_element, *e, instance, world, faults);
-    if (!instance.name.empty() && world.machine_index(instance.name) >= 0)
-      faults.error(*e, instance.name, "there is already a machine of this name",
-                   "give this one a <name>");
+    require_new_name(*e, instance.name, "machine", world.machines, "give this one a <name>",
+                     faults);
     world.machines.push_back(std::move(instance));
   }
 }
 
-}  // namespace
-
-scene::Machine read_machine_file(const std::string& file, Faults& faults) {
-  const auto document = Document::open(file, faults);
-  if (!document || !check_root(*document->root(), faults)) return {};
-  Element& root = *document->root();
-  // Faults of the file itself; those of other files that were read before do not keep this one from
-  // being read.
+/// Reads the ground; returns false after a fault, which makes every place on it doubtful.
+bool read_site(Element& world_element, scene::Scene& world, Faults& faults) {
   const std::size_t before = faults.error_count();
-  // What a part lacks would be told once more of the whole.
-  if (!assemble(*document, faults)) return {};
-  check_sdf(root, faults);
-  Element* model = root.FirstChildElement("model");
-  if (!model) {
-    faults.error(root, "", "a machine file needs a <model>");
-    return {};
+  Element* ground = world_element.FirstChildElement("navvy:ground");
+  if (ground == nullptr) {
+    faults.error(world_element, "", "a world needs <navvy:ground>",
+                 "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
+    return false;
   }
-  // A machine file is used in many worlds, so what belongs to one of them is refused here.
-  if (Element* program = model->FirstChildElement("navvy:program"))
-    faults.error(*program, "", "a program belongs to the world that uses the machine",
-                 "move it into <include>");
-  for (const char* name : {"navvy:on_ground", "navvy:load"})
-    if (Element* e = model->FirstChildElement(name))
-      faults.error(*e, "", "belongs to the world that uses the machine", "move it into <include>");
-  return read_machine(*model, faults.error_count() == before, faults);
+  world.ground = read_ground(*ground, world.soils, world.seed, faults);
+  check_grid(world_element, world, faults);
+  return faults.error_count() == before;
 }
+
+}  // namespace
 
 scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Faults& faults) {
   scene::Scene world;
@@ -458,11 +258,10 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   const bool sdf_sound = faults.error_count() == before;
   Element* element = root.FirstChildElement("world");
   if (!element) {
-    faults.error(root, "", "a scene needs a <world name=\"...\">", "");
+    faults.error(root, "", "a scene needs a <world name=\"...\">");
     return world;
   }
-  // Reading goes in the order in which things refer to each other: soils, ground, machines,
-  // programs, cameras.
+  // In the order of references: soils, ground, machines, programs, cameras.
   world.name = attribute(*element, "name");
   require_file_name(*element, world.name, faults);
   std::vector<double> v;
@@ -472,21 +271,10 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
     world.gravity = Vec3(v[0], v[1], v[2]);
   if (Element* e = element->FirstChildElement("navvy:seed")) read_seed(*e, world.seed, faults);
   read_soils(*element, world, faults);
-  if (Element* e = element->FirstChildElement("navvy:solver"))
-    read_solver(*e, world.solver, faults);
-  // Faults in the ground make every place on it doubtful, so machines are then read without it.
-  const std::size_t before_ground = faults.error_count();
-  Element* ground = element->FirstChildElement("navvy:ground");
-  if (ground) {
-    world.ground = read_ground(*ground, world.soils, world.seed, faults);
-    check_grid(*element, world, faults);
-  } else {
-    faults.error(*element, "", "a world needs <navvy:ground>",
-                 "e.g. <navvy:ground><size_m>20 20</size_m></navvy:ground>");
-  }
+  read_section(*element, "navvy:solver", world.solver, faults);
+  const bool ground_known = read_site(*element, world, faults);
   if (Element* e = element->FirstChildElement("navvy:design"))
     world.design = read_design(*e, faults);
-  const bool ground_known = ground && faults.error_count() == before_ground;
   std::map<std::string, MachineFile> files;
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
   read_hitches(*element, world, faults);
@@ -494,30 +282,12 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   if (Element* e = element->FirstChildElement("navvy:materials"))
     world.materials = read_materials(*e, faults);
   check_materials(world, faults);
-  // After all machines, as steps name machines that stand further down in the file.
+  // After all machines, as steps name machines that come later in the file.
   check_program_order(*element, world, faults);
-  if (Element* e = element->FirstChildElement("navvy:recording"))
-    read_recording(*e, world.recording, faults);
-  for (Element* e = element->FirstChildElement("navvy:record"); e;
-       e = e->NextSiblingElement("navvy:record")) {
-    scene::MapRecord record = read_record(*e, faults);
-    for (const scene::MapRecord& other : world.records)
-      if (!record.name.empty() && other.name == record.name)
-        faults.error(*e, record.name, "there is already a record of this name",
-                     "rename one of them");
-    world.records.push_back(std::move(record));
-  }
-  for (Element* e = element->FirstChildElement("navvy:camera"); e;
-       e = e->NextSiblingElement("navvy:camera")) {
-    scene::Camera camera = read_camera(*e, world, faults);
-    for (const scene::Camera& other : world.cameras)
-      if (!camera.name.empty() && other.name == camera.name)
-        faults.error(*e, camera.name, "there is already a camera of this name",
-                     "rename one of them");
-    world.cameras.push_back(std::move(camera));
-  }
-  for (Element* e = element->FirstChildElement("light"); e; e = e->NextSiblingElement("light"))
-    read_light(*e, world.lights, faults);
+  read_section(*element, "navvy:recording", world.recording, faults);
+  read_records(*element, world, faults);
+  read_cameras(*element, world, faults);
+  for (Element* e : children_of(*element, {"light"})) read_light(*e, world.lights, faults);
   return world;
 }
 

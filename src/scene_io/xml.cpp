@@ -12,6 +12,7 @@
 #include "core/file.h"
 #include "core/limits.h"
 #include "core/log.h"
+#include "core/renamed_names.h"
 #include "core/utf8.h"
 #include "scene_io/xml_limits.h"
 
@@ -47,6 +48,8 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
 
 void Faults::error(const Element& at, const std::string& value, const std::string& rule,
                    const std::string& remedy) {
+  for (const tinyxml2::XMLNode* up = &at; up != nullptr && up->ToElement(); up = up->Parent())
+    blamed_.insert(up->ToElement());
   add_at(Fault::Severity::kError, at, value, rule, remedy);
 }
 
@@ -143,10 +146,27 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
     faults.add(fault);
     return nullptr;
   }
+  rename_old(*document->root());
   if (!check_tree(*document->root(), faults)) return nullptr;
   document->elements_ = count_elements(text);
   faults.work.elements += document->elements_;
   return document;
+}
+
+/// Gives elements and values with names of earlier releases their current ones.
+void Document::rename_old(Element& element, int depth) {
+  // Deeper than any element that is read; check_tree reports it.
+  if (depth > static_cast<int>(limits::kXmlNesting)) return;
+  if (const std::string now = current_name(NameKind::kElement, element.Name());
+      now != element.Name())
+    element.SetName(now.c_str());
+  for (const auto* at = element.FirstAttribute(); at; at = at->Next()) {
+    const std::string key = element.Name() + std::string("/") + at->Name() + "=" + at->Value();
+    if (const std::string now = current_name(NameKind::kAttributeValue, key); now != key)
+      element.SetAttribute(at->Name(), now.substr(now.rfind('=') + 1).c_str());
+  }
+  for (Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement())
+    rename_old(*e, depth + 1);
 }
 
 Place place_of(const Element& element) {

@@ -50,6 +50,9 @@ class Faults {
   /// nothing when the fault would not be told: it is dear.
   std::string nearest(const std::string& word, const std::vector<std::string>& candidates) const;
   void add(Fault fault);
+  /// Returns true if an error was reported at `element` or inside it. Rules among several fields
+  /// skip elements with faults of their own.
+  bool blamed(const Element& element) const { return blamed_.count(&element) > 0; }
   bool has_errors() const { return error_count() > 0; }
   /// All of them, told or not.
   std::size_t error_count() const { return errors_.all; }
@@ -75,6 +78,7 @@ class Faults {
   std::vector<Fault> list_;
   Told errors_, warnings_;
   mutable std::set<std::string> listed_;
+  std::set<const void*> blamed_;  ///< elements with errors, and all around them
 };
 
 /// Where an element was written.
@@ -106,6 +110,7 @@ class Document {
 
  private:
   Document() = default;
+  static void rename_old(Element& element, int depth = 0);
   tinyxml2::XMLDocument xml_;
   std::string file_;
   std::set<std::string> other_files_;

@@ -6,6 +6,7 @@
 
 #include "core/limits.h"
 #include "core/utf8.h"
+#include "scene_io/schema.h"
 
 namespace navvy::scene_io {
 
@@ -33,65 +34,29 @@ void check_value(const Element& at, const char* value, Faults& faults) {
                "take character references such as &#xD800; out");
 }
 
-struct Count {
-  const char* parent;
-  const char* child;
-  std::size_t most;
-};
-// Lists that readers hold against each other, or that are dear one by one.
-const Count kCounts[] = {
-    {"world", "include", limits::kMachines},
-    {"world", "model", limits::kMachines},
-    {"world", "navvy:soil", limits::kSoils},
-    {"world", "navvy:camera", limits::kMachines},
-    {"world", "navvy:hitch", limits::kMachines},
-    {"world", "navvy:record", limits::kMachines},
-    {"world", "light", limits::kMachines},
-    {"sdf", "navvy:soil", limits::kSoils},
-    {"navvy:ground", "layer", limits::kGroundLayers},
-    {"navvy:ground", "patch", limits::kGroundParts},
-    {"navvy:ground", "awake", limits::kGroundParts},
-    {"navvy:ground", "slope", limits::kGroundParts},
-    {"navvy:ground", "hills", limits::kGroundParts},
-    {"navvy:ground", "stockpile", limits::kGroundParts},
-    {"navvy:ground", "trench", limits::kGroundParts},
-    {"navvy:ground", "bank", limits::kGroundParts},
-    {"navvy:ground", "block", limits::kGroundParts},
-    {"navvy:design", "area", limits::kDesignAreas},
-    {"navvy:materials", "pair", limits::kMaterialPairs},
-    {"patch", "layer", limits::kGroundLayers},
-    {"model", "link", limits::kLinks},
-    {"model", "joint", limits::kLinks},
-    {"model", "frame", limits::kLinks},
-    {"model", "navvy:joint", limits::kLinks},
-    {"model", "navvy:cylinder", limits::kLinks},
-    {"model", "navvy:wheel", limits::kLinks},
-    {"model", "navvy:track", limits::kLinks},
-    {"navvy:track", "roller_m", limits::kLinks},
-    {"model", "navvy:shell", limits::kShells},
-    {"model", "navvy:bucket", limits::kShells},
-    {"model", "navvy:bed", limits::kShells},
-    {"include", "navvy:joint", limits::kLinks},
-    {"link", "visual", limits::kShapes},
-    {"link", "collision", limits::kShapes},
-    {"trajectory", "joint", limits::kLinks},
-};
+/// Checks the number of children of one kind.
+bool check_count(const Element& element, const char* child, std::size_t most, Faults& faults) {
+  std::size_t found = 0;
+  for (const Element* e = element.FirstChildElement(child); e; e = e->NextSiblingElement(child))
+    ++found;
+  if (found <= most) return true;
+  faults.error(
+      element, std::to_string(found),
+      "at most " + std::to_string(most) + " <" + child + "> in one <" + element.Name() + ">",
+      "scenarios/README.md lists the limits of files");
+  return false;
+}
 
 bool check_counts(const Element& element, Faults& faults) {
   bool good = true;
-  for (const Count& count : kCounts) {
-    if (std::strcmp(count.parent, element.Name()) != 0) continue;
-    std::size_t found = 0;
-    for (const Element* e = element.FirstChildElement(count.child); e;
-         e = e->NextSiblingElement(count.child))
-      ++found;
-    if (found <= count.most) continue;
-    faults.error(element, std::to_string(found),
-                 std::string("at most ") + std::to_string(count.most) + " <" + count.child +
-                     "> in one <" + count.parent + ">",
-                 "scenarios/README.md lists the limits of files");
-    good = false;
-  }
+  for (const SchemaNode* child : schema().children(element.Name()))
+    if (child->repeats)
+      good = check_count(element, child->name.c_str(), child->most, faults) && good;
+  // Frames belong to SDF alone, the joints of a trajectory to a kind of step.
+  if (std::strcmp(element.Name(), "model") == 0)
+    good = check_count(element, "frame", limits::kLinks, faults) && good;
+  if (std::strcmp(element.Name(), "trajectory") == 0)
+    good = check_count(element, "joint", limits::kLinks, faults) && good;
   std::size_t steps = 0;
   if (std::strcmp(element.Name(), "navvy:program") == 0)
     for (const Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) ++steps;
@@ -104,8 +69,8 @@ bool check_counts(const Element& element, Faults& faults) {
   return good;
 }
 
-/// False where the rest is not to be read: the readers' work is not bounded then. Faults of single
-/// values are told and reading goes on.
+/// Returns false if the rest must not be read, as the readers' work is not bounded. Faults of
+/// single values are reported, and reading goes on.
 bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   const auto most = [&](const char* what, std::size_t number) {
     faults.error(element, "", std::string("at most ") + std::to_string(number) + " " + what,

@@ -36,7 +36,7 @@ heightfield::TerrainView SeenSurface::mapped() const {
 OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
                                  const Programs& programs, const control::MakePathPlanner& planners)
     : world_(world),
-      machine_(world.machine(machine)),
+      machine_(world.machines().at(machine)),
       op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(),
           planners) {
   const scene::Machine& description = machine_.description();
@@ -80,12 +80,13 @@ void OperatedMachine::observe(control::Observation& seen) const {
 /// Forwards the commands that changed. A joint without a new command keeps its last one.
 void OperatedMachine::send(const control::Command& command) {
   for (std::size_t j = 0; j < command.joints.size(); ++j)
-    if (command.joints[j]) world_.command(joints_[j], *command.joints[j]);
-  if (command.drive) world_.command(machine_, *command.drive);
+    if (command.joints[j]) world_.commands().set(joints_[j], *command.joints[j]);
+  if (command.drive) world_.commands().set(machine_, *command.drive);
   if (!command.unhitch) return;
   const std::vector<scene::Hitch>& hitches = world_.description().hitches;
   for (std::size_t h = 0; h < hitches.size(); ++h)
-    if (hitches[h].name == *command.unhitch) world_.couple(static_cast<int>(h), false);
+    if (hitches[h].name == *command.unhitch)
+      world_.commands().set_hitch(static_cast<int>(h), false);
 }
 
 /// Measures masses at the moment of the event, so soil that falls off before does not count as

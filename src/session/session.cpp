@@ -33,16 +33,17 @@ constexpr double kLongestRest = 6;
 
 // The world comes first: all other members hold handles into it.
 struct Session::State {
-  State(scene::Scene description, device::Device& device)
-      : world(std::move(description), device),
+  State(scene::Scene description, device::Device& device,
+        const vehicle::PhysicsEngineFactory& make_engine)
+      : world(std::move(description), device, make_engine),
         surface(world),
         device_name(device.info().name),
         // The number and order of tools never change.
-        tools(world.tools()) {
-    for (int m = 0; m < world.machine_count(); ++m)
-      for (const scene::Bucket& bucket : world.machine(m).description().buckets)
-        buckets.emplace_back(world.machine(m), bucket);
-    off_site.resize(static_cast<std::size_t>(world.machine_count()));
+        tools(world.machines().tools()) {
+    for (int m = 0; m < world.machines().count(); ++m)
+      for (const scene::Bucket& bucket : world.machines().at(m).description().buckets)
+        buckets.emplace_back(world.machines().at(m), bucket);
+    off_site.resize(static_cast<std::size_t>(world.machines().count()));
   }
 
   // Members are constructed in this order and refer to those above them.
@@ -127,9 +128,9 @@ void Session::State::watch_uncontrolled_machines() {
 /// valid. This is not part of the state, as it decides nothing.
 void Session::State::watch_border() {
   const heightfield::Terrain& ground = world.ground();
-  for (int m = 0; m < world.machine_count(); ++m) {
+  for (int m = 0; m < world.machines().count(); ++m) {
     if (off_site[static_cast<std::size_t>(m)]) continue;
-    const sim::MachineHandle machine = world.machine(m);
+    const sim::MachineHandle machine = world.machines().at(m);
     for (std::size_t l = 0; l < machine.description().links.size(); ++l) {
       const sim::LinkHandle link = machine.link(static_cast<int>(l));
       const Vec3 p = link.pose().translation();
@@ -165,7 +166,7 @@ void Session::State::visit(Archive& a) {
     a("tips", tips);
     // Reports name machines by their index.
     const auto known = [&](const auto& report) {
-      return report.machine >= 0 && report.machine < world.machine_count();
+      return report.machine >= 0 && report.machine < world.machines().count();
     };
     a.require(std::all_of(cycles.begin(), cycles.end(), known), "cycles",
               "refers to a machine that the scene does not have");
@@ -184,14 +185,15 @@ void Session::State::visit(Archive& a) {
 }
 
 Session::Session(scene::Scene description, device::Device& device,
-                 const control::MakePathPlanner& planners)
-    : state_(std::make_unique<State>(std::move(description), device)) {
+                 const control::MakePathPlanner& planners,
+                 const vehicle::PhysicsEngineFactory& make_engine)
+    : state_(std::make_unique<State>(std::move(description), device, make_engine)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
   // The reach of a machine depends on where it stands on this ground.
   X_WB.reserve(s.world.description().machines.size());
-  for (int m = 0; m < s.world.machine_count(); ++m)
-    X_WB.push_back(s.world.machine(m).link(0).pose());
+  for (int m = 0; m < s.world.machines().count(); ++m)
+    X_WB.push_back(s.world.machines().at(m).link(0).pose());
   // A design that does not fit this site is refused now, not when it is first used.
   s.design = heightfield::make_design(s.world.description(), s.world.ground());
   // Without this check a dig out of reach would only fail minutes into a run.
@@ -207,9 +209,9 @@ Session::Session(scene::Scene description, device::Device& device,
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
   // Programs without errors get their operators. Machines without a program have none.
-  for (int m = 0; m < s.world.machine_count(); ++m)
-    if (s.world.machine(m).stability().free) s.uncontrolled_machines.emplace_back(s.world, m);
-  for (int m = 0; m < s.world.machine_count(); ++m)
+  for (int m = 0; m < s.world.machines().count(); ++m)
+    if (s.world.machines().at(m).stability().free) s.uncontrolled_machines.emplace_back(s.world, m);
+  for (int m = 0; m < s.world.machines().count(); ++m)
     if (!s.world.description().machines[static_cast<std::size_t>(m)].program.steps.empty())
       s.operated.emplace_back(s.world, m, s.surface, s.programs, planners);
 }
@@ -234,7 +236,7 @@ void Session::step() {
     s.watch_border();
     // The energy account of a cycle is that of the step in which the cycle ended.
     if (s.energy_at_ends.size() < s.cycles.size())
-      s.energy_at_ends.resize(s.cycles.size(), s.world.soil_energy());
+      s.energy_at_ends.resize(s.cycles.size(), s.world.soil().energy());
     // Only uninterrupted idle time counts; without programs the duration alone ends the run.
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();
   }
@@ -251,37 +253,37 @@ void Session::keep_soil_energy() {
 }
 
 void Session::set(int input, double value) {
-  const std::vector<sim::Channel>& inputs = state_->world.inputs();
+  const sim::Inputs& inputs = state_->world.inputs();
   // A value that the world refuses takes no machine from its program, and neither does an input
   // that belongs to no machine.
   if (input >= 0 && static_cast<std::size_t>(input) < inputs.size() && std::isfinite(value))
     state_->take_over(inputs[static_cast<std::size_t>(input)].machine);
-  state_->world.set(input, value);
+  state_->world.inputs().set(input, value);
 }
 void Session::set(const std::string& input, double value) {
-  set(state_->world.input(input), value);
+  set(state_->world.inputs().index(input), value);
 }
 
 void Session::command(const sim::JointHandle& joint, const vehicle::JointInput& input) {
   // A refused command must not end the program, so it is checked first.
-  state_->world.require_valid(joint, input);
+  state_->world.commands().require_valid(joint, input);
   state_->take_over(joint.machine());
-  state_->world.command(joint, input);
+  state_->world.commands().set(joint, input);
 }
 void Session::command(const sim::MachineHandle& machine, const vehicle::DriveInput& input) {
-  state_->world.require_valid(machine, input);
+  state_->world.commands().require_valid(machine, input);
   state_->take_over(machine.index());
-  state_->world.command(machine, input);
+  state_->world.commands().set(machine, input);
 }
 void Session::brake(const sim::JointHandle& joint, bool on) {
-  state_->world.require_brake(joint);
+  state_->world.commands().require_brake(joint);
   state_->take_over(joint.machine());
-  state_->world.brake(joint, on);
+  state_->world.commands().set_brake(joint, on);
 }
 void Session::command(const sim::MachineHandle& machine, const vehicle::BaseInput& input) {
-  state_->world.require_valid(machine, input);
+  state_->world.commands().require_valid(machine, input);
   state_->take_over(machine.index());
-  state_->world.command(machine, input);
+  state_->world.commands().set(machine, input);
 }
 
 void Session::add(std::unique_ptr<sim::Sampler> sampler) { state_->world.add(std::move(sampler)); }
@@ -289,8 +291,8 @@ void Session::add(std::unique_ptr<sim::Sampler> sampler) { state_->world.add(std
 bool Session::done() const {
   const scene::Recording& recording = state_->world.description().recording;
   // Moving soil is given time to come to rest, so that the final ground contains it.
-  const bool at_rest =
-      state_->world.soil_counts().particles == 0 || state_->idle >= kLongestRest * recording.settle;
+  const bool at_rest = state_->world.soil().counts().particles == 0 ||
+                       state_->idle >= kLongestRest * recording.settle;
   const bool programs_over = state_->idle > 0 && state_->idle >= recording.settle && at_rest;
   return programs_over || time_is_over();
 }
@@ -369,7 +371,8 @@ double Session::control_time() const { return state_->control_time; }
 
 double Session::energy() const {
   double sum = 0;
-  for (int m = 0; m < state_->world.machine_count(); ++m) sum += state_->world.machine(m).work();
+  for (int m = 0; m < state_->world.machines().count(); ++m)
+    sum += state_->world.machines().at(m).work();
   return sum;
 }
 
@@ -384,13 +387,13 @@ void Session::visit(Archive& a) {
 
 std::string Session::state_hash() const {
   StateHash sum;
-  sum.value(state_->world.start_hash());
+  sum.value(state_->world.hashes().start());
   add_to_hash(sum, *this);
   return sum.hex();
 }
 
 std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
-  std::vector<std::pair<std::string, std::string>> out = state_->world.hash_parts();
+  std::vector<std::pair<std::string, std::string>> out = state_->world.hashes().parts();
   // Operators come last, so that columns of hashes.csv keep their places.
   out.emplace_back("operators", hash_of(*state_).hex());
   return out;

@@ -28,11 +28,13 @@ namespace navvy::session {
 class Session {
  public:
   /// Builds the world of a scene and checks its programs. `planners` makes path planners for steps
-  /// that need paths, usually planner::path_planners().
+  /// that need paths, usually planner::path_planners(). `make_engine` makes the world's physics
+  /// engine, as for sim::World.
   /// @throws InputError that lists all targets out of reach and all machines that overlap or start
   /// in the ground; device::DeviceError for the device.
   Session(scene::Scene description, device::Device& device,
-          const control::MakePathPlanner& planners = {});
+          const control::MakePathPlanner& planners = {},
+          const vehicle::PhysicsEngineFactory& make_engine = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

@@ -27,7 +27,7 @@ void observe_stance(const sim::World& world, const sim::MachineHandle& machine,
 }
 
 UncontrolledMachine::UncontrolledMachine(const sim::World& world, int machine)
-    : world_(world), machine_(world.machine(machine)) {
+    : world_(world), machine_(world.machines().at(machine)) {
   for (std::size_t w = 0; w < machine_.description().wheels.size(); ++w)
     wheels_.push_back(machine_.wheel(static_cast<int>(w)));
 }

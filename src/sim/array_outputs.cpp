@@ -9,11 +9,11 @@
 namespace navvy::sim {
 namespace {
 
-// Names as numpy has them, so that bindings and files need no table of their own.
+// Names as in numpy, so that bindings and files need no table of their own.
 constexpr struct {
   const char* name;
   std::size_t size;
-  // As ElementType counts
+  // In the order of ElementType
 } kTypes[] = {{"uint8", 1}, {"uint16", 2}, {"int32", 4}, {"float32", 4}, {"float64", 8}};
 
 const auto kName = [](const ArrayChannel& channel) -> const std::string& { return channel.name; };
@@ -23,7 +23,7 @@ const auto kName = [](const ArrayChannel& channel) -> const std::string& { retur
 std::size_t size_of(ElementType type) { return kTypes[static_cast<std::size_t>(type)].size; }
 const char* name_of(ElementType type) { return kTypes[static_cast<std::size_t>(type)].name; }
 
-/// A negative or missing length makes no elements, which `add` refuses.
+/// A negative or missing length gives no elements, which `add` refuses.
 std::size_t ArrayChannel::count() const {
   std::size_t out = shape.empty() ? 0 : 1;
   for (const int length : shape) out *= length > 0 ? static_cast<std::size_t>(length) : 0;
@@ -36,8 +36,7 @@ std::string ArrayChannel::type_text() const {
   return std::string(name_of(type)) + "[" + out + "]";
 }
 
-/// Elements are never converted behind a reader's back: a float scan read as double would be
-/// another scan.
+/// Elements are never converted: a float scan read as double would be another scan.
 void ArrayView::require(ElementType type) const {
   if (type == channel_->type) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, channel_->name, name_of(type),
@@ -45,7 +44,7 @@ void ArrayView::require(ElementType type) const {
                          "read it as that type"});
 }
 
-/// A handful of arrays: a list in order is enough, and its order is that of the snapshot.
+/// There are few arrays, so a list is enough. Its order is that of the snapshot.
 int ArrayOutputs::find(const std::string& name) const {
   for (std::size_t i = 0; i < channels_.size(); ++i)
     if (channels_[i].name == name) return static_cast<int>(i);
@@ -56,9 +55,9 @@ int ArrayOutputs::index(const std::string& name) const {
   return index_of("array", channels_, name, kName);
 }
 
-/// Pointers into the lists: valid until an array is added or the next value published.
+/// The view points into the lists: valid until an array is added or the next value published.
 ArrayView ArrayOutputs::view(int array) const {
-  // A wrong index is a client's slip and told like a wrong name.
+  // Report a wrong index like a wrong name.
   require_index("array", array, channels_.size());
   const auto i = static_cast<std::size_t>(array);
   ArrayView out;
@@ -72,25 +71,27 @@ ArrayView ArrayOutputs::view(int array) const {
 
 void ArrayOutputs::require_elements(const ArrayChannel& channel) {
   if (channel.count() > 0) return;
-  // A slip: such an array would look published and show nothing.
+  // Such an array would look published and show nothing.
   throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, channel.type_text(),
                          "an array needs a shape with elements", "give it lengths > 0"});
 }
 
+// Allocates the storage once; publishing then never allocates.
 int ArrayOutputs::add(ArrayChannel channel) {
-  // Refused when it is declared, which is before the first step.
+  // Checked at the declaration, before the first step.
   require_elements(channel);
   if (find(channel.name) >= 0)
     throw InputError(Fault{Fault::Severity::kError, "", 0, channel.name, channel.name,
-                           "there is already an array of this name", "name it otherwise"});
+                           "there is already an array of this name", "choose another name"});
   Value value;
-  // Zeros until the first value; the storage is never moved again, so readers may keep its address.
+  // Zeros until the first value. The storage never moves again, so readers may store its address.
   value.bytes.resize(channel.count() * size_of(channel.type));
   channels_.push_back(std::move(channel));
   values_.push_back(std::move(value));
   return static_cast<int>(channels_.size()) - 1;
 }
 
+// Counts the publication, which readers use to detect a new value.
 std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X_WF) {
   require_index("array", array, channels_.size());
   Value& value = values_[static_cast<std::size_t>(array)];
@@ -101,8 +102,8 @@ std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X
   return value.bytes;
 }
 
-// What a reader can see is state: an operator may act on the scan that lay there when the snapshot
-// was taken.
+// Everything that a reader can see is state: an operator may act on the scan that was current when
+// the snapshot was taken.
 void ArrayOutputs::visit(Archive& a) {
   const std::string rule =
       "the snapshot has other arrays than the world; add the same samplers, then load";
@@ -111,11 +112,11 @@ void ArrayOutputs::visit(Archive& a) {
   for (std::size_t i = 0; i < channels_.size(); ++i)
     a.item(i, [&] {
       a.constant("name", channels_[i].name, rule);
-      // The stamp too: an old scan in new clothes would be another state.
+      // The stamp too: an old scan with a new stamp would be another state.
       a("sequence", values_[i].sequence);
       a("time", values_[i].time);
       a("X_WF", values_[i].X_WF);
-      // The shape may have changed under the same name.
+      // The shape may differ under the same name.
       a.fixed("bytes", values_[i].bytes);
     });
 }

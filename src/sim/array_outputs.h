@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stamped arrays by name: scans, images, grids. The same names and look-ups as scalar channels
+// Time-stamped arrays by name: scans, images, grids. Names and look-ups work as for scalar channels
 // (sim/channels.h).
 #pragma once
 
@@ -15,11 +15,11 @@
 
 namespace navvy::sim {
 
-/// What one element is. Five types cover scans, images, grids and labels; others would need a
-/// reader everywhere.
+/// Type of one element. Five types cover scans, images, grids and labels; each further type would
+/// need a reader in every client.
 enum class ElementType { kUint8, kUint16, kInt32, kFloat32, kFloat64 };
 
-/// Type of one element as C++ has it; other types do not compile.
+/// Returns the element type of a C++ type; other types do not compile.
 template <class T>
 constexpr ElementType element_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>)
@@ -37,44 +37,48 @@ constexpr ElementType element_type() {
   }
 }
 
-/// Bytes of one element, and its name as numpy writes it ("float32").
+/// Returns the size of one element [bytes], or its name in numpy ("float32").
 std::size_t size_of(ElementType type);
 const char* name_of(ElementType type);
 
-/// Names, units and frames are texts for people and for other languages; nothing here interprets
-/// them. What an array is; fixed from its declaration on.
+/// Description of an array, fixed from its declaration on. Names, units and frames are texts for
+/// people and other languages; nothing here interprets them.
 struct ArrayChannel {
-  std::string name;     ///< e.g. "excavator/height_grid"
-  std::string unit;     ///< of every element: "m", "1"
-  std::string meaning;  ///< one line for people
-  /// Frame F that its numbers or its nodes count in: "world", "excavator/boom", one of its own.
+  /// Name, e.g. "excavator/height_grid".
+  std::string name;
+  /// Unit of every element: "m", "1".
+  std::string unit;
+  /// Description in one line.
+  std::string meaning;
+  /// Frame F of its values or nodes: "world", "excavator/boom", or one of its own.
   std::string frame;
   ElementType type = ElementType::kFloat32;
-  /// Row major, slowest first: {rows, columns} of a grid, {height, width, 3} of an image.
+  /// Shape, row major, slowest first: {rows, columns} of a grid, {height, width, 3} of an image.
   std::vector<int> shape;
-  double rate = 0;  ///< [1/s] in simulated time; 0: every step
+  /// Publication rate [1/s] in simulated time; 0: every step.
+  double rate = 0;
 
-  /// Elements in all.
+  /// Returns the number of elements.
   std::size_t count() const;
-  /// "float32[64,48]".
-  /// Type and shape in one word, as `navvy channels` prints it:
+  /// Returns type and shape in one word, "float32[64,48]", as `navvy channels` prints it.
   std::string type_text() const;
 };
 
-/// The latest value of an array, read in place. Valid until the world steps, loads, or ends.
+/// Latest value of an array, read in place. Valid until the world steps, loads or is destroyed.
 class ArrayView {
  public:
-  /// What it is: unit, frame, shape. Refers to the list of the world.
+  /// Returns unit, frame and shape. Refers to the list of the world.
   const ArrayChannel& channel() const { return *channel_; }
-  /// Counts publications; 0: none yet, the elements are zeros.
+  /// Returns the number of publications so far; 0: none, all elements are zero.
   std::uint64_t sequence() const { return sequence_; }
-  /// Simulated time of what it shows [s].
+  /// Returns the simulated time of the value [s].
   double time() const { return time_; }
-  /// Where frame F was then.
+  /// Returns the pose of frame F at that time.
   const Pose& X_WF() const { return *X_WF_; }
-  /// Raw, row major, in the byte order of this machine: for bindings and files.
+  /// Returns the raw bytes, row major, in the byte order of this machine: for bindings and files.
   std::span<const std::byte> bytes() const { return bytes_; }
-  /// The elements, channel().count() of them. @throws InputError when T is not the channel's type.
+  /// Returns the elements, channel().count() of them. @throws InputError if T is not the channel's
+  /// type.
   template <class T>
   std::span<const T> values() const {
     require(element_type<T>());
@@ -83,6 +87,7 @@ class ArrayView {
 
  private:
   friend class ArrayOutputs;
+  /// @throws InputError if `type` is not the channel's type.
   void require(ElementType type) const;
   const ArrayChannel* channel_ = nullptr;
   const Pose* X_WF_ = nullptr;
@@ -91,34 +96,38 @@ class ArrayView {
   double time_ = 0;
 };
 
-/// Not thread-safe; costs nothing while nobody publishes. The storage of an array keeps its address
-/// for life. The arrays of a world. Clients read them; samplers fill them through their Publisher.
+/// Arrays of a world. Clients read them; samplers fill them through their Publisher.
+///
+/// The storage of an array never moves. Costs nothing while nothing is published. Not thread-safe.
 class ArrayOutputs {
  public:
-  /// In the order in which they were declared.
+  /// Returns all arrays in the order of their declaration.
   const std::vector<ArrayChannel>& channels() const { return channels_; }
-  /// -1 when there is none of this name.
+  /// Returns the index of an array, -1 if there is none of this name.
   int find(const std::string& name) const;
-  /// @throws InputError that names the nearest array.
+  /// Returns the index of an array. @throws InputError that names the nearest array.
   int index(const std::string& name) const;
-  /// No copy, no memory. @throws InputError for an index that does not exist.
+  /// Returns a view of an array without copying. @throws InputError for an index that does not
+  /// exist.
   ArrayView view(int array) const;
+  /// Looks the array up by its name first.
   ArrayView view(const std::string& name) const { return view(index(name)); }
 
-  /// @throws InputError for a shape without elements.
+  /// Checks the shape. @throws InputError for a shape without elements.
   static void require_elements(const ArrayChannel& channel);
-  /// A new array of zeros; returns its index. @throws InputError for a shape without elements or a
-  /// name in use.
+  /// Adds an array of zeros and returns its index. @throws InputError for a shape without elements
+  /// or a name in use.
   int add(ArrayChannel channel);
-  /// Storage of the next value, stamped `time` [s], of the frame at `X_WF`: the caller fills all of
-  /// it now.
+  /// Returns the storage of the next value, stamped `time` [s], with its frame at `X_WF`. The
+  /// caller fills all of it at once.
   std::span<std::byte> publish(int array, double time, const Pose& X_WF);
 
-  /// Sequence, stamp, frame and bytes of every array: what a reader can see is state. Loads into
-  /// the same list of arrays only.
+  /// Visits sequence, time stamp, frame and bytes of every array: everything that a reader can see
+  /// is state. Loads only into the same list of arrays.
   void visit(Archive& a);
 
  private:
+  /// Storage and stamp of one array.
   struct Value {
     std::vector<std::byte> bytes;
     std::uint64_t sequence = 0;

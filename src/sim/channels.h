@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Named inputs and outputs of a world: how any controller, in any language, reaches it.
+// Named inputs and outputs of a world: the interface for controllers in any language.
 #pragma once
 
 #include <functional>
@@ -9,33 +9,44 @@
 
 namespace navvy::sim {
 
-/// One named number, e.g. "ew180/boom_joint/position" in rad. Its name is
-/// "<machine>/<part>/<quantity>", or "<sampler>/<quantity>"; it never changes while the world
-/// lives.
+/// One named number, e.g. "ew180/boom_joint/position" in rad.
+///
+/// The name is "<machine>/<part>/<quantity>" or "<sampler>/<quantity>". It never changes.
 struct Channel {
   std::string name;
   std::string unit;
   std::string meaning;
-  int machine = -1;  ///< the machine it drives or tells of, as in scene::Scene::machines; -1: none
+  /// Index of the machine that the channel drives or describes, as in scene::Scene::machines; -1
+  /// for none.
+  int machine = -1;
 };
 
-/// A list of channels with a function each; names are unique, what was added keeps its index.
+/// A list of channels with one function each. Names are unique and indices never change.
 template <class Function>
 class ChannelList {
  public:
-  /// The name must be new: an earlier channel of the same name could no longer be found by it.
+  /// Appends a channel. Its name must be new.
   void add(Channel channel, Function function) {
     index_[channel.name] = static_cast<int>(channels_.size());
     channels_.push_back(std::move(channel));
     functions_.push_back(std::move(function));
   }
-  /// In the order of their indices, which telemetry and bindings keep.
+  /// Returns all channels in the order of their indices.
   const std::vector<Channel>& channels() const { return channels_; }
-  /// -1 when there is none of this name.
+  /// Returns the number of channels.
+  std::size_t size() const { return channels_.size(); }
+  /// Returns a channel. The index is not checked.
+  const Channel& operator[](std::size_t i) const { return channels_[i]; }
+  /// Iterates over the channels in the order of their indices.
+  auto begin() const { return channels_.begin(); }
+  auto end() const { return channels_.end(); }
+  /// Returns the index of a channel, -1 if there is none of this name.
   int find(const std::string& name) const {
     const auto it = index_.find(name);
     return it == index_.end() ? -1 : it->second;
   }
+
+ protected:
   /// @throws std::out_of_range.
   const Function& function(int i) const { return functions_.at(static_cast<std::size_t>(i)); }
 
@@ -45,9 +56,29 @@ class ChannelList {
   std::map<std::string, int> index_;
 };
 
-// What a world has of them. A function reads or drives through handles and takes no time to find
-// its part.
-using Inputs = ChannelList<std::function<void(double)>>;
-using Outputs = ChannelList<std::function<double()>>;
+/// The inputs of a world. An input and an output may share a name: one is the target, the other
+/// the measured value.
+class Inputs : public ChannelList<std::function<void(double)>> {
+ public:
+  /// Returns the index of an input. @throws InputError that names the nearest input.
+  int index(const std::string& name) const;
+  /// Sets an input to `value`, in the input's unit, at the cost of a function call.
+  /// @throws InputError for a value that is not finite or an index that does not exist.
+  void set(int input, double value);
+  /// Looks the input up by its name first.
+  void set(const std::string& name, double value) { set(index(name), value); }
+};
+
+/// The outputs of a world. Samplers append theirs.
+class Outputs : public ChannelList<std::function<double()>> {
+ public:
+  /// Returns the index of an output. @throws InputError that names the nearest output.
+  int index(const std::string& name) const;
+  /// Returns the present value in the output's unit. A payload costs a pass over the particles, any
+  /// other output a function call. @throws InputError for an index that does not exist.
+  double get(int output) const;
+  /// Looks the output up by its name first.
+  double get(const std::string& name) const { return get(index(name)); }
+};
 
 }  // namespace navvy::sim

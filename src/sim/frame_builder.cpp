@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame is what a renderer needs and nothing more: poses of visuals, cylinders between their
-// pins, a dense window of the ground and the particles, all in W.
+// A frame holds what a renderer needs: poses of visuals, cylinders between their pins, a dense
+// window of the ground and the particles, all in W.
 #include "sim/frame_builder.h"
 
 #include <algorithm>
@@ -18,15 +18,15 @@ namespace {
 // Loose soil is drawn as particles, so the ground below it is that of the columns.
 constexpr heightfield::SurfaceKind kDrawn = heightfield::SurfaceKind::kColumns;
 constexpr int kWindow = 1024;           // columns along one side of the drawn ground
-constexpr double kLinkageAside = 0.20;  // bars of a bucket linkage from its middle [m]
+constexpr double kLinkageAside = 0.20;  // distance of a bucket linkage's bars from its middle [m]
 constexpr double kBarRadius = 0.05;     // [m]
-// Least way from a drawn lump's middle to steel, in its radius
+// Smallest distance of a drawn lump's centre from steel, in its radius.
 constexpr double kOffPlates = 1.1;
 
-/// OpenGL camera at `eye` looking at `target`, z of the world up.
+/// Returns the pose of an OpenGL camera at `eye` looking at `target`, z of the world up.
 Pose look_at(const Vec3& eye, const Vec3& target) {
   Vec3 back = eye - target;
-  // Any direction is better than none.
+  // Any direction will do.
   if (back.norm() < 1e-9) back = Vec3(1, 0, 0);
   back.normalize();
   Vec3 right = Vec3::UnitZ().cross(back);
@@ -44,7 +44,7 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 
 FrameBuilder::FrameBuilder(const World& world)
     : world_(world), plates_(std::make_unique<ParticleClipper>(world)) {
-  // What does not change with time is filled in once.
+  // Fill in constants once.
   for (const scene::Soil& soil : world.description().soils)
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
   frame_.lights = world.description().lights;
@@ -54,8 +54,9 @@ FrameBuilder::FrameBuilder(const World& world)
 
 FrameBuilder::~FrameBuilder() = default;
 
+// Rewrites everything that moves, and only the changed part of the ground.
 const scene::Frame& FrameBuilder::build() {
-  // Vectors are cleared, not freed: frames of one world are about as large as each other.
+  // Clear the vectors without freeing them: frames of one world have similar sizes.
   frame_.time = world_.time();
   frame_.shapes.clear();
   frame_.cylinders.clear();
@@ -71,13 +72,13 @@ void FrameBuilder::place_window() {
   const int nx = std::min(ground.nx(), kWindow), ny = std::min(ground.ny(), kWindow);
   Vec2 low = ground.origin() + 0.5 * ground.cell() * Vec2(ground.nx(), ground.ny()), high = low;
   for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
-    const Vec2 p = world_.machine(static_cast<int>(m)).link(0).pose().translation().head<2>();
+    const Vec2 p = world_.machines().at(static_cast<int>(m)).link(0).pose().translation().head<2>();
     low = m == 0 ? p : Vec2(low.cwiseMin(p));
     high = m == 0 ? p : Vec2(high.cwiseMax(p));
   }
   const Vec2i center = ground.column_at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()));
-  // A window follows the middle of the machines, but jumps only when they near its edge: a jump
-  // costs a whole copy.
+  // The window follows the middle of the machines, but moves only when they approach its edge,
+  // since each move costs a whole copy.
   const bool placed = !window_.empty();
   const bool near_edge = std::abs(center.x() - (window_.x0 + window_.x1) / 2) > nx / 4 ||
                          std::abs(center.y() - (window_.y0 + window_.y1) / 2) > ny / 4;
@@ -100,11 +101,11 @@ void FrameBuilder::place_window() {
   out.revision = 0;
 }
 
+// Cuts each changed rectangle to the window.
 void FrameBuilder::update_ground() {
   const heightfield::TerrainView terrain = terrain_view(world_, kDrawn);
   scene::FrameGround& out = frame_.ground;
-  // A frame that nobody draws loses nothing: the follower sees the next one against the last one
-  // built.
+  // Skipped frames lose nothing: changes accumulate since the last frame built.
   out.changed.clear();
   for (const heightfield::CellRect& changed : changes_.take(terrain)) {
     const heightfield::CellRect rect = changed.cut(window_);
@@ -124,7 +125,7 @@ void FrameBuilder::copy_ground(const heightfield::Terrain& terrain,
       const std::size_t i =
           static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
           static_cast<std::size_t>(ix - window_.x0);
-      // The difference in double: both heights may be hundreds of metres.
+      // Subtract in double: both heights may be hundreds of metres.
       const double height = terrain.height(ix, iy);
       out.height[i] = static_cast<float>(height);
       out.change[i] = static_cast<float>(height - terrain.start_height(ix, iy));
@@ -132,12 +133,13 @@ void FrameBuilder::copy_ground(const heightfield::Terrain& terrain,
     }
 }
 
+// Visuals move with their links; cylinders follow from joint positions.
 void FrameBuilder::add_machines() {
   for (std::size_t m = 0; m < world_.description().machines.size(); ++m) {
     const scene::Machine& machine = world_.description().machines[m].machine;
     const int index = static_cast<int>(m);
     for (std::size_t l = 0; l < machine.links.size(); ++l) {
-      const Pose X_WL = world_.machine(index).link(static_cast<int>(l)).pose();
+      const Pose X_WL = world_.machines().at(index).link(static_cast<int>(l)).pose();
       for (const scene::Visual& visual : machine.links[l].visuals)
         frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
     }
@@ -145,6 +147,7 @@ void FrameBuilder::add_machines() {
   }
 }
 
+// Draws barrel and rod between the pins, and the bars of a linkage.
 void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
   const scene::Machine& machine =
       world_.description().machines[static_cast<std::size_t>(m)].machine;
@@ -153,30 +156,31 @@ void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
             rod = machine.link_index(cylinder.rod_link);
   if (joint < 0 || base < 0 || rod < 0) return;
   // The pins follow from the joint's angle; a cylinder has no state of its own.
-  const auto geometry =
-      vehicle::cylinder_geometry(machine, cylinder, world_.machine(m).joint(joint).position());
-  const Pose X_WL = world_.machine(m).link(base).pose();
+  const auto geometry = vehicle::cylinder_geometry(machine, cylinder,
+                                                   world_.machines().at(m).joint(joint).position());
+  const Pose X_WL = world_.machines().at(m).link(base).pose();
   const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel,
                        double aside) {
     const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
     frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
   };
-  // Side by side, as many as there are.
+  // Draw all `count` cylinders side by side.
   for (int i = 0; i < cylinder.count; ++i)
     add(X_WL * geometry.p_base, X_WL * geometry.p_rod, 0.6 * cylinder.bore, 0.55 * geometry.length,
         cylinder.spacing * (i - 0.5 * (cylinder.count - 1)));
   if (!cylinder.has_linkage) return;
-  // Rocker and coupler on both sides; rod pin and coupler pin lie on one ray from the rocker's
+  // Rocker and coupler on both sides; rod pin and coupler pin are on one ray from the rocker's
   // pivot.
   const Vec3 pin = cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod *
                                            (geometry.p_rod - cylinder.p_rocker);
-  const Vec3 on_bucket = world_.machine(m).link(rod).pose() * cylinder.p_coupler;
+  const Vec3 on_bucket = world_.machines().at(m).link(rod).pose() * cylinder.p_coupler;
   for (const double aside : {-kLinkageAside, kLinkageAside}) {
     add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
     add(X_WL * pin, on_bucket, kBarRadius, cylinder.coupler, aside);
   }
 }
 
+// Copies positions as floats relative to one block.
 void FrameBuilder::add_particles() {
   const heightfield::Ground& ground = world_.ground();
   const std::vector<soil::Particle> particles = parts(world_).soil.particles();
@@ -185,9 +189,10 @@ void FrameBuilder::add_particles() {
   out.soil.clear();
   out.id.clear();
   out.room.clear();
-  out.radius = 0.4 * ground.cell();  // eight particles a cell, overlapping a little
+  out.radius = 0.4 * ground.cell();  // eight particles per cell, overlapping a little
   if (particles.empty()) return;
-  // Relative to the block of one of them: a float is fine to 0.01 mm over a site of 100 m.
+  // Positions are relative to the block of one particle: a float resolves 0.01 mm over a site of
+  // 100 m.
   const auto& first = particles.front().block;
   const double block = soil::kBlockCells * ground.cell();
   out.origin = parts(world_).soil.grid_origin() + block * Vec3(first[0], first[1], first[2]);
@@ -200,19 +205,20 @@ void FrameBuilder::add_particles() {
     out.soil.push_back(static_cast<std::uint8_t>(p.soil));
     out.id.push_back(p.id);
   }
-  // Lumps differ in size by chance: twice the radius holds the largest. What lies on steel is drawn
-  // beside it and not shrunk to the dust that would fit: a load's outermost layer would show as a
-  // lattice of crumbs.
+  // Lumps vary in size randomly; twice the radius covers the largest. Particles on steel are moved
+  // beside it rather than shrunk until they fit, or a load's outermost layer would look like a grid
+  // of dust.
   plates_->keep_off(out, kOffPlates * out.radius, 2 * out.radius);
 }
 
+// Fixed, on a link, or following a machine's heading.
 scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
   scene::FrameCamera out;
   out.fov = camera.fov;
   out.width = camera.width;
   out.height = camera.height;
   Pose X = Pose::Identity();
-  // Fixed ones are given in W, the others in the frame of what they ride on.
+  // Fixed cameras are given in W, the others in the frame that they move with.
   if (camera.kind != scene::Camera::Kind::kFixed) {
     const int m = world_.description().machine_index(camera.machine);
     if (m < 0)
@@ -224,14 +230,14 @@ scene::FrameCamera FrameBuilder::camera(const scene::Camera& camera) const {
     const int link = camera.kind == scene::Camera::Kind::kOnLink
                          ? std::max(0, machine.link_index(camera.link))
                          : 0;
-    X = world_.machine(m).link(link).pose();
+    X = world_.machines().at(m).link(link).pose();
     if (camera.kind == scene::Camera::Kind::kChase) {
       const double yaw = std::atan2(X.linear()(1, 0), X.linear()(0, 0));
       X.linear() = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
     }
   }
   out.X_WC = look_at(X * camera.position, X * camera.target);
-  // Never below the ground it looks over.
+  // Keep the camera above the ground.
   const Vec3 eye = out.X_WC.translation();
   const double floor = terrain_view(world_, kDrawn).sample(eye.x(), eye.y()) + 0.3;
   if (eye.z() < floor && camera.kind != scene::Camera::Kind::kOnLink)

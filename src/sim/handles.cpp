@@ -11,33 +11,32 @@
 namespace navvy::sim {
 namespace {
 
-/// Entry `index` of what a machine's file lists; every handle looks through here, so no index is
-/// ever unchecked.
+/// Returns entry `index` of a list in a machine's file. Every handle uses it, so every index is
+/// checked.
 template <class Entry>
 const Entry* entry(const std::string& kind, const std::vector<Entry>& list, int index) {
   require_index(kind, index, list.size());
   return &list[static_cast<std::size_t>(index)];
 }
 
-// Links, joints and shells alike are looked up by their name.
+// Links, joints and shells are looked up by name in the same way.
 const auto kName = [](const auto& part) -> const std::string& { return part.name; };
 
 }  // namespace
 
-// Each reading asks the engine anew: nothing is kept that a step or a loaded snapshot could make
-// stale.
+// Each read asks the engine: nothing is cached that a step or a loaded snapshot could change.
 const std::string& LinkHandle::name() const { return link_->name; }
 Pose LinkHandle::pose() const { return state().X_WL; }
-// Of the link's origin; a point elsewhere moves with w x r on top.
+// Velocity of the link's origin; another point adds w x r.
 Vec3 LinkHandle::velocity() const { return state().v_WL; }
 Vec3 LinkHandle::angular_velocity() const { return state().w_WL; }
-// Engines answer by value from what they hold; no memory is taken.
+// Engines return values without allocating memory.
 vehicle::LinkState LinkHandle::state() const { return engine_->link(body_, index_); }
 
-// A joint's state is worked out by the engine on each call; who needs several of its values asks
-// for state() once.
+// The engine computes a joint's state on each call: to read several of its values, call state()
+// once.
 const std::string& JointHandle::name() const { return joint_->name; }
-// One number each; they cost what state() costs.
+// One number each, at the cost of state().
 double JointHandle::position() const { return state().position; }
 double JointHandle::velocity() const { return state().velocity; }
 double JointHandle::effort() const { return state().effort; }
@@ -48,18 +47,18 @@ std::uint64_t JointHandle::counts() const {
 }
 vehicle::JointState JointHandle::state() const { return engine_->joint(body_, index_); }
 
-// A wheel has no name of its own; its spin joint's is what telemetry shows, too.
+// A wheel has no name of its own; telemetry shows its spin joint's, too.
 const std::string& WheelHandle::name() const { return wheel_->joint; }
 vehicle::WheelState WheelHandle::state() const { return engine_->wheel(body_, index_); }
 
 namespace {
 
-// The list of tools is made with the world and never changes its order, so an index into it is for
-// life.
+// The list of tools never changes after construction, so an index into it stays valid.
 const coupling::ToolLoad& load(const WorldParts& parts, int tool) {
   return parts.coupling.tools()[static_cast<std::size_t>(tool)];
 }
-// What a tool is for stands in its machine's data: the exchange does not tell buckets from blades.
+// The machine's data says what a tool is for; the coupling does not distinguish buckets from
+// blades.
 const scene::Machine& machine_of(const WorldParts& parts, const coupling::ToolLoad& tool) {
   return parts.description.machines[static_cast<std::size_t>(tool.machine)].machine;
 }
@@ -79,12 +78,12 @@ bool ToolHandle::is_bed() const {
   const coupling::ToolLoad& tool = load(*parts_, tool_);
   return machine_of(*parts_, tool).is_bed(tool.shell);
 }
-// These stand in the exchange since the last step; only the payload is worked out when asked.
+// The coupling stores these after each step; only the payload is computed on demand.
 Vec3 ToolHandle::force() const { return load(*parts_, tool_).force_W; }
 Vec3 ToolHandle::moment() const { return load(*parts_, tool_).moment_W; }
 Vec3 ToolHandle::smooth_force() const { return load(*parts_, tool_).smooth_W; }
 Vec3 ToolHandle::rock_force() const { return load(*parts_, tool_).rock_W; }
-// The exchange knows the other tools: what a bucket holds inside a bed is the bucket's.
+// The coupling knows the other tools: soil in a bucket inside a bed counts for the bucket.
 double ToolHandle::payload() const { return parts_->coupling.payload(load(*parts_, tool_)); }
 // Copied into sim's own type, so that no client sees the solver's.
 MomentumBalance ToolHandle::momentum_balance() const {
@@ -99,16 +98,14 @@ const scene::Machine& MachineHandle::description() const {
   return parts_->description.machines[static_cast<std::size_t>(machine_)].machine;
 }
 
-// Names become indices, indices are checked, then the handle keeps all it needs to read without a
-// look-up.
+// Resolve names to indices, check the indices, and store what is needed to read without a look-up.
 LinkHandle MachineHandle::link(const std::string& name) const {
   return link(index_of("link", description().links, name, kName));
 }
 LinkHandle MachineHandle::link(int index) const {
   LinkHandle out;
   out.link_ = entry("link", description().links, index);
-  // The engine that has this machine, and the machine's index there: it may differ from the
-  // world's.
+  // The machine's engine and its index there, which may differ from the world's.
   out.engine_ = &parts_->coupling.engine(machine_);
   out.body_ = parts_->coupling.index(machine_);
   out.index_ = index;
@@ -118,7 +115,7 @@ LinkHandle MachineHandle::link(int index) const {
 JointHandle MachineHandle::joint(const std::string& name) const {
   return joint(index_of("joint", description().joints, name, kName));
 }
-// A joint also keeps its machine of the world, by which commands find their way.
+// A joint also stores its machine of the world, for commands.
 JointHandle MachineHandle::joint(int index) const {
   JointHandle out;
   out.joint_ = entry("joint", description().joints, index);
@@ -145,7 +142,7 @@ WheelHandle MachineHandle::wheel(int index) const {
   return out;
 }
 
-// Shells of a machine are its tools, and go by the shell's name.
+// Shells of a machine are its tools, named by the shell.
 ToolHandle MachineHandle::tool(const std::string& name) const {
   return tool(index_of("tool", description().shells, name, kName));
 }
@@ -154,7 +151,7 @@ ToolHandle MachineHandle::tool(int index) const {
   const std::vector<coupling::ToolLoad>& tools = parts_->coupling.tools();
   ToolHandle out;
   out.parts_ = parts_;
-  // Every shell was made a tool, so this finds one.
+  // Every shell is a tool, so this finds one.
   while (out.tool_ + 1 < static_cast<int>(tools.size())) {
     const coupling::ToolLoad& tool = load(*parts_, ++out.tool_);
     if (tool.machine == machine_ && tool.shell == index) break;
@@ -162,25 +159,29 @@ ToolHandle MachineHandle::tool(int index) const {
   return out;
 }
 
-// What belongs to the machine as a whole.
+// Engines without a capability report zeros.
 vehicle::PumpState MachineHandle::pump() const {
-  return parts_->coupling.engine(machine_).pump(parts_->coupling.index(machine_));
+  const vehicle::PowerCapability* power = parts_->coupling.engine(machine_).power();
+  return power ? power->pump(parts_->coupling.index(machine_)) : vehicle::PumpState();
 }
 vehicle::CombustionEngineState MachineHandle::engine() const {
-  return parts_->coupling.engine(machine_).drive_engine(parts_->coupling.index(machine_));
+  const vehicle::PowerCapability* power = parts_->coupling.engine(machine_).power();
+  return power ? power->drive_engine(parts_->coupling.index(machine_))
+               : vehicle::CombustionEngineState();
 }
 vehicle::DriveInput MachineHandle::drive() const {
   return parts_->coupling.engine(machine_).drive(parts_->coupling.index(machine_));
 }
 vehicle::BaseInput MachineHandle::base() const {
-  return parts_->coupling.engine(machine_).base(parts_->coupling.index(machine_));
+  return vehicle::base_target(parts_->coupling.engine(machine_), parts_->coupling.index(machine_));
 }
 vehicle::Stability MachineHandle::stability() const {
   return vehicle::stability(description(), parts_->coupling.engine(machine_),
                             parts_->coupling.index(machine_));
 }
 double MachineHandle::work() const {
-  return parts_->coupling.engine(machine_).work(parts_->coupling.index(machine_));
+  const vehicle::AccountCapability* accounts = parts_->coupling.engine(machine_).accounts();
+  return accounts ? accounts->work(parts_->coupling.index(machine_)) : 0;
 }
 
 }  // namespace navvy::sim

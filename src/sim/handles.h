@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles to the parts of a running world: a name or an index is resolved once, then reading takes
-// neither a look-up nor memory. `world.machine("excavator").link("boom").pose()`,
+// Handles to the parts of a running world: a name or an index is resolved once, and reading then
+// neither searches nor allocates. `world.machines().at("excavator").link("boom").pose()`,
 // `.joint("arm_joint").position()`, `.tool("bucket").force()`, `.wheel(0).state().slip`.
 //
-// A handle is a few words, copied freely; it stays valid as long as its world lives and tells the
-// state of the moment in which it is read, also after a snapshot was loaded. Handles only read:
-// World::command and World::set drive, and Session's functions of the same names where a program
-// may be running. Every look-up throws InputError for a name or index that does not exist; for a
-// name the message holds the nearest one.
+// A handle is a few words and copied freely. It is valid as long as its world lives and always
+// reads the present state, also after a snapshot was loaded. Handles only read: sim::Commands and
+// sim::Inputs drive, and Session's functions where a program may be running. Every look-up throws
+// InputError for a name or index that does not exist; for a name the message holds the nearest one.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@
 #include "vehicle/machine_state.h"
 
 namespace navvy::vehicle {
-// Named only: a client reads through handles and sees no engine.
+// Forward declared: a client reads through handles and includes no engine.
 class PhysicsEngine;
 class JointEncoder;
 }  // namespace navvy::vehicle
@@ -28,17 +27,18 @@ namespace navvy::sim {
 
 struct WorldParts;
 
-/// A rigid link L of a machine. Frame L is the link's own of the machine's file, W the world.
+/// Rigid link L of a machine. Frame L is the link's own frame in the machine's file, W the world.
 class LinkHandle {
  public:
+  /// Returns the name of the link in its machine's file.
   const std::string& name() const;
-  /// X_WL: the link in the world.
+  /// Returns X_WL, the pose of the link in the world.
   Pose pose() const;
-  /// Of L's origin, axes of W [m/s].
+  /// Returns the velocity of L's origin, axes of W [m/s].
   Vec3 velocity() const;
-  /// Axes of W [rad/s].
+  /// Returns the angular velocity, axes of W [rad/s].
   Vec3 angular_velocity() const;
-  /// All of it in one read: pose [m], velocity [m/s] and angular velocity [rad/s], axes of W.
+  /// Returns pose [m], velocity [m/s] and angular velocity [rad/s] in one read, axes of W.
   vehicle::LinkState state() const;
 
  private:
@@ -48,23 +48,25 @@ class LinkHandle {
   int body_ = -1, index_ = -1;
 };
 
-/// A joint; units follow its type: [rad], [rad/s], [N m] of a revolute one, [m], [m/s], [N] of a
-/// prismatic one.
+/// Joint of a machine. Units follow its type: [rad], [rad/s], [N m] for a revolute joint, [m],
+/// [m/s], [N] for a prismatic one.
 class JointHandle {
  public:
+  /// Returns the name of the joint in its machine's file.
   const std::string& name() const;
-  /// Indices into scene::Scene::machines and scene::Machine::joints.
+  /// Return the indices into scene::Scene::machines and scene::Machine::joints.
   int machine() const { return machine_; }
   int index() const { return index_; }
-  /// Zero is the pose of the machine's file; wheels count on beyond a turn.
+  /// Returns the position. Zero is the pose in the machine's file; wheels count beyond a turn.
   double position() const;
-  /// Positive as the joint's axis says.
+  /// Returns the velocity, positive along or about the joint's axis.
   double velocity() const;
-  /// As the servo applied it in the last step.
+  /// Returns the effort that the servo applied in the last step.
   double effort() const;
-  /// Register of its encoder, 0 to 2^bits - 1. @throws InputError for a joint without one.
+  /// Returns the register of its encoder, 0 to 2^bits - 1. @throws InputError for a joint without
+  /// one.
   std::uint64_t counts() const;
-  /// All of it in one read: limits, cylinder force [N] and length [m], stalled or not.
+  /// Returns the whole state in one read: also limits, cylinder force [N] and length [m], stalled.
   vehicle::JointState state() const;
 
  private:
@@ -75,13 +77,13 @@ class JointHandle {
   int machine_ = -1, body_ = -1, index_ = -1;
 };
 
-/// A wheel with its tyre.
+/// Wheel with its tyre.
 class WheelHandle {
  public:
-  /// Name of its spin joint.
+  /// Returns the name of its spin joint.
   const std::string& name() const;
-  /// Pose (y = spin axis), velocity [m/s], spin [rad/s], steer [rad], tyre force [N], slip [-],
-  /// sinkage [m].
+  /// Returns pose (y = spin axis), velocity [m/s], spin [rad/s], steer [rad], tyre force [N], slip
+  /// [-] and sinkage [m].
   vehicle::WheelState state() const;
 
  private:
@@ -91,49 +93,53 @@ class WheelHandle {
   int body_ = -1, index_ = -1;
 };
 
-/// A shell that touches soil: a bucket, a bed, a blade. Forces are what the ground does to it, axes
-/// of W.
+/// Shell that touches soil: a bucket, a bed, a blade. Forces are those of the ground on it, axes of
+/// W.
 class ToolHandle {
  public:
-  /// Name of its shell, unique in its machine.
+  /// Returns the name of its shell, unique in its machine.
   const std::string& name() const;
-  /// Index into scene::Scene::machines.
+  /// Returns the index into scene::Scene::machines.
   int machine() const;
-  /// What the machine's file says it is for; neither for a blade or plate.
+  /// Return whether the machine's file declares the shell a bucket or a bed; both false for a blade
+  /// or plate.
   bool is_bucket() const;
   bool is_bed() const;
-  /// Mean soil force of the last step [N].
+  /// Returns the mean soil force over the last completed transfer [N].
   Vec3 force() const;
-  /// Its moment about the link's origin [N m].
+  /// Returns its moment about the link's origin [N m].
   Vec3 moment() const;
-  /// The force, low-passed at 3 Hz [N]: for display and control.
+  /// Returns the force, low-passed at 3 Hz [N]: for display and control.
   Vec3 smooth_force() const;
-  /// Force of the rock, low-passed likewise [N]; zero for a kinematic machine.
+  /// Returns the force of the rock, low-passed in the same way [N]; zero for a kinematic machine.
   Vec3 rock_force() const;
-  /// Soil inside [kg]; of a bed without what a bucket holds in it. Costs a pass over the particles.
+  /// Returns the soil inside [kg]; for a bed without the soil in a bucket inside it. Costs a pass
+  /// over the particles.
   double payload() const;
-  /// Of the last step, see world_measurements.h; scale 0 without contact.
+  /// Returns the momentum balance of the last step, see world_measurements.h. `scale` is 0 without
+  /// contact.
   MomentumBalance momentum_balance() const;
 
  private:
   friend class MachineHandle;
-  friend class World;
+  friend class Machines;
   const WorldParts* parts_ = nullptr;
-  int tool_ = -1;  ///< index into Coupling::tools
+  /// Index into Coupling::tools.
+  int tool_ = -1;
 };
 
-/// A machine of the scene.
+/// Machine of the scene.
 class MachineHandle {
  public:
-  /// Of the instance in the scene, "excavator", not of the model.
+  /// Returns the name of the instance in the scene ("excavator"), not of the model.
   const std::string& name() const;
-  /// Index into scene::Scene::machines.
+  /// Returns the index into scene::Scene::machines.
   int index() const { return machine_; }
-  /// The data it was built from: names, counts, limits.
+  /// Returns the data it was built from: names, counts, limits.
   const scene::Machine& description() const;
 
-  /// By name, or by index as in scene::Machine::links, joints, wheels (by the name of their spin
-  /// joint), shells. Link 0 is the base.
+  /// Return a part by name, or by index as in scene::Machine::links, joints, wheels (named by their
+  /// spin joint) and shells. Link 0 is the base.
   LinkHandle link(const std::string& name) const;
   LinkHandle link(int index) const;
   JointHandle joint(const std::string& name) const;
@@ -143,22 +149,22 @@ class MachineHandle {
   ToolHandle tool(const std::string& name) const;
   ToolHandle tool(int index) const;
 
-  /// Oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
+  /// Returns oil flow [m3/s] and pressure [Pa] of the last step; zeros without a pump.
   vehicle::PumpState pump() const;
-  /// Speed [rad/s], torque [N m], power [W] and gear of its engine after the last step; zeros of a
-  /// drive without one.
+  /// Returns speed [rad/s], torque [N m], power [W] and gear of its combustion engine after the
+  /// last step; zeros for a drive without one.
   vehicle::CombustionEngineState engine() const;
-  /// The command that the drive follows now: speed [m/s], steer [rad], brake, gear.
+  /// Returns the command that the drive follows now: speed [m/s], steer [rad], brake, gear.
   vehicle::DriveInput drive() const;
-  /// Where a kinematic machine's base is on its way to; of others where it is.
+  /// Returns the target pose of a kinematic machine's base; for other machines the present pose.
   vehicle::BaseInput base() const;
-  /// How it stands on its wheels. Costs a pass over its links.
+  /// Returns the stability on its wheels. Costs a pass over its links.
   vehicle::Stability stability() const;
-  /// Done by drives and cylinders since the start [J].
+  /// Returns the work done by drives and cylinders since the start [J].
   double work() const;
 
  private:
-  friend class World;
+  friend class Machines;
   const WorldParts* parts_ = nullptr;
   int machine_ = -1;
 };

@@ -8,7 +8,7 @@ namespace navvy::sim {
 
 void throw_unknown(const std::string& kind, const std::string& name,
                    const std::vector<std::string>& known) {
-  // Without a candidate the remedy says so instead of asking about nothing.
+  // Without a candidate the remedy says so.
   const std::string remedy =
       known.empty() ? "there is none at all" : "did you mean '" + nearest_name(known, name) + "'?";
   throw InputError(Fault{Fault::Severity::kError, "", 0, kind, name,

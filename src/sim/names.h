@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages for names and indices that do not exist.
+// Error messages for names and indices that do not exist.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,16 @@
 
 namespace navvy::sim {
 
-/// Always throws InputError: there is no `kind` called `name`; did you mean the nearest of `known`?
+/// Throws InputError: there is no `kind` called `name`; did you mean the nearest of `known`?
 [[noreturn]] void throw_unknown(const std::string& kind, const std::string& name,
                                 const std::vector<std::string>& known);
 
-/// @throws InputError when `index` is not one of 0 .. count - 1. `kind` names what is counted.
+/// @throws InputError if `index` is not in 0 .. count - 1. `kind` names what is counted.
 void require_index(const std::string& kind, int index, std::size_t count);
 
-/// Place in `list` of the entry whose `key(entry)` is `name`. @throws InputError as throw_unknown.
-/// `kind` is the word for the message: "joint", "machine".
+/// Returns the index in `list` of the entry whose `key(entry)` is `name`. `kind` is the word for
+/// the message: "joint", "machine".
+/// @throws InputError as throw_unknown.
 template <class List, class Key>
 int index_of(const std::string& kind, const List& list, const std::string& name, Key&& key) {
   for (std::size_t i = 0; i < list.size(); ++i)

@@ -9,11 +9,11 @@
 namespace navvy::sim {
 namespace {
 
-/// In the corner of two plates a particle goes off the one, then off the other.
+/// In the corner of two plates a particle is pushed off one, then off the other.
 constexpr int kPushes = 4;
 
-/// `p` off the faces of one shell. Where they leave less room than `gap` it ends as far off as it
-/// got on its own side.
+/// Returns `p` pushed off the faces of one shell. Where they leave less space than `gap`, it ends
+/// as far away as possible on its own side.
 Vec3 pushed(const soil::ShellGeometry& geometry, Vec3 p, double gap, int& closest) {
   const double half = geometry.shell().half_thickness;
   soil::ShellGeometry::Nearest at = geometry.nearest(p, closest);
@@ -22,7 +22,7 @@ Vec3 pushed(const soil::ShellGeometry& geometry, Vec3 p, double gap, int& closes
   double farthest = std::abs(at.distance);
   for (int i = 0; i < kPushes && std::abs(at.distance) - half < gap; ++i) {
     Vec3 away = p - at.place;
-    // On the plate's very middle there is no way but the normal.
+    // On the plate's middle surface the normal is the only direction.
     if (!(away.norm() > 1e-9)) away = side * at.normal;
     p = at.place + (half + gap) * away.normalized();
     at = geometry.nearest(p, closest);
@@ -43,24 +43,26 @@ ParticleClipper::ParticleClipper(const World& world) : world_(world) {
   }
 }
 
+// Tests each particle against each shell; most fail the first, cheap test.
 void ParticleClipper::keep_off(scene::FrameParticles& particles, double gap, double reach) const {
   const std::size_t count = particles.position.size() / 3;
   particles.room.assign(count, static_cast<float>(reach));
   for (const Tool& tool : tools_) {
-    const Pose X_WT = world_.machine(tool.machine).link(tool.link).pose(), X_TW = X_WT.inverse();
-    // Most particles are far from any tool: a ball about the shell's box answers for them.
+    const Pose X_WT = world_.machines().at(tool.machine).link(tool.link).pose(),
+               X_TW = X_WT.inverse();
+    // Most particles are far from any tool: a sphere around the shell's box excludes them.
     const geometry::Box box = geometry::bounds(tool.geometry.shell());
     const Vec3 centre = X_WT * (0.5 * (box.low + box.high));
     const double radius = 0.5 * (box.high - box.low).norm() + reach;
     const double half = tool.geometry.shell().half_thickness;
-    // Triangle of the particle before: neighbours in memory are neighbours in space
+    // Triangle of the last particle: neighbours in memory are neighbours in space.
     int closest = 0;
     for (std::size_t i = 0; i < count; ++i) {
       float* place = &particles.position[3 * i];
       const Vec3 p_W = particles.origin + Eigen::Map<const Eigen::Vector3f>(place).cast<double>();
       if ((p_W - centre).squaredNorm() > radius * radius) continue;
       const Vec3 p_T = X_TW * p_W;
-      // The box itself leaves out soil below an empty bucket's ball.
+      // The box itself excludes soil below an empty bucket that is inside the sphere.
       if ((p_T.array() < box.low.array() - reach).any() ||
           (p_T.array() > box.high.array() + reach).any())
         continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps drawn soil off the plates of the machines' tools, so that no lump sticks out through steel.
+// Keeps drawn soil off the plates of the machines' tools, so that no lump shows through steel.
 #pragma once
 
 #include <vector>
@@ -10,21 +10,23 @@
 
 namespace navvy::sim {
 
-/// The shells of a world's machines, prepared once.
+/// Shells of a world's machines, prepared once.
 class ParticleClipper {
  public:
+  /// Prepares the shells of all machines. The world must outlive this object.
   explicit ParticleClipper(const World& world);
 
-  /// Moves every drawn particle that is nearer than `gap` [m] to a plate's face off it, on the side
-  /// that it is on, as far as the plates leave it room there. Then fills `room`: the distance to
-  /// the closest plate's face [m], from 0 to `reach`; `reach` for all that is farther.
+  /// Moves every drawn particle that is closer than `gap` [m] to a plate's face away from it, on
+  /// its own side, as far as other plates allow. Then writes each particle's distance to the
+  /// closest plate's face [m], at most `reach`.
   ///
-  /// A particle is a point, and one that lies on steel lies on its very face: its lump would be
-  /// drawn half within the plate. Costs a box test a particle and shell, and a search among the
-  /// shell's triangles for those near it.
+  /// A particle is a point, and one that touches steel is on its face: its lump would be drawn half
+  /// inside the plate. Costs a box test per particle and shell, and a search among the shell's
+  /// triangles for those near it.
   void keep_off(scene::FrameParticles& particles, double gap, double reach) const;
 
  private:
+  /// Shell of one machine, ready for distance queries.
   struct Tool {
     int machine, link;
     soil::ShellGeometry geometry;

@@ -11,8 +11,8 @@
 
 namespace navvy::sim {
 
-// Scalars and arrays share one name space, so that a client may look a name up without knowing
-// which of them it is.
+// Scalars and arrays share one name space, so that a client may look up a name without knowing its
+// kind.
 void Publisher::require_new(const std::string& name) const {
   const auto called = [&](const auto& channel) { return channel.name == name; };
   const bool declared = std::any_of(new_numbers_.begin(), new_numbers_.end(), called) ||
@@ -20,10 +20,10 @@ void Publisher::require_new(const std::string& name) const {
   if (!declared && outputs_.find(name) < 0 && arrays_.find(name) < 0) return;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "output", name,
                          "there is already an output of this name",
-                         "put the sampler's own name before it"});
+                         "begin the name with the sampler's own"});
 }
 
-/// The declared type is what readers in other languages were told.
+/// Readers in other languages rely on the declared type.
 void Publisher::require(int array, ElementType type) const {
   const ArrayChannel& channel = arrays_.view(array).channel();
   if (channel.type == type) return;
@@ -34,8 +34,8 @@ void Publisher::require(int array, ElementType type) const {
 
 int Publisher::declare(Channel channel) {
   require_new(channel.name);
-  // The output reads through a pointer: each number has an address that a growing list does not
-  // move.
+  // The output reads through a pointer, so each number needs an address that a growing list does
+  // not change.
   numbers_.push_back(std::make_unique<double>(0.0));
   new_numbers_.push_back(std::move(channel));
   return static_cast<int>(numbers_.size()) - 1;
@@ -43,15 +43,16 @@ int Publisher::declare(Channel channel) {
 
 int Publisher::declare(ArrayChannel channel) {
   require_new(channel.name);
-  // The rate is the sampler's, whatever the channel said.
+  // The rate is the sampler's, whatever the channel holds.
   channel.rate = rate_;
   ArrayOutputs::require_elements(channel);
   new_arrays_.push_back(std::move(channel));
   return static_cast<int>(arrays_.channels().size() + new_arrays_.size()) - 1;
 }
 
+// All names were checked at the declaration, so all channels are added or none.
 void Publisher::commit() {
-  // The first of the new numbers is the first that no output reads yet.
+  // The first of the new numbers is the first without an output.
   std::size_t next = numbers_.size() - new_numbers_.size();
   for (Channel& channel : new_numbers_)
     outputs_.add(std::move(channel), [value = numbers_[next++].get()] { return *value; });
@@ -60,7 +61,7 @@ void Publisher::commit() {
   new_arrays_.clear();
 }
 
-/// Into the same declarations: their count is all that can differ, as the sampler's name was
+/// Loads into the same declarations. Only their count can differ, since the sampler's name was
 /// compared before.
 void Publisher::visit(Archive& a) {
   a.constant("count", numbers_.size(),
@@ -69,17 +70,17 @@ void Publisher::visit(Archive& a) {
   for (std::size_t i = 0; i < numbers_.size(); ++i) a.item(i, [&] { a("value", *numbers_[i]); });
 }
 
+// A sampler that throws in declare leaves no channel behind.
 SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays)
     : sampler_(std::move(sampler)),
-      // Name and rate are asked once: a sampler that changed them would change what its channels
-      // say.
+      // Read once: a sampler that changed its name or rate would contradict its channels.
       name_(sampler_->name()),
       rate_(sampler_->rate()),
       publisher_(outputs, arrays, rate_) {
   if (!std::isfinite(rate_) || rate_ < 0)
     throw InputError(Fault{Fault::Severity::kError, "", 0, name_, std::to_string(rate_),
-                           "samples per second must be a number not below 0",
-                           "0 samples after every step"});
+                           "the rate must be a finite number of samples per second, not negative",
+                           "give 0 to sample after every step"});
   sampler_->declare(publisher_);
   publisher_.commit();
 }
@@ -89,13 +90,13 @@ bool SamplerSlot::due(std::uint64_t step, double dt) const {
 }
 
 void SamplerSlot::sample(const World& world, double time) {
-  // The world's time, so that all samples of one step carry the same stamp.
+  // The world's time, so that all samples of one step have the same stamp.
   publisher_.stamp(time);
   sampler_->sample(world, publisher_);
 }
 
-/// Numbers first: a sampler without state of its own still has what it published. Under the
-/// sampler's name, by which a load finds out that it meets another one.
+/// Visits the numbers first, since a sampler without state of its own still has them. The section's
+/// name is the sampler's, which detects another sampler on loading.
 void SamplerSlot::visit(Archive& a) {
   a.constant("name", name_,
              "the snapshot has another sampler here, the world has '" + name_ +

@@ -14,33 +14,34 @@
 namespace navvy::sim {
 namespace {
 
-/// A name is a weak key, yet it catches the slip that happens: the wrong file.
+/// A name is a weak key, but it detects the usual mistake: the wrong file.
 void require_scene(Archive& a, const std::string& scene) {
   std::string found = scene;
-  // Runs of one scene cannot differ in it, so it would tell a hash nothing.
+  // Equal for all runs of one scene, so it adds nothing to a hash.
   a.unhashed("", [&] { a("scene", found); });
   if (a.loading() && found != scene)
-    throw InputError(Fault{
-        Fault::Severity::kError, "snapshot", 0, "scene", found,
-        "it was taken of this scene, and the one to go on in is '" + scene + "'",
-        "go on in the scene it was taken of; --resume-anyway lets parameters of one scene differ, "
-        "and no more"});
+    throw InputError(Fault{Fault::Severity::kError, "snapshot", 0, "scene", found,
+                           "the snapshot is of this scene, but the run's scene is '" + scene + "'",
+                           "resume the scene it was taken from; --resume-anyway allows other "
+                           "parameters, not another scene"});
 }
 
 }  // namespace
 
+// Bounds keep time, steps x dt, a number that can be counted.
 void SnapshotHead::visit(Archive& a) {
   // Version 2: samplers follow the coupling; 3: one visit drives hash, save and load.
   a.section("world", 3, [&] {
     // The ground's own section checks its size.
     require_scene(a, scene);
     a("dt", dt);
-    // Thirty years of steps: counts of periods, which are as many or a million times more, are
-    // still whole numbers.
+    // Thirty years of steps. Counts of periods, which are up to a million times more, are still
+    // whole numbers.
     a.ranged("steps", steps, 0, 1'000'000'000'000);
   });
 }
 
+// The hash of a map stands for its heights, since the scene names only the file.
 scene::Parameters start_of(const scene::Scene& scene, const heightfield::Ground& ground) {
   scene::Parameters out = scene::parameters(scene);
   if (ground.setup().map_hash != 0) {
@@ -60,27 +61,28 @@ std::uint64_t hash_of_start(const scene::Parameters& start) {
   return sum.digest();
 }
 
+// Compares parameter by parameter, so that the message can list the differences.
 void SnapshotStart::visit(Archive& a) {
   a.section("start", 1, [&] {
-    // First, as two scenes differ in everything: their names say more than a list.
+    // First: if the scenes differ, their names say more than a list of parameters.
     require_scene(a, scene);
     scene::Parameters found = here;
     a("parameters", found);
     if (!a.loading() || found == here) return;
     const std::string differences = scene::differences(found, here);
     if (!anyway)
-      throw InputError(Fault{
-          Fault::Severity::kError, "snapshot", 0, "start", "",
-          "it was taken of a scene that differs: " + differences,
-          "name the scene it was taken of; `navvy run` goes on in this one with --resume-anyway"});
-    log_warning("going on from a snapshot of another scene: " + differences);
+      throw InputError(
+          Fault{Fault::Severity::kError, "snapshot", 0, "start", "",
+                "the scene's parameters differ from the snapshot's: " + differences,
+                "resume the scene it was taken from, or pass --resume-anyway to `navvy run`"});
+    log_warning("resuming although the scene's parameters differ from the snapshot's: " +
+                differences);
   });
 }
 
 namespace {
 
-/// The ground's section comes first of all parts; what follows it needs a device and is left
-/// unread.
+/// The ground's section is the first of all parts. The rest needs a device and is not read.
 struct Front {
   SnapshotStart start;
   SnapshotHead head;
@@ -95,17 +97,18 @@ struct Front {
 
 }  // namespace
 
+// Reads the head and the ground's section only.
 heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
                                 SnapshotHead* head) {
   try {
     heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
     Front front{{start_of(scene, ground), scene.name}, {scene.name}, std::move(ground)};
-    // Whole files: snapshots are read at once everywhere.
+    // Snapshots are read as whole files everywhere.
     load_front(unseal(read_file(snapshot_file)), front);
     if (head != nullptr) *head = front.head;
     return std::move(front.ground);
   } catch (const InputError& error) {
-    // Sections only know themselves; people need the file.
+    // Sections do not know the file; add its name.
     Fault fault = error.faults().front();
     if (fault.file.empty() || fault.file == "snapshot") fault.file = snapshot_file;
     throw InputError(fault);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a snapshot can be read without running the world it is of.
+// Parts of a snapshot that can be read without running its world.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,46 @@
 
 namespace navvy::sim {
 
-/// The first section of a world's snapshot. It tells which scene and when, before anything that
-/// only a matching world can read.
+/// First section of a world's snapshot: scene and time, before anything that only a matching world
+/// can read.
 struct SnapshotHead {
-  std::string scene;        ///< name of the scene it is of
-  double dt = 0;            ///< base step [s]
-  std::uint64_t steps = 0;  ///< time [s] is steps x dt
+  /// Name of its scene.
+  std::string scene;
+  /// Base step [s].
+  double dt = 0;
+  /// Steps taken. Time [s] is steps x dt.
+  std::uint64_t steps = 0;
 
-  /// Refuses a snapshot of a scene with another name than `scene`.
+  /// Visits the head. @throws InputError for a snapshot of a scene with a name other than `scene`.
   void visit(Archive& a);
 };
 
-/// Everything that decides how a run of `scene` goes: its parameters, and the heights of the map it
-/// starts on. The whole of it stands in a snapshot's file, before the state.
+/// Returns everything that determines a run of `scene`: its parameters and the heights of the map
+/// it starts on. A snapshot file stores all of it before the state.
 scene::Parameters start_of(const scene::Scene& scene, const heightfield::Ground& ground);
-/// Hash of that, which is part of every hash of a state: two runs that start alike and differ in a
-/// parameter never have one hash.
+/// Returns the hash of a start. It is part of every state hash, so two runs that differ in a
+/// parameter never have the same hash.
 std::uint64_t hash_of_start(const scene::Parameters& start);
 
-/// The section of a snapshot's file that holds the start of the run it was taken of.
+/// Section of a snapshot file with the start of the run it was taken from.
 struct SnapshotStart {
-  scene::Parameters here;  ///< of the scene that it is loaded into, or saved from
-  std::string scene;       ///< its name
-  /// A difference is told in the log, and the state is loaded all the same.
+  /// Start of the scene that it is loaded into, or saved from.
+  scene::Parameters here;
+  /// Name of that scene.
+  std::string scene;
+  /// Load the state even if the starts differ, and log the differences.
   bool anyway = false;
 
-  /// @throws InputError that says what differs, unless `anyway`; for a scene with another name
-  /// always.
+  /// Visits the start. @throws InputError that lists the differences, unless `anyway`; always for a
+  /// scene with another name.
   void visit(Archive& a);
 };
 
-/// The ground as it lay when the snapshot was taken: columns alone, without the soil that was
-/// awake. `scene` is the one that ran (a run's folder holds it as scene.sdf). Needs no OpenCL
-/// device; reads a heightmap that the scene names. `head` receives the time of the snapshot when it
-/// is given.
-/// @throws FileError when the file cannot be read, InputError when it does not fit the scene; the
-/// message names it.
+/// Returns the ground when the snapshot was taken: the columns, without active soil. `scene` is the
+/// one that ran (a run's folder holds it as scene.sdf). Needs no OpenCL device; reads the heightmap
+/// that the scene names. Stores the snapshot's time in `head` if given.
+/// @throws FileError if the file cannot be read, InputError if it does not fit the scene; the
+/// message names the file.
 heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
                                 SnapshotHead* head = nullptr);
 

@@ -19,7 +19,7 @@
 namespace navvy::sim {
 namespace {
 
-// [m] shapes are boxes here, and machines may stand side by side
+// [m] shapes are boxes here, and machines may stand side by side.
 constexpr double kTouching = 0.02;
 constexpr double kSettling = 1;  // [s]
 constexpr double kFalling = 1;   // [m/s] downwards: it has not landed
@@ -28,15 +28,15 @@ constexpr double kTipped = radians(45);
 struct LinkBox {
   geometry::OrientedBox box;
   const scene::Link* link = nullptr;
-  bool as_commanded = false, stands = false;  // of a kinematic machine; a base that is held
+  bool as_commanded = false, stands = false;  // kinematic machine; fixed base
 };
 
-/// What moves as told goes through its like and through what stands.
+/// Kinematic machines pass through each other and through fixed ones.
 bool may_meet(const LinkBox& a, const LinkBox& b) {
   return !(a.as_commanded && (b.as_commanded || b.stands)) && !(b.as_commanded && a.stands);
 }
 
-/// Hook and eye reach into each other, and so do the bodies around them.
+/// Hook and eye overlap, and so do the bodies around them.
 bool are_hitched(const scene::Scene& scene, int a, int b) {
   return std::any_of(scene.hitches.begin(), scene.hitches.end(), [&](const scene::Hitch& hitch) {
     return hitch.closed &&
@@ -50,6 +50,7 @@ std::string text(const char* format, double value) {
   return out.data();
 }
 
+// Returns the boxes of all collision shapes at the initial joint positions, in W.
 std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X_WB) {
   std::vector<LinkBox> out;
   const scene::Machine& machine = placed.machine;
@@ -65,6 +66,7 @@ std::vector<LinkBox> boxes_of(const scene::MachineInWorld& placed, const Pose& X
   return out;
 }
 
+// Returns an error at the line of the machine in the scene.
 Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine,
             const std::string& value, const std::string& rule, const std::string& remedy) {
   return {Fault::Severity::kError,
@@ -78,6 +80,7 @@ Fault error(const scene::Scene& scene, const scene::MachineInWorld& machine,
 
 }  // namespace
 
+// Tests every pair of boxes of every pair of machines.
 std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB) {
   std::vector<std::vector<LinkBox>> boxes;
   for (std::size_t m = 0; m < scene.machines.size(); ++m)
@@ -86,7 +89,7 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
   for (std::size_t a = 0; a < boxes.size(); ++a)
     for (std::size_t b = a + 1; b < boxes.size(); ++b) {
       if (are_hitched(scene, static_cast<int>(a), static_cast<int>(b))) continue;
-      // The deepest of a pair: mended, the others are as a rule.
+      // Report the deepest overlap of a pair: correcting it usually corrects the others.
       double deepest = kTouching;
       const scene::Link *of_a = nullptr, *of_b = nullptr;
       for (const LinkBox& one : boxes[a])
@@ -104,13 +107,14 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
   return faults;
 }
 
+// Tests wheels by their centres and links by the middle of their shapes.
 std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
                                 const heightfield::Terrain& ground) {
   std::vector<Fault> faults;
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     const scene::MachineInWorld& placed = scene.machines[m];
     if (placed.machine.kinematic) continue;
-    // What is put on the ground by its middle is not below it for the rounding of a height.
+    // A part placed exactly on the ground is not below it by rounding.
     double deepest = kTouching;
     std::string what;
     const auto look = [&](const Vec3& p, const std::string& name) {
@@ -118,7 +122,7 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
       if (depth > deepest) deepest = depth, what = name;
     };
     for (const LinkBox& one : boxes_of(placed, X_WB.at(m)))
-      // What stands may have its foot in the ground.
+      // A fixed machine may have its foot in the ground.
       if (!placed.machine.fixed_base || one.link != &placed.machine.links[0])
         look(one.box.X_WO.translation(), "link '" + one.link->name + "'");
     std::vector<double> q;
@@ -132,18 +136,18 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
            "wheel '" + wheel.joint + "'");
     }
     if (what.empty()) continue;
-    faults.push_back(error(
-        scene, placed, text("%.2f m", deepest),
-        "its " + what + " starts with its middle that far below the ground",
-        "raise it by its <pose>, or let it stand by <navvy:on_ground>true</navvy:on_ground>"));
+    faults.push_back(
+        error(scene, placed, text("%.2f m", deepest),
+              "its " + what + " starts with its centre that far below the ground",
+              "raise it by its <pose>, or set <navvy:on_ground>true</navvy:on_ground>"));
   }
   return faults;
 }
 
 namespace {
 
-/// What the design is on this site, so that a wrong unit or place shows. One that cannot be laid is
-/// an error elsewhere.
+/// Returns a comparison of the design with this site, so that a wrong unit or position shows. A
+/// design that cannot be built is an error elsewhere.
 std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
@@ -170,6 +174,7 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
 
 }  // namespace
 
+// Skips the settling if a machine starts inside the ground.
 StartCheck check_start(const scene::Scene& scene) {
   StartCheck out;
   try {
@@ -180,8 +185,7 @@ StartCheck check_start(const scene::Scene& scene) {
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);
     const bool falls = !buried.empty();
     for (Fault& fault : buried) out.faults.push_back(std::move(fault));
-    // What falls is named, and need not fall through the ground to be told of again: nothing stands
-    // then.
+    // Report a machine inside the ground once: settling would only let it fall.
     if (falls) return out;
     for (const coupling::Settled& one : coupling::settle(scene, ground, kSettling)) {
       out.standing.push_back(one.stability);
@@ -189,7 +193,7 @@ StartCheck check_start(const scene::Scene& scene) {
     }
     for (std::size_t m = 0; m < out.standing.size(); ++m) {
       const vehicle::Stability& stands = out.standing[m];
-      // What is in the air has no ground to tip on yet.
+      // A machine in the air has no ground to tip on yet.
       if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
       out.faults.push_back(
@@ -198,7 +202,7 @@ StartCheck check_start(const scene::Scene& scene) {
                     (stands.margin < 0 ? ": its centre of mass is " +
                                              text("%.2f m", -stands.margin) + " outside its feet"
                                        : ""),
-                "put it on flatter ground, or turn it along the slope"));
+                "place it on flatter ground, or turn it along the slope"));
     }
   } catch (const InputError& fault) {
     for (const Fault& one : fault.faults()) out.faults.push_back(one);

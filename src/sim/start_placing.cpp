@@ -18,6 +18,7 @@ std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::G
   return X_WB;
 }
 
+// Rounds to the nearest column border.
 heightfield::CellRect active_columns(const scene::ActiveSoil& active,
                                      const heightfield::Ground& ground) {
   const auto cell = [&](double metres, double from, int cells) {
@@ -29,9 +30,10 @@ heightfield::CellRect active_columns(const scene::ActiveSoil& active,
           cell(active.max.x(), from.x(), ground.nx()), cell(active.max.y(), from.y(), ground.ny())};
 }
 
+// Counts from column heights alone and stops as soon as the budget is exceeded.
 void check_active(const scene::Scene& scene, const heightfield::Ground& ground) {
-  // Eight particles a cell, as soil wakes [docs/exchange.md]; thin columns give less, so none is
-  // refused for rounding.
+  // Eight particles per cell, as activated soil has [docs/exchange.md]. Thin columns give fewer, so
+  // rounding refuses no scene.
   const double each = std::pow(ground.cell() / 2, 3);
   const double most = scene.solver.max_particles;
   double particles = 0, columns = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where machines stand before anything moves, for those who look at a scene without running it.
+// Initial poses of machines, for checks of a scene without running it.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,18 @@
 
 namespace navvy::sim {
 
-/// X_WB of every machine's base link at the start, in the scene's order: as a World of this scene
-/// and ground has them. Needs no device.
+/// Returns X_WB of every machine's base link at the start, in the scene's order, as a World of this
+/// scene and ground has them. Needs no device.
 std::vector<Pose> starting_poses(const scene::Scene& scene, const heightfield::Ground& ground);
 
-/// The columns of an awake box, rounded to whole ones and cut at the site's edge.
+/// Returns the columns of a box of active soil, rounded to whole columns and clipped at the site's
+/// edge.
 heightfield::CellRect active_columns(const scene::ActiveSoil& active,
                                      const heightfield::Ground& ground);
 
-/// Whether the soil that starts awake fits into the scene's budget of particles, before memory is
-/// asked for. Looks at as many columns as the budget has particles at most. @throws InputError
-/// naming the box.
+/// Checks that the initially active soil fits into the scene's particle budget, before memory is
+/// allocated. Reads at most as many columns as the budget has particles. @throws InputError naming
+/// the box.
 void check_active(const scene::Scene& scene, const heightfield::Ground& ground);
 
 }  // namespace navvy::sim

@@ -7,7 +7,7 @@
 namespace navvy::sim {
 namespace {
 
-// Quotients of times are rounded: a whole number counts as one from this close
+// Quotients of times are rounded: this close counts as a whole number.
 constexpr double kHair = 1e-9;
 
 }  // namespace
@@ -18,7 +18,7 @@ double base_step(double longest, double period) {
 }
 
 std::uint64_t samples_through(std::uint64_t step, double dt, double rate) {
-  // Half a step further on is where the next step becomes the nearer one. Products, as a sum of
+  // Half a step further on, the next step becomes the nearer one. Use products, since a sum of
   // periods would drift.
   return static_cast<std::uint64_t>(
       std::ceil((static_cast<double>(step) + 0.5) * (dt * rate) - kHair));

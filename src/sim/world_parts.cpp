@@ -16,31 +16,46 @@
 namespace navvy::sim {
 namespace {
 
-constexpr double kToolSpeed = 2.0;  // [m/s] fastest tip for which the base step must be stable
+constexpr double kHighestRate = 1e5;  // [1/s] of a controller, as scenes may ask for
+constexpr double kRounding = 1e-8;    // of a step that is the quotient of two times
+constexpr double kToolSpeed = 2.0;    // [m/s] fastest tip for which the base step must be stable
 
-/// The site; what was found in a terrain file goes to the log.
+/// Builds the ground and logs the report on a terrain file.
 heightfield::Ground make_site(const scene::Scene& world) {
-  // A map may have gaps or an odd datum: worth a line to the user, no fault.
+  // A map may have gaps or an unusual datum: worth a line to the user, but no fault.
   std::string report;
   heightfield::Ground ground = heightfield::make_ground(world, &report);
   if (!report.empty()) log_info(report);
   return ground;
 }
 
+/// Makes the engine of the dynamic machines: the caller's, or the one built on Bullet.
+std::unique_ptr<vehicle::PhysicsEngine> make_dynamic(
+    const scene::Scene& world, const vehicle::PhysicsEngineFactory& make_engine) {
+  std::unique_ptr<vehicle::PhysicsEngine> engine =
+      make_engine ? make_engine(world.gravity, world.materials)
+                  : vehicle::make_bullet_engine(world.gravity, world.materials);
+  if (engine != nullptr) return engine;
+  throw InputError(Fault{Fault::Severity::kError, world.file, 0, "physics engine", "null",
+                         "the factory must return an engine",
+                         "return a new vehicle::PhysicsEngine from it"});
+}
+
 }  // namespace
 
-/// In the order of the members: ground under machines, engines and soil under the exchange that
-/// binds them.
-WorldParts::WorldParts(scene::Scene world, device::Device& device)
+/// Follows the order of the members: ground under machines, engines and soil under the coupling
+/// that joins them.
+WorldParts::WorldParts(scene::Scene world, device::Device& device,
+                       const vehicle::PhysicsEngineFactory& make_engine)
     : description(std::move(world)),
       ground(make_site(description)),
-      dynamic(vehicle::make_bullet_engine(description.gravity, description.materials)),
+      dynamic(make_dynamic(description, make_engine)),
       kinematic(vehicle::make_kinematic_engine()),
       soil(device, description, ground),
       coupling(description, *dynamic, *kinematic, soil, ground) {
   start = start_of(description, ground);
   start_hash = hash_of_start(start);
-  // The step of everything is what waves in the stiffest soil and the fastest tool allow.
+  // The base step is limited by waves in the stiffest soil and by the fastest tool.
   longest_step = std::min(description.solver.max_step, soil.step_limit(kToolSpeed));
   const double rate = description.solver.control_rate;
   dt = base_step(longest_step, rate > 0 ? 1 / rate : 0);
@@ -48,12 +63,12 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device)
     throw InputError(Fault{Fault::Severity::kError, description.file, 0, "navvy:solver",
                            std::to_string(dt), "the base step must be positive and finite",
                            "check cell, courant and the soils' stiffness"});
-  // Chance is by machine, so that one more encoder leaves those of other machines as they were.
+  // One seed per machine, so that another encoder does not change those of other machines.
   Random seeds(description.seed);
   for (int m = 0; m < static_cast<int>(description.machines.size()); ++m)
     encoders.emplace_back(description.machines[static_cast<std::size_t>(m)].machine,
                           coupling.engine(m), coupling.index(m), seeds.next());
-  // Soil that starts awake before loads are filled in: beds stand where machines stand now.
+  // Activate soil before filling loads in: beds are where machines stand now.
   check_active(description, ground);
   for (const scene::ActiveSoil& active : description.ground.active) wake(active);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
@@ -69,19 +84,20 @@ bool WorldParts::has_encoders() const {
                      [](const vehicle::Encoders& e) { return e.size() > 0; });
 }
 
+// Loads are part of the start, so they are counted as inserted mass.
 void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   const scene::MachineInWorld& placed =
       description.machines[static_cast<std::size_t>(tool.machine)];
   // Only the first bed is loaded; buckets start empty.
   if (!(placed.load.mass > 0) || !placed.machine.is_bed(tool.shell)) return;
-  // Filled where the bed is: a dumper on a slope starts with its load against the low side.
+  // Fill at the bed's pose: a dumper on a slope starts with its load against the low side.
   const Pose X_WL =
       coupling.engine(tool.machine).link(coupling.index(tool.machine), tool.link).X_WL;
   try {
     soil.fill(tool.tool, X_WL, std::max(0, description.soil_index(placed.load.soil)),
               placed.load.mass);
   } catch (const InputError& error) {
-    // The solver knows no file: the message gets the place in the scene that asked for the load.
+    // The solver does not know the file; add the line of the scene that asked for the load.
     Fault fault = error.faults().front();
     fault.file = description.file;
     fault.line = placed.line;
@@ -90,8 +106,53 @@ void WorldParts::fill_bed(const coupling::ToolLoad& tool) {
   }
 }
 
+/// Visits the head first and the ground next: a reader of the ground alone stops there
+/// (sim/snapshot.h). The order of the parts is the order in which a change reaches them in a step.
+void WorldParts::visit(Archive& a) {
+  SnapshotHead head{description.name, dt, steps};
+  a("head", head);
+  // Time is steps x dt, so a run continues with the snapshot's step, whatever control rate set it,
+  // if the step is stable here. No control rate makes it shorter than half the longest step or its
+  // own period.
+  const double least = std::min(0.5 * longest_step, 1 / kHighestRate);
+  a.require(head.dt >= least * (1 - kRounding) && head.dt <= longest_step * (1 + kRounding),
+            "head/dt",
+            "the snapshot has another base step than this scene can have; load it with the same "
+            "solver settings");
+  if (a.loading()) {
+    steps = head.steps;
+    dt = head.dt;
+  }
+  a("ground", ground);
+  a("soil", soil);
+  a("dynamic_machines", *dynamic);
+  a("kinematic_machines", *kinematic);
+  a("coupling", coupling);
+  // Scenes without encoders keep the hash that they had before encoders existed. Scenes with
+  // different encoders differ in their start.
+  if (has_encoders())
+    a.section("encoders", 1, [&] {
+      for (std::size_t m = 0; m < encoders.size(); ++m)
+        a.item(m, [&] { a("machine", encoders[m]); });
+    });
+  // Always present, so that a world without samplers notices the samplers of a snapshot.
+  a.section("samplers", 2, [&] {
+    a.constant("count", samplers.size(),
+               "the snapshot has another number of samplers than the world; add the same samplers, "
+               "then load");
+    for (std::size_t i = 0; i < samplers.size(); ++i) a.item(i, [&] { samplers[i]->visit(a); });
+    a("arrays", arrays);
+  });
+}
+
 void WorldParts::wake(const scene::ActiveSoil& active) {
-  soil.wake(active_columns(active, ground), active.bottom);
+  soil.activate(active_columns(active, ground), active.bottom);
+}
+
+void require_hitch(const scene::Scene& scene, int hitch) {
+  if (hitch >= 0 && hitch < static_cast<int>(scene.hitches.size())) return;
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", std::to_string(hitch),
+                         "the scene has no such hitch", "add <navvy:hitch> to the scene"});
 }
 
 }  // namespace navvy::sim

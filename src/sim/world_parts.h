@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world is made of: solver, engines and the exchange between them. For sim's own sources and
-// for tests that measure inside; a style test keeps this header out of the clients in src/.
+// Parts of a world: solver, physics engines and their coupling. For sim's own sources and for tests
+// that measure inside; a style test keeps this header out of the clients in src/.
 #pragma once
 
 #include <cstdint>
@@ -24,56 +24,69 @@ class Device;
 
 namespace navvy::sim {
 
-// The façade that owns the parts.
+// The facade that owns the parts.
 class World;
 
-/// The parts in the order in which they are built: each refers to those above it, so it is neither
-/// copied nor moved.
+/// Parts in the order of construction. Each refers to those above it, so it is neither copied nor
+/// moved.
 struct WorldParts {
-  /// Lays the ground, places the machines on it, wakes and loads the soil that the scene says.
-  /// @throws InputError for what cannot be built, device::DeviceError for the device.
-  WorldParts(scene::Scene world, device::Device& device);
+  /// Builds the ground, places the machines on it, and activates and loads the soil that the scene
+  /// asks for.
+  /// @throws InputError for a scene that cannot be built, device::DeviceError for the device.
+  WorldParts(scene::Scene world, device::Device& device,
+             const vehicle::PhysicsEngineFactory& make_engine);
   WorldParts(const WorldParts&) = delete;
   WorldParts& operator=(const WorldParts&) = delete;
 
-  /// All encoders look at their joints, after each step of the machines.
+  /// Updates all encoders, after each step of the machines.
   void advance_encoders();
+  /// Returns whether any machine has an encoder.
   bool has_encoders() const;
 
-  double time() const { return static_cast<double>(steps) * dt; }  ///< [s]
+  /// Visits all state that determines the future of a run (World::visit).
+  void visit(Archive& a);
 
-  /// What was asked for.
+  /// Returns the simulated time [s].
+  double time() const { return static_cast<double>(steps) * dt; }
+
+  /// The scene.
   scene::Scene description;
   heightfield::Ground ground;
-  /// Machines with masses, and machines that move as told.
+  /// Physics engines of dynamic and of kinematic machines.
   std::unique_ptr<vehicle::PhysicsEngine> dynamic, kinematic;
-  /// The particles, which change `ground` as they wake and rest.
+  /// Soil solver, which changes `ground` as particles become active and come to rest.
   soil::Solver soil;
-  /// Steps the four above; knows which engine has which machine.
+  /// Steps the four above and maps machines to engines.
   coupling::Coupling coupling;
-  /// By machine of the scene; most have none.
+  /// Encoders by machine of the scene; most have none.
   std::vector<vehicle::Encoders> encoders;
-  /// What clients see: numbers to set and to read, arrays to read.
+  /// Clients' view: numbers to set and to read, arrays to read.
   Inputs inputs;
   Outputs outputs;
   ArrayOutputs arrays;
-  /// In the order in which they were added, which is that of sampling, hash and snapshot.
+  /// Samplers in the order in which they were added, which is the order of sampling, hash and
+  /// snapshot.
   std::vector<std::unique_ptr<SamplerSlot>> samplers;
-  /// What the run starts from, by name, and its hash: taken once, as neither ever changes.
+  /// Start of the run by name, and its hash. Neither ever changes.
   scene::Parameters start;
   std::uint64_t start_hash = 0;
-  double longest_step = 0;  ///< that soil and scene allow [s]
-  double dt = 0;            ///< base step [s]
+  /// Longest base step that soil and scene allow [s].
+  double longest_step = 0;
+  /// Base step [s].
+  double dt = 0;
   std::uint64_t steps = 0;
 
  private:
-  /// Puts the load that the scene gives this machine into its bed.
+  /// Fills the machine's bed with the load that the scene gives it.
   void fill_bed(const coupling::ToolLoad& tool);
   /// Turns a rectangle of the ground into particles.
   void wake(const scene::ActiveSoil& active);
 };
 
-/// The parts of a world: `parts(world).soil.particles()`.
+/// Checks the index of a hitch. @throws InputError for an index that is no hitch of the scene.
+void require_hitch(const scene::Scene& scene, int hitch);
+
+/// Returns the parts of a world: `parts(world).soil.particles()`.
 WorldParts& parts(World& world);
 const WorldParts& parts(const World& world);
 

@@ -9,11 +9,11 @@
 namespace navvy::sim {
 namespace {
 
-/// A particle as the heightfield sees it.
+/// Returns a particle as the heightfield needs it.
 heightfield::LooseGrain grain_of(const World& world, const soil::Particle& p) {
   const heightfield::Ground& ground = world.ground();
   const auto [ix, iy] = parts(world).soil.grid().column_of(p);
-  // Heights of particles are counted in cells from bedrock.
+  // Heights of particles are in cells above bedrock.
   const double z = ground.datum() +
                    ground.cell() * (p.block[2] * soil::kBlockCells + static_cast<double>(p.x[2]));
   const double volume = kilograms(p.mass) * static_cast<double>(p.j0) /
@@ -23,6 +23,7 @@ heightfield::LooseGrain grain_of(const World& world, const soil::Particle& p) {
 
 }  // namespace
 
+// Tools first: soil in a bucket above a column is not on the column.
 ActivePlaces active_places(const World& world) {
   const std::vector<soil::Particle> particles = parts(world).soil.particles();
   const std::vector<std::uint8_t> held = parts(world).coupling.held(particles);
@@ -31,7 +32,7 @@ ActivePlaces active_places(const World& world) {
   out.lies.resize(soils);
   out.held.resize(soils);
   out.elsewhere.resize(soils);
-  // What no tool holds is elsewhere until it is found to lie.
+  // Soil that no tool holds is elsewhere until it is found on a column.
   std::vector<heightfield::LooseGrain> grains;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     (held[i] != 0 ? out.held : out.elsewhere)[particles[i].soil] += particles[i].mass;
@@ -45,6 +46,7 @@ ActivePlaces active_places(const World& world) {
   return out;
 }
 
+// Only the surfaces with loose soil need the particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface) {
   heightfield::TerrainView columns = world.ground().view(world.time());
   if (surface == heightfield::SurfaceKind::kColumns) return columns;

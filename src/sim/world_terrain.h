@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terrain of a world at this instant.
+// Terrain of a world at one instant.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,26 @@
 
 namespace navvy::sim {
 
-/// A copy of the world's terrain that never changes, stamped with its time. Pictures, maps, files,
-/// operators and planners read this and name the surface that they mean.
+/// Returns an immutable copy of the world's terrain, stamped with its time. Pictures, maps, files,
+/// operators and planners read it and name the surface they need.
 ///
-/// The columns alone cost what was changed since the last view, microseconds; loose soil costs a
-/// pass over the particles.
+/// The columns alone cost what changed since the last view, microseconds; loose soil costs a pass
+/// over the particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
 
-/// Where the soil is that is awake [docs/exchange.md, maps]. Masses by soil of the scene
-/// [kMassQuantum]; the three of a soil sum up to what the ledger calls particles, to the unit.
+/// Active soil by place [docs/exchange.md, maps]. Masses are by soil of the scene [kMassQuantum];
+/// the three masses of a soil sum to the ledger's particles exactly.
 struct ActivePlaces {
-  heightfield::LooseSoil lying;         ///< on columns: what maps add to them
-  std::vector<std::int64_t> lies;       ///< mass of that
-  std::vector<std::int64_t> held;       ///< in buckets and beds, where payloads count it
-  std::vector<std::int64_t> elsewhere;  ///< in the air, or on a tool above its rim
+  /// Soil on columns, which maps add to them.
+  heightfield::LooseSoil lying;
+  /// Its mass.
+  std::vector<std::int64_t> lies;
+  /// Mass in buckets and beds, which payloads count.
+  std::vector<std::int64_t> held;
+  /// Mass in the air, or on a tool above its rim.
+  std::vector<std::int64_t> elsewhere;
 };
-/// Costs a pass over the particles.
+/// Sorts the active soil by place. Costs a pass over the particles.
 ActivePlaces active_places(const World& world);
 
 }  // namespace navvy::sim

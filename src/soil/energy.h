@@ -1,41 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the energy of the particle soil came from and went: what `Solver::energy` tells.
+// Energy account of the particle soil, as Solver::energy returns it.
 #pragma once
 
 namespace navvy::soil {
 
-/// Sums since the account was opened [J], but `kinetic` and `elastic`, which are what there is now.
-/// All of them are of particles: ground at rest has no account. How each is taken:
-/// [docs/soil.md, energy].
+/// Sums since the account was opened [J], except `kinetic` and `elastic`, which are current values.
+/// All of them refer to particles: ground at rest has no account. docs/soil.md says how each is
+/// computed [docs/soil.md, energy].
 struct EnergyAccount {
   // Supplied.
-  double tools = 0;    ///< work of tools on soil
-  double gravity = 0;  ///< work of gravity
-  /// Kinetic and elastic energy of soil that woke or was put in, less that of what left.
+  /// Work of tools on soil.
+  double tools = 0;
+  /// Work of gravity.
+  double gravity = 0;
+  /// Kinetic and elastic energy of soil that was activated or put in, minus that of soil that left.
   double exchanged = 0;
-  // Kept.
-  double kinetic = 0;  ///< of the nodes
-  double elastic = 0;  ///< of shear and volume
-  // Spent.
-  double plastic = 0;   ///< yield, and volume that compaction keeps
-  double viscous = 0;   ///< of the law's viscosities
-  double contact = 0;   ///< sliding along tools, and what a tool strikes
-  double transfer = 0;  ///< velocities that particles and nodes do not hand on
-  double mixing = 0;    ///< volume that is evened out in cells with open particles
-  // Beside the balance.
-  /// Potential energy that moving crowded particles apart made; no force did that work.
+  // Stored.
+  /// Kinetic energy of the nodes.
+  double kinetic = 0;
+  /// Elastic energy of shear and volume.
+  double elastic = 0;
+  // Dissipated.
+  /// Yield, and volume that compaction keeps.
+  double plastic = 0;
+  /// The viscosities of the law.
+  double viscous = 0;
+  /// Sliding along tools, and impacts of tools.
+  double contact = 0;
+  /// Velocity components that the transfer between particles and nodes filters out.
+  double transfer = 0;
+  /// Volume that mixing evens out in cells with open particles.
+  double mixing = 0;
+  // Outside the balance.
+  /// Potential energy gained by separating crowded particles; no force does that work.
   double apart = 0;
 
+  /// Returns the energy that came in [J].
   double supplied() const { return tools + gravity + exchanged; }
+  /// Returns the energy that was spent [J].
   double dissipated() const { return plastic + viscous + contact + transfer + mixing; }
-  /// What the sums do not explain: stresses and velocities of a step are not of one moment.
+  /// Returns what the sums do not explain: stresses and velocities of a step belong to different
+  /// moments.
   double residual() const { return supplied() - kinetic - elastic - dissipated(); }
 
-  /// Two soils' accounts together.
+  /// Adds another account, as of a second site.
   EnergyAccount& operator+=(const EnergyAccount& other);
 };
 
-/// Every member under its name: visit(name, member pointer).
+/// Calls visit(name, member pointer) for every member.
 template <class Visit>
 void each_energy(const Visit& visit) {
   visit("tools", &EnergyAccount::tools);
@@ -51,12 +63,13 @@ void each_energy(const Visit& visit) {
   visit("apart", &EnergyAccount::apart);
 }
 
-/// The account as people and files get it: tell(name, [J]) for every member, then for the residual.
-template <class Tell>
-void report_energy(const EnergyAccount& account, const Tell& tell) {
+/// Reports the account as people and files get it: report(name, [J]) for every member, then for the
+/// residual.
+template <class Sink>
+void report_energy(const EnergyAccount& account, const Sink& report) {
   each_energy(
-      [&](const char* name, double EnergyAccount::*member) { tell(name, account.*member); });
-  tell("residual", account.residual());
+      [&](const char* name, double EnergyAccount::*member) { report(name, account.*member); });
+  report("residual", account.residual());
 }
 
 inline EnergyAccount& EnergyAccount::operator+=(const EnergyAccount& other) {

@@ -12,12 +12,13 @@
 namespace navvy::soil {
 namespace {
 
-/// Rounding of a volume ratio kept as a float, two units of its last place; a larger jump between
+/// Rounding of a volume ratio stored as a float, two units in its last place. A larger jump between
 /// two steps is mixing.
 constexpr double kRoundingOfJ = 2.5e-7;
-constexpr double kRounding = 1e-6;  ///< of a place within a block [cells]
+/// Rounding of a position within a block [cells].
+constexpr double kRounding = 1e-6;
 
-/// Elastic energy of volume / bank volume [Pa], the integral of p over what J has shrunk.
+/// Returns elastic energy of volume / bank volume [Pa]: the integral of p over the compression.
 double volume_energy(const SoilRow& soil, double j, double j0) {
   const double closed = std::max(0.0, 1 - j / j0);
   return 0.5 * static_cast<double>(soil.bulk) * j0 * closed * closed;
@@ -27,8 +28,9 @@ double dot_of(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Where the 8 x 8 x 8 nodes of a home's tile stand among the nodes of the active blocks.
-std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t home) {
+/// Returns the index, among the nodes of the active blocks, of each of the 8 x 8 x 8 nodes of a
+/// block's tile.
+std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t particle_block) {
   std::array<std::size_t, 512> out{};
   for (int i = 0; i < 512; ++i) {
     const int t[3] = {i % 8 - 1, i / 8 % 8 - 1, i / 64 - 1};
@@ -39,15 +41,16 @@ std::array<std::size_t, 512> tile_nodes(const BlockTable& table, std::size_t hom
       local = 4 * local + t[a] - 4 * d;
     }
     out[static_cast<std::size_t>(i)] =
-        static_cast<std::size_t>(table.neighbours[27 * home + static_cast<std::size_t>(n)]) *
+        static_cast<std::size_t>(
+            table.neighbours[27 * particle_block + static_cast<std::size_t>(n)]) *
             BLOCK_NODES +
         static_cast<std::size_t>(local);
   }
   return out;
 }
 
-/// By node of the active blocks 0: one field, else 1 + own, own = 0 front, 1 back; as
-/// kernels/soil's node_split.
+/// Returns 0 for nodes with one field, else 1 + own, own = 0 front, 1 back, by node of the active
+/// blocks; as node_split of the kernels.
 std::vector<std::int32_t> splits(std::size_t nodes, NearNodes& near) {
   std::vector<std::int32_t> out(nodes, 0);
   if (near.count == 0) return out;
@@ -66,8 +69,9 @@ int EnergyLedger::Words::bits(int field, std::size_t slot) const {
   return std::bit_cast<int>(values[static_cast<std::size_t>(field) * capacity + slot]);
 }
 
-EnergyLedger::EnergyLedger(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity)
-    : soils_(soil_table(soils, cell)), cell_(cell), gravity_(gravity) {}
+EnergyLedger::EnergyLedger(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity,
+                           const SchemeConstants& scheme)
+    : soils_(soil_table(soils, cell, scheme)), scheme_(scheme), cell_(cell), gravity_(gravity) {}
 
 EnergyLedger::Words EnergyLedger::words_of(const ParticleStore& store) {
   Words out;
@@ -77,7 +81,7 @@ EnergyLedger::Words EnergyLedger::words_of(const ParticleStore& store) {
   return out;
 }
 
-/// Calls visit(home, slot) for every particle, in stored order.
+/// Calls visit(block, slot) for every particle, in stored order.
 template <class Visit>
 void EnergyLedger::for_particles(const ParticleStore& store, const Visit& visit) {
   const std::vector<ParticleBlock>& particle_blocks = store.particle_blocks();
@@ -86,7 +90,7 @@ void EnergyLedger::for_particles(const ParticleStore& store, const Visit& visit)
       visit(h, static_cast<std::size_t>(particle_blocks[h].start + i));
 }
 
-// The affine part holds a quarter of a cell squared: sum of w (x_i - x_p)^2 along an axis.
+// The affine part holds a quarter of a cell squared: the sum of w (x_i - x_p)^2 along an axis.
 double EnergyLedger::moving_energy(const ParticleStore& store, const Words& now) const {
   double sum = 0;
   for_particles(store, [&](std::size_t, std::size_t slot) {
@@ -113,8 +117,9 @@ double EnergyLedger::elastic_energy(const ParticleStore& store, const Words& now
   return sum;
 }
 
-// Mean stress over the step times its plastic strain; the law keeps the stress after the return
-// only, along which the strain went. Stress that is gone altogether went along the one before.
+// Mean stress over the step times its plastic strain. The law keeps only the stress after the
+// return, which has the direction of the strain. Stress that vanished had the direction of the
+// stress before.
 void EnergyLedger::record_law(const ParticleStore& store, const Words& now, double dt) {
   for_particles(store, [&](std::size_t, std::size_t slot) {
     const SoilRow& soil = soils_[static_cast<std::size_t>(now.bits(FIELD_TAG, slot) & 0xffff)];
@@ -143,9 +148,9 @@ void EnergyLedger::record_law(const ParticleStore& store, const Words& now, doub
     const auto viscosity = static_cast<double>(soil.viscosity);
     if (!(slip > 0)) account_.viscous += dt * volume * 2 * viscosity * dot_of(d, d);
     const double p = static_cast<double>(soil.bulk) * std::max(0.0, 1 - j / j00);
-    const double felt = std::max(p - static_cast<double>(VOLUME_DAMPING) * viscosity * trace, 0.0);
+    const double felt = std::max(p - scheme_.volume_damping * viscosity * trace, 0.0);
     if (p > 0) account_.viscous += dt * volume * (p - felt) * trace;
-    // A way that no velocity went.
+    // A displacement without a velocity: the separation of crowded particles.
     for (int a = 0; a < 3; ++a) {
       const double apart = now.at(FIELD_MOVED + a, slot) - before_.at(FIELD_MOVED + a, slot) -
                            dt / cell_ * now.at(FIELD_V + a, slot);
@@ -155,17 +160,17 @@ void EnergyLedger::record_law(const ParticleStore& store, const Words& now, doub
   });
 }
 
-// Masses and velocities of the nodes at the start of a transfer, as the scatter makes them: places
-// and sides of now, velocities and gradients of before.
+// Masses and velocities of the nodes at the start of a transfer, as the scatter computes them:
+// current positions and sides, previous velocities and gradients.
 void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact& contact) {
   const BlockTable& table = store.table();
   const std::size_t count = table.active.size() * BLOCK_NODES;
   nodes_.assign(2 * count, Node{});
   const std::vector<std::int32_t> split = splits(count, contact.nodes());
-  std::size_t home = store.particle_blocks().size();
+  std::size_t particle_block = store.particle_blocks().size();
   std::array<std::size_t, 512> tile{};
   for_particles(store, [&](std::size_t h, std::size_t slot) {
-    if (h != home) tile = tile_nodes(table, home = h);
+    if (h != particle_block) tile = tile_nodes(table, particle_block = h);
     const double mass = kMassQuantum * now.bits(FIELD_MASS, slot);
     Vec3 v, f;
     Mat3 c;
@@ -185,7 +190,7 @@ void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact
       const auto place = static_cast<std::size_t>(base[0] + i[0] + 1 + 8 * (base[1] + i[1] + 1) +
                                                   64 * (base[2] + i[2] + 1));
       const std::size_t at = tile[place];
-      // Neutral soil joins the side its node lies on; an unsplit node joins everything.
+      // Neutral soil joins the side of its node; an unsplit node joins all.
       const bool back = split[at] != 0 && (side == 0 ? split[at] == 2 : side == 2);
       Node& node = nodes_[at + (back ? count : 0)];
       const double share = w[0][i[0]] * w[1][i[1]] * w[2][i[2]] * mass;
@@ -222,8 +227,8 @@ std::vector<Vec3> EnergyLedger::velocities(Transfer& transfer, Contact& contact)
   return out;
 }
 
-// Tools work with the twist that the contact was solved for; what the nodes did not get of it slid
-// or struck.
+// Tools do work with the twist that the contact was solved for. What the nodes did not get of it is
+// sliding and impact.
 void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after,
                                 std::span<const ToolMotion> motions,
                                 std::span<const ToolImpulse> impulses) {
@@ -259,8 +264,8 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
 void EnergyLedger::begin_step(const ParticleStore& store, bool hold) {
   before_ = words_of(store);
   if (hold) return;
-  // The transfer before has ended: what nodes had and particles did not take up is lost; then soil
-  // came and went.
+  // The previous transfer has ended. What nodes had and particles did not take up is lost; then
+  // soil came and went.
   const double moving = moving_energy(store, before_), elastic = elastic_energy(store, before_);
   account_.transfer += account_.kinetic - moving_;
   account_.exchanged += moving - moving_ + elastic - account_.elastic;
@@ -270,7 +275,8 @@ void EnergyLedger::begin_step(const ParticleStore& store, bool hold) {
 void EnergyLedger::end_step(const ParticleStore& store, Transfer& transfer, Contact& contact,
                             double dt, bool hold, std::span<const ToolMotion> motions,
                             std::span<const ToolImpulse> impulses) {
-  if (hold && nodes_.empty()) return;  // a transfer that was under way when the account was opened
+  // A transfer that was open when the account was opened.
+  if (hold && nodes_.empty()) return;
   const Words now = words_of(store);
   record_law(store, now, dt);
   if (!hold) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil put into a shell at the start: a truck that arrives loaded.
+// Loose soil in a shell at the start, as in a truck that arrives loaded.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,12 @@
 namespace navvy::soil {
 namespace {
 
-/// Particles start this far from the plates [cells], as soil at rest on them does.
+/// Particles start at this distance from the plates [cells], as soil at rest on them does.
 constexpr double kFromPlate = 0.5;
-constexpr double kSpacing = 0.5;  // [cells]
+// Spacing of particles [cells].
+constexpr double kSpacing = 0.5;
 
-/// Points of the grid frame inside the shell, level by level from below [cells].
+/// Returns the points of the grid frame inside the shell, level by level from below [cells].
 std::vector<std::vector<Vec3>> levels_inside(const ShellGeometry& geometry, const Pose& X_WT,
                                              const Vec3& origin, double cell) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
@@ -47,7 +48,8 @@ Particle at_rest(const Vec3& grid, int soil, double swell) {
     p.x[a] = static_cast<float>(grid[a] - kBlockCells * p.block[a]);
   }
   p.j = p.j0 = static_cast<float>(swell);
-  p.shear = 1;  // dug soil: loose and remoulded
+  // Dug soil is loose and remoulded.
+  p.shear = 1;
   p.soil = static_cast<std::uint16_t>(soil);
   return p;
 }
@@ -57,12 +59,12 @@ Particle at_rest(const Vec3& grid, int soil, double swell) {
 void Solver::fill(int tool, const Pose& X_WT, int soil, double mass) {
   State& s = *state_;
   const scene::Soil& kind = s.world.soils.at(static_cast<std::size_t>(soil));
-  const double each = kind.bank_density / kind.swell * std::pow(kSpacing * s.cell, 3);
+  const double each = kind.bank_density / kind.swell * std::pow(kSpacing * s.frame.cell, 3);
   auto wanted = static_cast<std::size_t>(std::max(1.0, std::round(mass / each)));
   std::vector<Particle> load;
   for (const std::vector<Vec3>& level :
-       levels_inside(s.contact.geometry(tool), X_WT, s.origin, s.cell)) {
-    // The last level is spread evenly.
+       levels_inside(s.contact.geometry(tool), X_WT, s.frame.origin, s.frame.cell)) {
+    // The last level is filled evenly.
     const std::size_t n = std::min(level.size(), wanted - load.size());
     for (std::size_t i = 0; i < n; ++i)
       load.push_back(at_rest(level[i * level.size() / n], soil, kind.swell));

@@ -5,24 +5,15 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/log.h"
 #include "device/device_error.h"
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
 namespace {
 
-/// Drift that calls for a re-bin before the next transfer [cells]: one cell is the tile's margin,
-/// less one push.
-constexpr double kMostDrift = 0.75;
-/// Tool travel between exchange checks [cells], and steps between them when no tool moves. Checks
-/// wait for the end of a transfer.
-constexpr double kCheckTravel = 0.3;
-constexpr std::uint32_t kCheckSteps = 25;
-
-/// A step this much over the limit is still taken in one: the limit has a Courant number of 0.5,
-/// and contact and law hold to 0.8 [docs/soil.md, time step]; a caller with a base step made for a
-/// slower tool is not punished by half steps.
+/// A step that exceeds the limit by this factor is not split: the limit has a Courant number of
+/// 0.5, and contact and law are stable to 0.8 [docs/soil.md, time step]. Otherwise a base step
+/// chosen for a slower tool would cost two half steps.
 constexpr double kMostStep = 1.3;
 
 double fastest_sound_of(const std::vector<scene::Soil>& soils) {
@@ -43,7 +34,7 @@ ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
 }
 
 void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
-  // Moments are about each part's own origin; bring them to the first one's.
+  // Moments are about each part's own origin; shift them to that of the first part.
   sum.L_W += part.L_W + (part.p_W - sum.p_W).cross(part.J_W);
   sum.J_W += part.J_W;
   sum.normal += part.normal;
@@ -52,50 +43,42 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   sum.residual_moment += part.residual_moment;
   sum.scale += part.scale;
   sum.scale_moment += part.scale_moment;
-  // Means of a transfer: those of the last part are the newest.
+  // Means over a transfer: those of the last part are the newest.
   sum.force_W = part.force_W;
   sum.moment_W = part.moment_W;
 }
 
 }  // namespace
 
-Particle in_cell_block(Particle p) {
-  for (int a = 0; a < 3; ++a) {
-    const int d = static_cast<int>(std::floor(p.x[a] / kBlockCells));
-    p.block[a] += d;
-    p.x[a] -= static_cast<float>(kBlockCells * d);
-  }
-  return p;
-}
-
-Solver::State::State(device::Device& device_in, const scene::Scene& world_in,
-                     heightfield::Ground& ground_in)
-    : device(device_in),
-      world(world_in),
+Solver::State::State(device::Device& device, const scene::Scene& world_in,
+                     heightfield::Ground& ground_in, const SchemeConstants& scheme_in)
+    : world(world_in),
       ground(ground_in),
-      cell(ground_in.cell()),
-      grid(plan_grid(world_in, ground_in)),
-      origin(ground_in.origin().x() + grid.x * cell, ground_in.origin().y() + grid.y * cell,
-             ground_in.datum()),
+      scheme(scheme_in),
+      frame(world_in, ground_in),
       fastest_sound(fastest_sound_of(world_in.soils)),
-      transfer_length(kTransferLength * cell / fastest_sound),
-      store(device_in, {-grid.x, -grid.y, ground_in.nx() - grid.x, ground_in.ny() - grid.y},
-            soil_table(world_in.soils, ground_in.cell())),
-      transfer(device_in, needs_extended_law(world_in.soils)),
-      contact(device_in, cell, origin, world_in.gravity),
-      floor(ground_in, grid),
-      exchange(world_in, ground_in),
-      mass_count(device_in, world_in.soils.size()),
-      left_site(world_in.soils.size(), 0),
-      inserted(world_in.soils.size(), 0),
-      in_particles(world_in.soils.size(), 0) {}
+      particles(device,
+                {-frame.grid.x, -frame.grid.y, ground_in.nx() - frame.grid.x,
+                 ground_in.ny() - frame.grid.y},
+                soil_table(world_in.soils, frame.cell, scheme_in), world_in.solver.max_particles),
+      transfer(device, needs_extended_law(world_in.soils), scheme_in),
+      contact(device, frame.cell, frame.origin, world_in.gravity, scheme_in),
+      current(particles.store(), transfer, contact,
+              scheme_in.transfer_length * frame.cell / fastest_sound,
+              scheme_in.max_transfer_motion),
+      mass_count(device, world_in.soils.size()),
+      floor(ground_in, frame.grid, scheme_in.held_margin),
+      exchange(world_in, ground_in, scheme_in),
+      standing(world, ground_in, frame, contact),
+      masses(ground_in, world_in.soils.size()) {}
 
-Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground)
-    : state_(std::make_unique<State>(device, world, ground)) {}
+Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground,
+               const SchemeConstants& scheme)
+    : state_(std::make_unique<State>(device, world, ground, scheme)) {}
 Solver::~Solver() = default;
 
 int Solver::add_tool(const scene::Shell& shell) {
-  state_->resting_contacts.emplace_back();
+  state_->standing.add_tool();
   return state_->contact.add_tool(shell);
 }
 
@@ -106,7 +89,9 @@ void Solver::record_energy(bool on) {
   if (on) state_->open_energy();
 }
 
-void Solver::State::open_energy() { energy.emplace(world.soils, cell, world.gravity); }
+void Solver::State::open_energy() {
+  energy.emplace(world.soils, frame.cell, world.gravity, scheme);
+}
 
 const EnergyAccount* Solver::energy() const {
   return state_->energy ? &state_->energy->account() : nullptr;
@@ -115,7 +100,7 @@ const EnergyAccount* Solver::energy() const {
 double Solver::step_limit(double tool_speed) const {
   const scene::SolverSettings& settings = state_->world.solver;
   return std::min(settings.max_step,
-                  settings.courant * state_->cell / (state_->fastest_sound + tool_speed));
+                  settings.courant * state_->frame.cell / (state_->fastest_sound + tool_speed));
 }
 
 double Solver::State::tool_speed(const ToolMotion& motion) const {
@@ -133,7 +118,7 @@ void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<Tool
     state_->check_motion(motion);
     fastest = std::max(fastest, state_->tool_speed(motion));
   }
-  // A step well beyond the limit is split; the tools move and yield in between.
+  // A step well above the limit is split; the tools move and yield in between.
   const int parts =
       std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
   for (std::size_t m = 0; m < motions.size(); ++m) {
@@ -169,14 +154,13 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
                             std::span<ToolImpulse> impulses) {
   double tools = 0;
   for (const ToolMotion& motion : motions) tools = std::max(tools, tool_speed(motion));
-  const bool hold = holds(dt, tools, motions);
+  const bool hold = particles.count() > 0 && contact.moves_same(motions) &&
+                    current.holds(dt, frame.cell, tools, world.gravity.norm());
   if (!hold) {
     end_transfer();
     exchange_if_due(dt, tools, motions);
   }
-  since_check += dt;
-  travel += tools * dt;
-  ++steps_since_check;
+  exchange_clock.advance(dt, tools);
   for (std::size_t m = 0; m < motions.size(); ++m) {
     impulses[m] = ToolImpulse{};
     impulses[m].p_W = motions[m].X_WT.translation();
@@ -184,33 +168,15 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
   if (hold) {
     contact.set_twists(motions);
     update_floor();
-  } else if (store.count() > 0) {
+  } else if (particles.count() > 0) {
     rebin_if_due();
-    lay_out(motions);
+    update_lists(motions);
   }
-  if (store.count() > 0) {
-    if (energy) energy->begin_step(store, hold);
-    queue(dt, hold);
-    Transfer::Largest report;
-    {
-      StageClock clock(times, "particles");
-      report = transfer.read_report(store.particle_blocks().size());
-    }
-    if (!(report.speed * dt / cell < 1 - kMostDrift / 4)) fail(report.speed);
-    interval.book(dt, cell, report.speed, tools);
-    stats.max_speed = report.speed;
-    if (!hold) {  // sides are looked at once a transfer
-      drift += report.push;
-      stats.shell_crossings += report.crossed;
-    }
-    StageClock clock(times, "books");
-    contact.book(impulses);
-    apply_resting_contacts(dt, motions, impulses);
-    contact.feel(dt, impulses);
-    if (!hold) check_masses();
-    if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
+  // The next check must look at once when a tool is released: there may be no particles to fall on.
+  if (particles.count() > 0) {
+    step_particles(dt, tools, hold, motions, impulses);
   } else {
-    apply_resting_contacts(dt, motions, impulses);
+    if (standing.apply(dt, motions, impulses)) exchange_clock.hurry();
     for (ToolImpulse& impulse : impulses) {
       impulse.force_W = impulse.J_W / dt;
       impulse.moment_W = impulse.L_W / dt;
@@ -218,172 +184,167 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
   }
   time += dt;
   ++stats.steps;
-  stats.particle_steps += static_cast<std::uint64_t>(store.count());
-  stats.particles = store.count();
+  stats.particle_steps += static_cast<std::uint64_t>(particles.count());
+  stats.particles = particles.count();
   stats.particles_peak = std::max(stats.particles_peak, stats.particles);
-  stats.blocks = static_cast<int>(store.particle_blocks().size());
+  stats.blocks = static_cast<int>(particles.store().particle_blocks().size());
 }
 
-bool Solver::State::holds(double dt, double tool_speed, std::span<const ToolMotion> motions) const {
-  return store.count() > 0 && contact.moves_same(motions) &&
-         interval.holds(dt, transfer_length, cell, tool_speed, world.gravity.norm());
+void Solver::State::step_particles(double dt, double tool_speed, bool hold,
+                                   std::span<const ToolMotion> motions,
+                                   std::span<ToolImpulse> impulses) {
+  ParticleStore& store = particles.store();
+  if (energy) energy->begin_step(store, hold);
+  queue(dt, hold);
+  Transfer::Largest report;
+  {
+    StageClock clock(times, "particles");
+    report = transfer.read_report(store.particle_blocks().size());
+  }
+  if (!(report.speed * dt / frame.cell < 1 - kMaxDrift / 4)) fail(report.speed);
+  current.record_step(dt, frame.cell, report.speed, tool_speed);
+  stats.max_speed = report.speed;
+  // Sides are classified once per transfer.
+  if (!hold) {
+    particles.add_drift(report.push);
+    stats.shell_crossings += report.crossed;
+  }
+  StageClock clock(times, "books");
+  contact.sum_impulses(impulses);
+  if (standing.apply(dt, motions, impulses)) exchange_clock.hurry();
+  contact.add_impulses(dt, impulses);
+  if (!hold) check_masses();
+  if (energy) energy->end_step(store, transfer, contact, dt, hold, motions, impulses);
 }
 
 void Solver::State::queue(double dt, bool hold) {
   StageClock clock(times, "queue");
+  ParticleStore& store = particles.store();
   if (!hold) contact.classify(store, transfer);
-  transfer.scatter(store, contact.nodes(), dt, cell, world.gravity, hold);
+  transfer.scatter(store, contact.nodes(), dt, frame.cell, world.gravity, hold);
   contact.solve(transfer, dt);
-  transfer.gather(store, contact.nodes(), dt, crowding ? dt / transfer_length : 0, cell);
-  contact.read_later();
-  if (!hold) mass_count.queue(store);  // nothing changes a mass meanwhile
-}
-
-void Solver::State::end_transfer() {
-  if (!interval.open) return;
-  transfer.end(store);
-  contact.end_transfer();
-  drift += interval.motion;
-  interval = {};
+  transfer.gather(store, contact.nodes(), dt, crowding ? dt / current.length() : 0, frame.cell);
+  contact.queue_read();
+  // Nothing changes a mass while a transfer lasts.
+  if (!hold) mass_count.queue(store);
 }
 
 void Solver::State::exchange_if_due(double dt, double tool_speed,
                                     std::span<const ToolMotion> motions) {
   if (!world.solver.exchange) return;
   // The next chance comes after the transfer that begins now.
-  const double ahead = std::min(tool_speed * std::max(dt, transfer_length), kMostHeld * cell);
-  if (!first_check && steps_since_check < kCheckSteps && travel + ahead <= kCheckTravel * cell)
-    return;
-  check_exchange(since_check, dt, motions);
-  first_check = false;
-  since_check = travel = 0;
-  steps_since_check = 0;
+  const double ahead = std::min(tool_speed * std::max(dt, current.length()),
+                                scheme.max_transfer_motion * frame.cell);
+  if (!exchange_clock.due(ahead, frame.cell)) return;
+  check_exchange(dt, motions);
+  exchange_clock.restart();
 }
 
-void Solver::State::check_exchange(double elapsed, double dt, std::span<const ToolMotion> motions) {
+ToolRegion Solver::State::region_of(const ToolMotion& motion) const {
+  ToolRegion region;
+  bool first = true;
+  for (const Vec3& v : contact.geometry(motion.tool).shell().vertices) {
+    const Vec3 p = motion.X_WT * v;
+    region.min = first ? p : region.min.cwiseMin(p);
+    region.max = first ? p : region.max.cwiseMax(p);
+    first = false;
+  }
+  const Vec3 centre = 0.5 * (region.min + region.max) - motion.X_WT.translation();
+  region.velocity = motion.v_WT + motion.w_WT.cross(centre);
+  region.tool = motion.tool;
+  return region;
+}
+
+void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motions) {
   StageClock clock(times, "exchange");
   std::vector<ToolRegion> regions;
-  for (const ToolMotion& motion : motions) {
-    ToolRegion region;
-    bool first = true;
-    for (const Vec3& v : contact.geometry(motion.tool).shell().vertices) {
-      const Vec3 p = motion.X_WT * v;
-      region.min = first ? p : region.min.cwiseMin(p);
-      region.max = first ? p : region.max.cwiseMax(p);
-      first = false;
-    }
-    const Vec3 centre = 0.5 * (region.min + region.max) - motion.X_WT.translation();
-    region.velocity = motion.v_WT + motion.w_WT.cross(centre);
-    region.tool = motion.tool;
-    regions.push_back(region);
-  }
-  std::vector<Particle> all = store.records();
-  for (Particle& p : all) p = in_cell_block(p);
-  settle_tools(elapsed, motions, regions, all);
-  for (ToolRegion& region : regions)
-    region.supported = resting_contacts[static_cast<std::size_t>(region.tool)].taken;
+  for (const ToolMotion& motion : motions) regions.push_back(region_of(motion));
+  const std::vector<Particle> all = particles.by_cell();
+  standing.update(exchange_clock.elapsed(), motions, regions, all);
+  for (ToolRegion& region : regions) region.supported = standing.supports(region.tool);
   // The next check waits for the end of a transfer.
-  const double until_next = (kCheckSteps + 1) * dt + transfer_length;
+  const double until_next = (ExchangeClock::kSteps + 1) * dt + current.length();
   Exchange::Result result =
-      exchange.check(all, regions, time, elapsed, {support_areas, until_next});
-  stats.wakes += static_cast<std::uint64_t>(result.activated_columns);
+      exchange.check(all, regions, time, exchange_clock.elapsed(), {support_areas, until_next});
+  stats.activations += static_cast<std::uint64_t>(result.activated_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
-  release_contacts(regions, result.born);
-  const bool removed = std::any_of(result.removed.begin(), result.removed.end(),
-                                   [](std::uint8_t r) { return r != 0; });
-  if (removed || !result.born.empty()) {
-    std::vector<Particle> stay;
-    stay.reserve(all.size() + result.born.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (!removed || result.removed[i] == 0) stay.push_back(all[i]);
-    for (Particle& p : result.born) {
-      p.id = next_id++;
-      stay.push_back(p);
-    }
-    assign(stay);
-  }
-  // Columns counted anew; that the particles weigh what is booked the device counts in every step
-  // (check_masses).
-  const std::int64_t error = ledger_with(in_particles).error();
+  standing.release(regions, result.born);
+  replace(all, result.removed, std::move(result.born));
+  // Columns are counted anew. The device counts the particles in every transfer (check_masses).
+  const std::int64_t error = masses.ledger(masses.in_particles()).error();
   if (error != 0) {
     throw SimulationError(here() + "the mass ledger is open by " + std::to_string(error) +
                           " units of 2^-24 kg");
   }
 }
 
-void Solver::State::assign(const std::vector<Particle>& particles) {
-  const bool over = static_cast<int>(particles.size()) > world.solver.max_particles;
-  if (over && !over_budget)
-    log_warning("soil: " + std::to_string(particles.size()) +
-                " particles are awake, more than the budget of " +
-                std::to_string(world.solver.max_particles));
-  over_budget = over;
-  try {
-    store.assign(particles);
-  } catch (const device::DeviceError&) {
-    unplaced = ParticleStore::sorted(particles);  // so that books and snapshot stay whole
-    throw;
+void Solver::State::replace(const std::vector<Particle>& all,
+                            const std::vector<std::uint8_t>& removed, std::vector<Particle> born) {
+  const bool any_removed =
+      std::any_of(removed.begin(), removed.end(), [](std::uint8_t r) { return r != 0; });
+  if (!any_removed && born.empty()) return;
+  std::vector<Particle> stay;
+  stay.reserve(all.size() + born.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!any_removed || removed[i] == 0) stay.push_back(all[i]);
+  for (Particle& p : born) {
+    p.id = masses.new_id();
+    stay.push_back(p);
   }
-  unplaced.clear();
-  in_particles.assign(world.soils.size(), 0);
-  for (const Particle& p : particles) in_particles[p.soil] += p.mass;
-  blocks_changed = true;
-  drift = 0;
+  assign(stay);
 }
 
-void Solver::State::add(std::vector<Particle> particles) {
-  if (particles.empty()) return;
+// Masses follow only once the store has the particles: without device memory they stay as they
+// were.
+void Solver::State::assign(const std::vector<Particle>& all) {
+  particles.assign(all);
+  masses.set_particles(all);
+}
+
+void Solver::State::add(std::vector<Particle> added) {
+  if (added.empty()) return;
   end_transfer();
-  std::vector<Particle> all = store.records();
-  for (Particle& p : particles) {
-    p.id = next_id++;
+  std::vector<Particle> all = particles.store().records();
+  for (Particle& p : added) {
+    p.id = masses.new_id();
     all.push_back(p);
   }
   assign(all);
 }
 
-void Solver::State::record_left_site(const std::vector<Particle>& left) {
-  for (const Particle& p : left) {
-    left_site[p.soil] += p.mass;
-    in_particles[p.soil] -= p.mass;
-  }
-}
-
 void Solver::State::rebin_if_due() {
-  if (drift <= kMostDrift) return;
+  if (!particles.rebin_due()) return;
   StageClock clock(times, "rebin");
-  record_left_site(store.rebin());
+  masses.record_left_site(particles.rebin());
   ++stats.rebins;
-  drift = 0;
-  blocks_changed = true;
 }
 
-void Solver::State::lay_out(std::span<const ToolMotion> motions) {
+void Solver::State::update_lists(std::span<const ToolMotion> motions) {
   StageClock clock(times, "lists");
-  const bool lists = contact.set_motions(motions, store.table(), blocks_changed);
-  if (lists || blocks_changed) {
+  ParticleStore& store = particles.store();
+  const bool lists = contact.set_motions(motions, store.table(), particles.blocks_changed());
+  if (lists || particles.blocks_changed()) {
     const int tiles = store.set_near(contact.near_particle_blocks());
     transfer.set_blocks(store, contact.near_slot(), tiles);
     mass_count.reserve(store.particle_blocks().size());
   }
   update_floor();
-  blocks_changed = false;
+  particles.clear_blocks_changed();
 }
 
-// In held steps, too: a state that was loaded knows only the ground of its moment.
+// Also in held steps: a loaded state knows only the ground of its own time.
 void Solver::State::update_floor() {
-  if (floor.update(store.table().active, blocks_changed)) transfer.set_floor(floor.blocks());
+  if (floor.update(particles.store().table().active, particles.blocks_changed()))
+    transfer.set_floor(floor.blocks());
 }
 
-void Solver::wake(const heightfield::CellRect& rect, double z_bottom) {
+void Solver::activate(const heightfield::CellRect& rect, double z_bottom) {
   state_->end_transfer();
-  std::vector<Particle> resting = state_->store.records();
-  for (Particle& p : resting) p = in_cell_block(p);
-  state_->add(state_->exchange.wake(rect, z_bottom, resting));
+  state_->add(state_->exchange.activate(rect, z_bottom, state_->particles.by_cell()));
 }
 
 void Solver::insert(const std::vector<Particle>& particles) {
-  for (const Particle& p : particles) state_->inserted.at(p.soil) += p.mass;
+  state_->masses.record_inserted(particles);
   state_->add(particles);
 }
 

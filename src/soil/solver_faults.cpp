@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stops a run: motions that no soil step can carry, values that are not finite, a device that
-// gives out.
+// Faults that stop a run: motions that no soil step can carry, and values that are not finite.
 #include <algorithm>
 #include <cmath>
 
@@ -10,14 +9,15 @@
 namespace navvy::soil {
 namespace {
 
-/// Tools faster than waves in the soil drive a shock that the law knows nothing of; machines stay
-/// far below. In very soft soil waves are slower than machines, which then still may move in the
-/// air [m/s].
+/// Tools faster than waves in the soil drive a shock, which the law does not describe; machines are
+/// far slower. In very soft soil waves are slower than machines, which may still move in the air
+/// [m/s].
 constexpr double kLeastTopSpeed = 10;
-/// How deep a moving tool may be in the rock [cells]: contact begins a reach of one cell above it,
-/// and there is no soil in the rock to push back.
+/// Largest depth of a moving tool in the rock [cells]. Contact begins one cell above the rock, and
+/// no soil in it pushes back.
 constexpr double kDeepestInRock = 1;
-constexpr double kMoving = 1e-3;  ///< slower tools stand [m/s]
+/// Slower tools stand [m/s].
+constexpr double kMoving = 1e-3;
 
 std::string text_of(const Vec3& p) {
   return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) +
@@ -45,7 +45,7 @@ void Solver::State::check_motion(const ToolMotion& motion) const {
   for (const Vec3& v : shell.vertices) {
     const Vec3 p = motion.X_WT * v;
     const double depth = ground.datum() - p.z();
-    if (depth <= kDeepestInRock * cell) continue;
+    if (depth <= kDeepestInRock * frame.cell) continue;
     const Vec2i column = ground.column_at(p.x(), p.y());
     if (!ground.contains(column.x(), column.y())) continue;
     if ((motion.v_WT + motion.w_WT.cross(motion.X_WT.linear() * v)).norm() < kMoving) continue;
@@ -56,9 +56,10 @@ void Solver::State::check_motion(const ToolMotion& motion) const {
 }
 
 void Solver::State::fail(double speed) const {
-  std::string cause = "a particle moves " + std::to_string(speed * world.solver.max_step / cell) +
+  std::string cause = "a particle moves " +
+                      std::to_string(speed * world.solver.max_step / frame.cell) +
                       " cells in one step (" + std::to_string(speed) + " m/s)";
-  for (const Particle& p : store.records()) {
+  for (const Particle& p : particles.store().records()) {
     double sum = 0, fastest = 0;
     for (const float v : p.v) fastest = std::max(fastest, static_cast<double>(std::abs(v)));
     for (const float v : p.x) sum += v;

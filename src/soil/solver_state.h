@@ -1,121 +1,121 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a Solver holds; shared by the sources of the solver only.
+// State of a Solver, shared by the sources of the solver only.
 #pragma once
 
 #include <chrono>
 #include <map>
 #include <optional>
 
-#include "device/device.h"
+#include "soil/current_transfer.h"
 #include "soil/energy_ledger.h"
 #include "soil/exchange/exchange.h"
+#include "soil/exchange_clock.h"
+#include "soil/grid_frame.h"
+#include "soil/mass_record.h"
 #include "soil/particles/floor.h"
-#include "soil/particles/interval.h"
 #include "soil/particles/mass_count.h"
-#include "soil/particles/particle_store.h"
 #include "soil/particles/soil_table.h"
 #include "soil/particles/transfer.h"
+#include "soil/soil_particles.h"
 #include "soil/solver.h"
+#include "soil/standing_tools.h"
 #include "soil/tools/contact.h"
-#include "soil/tools/resting_contact.h"
 
 namespace navvy::soil {
 
+/// The parts of a solver and the order in which a step calls them. Every part visits its own state.
 struct Solver::State {
-  State(device::Device& device_in, const scene::Scene& world_in, heightfield::Ground& ground_in);
+  State(device::Device& device, const scene::Scene& world_in, heightfield::Ground& ground_in,
+        const SchemeConstants& scheme_in);
 
+  /// Splits a step of dt [s] into equal parts, between which the tools move and yield.
   void advance_in_parts(double dt, int parts, std::span<const ToolMotion> motions,
                         std::span<ToolImpulse> impulses);
+  /// Advances by one step of dt [s], which the stability limit allows.
   void advance(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
-  void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
-  void check_exchange(double elapsed, double dt, std::span<const ToolMotion> motions);
-  /// Tools that stand take seats; `all`: every particle.
-  void settle_tools(double elapsed, std::span<const ToolMotion> motions,
-                    std::span<const ToolRegion> regions, std::span<const Particle> all);
-  /// Of the ground under a tool: columns, and what lies on them.
-  Vec3 normal_of_ground(const scene::Shell& shell, const ToolMotion& motion,
-                        const ToolRegion& region, std::span<const Particle> all) const;
-  /// Of the plane that fits it best in a rectangle of the plan.
-  Vec2 gradient_of_ground(const Vec2& from, const Vec2& to, std::span<const Particle> all) const;
-  /// Ground that wakes under a tool no longer bears it.
-  void release_contacts(std::span<const ToolRegion> regions, std::span<const Particle> born);
-  /// What seats give.
-  void apply_resting_contacts(double dt, std::span<const ToolMotion> motions,
-                              std::span<ToolImpulse> impulses);
-  Vec3 place_of(const Particle& p) const;  ///< in W [m]
-  void rebin_if_due();
-  void lay_out(std::span<const ToolMotion> motions);
-  void update_floor();
-  /// Whether this step belongs to the transfer that is under way.
-  bool holds(double dt, double tool_speed, std::span<const ToolMotion> motions) const;
-  /// Queues a step's kernels; `hold`: not the first step of a transfer.
+  /// Runs the kernels of a step and reads what they give; `hold`: not the first step of a transfer.
+  void step_particles(double dt, double tool_speed, bool hold, std::span<const ToolMotion> motions,
+                      std::span<ToolImpulse> impulses);
+  /// Queues the kernels of a step.
   void queue(double dt, bool hold);
-  /// Particles go where the transfer that is under way takes them; then blocks, lists and sides may
-  /// change.
-  void end_transfer();
+
+  /// Checks the exchange between two transfers, if its clock says so.
+  void exchange_if_due(double dt, double tool_speed, std::span<const ToolMotion> motions);
+  /// Runs one check of the exchange and applies its result.
+  void check_exchange(double dt, std::span<const ToolMotion> motions);
+  /// Removes flagged particles (all stay without flags) and adds the new ones with ids.
+  void replace(const std::vector<Particle>& all, const std::vector<std::uint8_t>& removed,
+               std::vector<Particle> born);
+  /// Ends the current transfer: particles move, and lists may change.
+  void end_transfer() { particles.add_drift(current.end()); }
+  /// Sorts particles that drifted far into new blocks.
+  void rebin_if_due();
+  /// Updates near lists, tiles and floors for the tools' poses.
+  void update_lists(std::span<const ToolMotion> motions);
+  /// Uploads the heights of resting ground where they changed.
+  void update_floor();
+  /// Adds particles, with new ids.
+  void add(std::vector<Particle> added);
+  /// Replaces all particles on the device and their masses in the ledger.
+  void assign(const std::vector<Particle>& all);
+  /// Starts a new energy account.
   void open_energy();
-  void add(std::vector<Particle> particles);
-  void assign(const std::vector<Particle>& particles);
-  /// What there is, on the device or because the device had no room on the host.
-  std::vector<Particle> records() const { return unplaced.empty() ? store.records() : unplaced; }
-  std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
-  void record_left_site(const std::vector<Particle>& left);
+
+  /// Returns the speed of the fastest vertex of a tool [m/s].
   double tool_speed(const ToolMotion& motion) const;
-  Ledger ledger() const;
-  /// With these masses of particles instead of a count on the device.
-  Ledger ledger_with(std::vector<std::int64_t> particles) const;
+  /// Returns the bounding box of a tool in W, and the velocity of its centre.
+  ToolRegion region_of(const ToolMotion& motion) const;
+  /// Compares the masses counted on the device with the ledger.
+  /// @throws SimulationError naming the soil when they differ.
   void check_masses();
-  /// Throws when no step can carry this motion.
+  /// @throws SimulationError when no step can carry this motion.
   void check_motion(const ToolMotion& motion) const;
-  /// "soil step 12, t = 0.02 s: ", the start of every fault.
+  /// Returns "soil step 12, t = 0.02 s: ", the start of every fault.
   std::string here() const;
+  /// Throws the fault of a particle that is too fast or not finite, with its id and position.
   [[noreturn]] void fail(double speed) const;
+
+  /// Visits all parts, in the order of the format.
   void visit(Archive& a);
-  void visit_particles(Archive& a);
-  void visit_nodes(Archive& a);
-  /// What follows from the state, after it was loaded.
+  /// Makes what follows from the state, after it was loaded.
   void rebuild(Archive& a);
 
-  device::Device& device;
+  // Constants of the scene.
   scene::Scene world;
   heightfield::Ground& ground;
-  double cell;
-  PlanGrid grid;
-  Vec3 origin;  ///< W of the grid frame's origin
+  SchemeConstants scheme;
+  GridFrame frame;
+  /// Speed of the fastest compression wave of all soils [m/s].
   double fastest_sound;
-  double transfer_length;  ///< [s]
-  ParticleStore store;
+
+  // On the device.
+  SoilParticles particles;
   Transfer transfer;
   Contact contact;
-  Floor floor;
-  Exchange exchange;
+  CurrentTransfer current;
   MassCount mass_count;
 
-  std::vector<RestingContact> resting_contacts;  ///< by tool
-  std::span<const SupportArea> support_areas;    ///< of the step under way
-  /// All particles, once the device could not take them: the run is over.
-  std::vector<Particle> unplaced;
-  /// The transfer under way; the next step ends it where it cannot go on.
-  TransferInterval interval;
-  std::vector<float> loaded_nodes[2];  ///< while loading: node velocities of the transfer under way
-  bool blocks_changed = true;
-  std::optional<EnergyLedger> energy;  ///< only when asked for
-  bool crowding = true;                ///< particles are moved apart where they crowd
-  bool over_budget = false;            ///< said so already
-  double drift = 0;                    ///< cells particles may have moved since the last re-bin
-  double time = 0;         ///< simulated, sum over steps; only handed to the exchange [s]
-  double since_check = 0;  ///< [s]
-  double travel = 0;       ///< of the fastest tool since the last check [m]
-  std::uint32_t steps_since_check = 0;
-  bool first_check = true;
-  std::uint32_t next_id = 1;
-  std::vector<std::int64_t> left_site, inserted;
-  std::vector<std::int64_t> in_particles;  ///< what every step must count again, per soil
+  // On the host.
+  Floor floor;
+  Exchange exchange;
+  ExchangeClock exchange_clock;
+  StandingTools standing;
+  MassRecord masses;
+  /// Only on request.
+  std::optional<EnergyLedger> energy;
+  /// Crowded particles are separated.
+  bool crowding = true;
+
+  /// Simulated time, the sum over steps [s].
+  double time = 0;
+  /// Support areas of the current step.
+  std::span<const SupportArea> support_areas;
   SolverStats stats;
+  /// Wall time by stage [s].
   std::map<std::string, double> times;
 };
 
-/// Adds the wall time of its life to a stage.
+/// Adds the wall time of its own lifetime to a stage.
 class StageClock {
  public:
   StageClock(std::map<std::string, double>& times, const char* stage)
@@ -130,8 +130,5 @@ class StageClock {
   double& seconds_;
   std::chrono::steady_clock::time_point start_;
 };
-
-/// The same particle with its block the one its cell lies in.
-Particle in_cell_block(Particle p);
 
 }  // namespace navvy::soil

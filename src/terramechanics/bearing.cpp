@@ -10,15 +10,17 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr double kLocal = 2.0 / 3;  // of c and tan phi in local shear [Terzaghi 1943]
+// Share of c and tan phi in local shear [Terzaghi 1943].
+constexpr double kLocal = 2.0 / 3;
 constexpr int kSlices =
-    // Of the arc before a rim, an even number: within 0.5 % of the integral, 2 % near the slip that
-    // ends it
+    // Slices of the arc ahead of a rim, an even number: within 0.5 % of the integral, 2 % near the
+    // slip that ends bulldozing.
     8;
 constexpr double kNoFriction = 1e-6;
 
 }  // namespace
 
+// Evaluates the formulas in the header, with their limits without friction.
 BearingFactors BearingFactors::of(double tan_phi) {
   const double phi = std::atan(std::max(tan_phi, 0.0));
   const double a = std::exp((0.75 * kPi - 0.5 * phi) * tan_phi),
@@ -30,6 +32,7 @@ BearingFactors BearingFactors::of(double tan_phi) {
   return out;
 }
 
+// Interpolates between general and local shear by how far the soil has swollen.
 double bearing_capacity(const SoilState& ground, double width, double depth) {
   if (ground.soil == nullptr) return 0;
   const double swell = ground.soil->swell;
@@ -43,29 +46,32 @@ double bearing_capacity(const SoilState& ground, double width, double depth) {
          0.5 * weight * width * n.gamma;
 }
 
+// Flow up to a depth is the sinkage minus the part that the bearing capacity can compact.
 double pushed_depth(const SoilState& ground, double width, double from, double to) {
   if (ground.soil == nullptr || !(to > from)) return 0;
   const auto flown = [&](double z) {
     return std::max(0.0,
                     z - plate_sinkage(*ground.soil, bearing_capacity(ground, width, z), width));
   };
-  // Where n < 1 the ground may bear the plate again farther down: what has flown stays there.
+  // With n < 1 the ground may support the plate again at a greater depth: soil that has flowed does
+  // not return.
   return std::clamp(flown(to) - flown(from), 0.0, to - from);
 }
 
 namespace {
 
-/// Passive pressure [Pa]: cohesion's, and by depth [Pa/m] that of weight.
+/// Passive pressure from cohesion [Pa], and its gradient with depth from weight [Pa/m].
 struct PassivePressure {
   double cohesive = 0, by_depth = 0;
 };
 
+// Uses the factors of local shear, as the header explains.
 PassivePressure passive_pressure(const SoilState& ground) {
   const ShearStrength strength = surface_strength(ground);
   const double tan_phi = kLocal * strength.slope, cos2 = 1 / (1 + tan_phi * tan_phi);
   const BearingFactors n = BearingFactors::of(tan_phi);
   const double k_c = (n.c - tan_phi) * cos2;
-  // Without friction 2 N / tan phi -> 4 (Nq + 1).
+  // Limit without friction: 2 N / tan phi -> 4 (Nq + 1).
   const double k_gamma =
       ((tan_phi > kNoFriction ? 2 * n.gamma / tan_phi : 4 * (n.q + 1)) + 1) * cos2;
   return {kLocal * strength.cohesion * k_c, ground.density() * kGravity * k_gamma};
@@ -79,16 +85,17 @@ double passive_resistance(const SoilState& ground, double width, double depth) {
   return width * depth * (p.cohesive + 0.5 * depth * p.by_depth);
 }
 
+// A rim that stands or turns backwards mobilises all of the soil ahead.
 double bulldozing(const SoilState& ground, double width, double radius, double depth,
                   double advance) {
   if (ground.soil == nullptr || !(depth > 0)) return 0;
   if (!(advance >= 0 && std::isfinite(advance))) return passive_resistance(ground, width, depth);
-  // Soil at the surface is pushed farthest: a rim that slips away under it pushes none.
+  // Soil at the surface is pushed farthest. A rim that slips over it pushes none at any depth.
   const double first = std::acos(std::clamp(1 - depth / radius, 0.0, 1.0));
   if (!(advance * first > std::sin(first))) return 0;
   const PassivePressure p = passive_pressure(ground);
-  // Simpson's rule over the arc; sine and cosine turn on from one place to the next. Below the axle
-  // nothing is pushed.
+  // Integrate over the arc by Simpson's rule, rotating sine and cosine from slice to slice. The
+  // integrand is 0 below the axle.
   const double slice = first / kSlices, turn_cos = std::cos(slice), turn_sin = std::sin(slice);
   double at_cos = 1, at_sin = 0, sum = 0;
   for (int i = 1; i <= kSlices; ++i) {

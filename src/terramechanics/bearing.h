@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil that gives way as a mass instead of being compacted: what the ground bears before it flows
-// out from under a load, and how soil ahead holds back what is pushed into it. Both after
-// Terzaghi's theory of bearing capacity [Terzaghi 1943].
+// Bearing capacity of soil that flows out from under a load, and the passive resistance of soil
+// that is pushed ahead. Both follow Terzaghi's theory [Terzaghi 1943].
 //
 //   q = c Nc + gamma z Nq + gamma b Ngamma / 2
-//   Nq = a^2 / (2 cos^2(45 deg + phi/2)),  a = exp((3 pi/4 - phi/2) tan phi),  Nc = (Nq - 1) cot
-//   phi Ngamma = 2 (Nq + 1) tan phi / (1 + 0.4 sin 4 phi)      [Coduto 2001], within a fifth of his
-//   table
+//   Nq = a^2 / (2 cos^2(45 deg + phi/2)),  a = exp((3 pi/4 - phi/2) tan phi)
+//   Nc = (Nq - 1) cot phi
+//   Ngamma = 2 (Nq + 1) tan phi / (1 + 0.4 sin 4 phi)   [Coduto 2001], within 20 % of his table
 //
-// Soil that lies loose fails locally: with two thirds of c and of tan phi.
+// Loose soil fails by local shear: with two thirds of c and of tan phi.
 #pragma once
 
 #include "terramechanics/ground_query.h"
@@ -16,43 +15,44 @@
 
 namespace navvy::terramechanics {
 
-/// Nc, Nq, Ngamma [-].
+/// Bearing capacity factors Nc, Nq and Ngamma [-].
 struct BearingFactors {
   double c = 0, q = 0, gamma = 0;
 
-  /// For tan phi >= 0; without friction 5.71, 1 and 0.
+  /// Computes the factors for tan phi >= 0. Without friction they are 5.71, 1 and 0.
   static BearingFactors of(double tan_phi);
 };
 
-/// What the ground bears [Pa] under a long plate of `width` [m] that stands `depth` [m] deep.
-/// General shear in bank state and denser, local shear in fully swollen soil, in proportion
-/// between.
+/// Returns the bearing capacity [Pa] of the ground under a long plate of `width` [m] at a depth of
+/// `depth` [m]. Bank state and denser soil fails by general shear, fully swollen soil by local
+/// shear; in between, both are interpolated.
 double bearing_capacity(const SoilState& ground, double width, double depth);
 
-/// How much of a sinkage from `from` to `to` [m] flows aside [m] and is not compaction. A plate
-/// stands as a foundation does as long as the ground bears its pressure, and only compaction lets
-/// it sink. Deeper, the ground passes on no more than it bears: q(z) compacts it by the z_c of the
-/// plate's own law, k z_c^n = q(z), and z - z_c flows at constant volume.
+/// Returns the part [m] of a sinkage from `from` to `to` [m] in which soil flows aside instead of
+/// being compacted.
+///
+/// As long as the ground supports the plate's pressure, it sinks by compaction alone. Deeper, the
+/// ground transmits at most its bearing capacity q(z), which compacts it by the sinkage z_c of the
+/// plate's own law, k z_c^n = q(z); the rest z - z_c flows at constant volume.
 double pushed_depth(const SoilState& ground, double width, double from, double to);
 
-/// Passive resistance [N] of the soil before a front of `width` [m] that stands `depth` [m] deep in
-/// it:
+/// Returns the passive resistance [N] of soil ahead of a front of `width` [m] and `depth` [m]:
 ///
-///   R = b (2/3 c z Kc + gamma z^2 Kgamma / 2),   Kc = (Nc' - tan phi') cos^2 phi',
+///   R = b (2/3 c z Kc + gamma z^2 Kgamma / 2),   Kc = (Nc' - tan phi') cos^2 phi'
 ///   Kgamma = (2 Ngamma' / tan phi' + 1) cos^2 phi',   tan phi' = 2/3 tan phi
 ///
-/// the bulldozing resistance of [Bekker 1969] with the factors of local shear, as [Wong 2008] gives
-/// it for tyres.
+/// This is the bulldozing resistance of [Bekker 1969] with the factors of local shear, as
+/// [Wong 2008] gives it for tyres.
 double passive_resistance(const SoilState& ground, double width, double depth);
 
-/// The same for a round rim of `radius` [m], as far as its motion mobilises it. `advance` is the
-/// wheel's way over the rim's, v / (omega r): 1 - s driven, 1 / (1 + s) braked; endless or below 0
-/// for a rim that stands or turns back.
+/// Returns the mobilised bulldozing resistance [N] ahead of a round rim of `radius` [m].
 ///
-/// From where the rim meets the soil of a depth d, at the angle theta, cos theta = 1 - (z - d) / r,
-/// to below the axle it pushes it ahead by j = r (advance theta - sin theta), and that soil resists
-/// by the share 1 - exp(-j / K) [Janosi 1961]. A rim that slips pushes nothing ahead of it, a
-/// locked one all. One that turns pushes with what of it lies below its axle.
+/// `advance` is the wheel's travel over the rim's, v / (omega r): 1 - s driven, 1 / (1 + s) braked;
+/// infinite or negative for a rim that stands or turns backwards. A soil element of depth d meets
+/// the rim at the angle theta, cos theta = 1 - (z - d) / r, and is pushed ahead by j = r (advance
+/// theta - sin theta) until it is below the axle. It resists by the share 1 - exp(-j / K)
+/// [Janosi 1961]. A rim that spins in place pushes nothing ahead, a locked rim mobilises the full
+/// resistance.
 double bulldozing(const SoilState& ground, double width, double radius, double depth,
                   double advance);
 

@@ -7,7 +7,7 @@
 namespace navvy::terramechanics {
 namespace {
 
-// Times the coefficient: 13 times as deep, where no wheel is any more
+// Largest slip times coefficient: 13 times as deep, where no wheel works any more.
 constexpr double kMostSlip = 1.6;
 
 }  // namespace
@@ -26,14 +26,13 @@ double plate_work(const scene::Soil& soil, double sinkage, double width) {
 
 double plate_sinkage(const scene::Soil& soil, double pressure, double width) {
   const double k = plate_modulus(soil, width);
-  // A negative k_c may make a narrow plate's modulus negative: no number then, rather than a NaN in
-  // the ground.
+  // A negative k_c may make the modulus of a narrow plate negative. Return zero rather than a NaN.
   if (!(pressure > 0) || !(k > 0)) return 0;
   return std::pow(pressure / k, 1 / soil.bekker_n);
 }
 
 double slip_sinkage(double slip, double coefficient) {
-  // Below the pole of a coefficient near 2.
+  // Stay below the pole, which a coefficient near 2 reaches.
   const double s = std::min(coefficient * std::min(std::abs(slip), 1.0), kMostSlip);
   return (1 + s) / (1 - 0.5 * s);
 }

@@ -11,26 +11,29 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr int kSlices = 400;     // of the arc
-constexpr int kBisections = 60;  // of the entry angle: below a double's rounding
+constexpr int kSlices = 400;  // slices of the arc
+// Bisections of the entry angle: below the rounding of a double.
+constexpr int kBisections = 60;
 
-/// Sums over the arc from below the axle to the entry angle; `lift` is the load it carries [N].
+/// Sums over the arc from below the axle to the entry angle. `lift` is the load that it carries
+/// [N].
 struct Arc {
   double lift = 0, drawbar = 0, torque = 0, side = 0;
 };
 
-/// Way of the rim against the soil since it entered, ahead and to the side [m].
+/// Returns the displacement of the rim over the soil since it entered, ahead and to the side [m].
 Vec2 rim_displacement(const WheelCase& wheel, const scene::Soil& soil, double entry, double at) {
-  // Ways against the soil depend on the ratio of speeds alone.
-  const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that goes at 1 m/s
+  // Displacements depend on the ratio of speeds alone.
+  const double rim = rim_speed(1.0, wheel.slip);  // of a wheel that travels at 1 m/s
   const double aside = std::tan(wheel.slip_angle);
-  // A locked rim is dragged on and on.
+  // A locked rim is dragged without end.
   if (rim <= 1e-6) return 1e3 * soil.janosi_k * Vec2(-1, aside);
   const double r = wheel.radius, turned = entry - at;
   return {(r + wheel.grouser) * turned - r * (std::sin(entry) - std::sin(at)) / rim,
           r * turned * aside / rim};
 }
 
+// Sums pressure and shear over slices of the arc for one entry angle.
 Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
   const double r = wheel.radius, shear_radius = r + wheel.grouser;
   const double modulus =
@@ -41,8 +44,7 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
   Arc out;
   const double slice = entry / kSlices;
   for (int i = 0; i < kSlices; ++i) {
-    // Middle of the slice; no slice ends on the axle's plumb line or the entry, where pressure has
-    // its corner.
+    // Use the middle of the slice: pressure has a kink below the axle and at the entry.
     const double at = (i + 0.5) * slice;
     const double pressure = modulus * std::pow(r * (std::cos(at) - std::cos(entry)), soil.bekker_n);
     const Vec2 way = rim_displacement(wheel, soil, entry, at);
@@ -65,8 +67,9 @@ double rim_speed(double speed, double slip) {
   return slip >= 0 ? speed / (1 - slip) : speed * (1 + slip);
 }
 
+// Finds the entry angle that carries the load, then reads all forces from its arc.
 WheelForce rigid_wheel(const WheelCase& wheel, const scene::Soil& soil) {
-  // The load grows with the entry angle: bisect between nothing and the axle at the surface.
+  // The load grows with the entry angle: bisect between zero and the axle at the surface.
   double low = 0, high = kPi / 2;
   WheelForce out;
   out.carried = sum_arc(wheel, soil, high).lift >= wheel.load;

@@ -12,24 +12,26 @@
 namespace navvy::terramechanics {
 namespace {
 
-constexpr int kRays = 5;  // of idler and sprocket, every 20 degrees from straight down outward
+// Rays of idler and sprocket, every 20 degrees from straight down outward.
+constexpr int kRays = 5;
 constexpr double kRayStep = radians(20);
 
-/// A wheel of the running gear as the ground sees it.
+/// Wheel of the running gear in contact with the ground.
 struct RunningWheel {
-  Vec3 p_C = Vec3::Zero();  // middle, in the carrier [m]
-  double radius = 0;        // to the belt's outside [m]
-  double length = 0;        // of the belt under it [m]
-  int out = 0;              // 1: the foremost, looks ahead; -1: the last, looks back; 0: a roller
+  Vec3 p_C = Vec3::Zero();  // centre in the carrier [m]
+  double radius = 0;        // to the outside of the track [m]
+  double length = 0;        // of track under it [m]
+  // 1: the foremost, which also looks ahead; -1: the last, which also looks back; 0: a roller.
+  int out = 0;
 };
 
-/// From front to rear.
+/// Returns the wheels from front to rear.
 std::vector<RunningWheel> running_gear(const scene::Wheel& wheel, const Vec3& p_sprocket) {
   const scene::Track& track = *wheel.track;
   std::vector<RunningWheel> out;
   const std::size_t n = track.rollers.size();
   for (std::size_t i = 0; i < n; ++i) {
-    // Half way to the neighbours; the outer ones bear as much belt beyond as within.
+    // Reach half way to the neighbours. The outer rollers carry as much track outside as inside.
     const double ahead = (track.rollers[i > 0 ? i - 1 : 0] - track.rollers[i > 0 ? i : 1]).norm();
     const double behind =
         (track.rollers[i + 1 < n ? i : n - 2] - track.rollers[i + 1 < n ? i + 1 : n - 1]).norm();
@@ -47,21 +49,23 @@ std::vector<RunningWheel> running_gear(const scene::Wheel& wheel, const Vec3& p_
   return out;
 }
 
-/// Where one wheel meets ground.
+/// Contact of one wheel with the ground.
 struct Meeting {
   Vec3 p_W = Vec3::Zero(), normal = Vec3::UnitZ();
-  double depth = 0;  // above 0: it touches [m]
+  // Penetration [m]; it touches if above 0.
+  double depth = 0;
 };
 
-/// A roller on a firm floor, which pushes along its own normal however the machine leans on its
-/// rollers.
+/// Finds the contact of a roller with a firm floor, which pushes along its own normal however the
+/// machine leans on its rollers.
 Meeting meet_floor(const RunningWheel& wheel, const Vec3& center, const GroundQuery& ground) {
   const Vec3 n = ground.normal(center.x(), center.y());
   const Vec3 p = center - wheel.radius * n;
   return {p, n, std::clamp(n.z() * (ground.height(p.x(), p.y()) - p.z()), 0.0, 0.5 * wheel.radius)};
 }
 
-/// Along rays from the middle: a roller looks straight down, the outer wheels also outward.
+/// Finds the contact along rays from the centre: a roller looks straight down, the outer wheels
+/// also outward.
 Meeting meet(const RunningWheel& wheel, const Pose& X_WC, const GroundQuery& ground) {
   const Vec3 ahead = X_WC.linear().col(0), up = X_WC.linear().col(2);
   const Vec3 center = X_WC * wheel.p_C;
@@ -74,14 +78,14 @@ Meeting meet(const RunningWheel& wheel, const Pose& X_WC, const GroundQuery& gro
     const double height = ground.height(p.x(), p.y());
     if (height <= p.z()) continue;
     const Vec3 n = ground.normal(p.x(), p.y());
-    // Of the plane of the ground there, along the ray; one that hangs over counts as level.
+    // Depth along the ray to the plane of the ground there; an overhanging plane counts as level.
     const double depth = n.z() * (height - p.z()) / std::max(-n.dot(ray), 0.3);
     if (depth > best.depth) best = {p, -ray, std::min(depth, 0.5 * wheel.radius)};
   }
   return best;
 }
 
-/// How one step goes on for all contacts.
+/// Data of one step, shared by all contacts.
 struct Step {
   const scene::Wheel& wheel;
   const TrackMotion& motion;
@@ -97,12 +101,12 @@ TrackGrip grip_of(const Step& step, double length, double load, const SoilState&
   const ShearStrength strength = track_strength(step.wheel, soil);
   const double most = step.wheel.width * length * strength.cohesion + load * strength.slope;
   const double K = soil.soil != nullptr ? soil.soil->janosi_k : kFirmShear;
-  // Not stiffer than what the step can bear with the mass of the belt alone.
+  // Not too stiff for an explicit step with the mass of the track alone.
   return track_grip(most, K, step.rim_mass, step.dt);
 }
 
-/// How deep the belt's leading end stands in ground that it has not pressed yet, what pressing
-/// costs [N], and what its foremost wheel pushes ahead.
+/// Computes the resistance [N] of soil ahead of the track: the work of pressing soil that it has
+/// not pressed yet, and the bulldozing of its foremost wheel.
 double soil_resistance(const Step& step, const std::vector<RunningWheel>& gear,
                        const std::vector<Meeting>& met, const TrackState& state) {
   const bool forward = step.track_speed >= 0;
@@ -116,7 +120,7 @@ double soil_resistance(const Step& step, const std::vector<RunningWheel>& gear,
   const Vec3 p = met[lead].p_W + (forward ? beyond : -beyond) * step.motion.X_WC.linear().col(0);
   const double up = step.motion.X_WC.linear()(2, 2);
   const double above = up * (step.ground.height(p.x(), p.y()) - p.z()) - met[lead].depth;
-  // What rises ahead may be a slope: no deeper than this load presses.
+  // Ground that rises ahead may be a slope: it counts no deeper than this load presses.
   const double b = step.wheel.width;
   const double deepest = plate_sinkage(*under.soil, load / (b * gear[lead].length), b);
   const double z = std::clamp(above, 0.0, deepest);
@@ -128,9 +132,9 @@ double soil_resistance(const Step& step, const std::vector<RunningWheel>& gear,
   return -resistance * std::tanh(step.track_speed / kTrackRoll);
 }
 
-/// The shear of all contacts a step on: shoes come in unsheared where the belt's speed brings them,
-/// segment by segment implicitly, so that no speed is too large.
-/// @return of each contact what the soil under its middle is sheared by.
+/// Advances the shear of all contacts. Shoes enter unsheared at the leading end, segment by
+/// segment; the update is implicit and stable at any speed.
+/// @return the shear of the soil under the middle of each contact.
 std::vector<Vec2> carry_on(const Step& step, const std::vector<RunningWheel>& gear,
                            const std::vector<Meeting>& met, const std::vector<Vec2>& slip,
                            TrackState& state) {
@@ -153,6 +157,7 @@ std::vector<Vec2> carry_on(const Step& step, const std::vector<RunningWheel>& ge
   return middle;
 }
 
+// Averages the depth below the ground beside the track, weighted by load.
 double rut_depth(const Step& step, const std::vector<Meeting>& met, const TrackState& state) {
   double depth = 0, load = 0;
   for (std::size_t i = 0; i < met.size(); ++i) {
@@ -173,7 +178,7 @@ double rut_depth(const Step& step, const std::vector<Meeting>& met, const TrackS
 void TrackContact::visit(Archive& a) {
   a.ranged("load", load, 0.0, 1e12);
   a("shear", shear);
-  a.require(shear.allFinite(), "shear", "soil under a belt is sheared by no number");
+  a.require(shear.allFinite(), "shear", "the shear under a track must be finite");
 }
 
 TrackState TrackState::of(const scene::Track& track) {
@@ -186,6 +191,7 @@ ShearStrength track_strength(const scene::Wheel& wheel, const SoilState& ground)
   return ground.soil != nullptr ? surface_strength(ground) : ShearStrength{0, wheel.friction};
 }
 
+// Finds all contacts first: the shear of each depends on those ahead of it.
 TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
                        const GroundQuery& ground, double dt, TrackState& state) {
   TrackForce out;
@@ -224,7 +230,8 @@ TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
                                      slip[i], step.track_speed, step.rim_mass, dt);
     const Vec3 ahead = left.cross(met[i].normal);
     out.pushes.push_back({contact.load * met[i].normal + f.x() * ahead + f.y() * left, met[i].p_W});
-    // Work of a force on the belt, which runs back under the machine as the sprocket turns.
+    // The force acts on the lower run, which moves backwards under the machine as the sprocket
+    // turns.
     out.torque -= wheel.radius * f.x();
   }
   const std::size_t lead = step.track_speed >= 0 ? 1 : gear.size() - 2;
@@ -232,8 +239,8 @@ TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
   if (resistance != 0)
     out.pushes.push_back({resistance * motion.X_WC.linear().col(0), met[lead].p_W});
   for (const TrackForce::Push& push : out.pushes) out.force_W += push.f_W;
-  // Rollers, links and bushings turn against the spin; smooth through zero, within what the step
-  // can bear.
+  // Rollers, links and bushings resist the spin. The resistance is smooth through zero, within the
+  // stability of an explicit step.
   const double inner = wheel.rolling_resistance * load;
   const double band = std::max(kTrackRoll, inner * dt / (0.15 * step.rim_mass * rollers));
   out.torque -= inner * wheel.radius * std::tanh(step.track_speed / band);
@@ -244,6 +251,7 @@ TrackForce track_force(const scene::Wheel& wheel, const TrackMotion& motion,
   return out;
 }
 
+// Places the rectangle of each loaded contact below its wheel, at the present pose.
 std::vector<TrackPatch> track_patches(const scene::Wheel& wheel, const TrackMotion& motion,
                                       const TrackState& state) {
   std::vector<TrackPatch> out;

@@ -10,29 +10,32 @@
 namespace navvy::terramechanics {
 namespace {
 
-// Of stations, in radii: what lies between two reaches in by R / 22 at most
+// Spacing of discs in radii: a body between two discs penetrates by R / 22 at most.
 constexpr double kSpacing = 0.6;
-constexpr int kMostPieces = 32;  // of a run between two wheels
+// Largest number of pieces of a run between two wheels.
+constexpr int kMostPieces = 32;
 
 struct Circle {
   Vec3 p_C = Vec3::Zero();
   double radius = 0;
 };
 
-/// Downward normal of the line that touches two circles from below, the first ahead of the second.
+/// Returns the downward normal of the common lower tangent of two circles, the first ahead of the
+/// second.
 Vec3 lower_tangent(const Circle& a, const Circle& b) {
   Vec3 d = b.p_C - a.p_C;
   d.y() = 0;
   const double far = d.norm();
   const double slant = far > 0 ? (a.radius - b.radius) / far : 1;
-  // One within the other has no tangent.
+  // A circle inside the other has no tangent.
   if (std::abs(slant) >= 1) return -Vec3::UnitZ();
   d /= far;
   return slant * d + std::sqrt(1 - slant * slant) * Vec3(-d.z(), 0, d.x());
 }
 
-/// What each touch is of the whole belt's spring: a roller's share alone, shared with others of its
-/// line that are nearer than two rollers and are pressed the same way.
+/// Returns the share of each contact in the stiffness of the track: a roller's share for a single
+/// contact, divided among contacts of its line that are nearer than two rollers and pressed in the
+/// same direction.
 std::vector<double> shares(const std::vector<TrackStation>& stations,
                            const std::vector<TrackTouch>& touches, double roller, double reach) {
   std::vector<double> out;
@@ -50,13 +53,14 @@ std::vector<double> shares(const std::vector<TrackStation>& stations,
   return out;
 }
 
-/// The plane of a touch: along the belt and to the left; `runs` is the belt's share in its speed
-/// there, none where it is touched from its side.
+/// Tangential plane of a contact: along the track and to the left. `runs` is the part of the
+/// track's speed along it; zero for a contact from the side.
 struct Plane {
   Vec3 ahead, left;
   double runs = 0;
 };
 
+// A contact from the side has no direction of its own, so use the carrier's x.
 Plane plane_of(const TrackMotion& motion, const Vec3& normal) {
   Plane out;
   Vec3 ahead = motion.X_WC.linear().col(1).cross(normal);
@@ -67,7 +71,7 @@ Plane plane_of(const TrackMotion& motion, const Vec3& normal) {
   return out;
 }
 
-/// Sum over the touches of each body.
+/// Returns the sum over the contacts of each body.
 std::vector<double> sums(const std::vector<TrackTouch>& touches, const std::vector<double>& of) {
   std::vector<double> out;
   for (std::size_t t = 0; t < touches.size(); ++t) {
@@ -77,7 +81,7 @@ std::vector<double> sums(const std::vector<TrackTouch>& touches, const std::vect
   return out;
 }
 
-/// One step of a belt that touches bodies.
+/// One step of a track that touches bodies.
 class Step {
  public:
   Step(const scene::Wheel& wheel, const std::vector<TrackStation>& stations,
@@ -92,7 +96,7 @@ class Step {
     press();
   }
 
-  /// The shear of one line a step on, from the end where shoes come in, and the forces by it.
+  /// Advances the shear of one line, from the end where shoes enter, and adds its forces.
   void grip(std::size_t line, TrackBodyShear& shear, TrackBodyForce& out) const {
     Vec2 before = Vec2::Zero();
     for (std::size_t k = 0; k < stations_.size(); ++k) {
@@ -118,7 +122,7 @@ class Step {
     }
   }
 
-  /// Rollers, links and bushings turn against the spin, as on ground.
+  /// Returns the resistance of rollers, links and bushings to the spin, as on ground.
   double resistance() const {
     const double inner = wheel_.rolling_resistance * total_;
     const double band = std::max(kTrackRoll, inner * dt_ / (0.15 * track_mass_));
@@ -127,7 +131,7 @@ class Step {
   double load(std::size_t touch) const { return load_[touch]; }
 
  private:
-  /// Of the belt's carrier against the body.
+  /// Returns the velocity of the track's carrier against the body.
   Vec3 velocity(const BodyTouch& at) const {
     return motion_.v_W + motion_.w_W.cross(at.p_W - motion_.X_WC.translation()) - at.v_W;
   }
@@ -143,8 +147,8 @@ class Step {
     const std::vector<double> deep = sums(touches_, depth);
     for (std::size_t t = 0; t < touches_.size(); ++t) {
       const BodyTouch& at = touches_[t].at;
-      // In series with the body, which its touches share: an explicit step is stable while k dt^2
-      // and c dt stay below what they move.
+      // Body and track are in series, and the body's contacts share it: an explicit step is stable
+      // while k dt^2 and c dt are below the mass that they move.
       scene::Wheel soft;
       soft.radius = wheel_.radius;
       soft.stiffness = wheel_.stiffness;
@@ -162,7 +166,8 @@ class Step {
     on_body_ = sums(touches_, load_);
   }
 
-  /// What the grip of a touch accelerates: its part, by load, of the belt or of the body [kg].
+  /// Returns the mass that the grip of a contact accelerates: its share by load of track or body
+  /// [kg].
   double mass_of(std::size_t t) const {
     const double running_track = track_mass_ * load_[t] / total_;
     const double inverse = touches_[t].at.inverse_mass;
@@ -170,7 +175,8 @@ class Step {
                        : running_track;
   }
 
-  /// The touch of a station that presses most; none: their number.
+  /// Returns the contact of a station with the largest load; the number of contacts if there is
+  /// none.
   std::size_t gripping(std::size_t station, std::size_t line) const {
     std::size_t best = touches_.size();
     for (std::size_t t = 0; t < touches_.size(); ++t) {
@@ -185,12 +191,13 @@ class Step {
   const TrackMotion& motion_;
   const std::vector<TrackTouch>& touches_;
   double dt_, track_speed_, track_mass_;
-  std::vector<double> load_, on_body_;  // by touch; by body
+  std::vector<double> load_, on_body_;  // by contact; by body
   double total_ = 0;
 };
 
 }  // namespace
 
+// Divides the runs between wheels into pieces, and adds up positions and lengths along the path.
 std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& p_sprocket) {
   const scene::Track& track = *wheel.track;
   std::vector<Circle> gear;
@@ -201,7 +208,7 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   const bool idler_ahead = idler.p_C.x() > sprocket.p_C.x();
   gear.insert(gear.begin(), idler_ahead ? idler : sprocket);
   gear.push_back(idler_ahead ? sprocket : idler);
-  // As large as the belt's loop has room for.
+  // As large as fits inside the track's loop.
   const double large = std::max(gear[1].radius, std::min(idler.radius, sprocket.radius));
 
   std::vector<TrackStation> out;
@@ -221,7 +228,7 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
     else
       touching(feet.back(), down);
     if (i + 1 == gear.size()) break;
-    // The run to the next one.
+    // The run to the next wheel.
     const Vec3 from = gear[i].p_C + gear[i].radius * behind,
                to = gear[i + 1].p_C + gear[i + 1].radius * behind;
     const double pieces =
@@ -242,6 +249,7 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   return out;
 }
 
+// Grip couples the contacts of a line; the pressure of each depends on its own depth.
 TrackBodyForce track_body_force(const scene::Wheel& wheel,
                                 const std::vector<TrackStation>& stations,
                                 const TrackMotion& motion, const std::vector<TrackTouch>& touches,

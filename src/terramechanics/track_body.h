@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Belt of a crawler on bodies: a kerb, a deck, a wall, another machine. The same springs and shear
-// as on ground.
+// Forces of rigid bodies (a kerb, a deck, a wall, another machine) on a crawler's track, by the
+// same springs and shear as on ground.
 #pragma once
 
 #include <array>
@@ -11,43 +11,51 @@
 
 namespace navvy::terramechanics {
 
-/// A disc that stands for a piece of the belt's path: idler and sprocket themselves, and along the
-/// lower run discs that touch it from within, at every roller and between them.
+/// Disc that represents a piece of the track's path: idler, sprocket, and discs inside the lower
+/// run at every roller and between them.
 struct TrackStation {
-  Vec3 p_C = Vec3::Zero();  ///< middle, in the carrier [m]
-  double radius = 0;        ///< to the belt's outside [m]
-  double length = 0;        ///< of the belt that it stands for [m]
-  double along = 0;         ///< of the path, from the first one [m]
+  /// Centre in the carrier's frame [m].
+  Vec3 p_C = Vec3::Zero();
+  /// Radius to the outside of the track [m].
+  double radius = 0;
+  /// Length of track that the disc represents [m].
+  double length = 0;
+  /// Position along the path from the first disc [m].
+  double along = 0;
 };
 
-/// From front to rear. They lie so close that what reaches between two is felt within a sixteenth
-/// of their radius.
+/// Returns the discs from front to rear. Their spacing finds any body that reaches further between
+/// two discs than a sixteenth of their radius.
 std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& p_sprocket);
 
-/// A belt meets bodies on two lines, each in the middle of half its width.
+/// Number of lines on which a track meets bodies, each in the middle of half its width.
 inline constexpr std::size_t kTrackLines = 2;
 
-/// Where a body reaches into a station on one of the lines.
+/// Contact of a body with a disc on one of the lines.
 struct TrackTouch {
   BodyTouch at;
   std::size_t station = 0, line = 0;
-  std::size_t body = 0;  ///< which one: touches of one body share what it weighs
+  /// Index of the body. Contacts of one body share its weight.
+  std::size_t body = 0;
 };
 
-/// How far shoes are sheared on bodies where they leave each station, by line (ahead, left) [m].
+/// Shear displacement of the shoes on bodies where they leave each disc, by line (ahead, left) [m].
 using TrackBodyShear = std::vector<std::array<Vec2, kTrackLines>>;
 
+/// Force of bodies on a track over a step.
 struct TrackBodyForce {
-  std::vector<Vec3> f_W;  ///< on the belt's carrier, by touch [N]; the body gets the opposite
-  double torque = 0;      ///< of the belt on its sprocket, against the carrier [N m]
+  /// Forces on the track's carrier by contact [N]. Each body gets the opposite.
+  std::vector<Vec3> f_W;
+  /// Torque of the track on its sprocket, against the carrier [N m].
+  double torque = 0;
 };
 
-/// Force of bodies on a belt over the next step dt [s]; moves the shear on. `touches` by line and
-/// station, as they come.
+/// Computes the force of bodies on a track over the next step dt [s] and advances `shear`.
+/// `touches` are sorted by line and station.
 ///
-/// A touch alone is as stiff as a roller, all of a flat floor together as all rollers: touches
-/// nearer than two rollers share. Several bodies at one station all press, the one that presses
-/// most also grips. Never pulls.
+/// A single contact is as stiff as a roller; all contacts of a flat floor together are as stiff as
+/// all rollers, since contacts nearer than two rollers share the stiffness. If several bodies touch
+/// one disc, all press and the one with the largest load also grips. Forces never pull.
 TrackBodyForce track_body_force(const scene::Wheel& wheel,
                                 const std::vector<TrackStation>& stations,
                                 const TrackMotion& motion, const std::vector<TrackTouch>& touches,

@@ -12,6 +12,7 @@ TrackGrip track_grip(double most, double K, double mass, double dt) {
   return {most, std::max(K, most * dt * dt / (0.25 * mass))};
 }
 
+// Adds a damping that fades out with the track's speed, since moving shoes carry shear away.
 Vec2 track_shear_force(const TrackGrip& grip, const Vec2& shear, const Vec2& slip,
                        double track_speed, double mass, double dt) {
   const auto [most, K] = grip;
@@ -23,12 +24,14 @@ Vec2 track_shear_force(const TrackGrip& grip, const Vec2& shear, const Vec2& sli
   return force.norm() > most ? Vec2(most * force.normalized()) : force;
 }
 
+// Solves the transport along the segment implicitly.
 Vec2 carry_shear(const Vec2& before, const Vec2& slip, double length, double track_speed,
                  double most, double dt, Vec2& shear) {
   const double carried = std::abs(track_speed) * dt / length;
   shear = (shear + dt * slip + carried * before) / (1 + carried);
   if (shear.norm() > most) shear *= most / shear.norm();
-  // Over the segment it grows evenly. Where nothing comes in, all of it is sheared alike.
+  // Shear grows linearly along the segment. If the track does not move, the whole segment is
+  // sheared alike.
   const double rolls = 1 - std::exp(-std::abs(track_speed) / kTrackRest);
   return shear - 0.5 * rolls * (shear - before);
 }

@@ -12,11 +12,11 @@
 namespace navvy::terramechanics {
 namespace {
 
-// Every 15 degrees, +-60: one step of a 1 m wheel's tread is 0.14 m
+// Rays every 15 degrees over +-60: their spacing on the tread of a 1 m wheel is 0.14 m.
 constexpr int kArcSamples = 9;
-// Of the radius; at 5 m/s a tyre of 0.5 m comes so far between two presses
+// Share of the radius: at 5 m/s a tyre of 0.5 m travels that far between two presses.
 constexpr double kPressedAhead = 0.1;
-// So that 0.1 m cells are not stepped over near the ground
+// Fine enough to find cells of 0.1 m near the ground.
 constexpr double kArcStep = radians(15);
 
 struct Track {
@@ -24,14 +24,14 @@ struct Track {
   double deflection = 0;  // 0: in the air
 };
 
-/// One ray from the centre, where the tread dips into the ground.
+/// Ray from the centre, where the tread penetrates the ground.
 struct Dip {
   Vec3 normal;
   double depth = 0;
 };
 
-/// The plane of the ground at p if the wheel's deepest point agrees with it, else a corner on the
-/// ray itself.
+/// Finds the dip of one ray: the plane of the ground at p if the wheel's deepest point agrees with
+/// it, otherwise an edge on the ray itself.
 Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3& ray,
            const Vec3& ground_point, const Vec3& normal, const GroundQuery& ground) {
   const Vec3 in_plane = normal - normal.dot(spin_axis) * spin_axis;
@@ -39,7 +39,7 @@ Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3&
   const double away = normal.dot(center - ground_point);
   if (tilt > 0.05) {
     const Vec3 deepest = center - in_plane * (radius / tilt);
-    // Height of the plane there; the ground must be that plane over the contact.
+    // Height of the plane there. The ground must match that plane over the contact.
     const double plane = ground_point.z() - (normal.x() * (deepest.x() - ground_point.x()) +
                                              normal.y() * (deepest.y() - ground_point.y())) /
                                                 std::max(normal.z(), 0.02);
@@ -51,14 +51,15 @@ Dip dip_at(const Vec3& center, const Vec3& spin_axis, double radius, const Vec3&
   return {-ray, std::clamp(radius - reach, 0.0, radius)};
 }
 
-/// Deflection and mean normal of one track: rays from the centre that meet ground are weighed by
-/// their dip squared, so that the deepest one leads and the normal turns without jumps as the wheel
-/// rolls over an edge.
+/// Finds deflection and mean normal of one contact strip. Rays that hit the ground are weighted by
+/// their dip squared, so that the deepest ray dominates and the normal changes continuously as the
+/// wheel rolls over an edge.
 Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius,
                    const GroundQuery& ground) {
   Track track;
   const Vec3 forward = spin_axis.cross(Vec3::UnitZ());
-  if (forward.norm() < 0.1) return track;  // lying on its side: the body's contacts hold it
+  // The wheel is on its side: collision shapes hold it.
+  if (forward.norm() < 0.1) return track;
   const Vec3 ahead = forward.normalized(), down = -ahead.cross(spin_axis);
   Vec3 normal = Vec3::Zero();
   constexpr int kMiddle = kArcSamples / 2;
@@ -79,15 +80,15 @@ Track find_contact(const Vec3& center, const Vec3& spin_axis, double radius,
   return track;
 }
 
-/// Of one track (forward, left) [N], which presses with `normal_force` [N] on firm ground or on
-/// soil.
+/// Returns the tangential force of one strip (forward, left) [N] under `normal_force` [N] on firm
+/// ground or on soil.
 Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double normal_force,
                       const Vec2& slip, double rolling, double rim_mass, double dt, Vec2& bristle,
                       double& sheared) {
   if (ground.soil == nullptr)
     return bristle_force(tyre, 0.5, slip, rolling, tyre_friction(tyre, ground, 0) * normal_force,
                          rim_mass, dt, bristle);
-  // The patch of a wheel of which both tracks bear as much.
+  // The patch of a wheel whose two strips carry this load each.
   const TyrePatch patch = tyre_patch(tyre, *ground.soil, 2 * normal_force);
   if (!(patch.pressure > 0)) {
     bristle.setZero();
@@ -99,21 +100,22 @@ Vec2 tangential_force(const scene::Wheel& tyre, const SoilState& ground, double 
   return shear_force(tyre, 0.5, slip, rolling, soil, rim_mass, dt, bristle, sheared);
 }
 
-/// How one track rolls.
+/// Motion of one contact strip.
 struct Roll {
-  Vec3 p_W = Vec3::Zero();        // where it stands [m]
+  Vec3 p_W = Vec3::Zero();        // position on the ground [m]
   Vec3 forward = Vec3::UnitX();   // unit, of the wheel
-  double speed = 0, rolling = 0;  // ahead, of the wheel and of its rim on it [m/s]
+  double speed = 0, rolling = 0;  // along forward, of the wheel and of its rim there [m/s]
   double deflection = 0;          // [m]
 };
 
-/// Depth [m] of ground that the tread meets where it rolls to: what the tyre has sunk since it
-/// came, unless the ground before it, seen along the wheel, lies as low: back into its own rut it
-/// meets none. As wheels do not stand quite along the ground, half of the depth is enough.
+/// Returns the depth [m] of soil that the tread meets ahead: the tyre's sinkage since it arrived,
+/// unless the ground ahead, in the direction of the wheel, is as low. In its own rut it meets none.
+/// Half of the depth is enough for the full resistance, since wheels are not exactly parallel to
+/// the ground.
 double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const GroundQuery& ground,
                  SoilState& met) {
-  // Beyond the columns that are pressed for the tread where it is and where it will be soon, seen
-  // between their middles.
+  // Look beyond the columns that are pressed for the tread where it is and where it will be soon,
+  // between their centres.
   const double beyond = 0.5 * chord_length(tyre.radius, roll.deflection + sunk) +
                         kPressedAhead * tyre.radius + 1.5 * ground.lattice().spacing;
   const Vec3 p = roll.p_W + (roll.speed > 0 ? beyond : -beyond) * roll.forward;
@@ -121,9 +123,9 @@ double depth_met(const scene::Wheel& tyre, const Roll& roll, double sunk, const 
   return std::clamp(2 * (ground.height(p.x(), p.y()) - p.z()), 0.0, sunk);
 }
 
-/// What soil ahead takes of one track's push [N]: compaction, R = b int p dz [Bekker 1969], the
-/// work of sinking a way further, and what the rim pushes ahead of it (bulldozing). Smooth through
-/// zero, within what the step can bear.
+/// Returns the resistance of soil ahead of one strip [N]: compaction, R = b int p dz [Bekker 1969],
+/// the work of sinking over further distance, plus bulldozing. Smooth through zero, within the
+/// stability of an explicit step.
 double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQuery& ground,
                        double normal_force, double rim_mass, double dt) {
   const Sinkage sunk = ground.sinking(roll.p_W.x(), roll.p_W.y());
@@ -137,7 +139,8 @@ double soil_resistance(const scene::Wheel& tyre, const Roll& roll, const GroundQ
   return resistance * std::tanh(roll.speed / band);
 }
 
-/// How far the ground under the tyres lies below that beside them [m]: the rut, whoever pressed it.
+/// Returns the depth of the ground under the tyres below the ground beside them [m]: the rut,
+/// whatever pressed it.
 double sinkage(const scene::Wheel& tyre, const Pose& X, const GroundQuery& ground) {
   const Vec3 p = X.translation(), left = X.linear().col(1);
   const double aside = 0.5 * tyre.twin_spacing + tyre.width;
@@ -157,6 +160,7 @@ double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double p
   return std::min(tyre.friction, strength.slope + strength.cohesion / pressure);
 }
 
+// Each strip has its own contact; the wheel's slip and sinkage are their mean.
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground,
                      double dt, TyreState& state) {
   TyreForce out;
@@ -174,7 +178,7 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
       state.sheared[static_cast<std::size_t>(t)] = 0;
       continue;
     }
-    // What the tread does at the contact: the carrier's motion there, and the rim's by the spin.
+    // Velocities of the tread at the contact: of the carrier, and of the rim by its spin.
     const double loaded = tyre.radius - track.deflection;
     const Vec3 p = arm - loaded * in_plane.normalized();  // contact from the centre
     const Vec3 v_carrier = motion.v_W + motion.w_W.cross(p);
@@ -193,13 +197,13 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     const Vec3 force = normal_force * track.normal + f.x() * ahead + f.y() * left;
     const Roll roll{center + p, motion.X_WWheel.linear().col(0), v_carrier.dot(ahead), rolling,
                     track.deflection};
-    // Soil's pressure points to the axle and turns nothing.
+    // The soil's pressure points at the axle and exerts no torque.
     out.force_W += force - soil_resistance(tyre, roll, ground, normal_force, rim_mass, dt) * ahead;
     out.moment_W += p.cross(force);
     out.deflection = std::max(out.deflection, track.deflection);
 
-    // Rolling resistance turns against the spin; smooth through zero, within what the step can
-    // bear.
+    // Rolling resistance acts against the spin. It is smooth through zero, within the stability of
+    // an explicit step.
     const double band =
         std::max(0.05, tyre.rolling_resistance * normal_force * dt / (0.15 * rim_mass));
     out.moment_W -=
@@ -208,7 +212,7 @@ TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const G
     ground_speed += normal_force * v_carrier.dot(ahead);
     load += normal_force;
   }
-  // Slip of the wheel as a whole, weighed by what each track carries.
+  // Slip of the whole wheel, weighted by the load of each strip.
   if (load > 0) {
     rim_speed /= load;
     ground_speed /= load;
@@ -223,7 +227,8 @@ void TyreState::visit(Archive& a) {
   a("bristle", bristle);
   a("sheared", sheared);
   for (const double one : sheared)
-    a.require(one >= 0 && one < 1e6, "sheared", "a tyre has sheared its soil by no way");
+    a.require(one >= 0 && one < 1e6, "sheared",
+              "the shear under a tyre must be finite and not negative");
 }
 
 void TyreForce::visit(Archive& a) {

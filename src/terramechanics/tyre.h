@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tyre on ground: radial spring and damper, bristles with Coulomb's limit, rolling resistance.
-// Knows no engine. On soil the limit is the soil's shear strength, mobilised by displacement
-// (terramechanics/shear.h, tyre_track.h).
+// Tyre on ground: radial spring and damper, bristles limited by Coulomb friction, rolling
+// resistance. Independent of any engine. On soil the limit is the soil's shear strength, mobilised
+// by displacement (terramechanics/shear.h, tyre_track.h).
 //
-// Bristles: the tread is a brush that stretches by the slip and rolls out again over a relaxation
-// length sigma [Pacejka 2012, section 7.2]. With u the stretch, v_s the slip velocity and V the
-// rolling speed:
+// The tread is a brush that deflects with the slip and recovers over a relaxation length sigma
+// [Pacejka 2012, section 7.2]. With u the deflection, v_s the slip velocity and V the rolling
+// speed:
 //
 //   du/dt = v_s - |V| / sigma u,     F = -k u - c v_s,     |F| <= mu N
 #pragma once
@@ -19,49 +19,59 @@
 
 namespace navvy::terramechanics {
 
-/// All the memory a tyre has, by track (the tyres of a twin pair, or two halves of a single tyre).
+/// State of a tyre by contact strip: the tyres of a twin pair, or two halves of a single tyre.
 struct TyreState {
-  std::array<Vec2, 2> bristle{Vec2::Zero(), Vec2::Zero()};  ///< deflection forward and left [m]
-  /// How far soil under it has yielded [m].
+  /// Deflection of the bristles forward and left [m].
+  std::array<Vec2, 2> bristle{Vec2::Zero(), Vec2::Zero()};
+  /// Displacement by which the soil under the strip has yielded [m].
   std::array<double, 2> sheared{};
 
+  /// Visits bristles and yielded soil. @throws InputError for a value out of range.
   void visit(Archive& a);
 };
 
-/// How a wheel moves at the start of a step.
+/// Motion of a wheel at the start of a step.
 struct TyreMotion {
-  /// Origin at the centre, y = spin axis, x forward, not spinning.
+  /// Pose of the wheel: origin at the centre, y = spin axis, x forward, not spinning.
   Pose X_WWheel = Pose::Identity();
-  Vec3 v_W = Vec3::Zero();  ///< of the centre [m/s]
-  Vec3 w_W = Vec3::Zero();  ///< of the carrier, without the spin [rad/s]
-  double spin = 0;          ///< about y relative to the carrier [rad/s]
-  /// Of the wheel about y [kg m2]; bounds what an explicit step may do.
+  /// Velocity of the centre [m/s].
+  Vec3 v_W = Vec3::Zero();
+  /// Angular velocity of the carrier, without the spin [rad/s].
+  Vec3 w_W = Vec3::Zero();
+  /// Spin about y relative to the carrier [rad/s].
+  double spin = 0;
+  /// Inertia of the wheel about y [kg m2]. Limits an explicit step.
   double spin_inertia = 10;
 };
 
-/// What the ground does to it over the step.
+/// Force of the ground on a wheel over a step.
 struct TyreForce {
-  Vec3 force_W = Vec3::Zero();   ///< [N]
-  Vec3 moment_W = Vec3::Zero();  ///< about the wheel's centre, on wheel and carrier together [N m]
-  double slip = 0;               ///< (rim speed - ground speed) / the larger of both [-]
-  double sinkage = 0;            ///< ground beside the wheel above the ground under it [m]
-  double deflection = 0;         ///< radial, of the deeper track [m]
+  Vec3 force_W = Vec3::Zero();  ///< [N]
+  /// Moment about the wheel's centre, on wheel and carrier together [N m].
+  Vec3 moment_W = Vec3::Zero();
+  /// Slip (rim speed - ground speed) / the larger of both [-].
+  double slip = 0;
+  /// Height of the ground beside the wheel above the ground under it [m].
+  double sinkage = 0;
+  /// Radial deflection of the deeper contact strip [m].
+  double deflection = 0;
 
+  /// Visits all fields.
   void visit(Archive& a);
 };
 
-/// Grip of a tyre that presses with `pressure` [Pa] on this ground: largest tangential over normal
-/// force [-]. The one place that decides it. The weaker of rubber on what it stands on
-/// (`scene::Wheel::friction`) and the soil itself, tan phi + c / p with c of its density state
-/// (surface_strength); on a firm floor the rubber's.
+/// Returns the grip of a tyre that presses on this ground with `pressure` [Pa]: largest tangential
+/// over normal force [-]. It is the weaker of rubber friction (`scene::Wheel::friction`) and the
+/// strength of the soil, tan phi + c / p with the c of its density (surface_strength). On a firm
+/// floor it is the rubber's.
 double tyre_friction(const scene::Wheel& tyre, const SoilState& ground, double pressure);
 
-/// Force of the ground on a wheel over the next step dt [s]; moves the bristles. Reads about 80
-/// ground heights and asks for the soil once a track that touches.
+/// Computes the force of the ground on a wheel over the next step dt [s] and advances the bristles
+/// in `state`. Reads some 80 ground heights, and the soil once per contact strip that touches.
 ///
-/// Each track is a disc that feels the ground by rays over +-60 degrees of its lower half, so edges
-/// and steps carry it as well as planes. Force ahead and to the side share one limit. A tyre's
-/// force never pushes it off the ground faster than 0.25 m/s, whatever the ground does under it.
+/// Each contact strip is a disc that senses the ground by rays over +-60 degrees of its lower half,
+/// so it also rolls over edges and steps. Longitudinal and lateral force share one limit. The force
+/// never pushes the tyre off the ground faster than 0.25 m/s.
 TyreForce tyre_force(const scene::Wheel& tyre, const TyreMotion& motion, const GroundQuery& ground,
                      double dt, TyreState& state);
 

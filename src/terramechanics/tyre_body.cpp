@@ -7,14 +7,15 @@
 
 namespace navvy::terramechanics {
 
+// All velocities are relative to the body.
 Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const BodyTouch& touch,
                      double dt, Vec2* bristle) {
   const Vec3 axis = motion.X_WWheel.linear().col(1);
   const Vec3 p = touch.p_W - motion.X_WWheel.translation();
   const Vec3 v_carrier = motion.v_W + motion.w_W.cross(p) - touch.v_W;
   const Vec3 v_rim = motion.spin * axis.cross(p);
-  // The body in series with the wheel: an explicit step is stable while k dt^2 and c dt stay below
-  // what they move.
+  // Body and wheel are in series: an explicit step is stable while k dt^2 and c dt are below the
+  // mass that they move.
   scene::Wheel soft = tyre;
   if (touch.inverse_mass > 0) {
     soft.stiffness = std::min(tyre.stiffness, 0.4 / (touch.inverse_mass * dt * dt));
@@ -24,7 +25,8 @@ Vec3 tyre_body_force(const scene::Wheel& tyre, const TyreMotion& motion, const B
   const double normal_force = radial_force(soft, 0.5, deflection, -touch.normal.dot(v_carrier));
   if (bristle == nullptr) return normal_force * touch.normal;
 
-  // Ahead in the plane of the contact; a wheel that is touched from its side has none of its own.
+  // Ahead in the plane of the contact. A contact from the side has no direction of its own, so use
+  // the wheel's.
   Vec3 ahead = axis.cross(touch.normal);
   if (ahead.norm() < 0.05) ahead = motion.X_WWheel.linear().col(0);
   ahead = (ahead - ahead.dot(touch.normal) * touch.normal).normalized();

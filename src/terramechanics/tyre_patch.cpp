@@ -9,8 +9,7 @@
 namespace navvy::terramechanics {
 namespace {
 
-// Each round halves the error of the sinkage: eight leave 4e-3 of the first guess, a millimetre at
-// most.
+// Each round halves the error of the sinkage: eight leave 4e-3 of the first guess, at most 1 mm.
 constexpr int kRounds = 8;
 
 }  // namespace
@@ -23,6 +22,7 @@ double TyrePatch::tread_depth(double ahead) const {
   return std::clamp(sinkage + deflection - ahead * ahead / (2 * radius), 0.0, sinkage);
 }
 
+// Iterates length, pressure and sinkage, which depend on each other.
 TyrePatch tyre_patch(const scene::Wheel& tyre, const scene::Soil& soil, double load) {
   TyrePatch patch;
   patch.radius = tyre.radius;
@@ -38,8 +38,8 @@ TyrePatch tyre_patch(const scene::Wheel& tyre, const scene::Soil& soil, double l
     patch.pressure = share / (length * tyre.width);
     patch.sinkage = 0.5 * (patch.sinkage + plate_sinkage(soil, patch.pressure, tyre.width));
   }
-  // Where the round tread leaves the ground; the length of the mean pressure lies between it and
-  // the flat part.
+  // Half length to where the round tread leaves the ground. The length of the mean pressure is
+  // between this and the flat part.
   patch.half_length = 0.5 * chord_length(tyre.radius, patch.deflection + patch.sinkage);
   return patch;
 }

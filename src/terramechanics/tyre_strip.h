@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one track of a tyre (a tyre of a twin pair, or half of a single one) does where it touches,
-// whatever it touches: carcass spring and bristles, shared by the laws on ground and on bodies.
+// Contact strip of a tyre (a tyre of a twin pair, or half of a single tyre): carcass spring and
+// bristles, shared by the laws on ground and on bodies.
 #pragma once
 
 #include "core/math.h"
@@ -8,37 +8,41 @@
 
 namespace navvy::terramechanics {
 
-inline constexpr double kMaxDeflection = 0.25;  // of the radius: tread on the rim
+// Share of the radius at which the tread meets the rim.
+inline constexpr double kMaxDeflection = 0.25;
 
-/// Distance of the tracks' middles from the wheel's centre along the axle [m].
+/// Returns the distance of the strips' middles from the wheel's centre along the axle [m].
 double track_offset(const scene::Wheel& tyre);
 
-/// Spring and damper of the carcass [N], never pulling, bounded where the tread meets the rim.
-/// `share` of the wheel's stiffness is this track's, `closing` the speed at which it is pressed in
-/// [m/s].
+/// Returns the force of the carcass spring and damper [N]. Never pulls; limited where the tread
+/// meets the rim. `share` is the strip's part of the wheel's stiffness, `closing` the compression
+/// speed [m/s].
 double radial_force(const scene::Wheel& tyre, double share, double deflection, double closing);
 
-/// Stretches the bristle by the slip of this step and returns the force on the tyre (forward, left)
-/// [N], at most `limit`. `rim_mass` [kg] is what the force accelerates: it bounds what an explicit
-/// step may do.
+/// Advances the bristle by the slip of this step and returns the force on the tyre (forward, left)
+/// [N], at most `limit`. `rim_mass` [kg] is the mass that the force accelerates; it limits an
+/// explicit step.
 Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
                    double limit, double rim_mass, double dt, Vec2& bristle);
 
-/// What soil under a track does when it is sheared.
+/// Shear of the soil under a contact strip.
 struct TrackShear {
-  double limit = 0;        ///< largest force along the ground [N]
-  double janosi_k = 0;     ///< displacement at which 63 % of it is mobilised [m]
-  double half_length = 0;  ///< of the patch: fresh soil comes under it within this way [m]
+  /// Largest force along the ground [N].
+  double limit = 0;
+  /// Displacement at which 63 % of it is mobilised [m].
+  double janosi_k = 0;
+  /// Half length of the patch: the soil under it is replaced over this distance [m].
+  double half_length = 0;
 };
 
-/// The same on soil: the bristle in series with soil that yields once its mobilised strength is
-/// reached,
+/// Computes the same on soil: the bristle in series with soil that yields once its mobilised
+/// strength is reached,
 ///
 ///   F = -k u - c v_s,  |F| <= limit (1 - exp(-j / K)),  dj/dt = yielding - |V| / l j
 ///
-/// with `sheared` j [m], kept in TyreState. Rolling steadily at a small slip s, j = s l: the mean
-/// displacement over a patch of length 2 l. Standing soil that has yielded holds what it bore. K is
-/// above 0; towards 0 it is bristle_force.
+/// with `sheared` j [m], stored in TyreState. In steady rolling at a small slip s, j = s l: the
+/// mean displacement over a patch of length 2 l. Soil at rest that has yielded holds what it bore.
+/// K is above 0; towards 0 the law becomes bristle_force.
 Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
                  const TrackShear& soil, double rim_mass, double dt, Vec2& bristle,
                  double& sheared);

@@ -7,6 +7,7 @@
 
 namespace navvy::vehicle {
 
+// Round shapes take the box around them.
 std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
   const scene::Geometry& g = collision.geometry;
   geometry::OrientedBox box{collision.X_LC, Vec3::Zero()};

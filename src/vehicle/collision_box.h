@@ -9,8 +9,8 @@
 
 namespace navvy::vehicle {
 
-/// The box round a collision shape in its link's frame; none for planes, which are ground of their
-/// own, and for meshes that cannot be read, of which the loader has told.
+/// Returns the bounding box of a collision shape in its link's frame. Empty for planes, which are
+/// ground of their own, and for meshes that cannot be read, which the loader has reported.
 std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision);
 
 }  // namespace navvy::vehicle

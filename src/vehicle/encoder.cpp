@@ -7,10 +7,11 @@
 namespace navvy::vehicle {
 namespace {
 
-// Beyond 2^53 a double no longer tells one count from the next; a wheel of 10^7 counts a turn comes
-// there in 28 years at a turn a second.
+// Beyond 2^53 a double cannot represent every count. A wheel of 10^7 counts per turn gets there in
+// 28 years at one turn per second.
 constexpr double kMostCounts = 0x1.0p53;
-// In one step. A real wheel makes some hundred; who jumps farther loses his share without dice.
+// Largest number of counts per step that are drawn one by one; a real wheel makes some hundred. A
+// longer jump loses its share without random numbers.
 constexpr std::int64_t kMostDice = 100000;
 
 }  // namespace
@@ -24,8 +25,9 @@ JointEncoder::JointEncoder(const scene::Encoder& about, double position, std::ui
 void JointEncoder::set_slip(double slip) { slip_ = std::clamp(slip, -kMostSlip, kMostSlip); }
 void JointEncoder::set_missed(double share) { missed_ = std::clamp(share, 0.0, 1.0); }
 
+// Counts whole edges since the last call and loses some of them at random.
 void JointEncoder::advance(double position) {
-  // A wheel that slips turns by 1 / (1 - s) of what it rolls.
+  // A slipping wheel turns by 1 / (1 - s) times the distance that it rolls.
   turned_ += (position - position_) / (2 * kPi) * about_.counts_per_turn / (1 - slip_);
   turned_ = std::clamp(turned_, -kMostCounts, kMostCounts);
   position_ = position;
@@ -45,15 +47,17 @@ std::int64_t JointEncoder::lost_of(std::int64_t edges) {
 }
 
 std::uint64_t JointEncoder::counts() const {
-  // The low bits of a count below 0, modulo 2^64, are those of a register that went down through 0.
+  // The low bits of a count below 0, modulo 2^64, are those of a register that wrapped downwards.
   return counter_ & ((std::uint64_t{1} << about_.bits) - 1);
 }
 
+// Visits everything that decides the counts to come.
 void JointEncoder::visit(Archive& a) {
-  // The bounds keep what is worked out of them within 64 bits.
+  // The bounds keep all derived counts within 64 bits.
   constexpr auto kMost = static_cast<std::int64_t>(kMostCounts);
   a("position", position_);
-  a.require(std::isfinite(position_), "position", "an encoder's joint has no finite place");
+  a.require(std::isfinite(position_), "position",
+            "the position of an encoder's joint must be finite");
   a.ranged("turned", turned_, -kMostCounts, kMostCounts);
   a.ranged("edges", edges_, -kMost, kMost);
   a("counter", counter_);
@@ -62,12 +66,13 @@ void JointEncoder::visit(Archive& a) {
   a("dice", dice_);
 }
 
+// Draws one seed per encoder from the machine's.
 Encoders::Encoders(const scene::Machine& machine, const PhysicsEngine& engine, int index,
                    std::uint64_t seed) {
   Random seeds(seed);
   for (const scene::Encoder& about : machine.encoders) {
     const int joint = machine.joint_index(about.joint);
-    // The loader refuses such an encoder; a scene made by hand has one that stands still.
+    // The loader refuses such an encoder; in a scene built in code it never counts.
     joints_.push_back(joint);
     encoders_.emplace_back(about, joint < 0 ? 0.0 : engine.joint(index, joint).position,
                            seeds.next());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pump for all cylinders of a machine: who gets how much oil. Knows no engine.
+// Pump that feeds all cylinders of a machine, and its distribution of oil. Independent of any
+// engine.
 #pragma once
 
 #include <vector>
@@ -9,34 +10,37 @@
 
 namespace navvy::vehicle {
 
-/// What one hydraulic function asks of the pump in a step.
+/// Demand of one hydraulic function in a step.
 struct OilDemand {
-  double flow = 0;  ///< that its valve would pass if there were oil enough [m3/s]
+  /// Flow that its valve would pass with enough oil [m3/s].
+  double flow = 0;
   double pressure =
-      /// Its load against the motion asked for; 0 when the load helps, or while it holds or stalls
-      /// [Pa].
+      /// Load against the commanded motion [Pa]; 0 when the load assists, or while the function
+      /// holds or stalls.
       0;
 };
 
-/// A load-sensing pump with flow sharing, as on wheeled excavators (LUDV and its kin).
+/// Load-sensing pump with flow sharing, as on wheeled excavators (LUDV and similar).
 ///
-/// It delivers what the valves let through, at the pressure of the function with the heaviest load.
-/// When that is more than its flow, or than its power at that pressure, all functions are slowed by
-/// the same share. A function that only holds, or that stalls, opens its valve hardly at all and
-/// neither takes oil nor sets the pressure. Lowering takes oil like lifting; nothing is
-/// regenerated. The swashplate lags behind the load: for some 0.3 s after a load came it may give
-/// more than its power. Meant for steps of up to 5 ms: in longer ones a stalled valve opens by more
-/// than a trifle.
+/// It delivers what the valves pass, at the pressure of the function with the heaviest load. If
+/// that exceeds its flow, or its power at that pressure, all functions are slowed by the same
+/// share. A function that holds or stalls hardly opens its valve: it neither takes oil nor
+/// determines the pressure. Lowering takes oil like lifting; nothing is regenerated. The swashplate
+/// lags behind the load: for some 0.3 s after a load rises, the pump may exceed its power. Steps
+/// must not exceed 5 ms: in longer ones a stalled valve opens noticeably.
 class HydraulicPump {
  public:
-  /// Share of the asked flow that every function gets in this step, 0 to 1.
+  /// Returns the share of the demanded flow that every function gets in this step, 0 to 1.
   double share(const scene::Pump& pump, const std::vector<OilDemand>& demands, double dt);
-  /// Tells what the functions took in the step [m3/s].
+  /// Records the flow that the functions took in the step [m3/s].
   void settle(double flow) { flow_ = flow; }
 
-  double flow() const { return flow_; }          ///< delivered in the last step [m3/s]
-  double pressure() const { return pressure_; }  ///< as the swashplate sees it: smoothed [Pa]
+  /// Returns the flow in the last step [m3/s].
+  double flow() const { return flow_; }
+  /// Pressure that the swashplate follows, smoothed [Pa].
+  double pressure() const { return pressure_; }
 
+  /// Visits flow, pressure and share.
   void visit(Archive& a);
 
  private:

@@ -7,36 +7,39 @@
 namespace navvy::vehicle {
 namespace {
 
-// [1/s] position error to speed; 50 ms is a proportional valve's bandwidth (U)
+// [1/s] position error to speed; 50 ms is the bandwidth of a proportional valve (U).
 constexpr double kGain = 20;
-// [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools)
+// [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools).
 constexpr double kValveTime = 0.15;
-// Of a bound: the solver stops within its residual, not at the last bit.
+// Share of a limit: the solver stops within its residual, not at the last bit.
 constexpr double kSaturated = 0.999;
-constexpr double kHolds = 0.02;       // of full flow: less only keeps a joint in its place
-constexpr double kLeastShare = 0.01;  // of the oil asked for
+// Share of the full flow; less only holds a joint in place.
+constexpr double kHolds = 0.02;
+// Smallest share of the oil asked for.
+constexpr double kLeastShare = 0.01;
 
 }  // namespace
 
+// One law per mode; only positions need a braking distance.
 double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& limits, double q,
                                 double dt) const {
   double wanted = input_.target;
-  // All of it is what the actuator can do here and now, another speed up than down.
+  // Share of the speed available here and now, which differs between up and down.
   if (input_.mode == JointMode::kOpening)
     wanted *= wanted > 0 ? limits.speed_positive : limits.speed_negative;
   if (input_.mode == JointMode::kPosition) {
-    // A target beyond a stop is the stop: the servo brakes for it as for any other place.
+    // A target beyond a stop is the stop: the servo brakes for it as for any other position.
     const double target =
         joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
     const double error = target - q,
                  speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
-    // Deceleration it may count on: what the closing valve gives, and half of what its effort does
-    // to the load.
+    // Available deceleration: that of the closing valve, plus half of what the effort does to the
+    // load.
     double brake = 0.4 * speed_limit / kValveTime;
     const double effort = std::min(limits.effort_positive, limits.effort_negative);
     if (limits.inertia > 0) brake = std::min(brake, 0.5 * effort / limits.inertia);
-    // Far away the speed from which it still stops, near by proportional to the error, and stable
-    // in a long step.
+    // Far away the speed from which it can still stop, close by proportional to the error, and
+    // stable in a long step.
     const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error),
                                   std::sqrt(2 * brake * std::abs(error)));
     wanted = std::copysign(speed, error);
@@ -44,29 +47,32 @@ double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& li
   return std::clamp(wanted, -limits.speed_negative, limits.speed_positive);
 }
 
+// Slews the valve towards the wanted speed.
 double JointServo::open(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
                         double dt) {
   flows_ = false;
   if (!has_valve()) return 0;
   wanted_ = wanted_speed(joint, limits, q, dt);
-  // Against a load it cannot move, the valve opens from what really flows; of that it got a share.
+  // Against a load that it cannot move, the valve opens from the actual flow, of which it got a
+  // share.
   const double from = saturated_
                           ? std::clamp(qd / share_, -limits.speed_negative, limits.speed_positive)
                           : velocity_;
   const double fastest = std::max(limits.speed_positive, limits.speed_negative),
                slew = dt / kValveTime * fastest;
-  // The spool moves by its own time, whatever is asked.
+  // The spool needs its own time, whatever is asked.
   velocity_ = std::clamp(wanted_, from - slew, from + slew);
-  // Less is holding: no oil to speak of, no load for the pump to see.
+  // A smaller opening is holding: hardly any oil, and no load for the pump.
   flows_ = std::abs(velocity_) > std::max(1.5 * slew, kHolds * fastest);
   return velocity_;
 }
 
+// Effort alone, or a velocity with limits of effort.
 JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimits& limits,
                                       double q, double qd, double share, double dt) {
   Demand out;
   if (!has_valve()) {
-    // Only the bearing's friction holds it.
+    // Only the friction of the bearing holds it.
     out.effort_low = -joint.friction;
     out.effort_high = joint.friction;
     if (input_.mode == JointMode::kEffort)
@@ -76,11 +82,11 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
     return out;
   }
   share_ = std::max(share, kLeastShare);
-  // Short of oil all functions slow down by one share; the valve stays as open as it is.
+  // Short of oil, all functions slow down by the same share; the valve stays open.
   const double flowing = share_ * velocity_;
   out.velocity = flowing;
   if (input_.mode != JointMode::kPosition) {
-    // A velocity of zero is no brake by itself: what solver errors and loads shift is driven back.
+    // Zero velocity alone does not brake: drive back what solver errors and loads shift.
     if (!holding_ || saturated_) held_ = q;
     holding_ = true;
     held_ += flowing * dt;
@@ -88,20 +94,21 @@ JointServo::Demand JointServo::demand(const scene::Joint& joint, const JointLimi
   } else {
     holding_ = false;
   }
-  // The row may use all the effort there is to reach that velocity.
+  // The row may use the full effort to reach that velocity.
   out.effort_low = -limits.effort_negative;
   out.effort_high = limits.effort_positive;
   return out;
 }
 
+// Detects saturation and stall from the effort applied.
 void JointServo::settle(const Demand& demand, const JointLimits& limits, double effort, double q,
                         double qd, double dt) {
   (void)q;
-  // At a bound the load has its way: the valve then follows what really flows.
+  // At a limit the load moves the joint, and the valve follows the actual flow.
   saturated_ = has_valve() && (effort >= kSaturated * demand.effort_high ||
                                effort <= kSaturated * demand.effort_low);
-  // Stalled: all effort spent, in the direction asked for, and less than a tenth of the speed
-  // reached that it got oil for.
+  // Stalled: full effort in the commanded direction, and less than a tenth of the speed that its
+  // oil allows.
   const double speed_limit = wanted_ > 0 ? limits.speed_positive : limits.speed_negative;
   const bool asked = std::abs(wanted_) > 0.02 * std::min(speed_limit, 1.0);
   const bool stuck = saturated_ && asked && effort * wanted_ > 0 &&
@@ -123,6 +130,7 @@ void JointLimits::visit(Archive& a) {
   a("inertia", inertia);
 }
 
+// Visits the command and everything the next step reads.
 void JointServo::visit(Archive& a) {
   a("input", input_);
   a("velocity", velocity_);

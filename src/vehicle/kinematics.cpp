@@ -35,20 +35,20 @@ const scene::Link& link_of(const scene::Machine& machine, int index) {
 }  // namespace
 
 Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q) {
-  // Child in parent at 0, then the joint's motion in the joint's own frame, which sits in the
-  // child.
+  // Child in parent at 0, then the motion in the joint's own frame, which is fixed in the child.
   const Pose X_MC = link_of(machine, joint.child).X_ML;
   const Pose X_PC0 = joint.parent < 0 ? X_MC : link_of(machine, joint.parent).X_ML.inverse() * X_MC;
   return X_PC0 * joint.X_LcJ * joint_motion(joint, q) * joint.X_LcJ.inverse();
 }
 
+// Each link follows from its parent's pose.
 std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
                                      const std::vector<double>& q) {
   std::vector<Pose> poses(machine.links.size(), X_WB);
   std::vector<char> placed(machine.links.size(), 0);
   if (poses.empty()) return poses;
   placed[0] = 1;
-  // Joints may be listed in any order: sweep until nothing more hangs on a placed link (once for an
+  // Joints may be listed in any order: repeat until no link follows a placed one (one pass for an
   // ordered tree).
   for (bool moved = true; moved;) {
     moved = false;
@@ -67,7 +67,7 @@ std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& 
   return poses;
 }
 
-// Side by side they act as one of their summed area.
+// Cylinders side by side act as one of their summed area.
 double head_area(const scene::Cylinder& cylinder) {
   return cylinder.count * kPi / 4 * cylinder.bore * cylinder.bore;
 }
@@ -83,8 +83,8 @@ CylinderMap::CylinderMap(const scene::Machine& machine, const scene::Cylinder& c
   const scene::Joint& joint = machine.joints[static_cast<std::size_t>(joint_)];
   if (joint.type != JointType::kRevolute && joint.type != JointType::kPrismatic)
     refuse(cylinder, cylinder.joint, "a cylinder needs a revolute or prismatic joint");
-  // Either end may be the parent: a boom's cylinder stands on the chassis, a stick's on the boom it
-  // is pinned to.
+  // Either end may be the parent: a boom's cylinder is attached to the chassis, a stick's to the
+  // boom that carries it.
   const int base = machine.link_index(cylinder.base_link),
             rod = machine.link_index(cylinder.rod_link);
   if (base < 0) refuse(cylinder, cylinder.base_link, "no link of this name");
@@ -96,12 +96,12 @@ CylinderMap::CylinderMap(const scene::Machine& machine, const scene::Cylinder& c
            "base_link and rod_link must be the two links of joint '" + joint.name + "'");
   base_link_ = base;
   prismatic_ = joint.type == JointType::kPrismatic;
-  // A joint without limits is looked at over a whole turn.
+  // Check a joint without limits over a whole turn.
   has_limits_ = joint.has_limits;
   lower_ = joint.has_limits ? joint.lower : -kPi;
   upper_ = joint.has_limits ? joint.upper : kPi;
 
-  // What never changes is worked out here, so that a step costs one rotation and a few products.
+  // Compute all constants here, so that a step costs one rotation and a few products.
   X_parent_pivot_ = joint_pose(machine, joint, 0) * joint.X_LcJ;
   X_pivot_child_ = joint.X_LcJ.inverse();
   axis_ = joint.axis.normalized();
@@ -111,7 +111,7 @@ CylinderMap::CylinderMap(const scene::Machine& machine, const scene::Cylinder& c
   axis_base_ = X_base_pivot.linear() * axis_ * (base_is_child_ ? -1.0 : 1.0);
 
   if (cylinder_.has_linkage) {
-    // Which of the two assemblies: see the header. Decided in the middle, kept for every q.
+    // Choose the assembly (see the header) in the middle of the range and use it for every q.
     const Vec3 c = rod_in_base(0.5 * (lower_ + upper_)) * cylinder_.p_coupler;
     const Vec3 line = c - cylinder_.p_rocker;
     branch_ = axis_base_.dot(line.cross(p_joint_ - cylinder_.p_rocker)) > 0 ? -1 : 1;
@@ -123,6 +123,7 @@ CylinderMap::CylinderMap(const scene::Machine& machine, const scene::Cylinder& c
   check();
 }
 
+// Inverts the joint's motion if the base is the child.
 Pose CylinderMap::rod_in_base(double q) const {
   Pose motion = Pose::Identity();
   if (prismatic_)
@@ -134,23 +135,25 @@ Pose CylinderMap::rod_in_base(double q) const {
   return base_is_child_ ? X_parent_child.inverse() : X_parent_child;
 }
 
+// Intersects two circles and takes the chosen branch.
 bool CylinderMap::close_linkage(const Vec3& c, Vec3& pin) const {
-  // Two circles in the plane across the axis: about the rocker pivot and about the bucket's coupler
-  // pin.
+  // Two circles in the plane normal to the axis: about the rocker pivot and about the bucket's
+  // coupler pin.
   const Vec3& r = cylinder_.p_rocker;
-  // Flattened into the plane: pins may lie beside each other along the axis.
+  // Project into the plane: pins may be offset from each other along the axis.
   Vec3 line = c - r;
   line -= axis_base_.dot(line) * axis_base_;
-  // Intersection of the circles: how far along the line, and how far across it.
+  // Intersection of the circles: position along the line and distance from it.
   const double d = std::max(line.norm(), 1e-9), a = cylinder_.rocker_coupler, b = cylinder_.coupler;
   const double along = (d * d + a * a - b * b) / (2 * d);
   const double across2 = a * a - along * along;
   const Vec3 u = line / d;
-  // Out of reach the nearest point is taken: numbers stay finite, and the caller is told.
+  // Out of reach, take the nearest point: numbers stay finite and the return value reports it.
   pin = r + along * u + branch_ * std::sqrt(std::max(across2, 0.0)) * axis_base_.cross(u);
   return across2 > 0;
 }
 
+// Length and lever follow from the pins and the velocity of the rod's pin.
 CylinderGeometry CylinderMap::geometry(double q) const {
   CylinderGeometry g;
   const Pose X = rod_in_base(q);
@@ -168,12 +171,12 @@ CylinderGeometry CylinderMap::geometry(double q) const {
     Vec3 pin;
     close_linkage(c, pin);
     const Vec3 arm = pin - cylinder_.p_rocker, bar = pin - c;
-    // The pin turns about the rocker pivot, and the coupler keeps its length: (v_pin - v_c) . bar =
-    // 0.
+    // The pin turns about the rocker pivot, and the coupler's length is constant: (v_pin - v_c) .
+    // bar = 0.
     const Vec3 turn = axis_base_.cross(arm);
     const double rate = velocity(c).dot(bar) / turn.dot(bar);
     const double share = cylinder_.rocker_rod / cylinder_.rocker_coupler;
-    // Rod pin and coupler pin lie on one ray of the rocker.
+    // Rod pin and coupler pin are on one ray of the rocker.
     g.p_rod = cylinder_.p_rocker + share * arm;
     v_rod = share * rate * turn;
   }
@@ -184,25 +187,26 @@ CylinderGeometry CylinderMap::geometry(double q) const {
   return g;
 }
 
+// Pressure x area x lever, and flow / (area x lever).
 CylinderLimits CylinderMap::limits(const CylinderGeometry& g) const {
   const double head = head_area(cylinder_), rod = rod_area(cylinder_), lever = std::abs(g.lever);
-  // A lever near zero would allow any speed; the floor keeps numbers finite.
+  // A lever near zero would allow any speed; the lower bound keeps numbers finite.
   const double safe = std::max(lever, 1e-4);
   const double push = cylinder_.pressure * head * lever, pull = cylinder_.pressure * rod * lever;
   const double extend = cylinder_.flow / (head * safe), retract = cylinder_.flow / (rod * safe);
-  // With a negative lever the extending cylinder turns the joint negatively: the two sides change
-  // places.
+  // With a negative lever the extending cylinder turns the joint negatively: swap both sides.
   if (g.lever >= 0) return {push, pull, extend, retract};
   return {pull, push, retract, extend};
 }
 
 CylinderLimits CylinderMap::limits(double q) const { return limits(geometry(q)); }
 
+// Samples the whole range of the joint.
 void CylinderMap::check() const {
   if (cylinder_.bore <= 0 || cylinder_.rod < 0 || cylinder_.rod >= cylinder_.bore)
     refuse(cylinder_, std::to_string(cylinder_.rod),
            "rod must be less than bore, both [m] and positive");
-  // A direct cylinder always closes; a linkage is tried over the whole range of the joint.
+  // A direct cylinder always closes; check a linkage over the whole range of the joint.
   if (!cylinder_.has_linkage || !has_limits_) return;
   constexpr int kSamples = 64;
   for (int i = 0; i <= kSamples; ++i) {
@@ -210,7 +214,7 @@ void CylinderMap::check() const {
     Vec3 pin;
     const Vec3 c = rod_in_base(q) * cylinder_.p_coupler;
     const bool closed = close_linkage(c, pin);
-    // Arm and coupler in line: the coupler's push no longer turns the bucket.
+    // With arm and coupler in line the coupler cannot turn the bucket.
     const double sine =
         axis_base_.dot((pin - c).cross(c - p_joint_)) / ((pin - c).norm() * (c - p_joint_).norm());
     if (!closed || std::abs(sine) < 0.02)
@@ -221,7 +225,7 @@ void CylinderMap::check() const {
 
 CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder,
                                    double q) {
-  // For a look at one place; engines keep the map.
+  // For a single evaluation; engines store the map.
   return CylinderMap(machine, cylinder, CylinderMap::Unchecked{}).geometry(q);
 }
 

@@ -7,7 +7,8 @@
 namespace navvy::vehicle {
 namespace {
 
-/// The joint turns by the right hand about `axis` of M, or about its opposite.
+/// Returns the function of a joint that turns by the right-hand rule about `axis` of M, or about
+/// its opposite.
 LeverFunction turns(const scene::Machine& machine, const std::string& name, const Vec3& axis) {
   LeverFunction out;
   out.joint = machine.joint_index(name);
@@ -21,8 +22,9 @@ LeverFunction turns(const scene::Machine& machine, const std::string& name, cons
 
 }  // namespace
 
+// Both patterns differ only in which lever moves boom and stick.
 LeverFunctions lever_functions(const scene::Machine& machine) {
-  // What a lever to the right or away does: an arm that points ahead (+x) is lowered about +y and
+  // Effect of a lever to the right or away: an arm that points ahead (+x) is lowered about +y and
   // lifted about -y.
   const LeverFunction swing = turns(machine, machine.arm.swing, -Vec3::UnitZ());
   const LeverFunction boom = turns(machine, machine.arm.boom, Vec3::UnitY());

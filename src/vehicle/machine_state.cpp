@@ -3,7 +3,7 @@
 
 namespace navvy::vehicle {
 
-// Commands are held until replaced, so they are part of the state of whoever holds them.
+// Commands hold until they are replaced, so they are part of their owner's state.
 void JointInput::visit(Archive& a) {
   a.ranged("mode", mode, JointMode::kFree, JointMode::kOpening);
   a("target", target);

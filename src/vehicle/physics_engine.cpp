@@ -7,54 +7,36 @@
 
 namespace navvy::vehicle {
 
-void PhysicsEngine::set_base(int machine, const BaseInput& input) {
-  (void)input;
-  throw InputError(
-      Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
-            "forces move this machine: it cannot be put anywhere",
-            "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
-}
-
-int PhysicsEngine::add_mover(const scene::Machine& machine) {
-  (void)machine;
-  return -1;
-}
-
-void PhysicsEngine::move(int mover, const std::vector<LinkState>& links) {
-  (void)mover, (void)links;
-}
-
-namespace {
-
-[[noreturn]] void refuse_hitch() {
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch", "",
-                         "a hitch joins machines that forces move",
-                         "set <navvy:engine>dynamic</navvy:engine>, or move it by its pose"});
-}
-
-}  // namespace
-
-int PhysicsEngine::add_hitch(const scene::Hitch& hitch, int parent, int child) {
-  (void)hitch, (void)parent, (void)child;
-  refuse_hitch();
-}
-
-void PhysicsEngine::set_hitch(int hitch, bool closed) {
-  (void)hitch, (void)closed;
-  refuse_hitch();
-}
-
-HitchState PhysicsEngine::hitch(int hitch) const {
-  (void)hitch;
-  refuse_hitch();
-}
-
-BaseInput PhysicsEngine::base(int machine) const {
-  const Pose X = link(machine, 0).X_WL;
+BaseInput base_target(PhysicsEngine& engine, int machine) {
+  if (const PlacementCapability* placement = engine.placement()) return placement->base(machine);
+  const Pose X = engine.link(machine, 0).X_WL;
   BaseInput out;
   out.p_W = X.translation();
   out.angles = fixed_angles(X.linear());
   return out;
+}
+
+PlacementCapability& require_placement(PhysicsEngine& engine, int machine) {
+  if (PlacementCapability* placement = engine.placement()) return *placement;
+  throw InputError(
+      Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
+            "forces move this machine, so its base cannot be placed",
+            "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
+}
+
+HitchCapability& require_hitches(PhysicsEngine& engine) {
+  if (HitchCapability* hitches = engine.hitches()) return *hitches;
+  throw InputError(
+      Fault{Fault::Severity::kError, "", 0, "hitch", "",
+            "this physics engine cannot couple machines: a hitch needs dynamic machines",
+            "set <navvy:engine>dynamic</navvy:engine>, or place the machine by its pose"});
+}
+
+std::vector<terramechanics::TrackPatch> track_patches(const PhysicsEngine& engine, int machine,
+                                                      int wheel) {
+  const TrackCapability* tracks = engine.tracks();
+  if (tracks == nullptr) return {};
+  return tracks->track_patches(machine, wheel);
 }
 
 }  // namespace navvy::vehicle

@@ -1,141 +1,132 @@
 // SPDX-License-Identifier: Apache-2.0
-// One engine interface for machines: Bullet (dynamics) and kinematic (positions as commanded)
-// implement it.
+// Interface of physics engines for machines. Bullet (dynamic machines) and the kinematic engine
+// (positions as commanded) implement it here; an engine outside the tree passes
+// tests/vehicle/engine_contract.h.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/archive.h"
 #include "core/math.h"
-#include "scene/hitch.h"
 #include "scene/machine.h"
 #include "terramechanics/ground_query.h"
-#include "terramechanics/track.h"
 #include "vehicle/machine_state.h"
+#include "vehicle/physics_engine_capabilities.h"
+#include "vehicle/physics_engine_factory.h"
 
 namespace navvy::vehicle {
 
-/// What is under a wheel or body, answered by whoever owns the ground (coupling: the heightfield;
-/// tests: a plane).
+/// Answers questions about the ground under wheels and bodies. The ground's owner implements it:
+/// `coupling` over the columns, tests over a plane.
 using terramechanics::GroundQuery;
 
-/// Machines of one world, stepped together.
+/// Steps the machines of one world together.
 ///
-/// Machine, link, joint and wheel indices are those of scene::Machine. Not thread-safe.
+/// The functions below are the core that every engine implements; the capabilities at the end are
+/// optional. Machine, link, joint and wheel indices are those of scene::Machine; poses, velocities
+/// and forces are in W. Not thread-safe.
+///
+/// `coupling` calls an engine in this order: all machines are added before the first step. Then, in
+/// every base step, commands (set_joint, set_drive, set_brake), `step`, reads of states and inverse
+/// masses for the soil, and `apply_impulse_of_step` with the soil's answer. Reads must be cheap:
+/// they occur several times per link and step. A step must depend on the visited state alone, so
+/// that a run continued from a snapshot is bit-identical.
 class PhysicsEngine {
  public:
   virtual ~PhysicsEngine() = default;
 
-  /// @throws InputError for what this engine cannot build.
+  /// Adds a machine with its model frame M at X_WM and returns its index.
+  /// @throws InputError for a machine that this engine cannot build.
   virtual int add_machine(const scene::Machine& machine, const Pose& X_WM) = 0;
+  /// Returns the number of machines added so far.
   virtual int machine_count() const = 0;
 
-  /// Until commanded, a joint holds its initial position (wheels of a machine without a drive and
-  /// ball joints turn freely). A wheel's or steering joint taken by set_joint is the drive's again
-  /// with the next set_drive.
+  /// Commands a joint until the next command replaces it. Without any command a joint holds its
+  /// initial position; ball joints, and wheels of a machine without a drive, turn freely. A wheel
+  /// or steering joint commanded here returns to the drive with the next set_drive.
   virtual void set_joint(int machine, int joint, const JointInput& input) = 0;
+  /// Commands the drive until the next command replaces it.
   virtual void set_drive(int machine, const DriveInput& input) = 0;
-  /// Puts the brake of a joint on or off, whatever the joint is told meanwhile: it holds the joint
-  /// where it stands by scene::Joint::brake at most. Nothing to a joint without a brake.
+  /// Sets or releases a joint's brake. A set brake holds the joint in place with at most
+  /// scene::Joint::brake, whatever its command. Has no effect on a joint without a brake.
   virtual void set_brake(int machine, int joint, bool on) = 0;
-  /// The command the drive follows now.
+  /// Returns the command that the drive follows now.
   virtual DriveInput drive(int machine) const = 0;
 
-  /// Moves a base that no forces move. @throws InputError from an engine with forces.
-  virtual void set_base(int machine, const BaseInput& input);
-  /// The place it is on its way to, or where it is as long as nothing was told.
-  virtual BaseInput base(int machine) const;
-
-  /// A machine that another engine moves: what this one moves is pushed by its collision shapes and
-  /// shells, and does not push back. Nothing to an engine without contacts.
-  /// @return its number among them. @throws InputError for what this engine cannot build.
-  virtual int add_mover(const scene::Machine& machine);
-  /// Where its links are at the start of the next step and how they move, by link; told before
-  /// every step.
-  virtual void move(int mover, const std::vector<LinkState>& links);
-
-  /// Couples two of this engine's machines, given by their indices in it, where the hitch has those
-  /// of a scene. What is hitched does not collide with each other. @return its number. @throws
-  /// InputError from an engine without forces.
-  virtual int add_hitch(const scene::Hitch& hitch, int parent, int child);
-  /// Lets go, or takes the eye up. @throws InputError for an eye beyond the hook's reach.
-  virtual void set_hitch(int hitch, bool closed);
-  virtual HitchState hitch(int hitch) const;
-
-  /// Impulse [N s] and angular impulse about p_W [N m s] on a link, now: velocities change at once
-  /// through the articulated inertia. Counted in `external_impulse`.
+  /// Applies an impulse [N s] at p_W and an angular impulse about p_W [N m s] to a link. Velocities
+  /// change at once, through the articulated inertia. Adds to `external_impulse`.
   virtual void apply_impulse(int machine, int link, const Vec3& J_W, const Vec3& L_W,
                              const Vec3& p_W) = 0;
-  /// The same, of the step of `dt` [s] that was taken last: the place of a body without joints
-  /// changes by dt times the change of its velocity, too, so that what stands on soil does not fall
-  /// by the weight of a step in every step. The next step's contacts expect the mean of the last
-  /// ones, so that what rests on such a body does not fall with it; `link` tells a velocity without
-  /// it.
+  /// Applies an impulse that acted during the step of `dt` [s] just taken.
+  ///
+  /// A body without joints also moves by dt times its change of velocity, so that a body resting on
+  /// soil does not sink by one step's weight in every step. The next step's contacts expect the
+  /// mean of the last impulses, for bodies that rest on this one; `link` reports the velocity
+  /// without that expectation.
   virtual void apply_impulse_of_step(int machine, int link, const Vec3& J_W, const Vec3& L_W,
                                      const Vec3& p_W, double dt) = 0;
-  /// Force [N] at p_W during the next step only.
+  /// Applies a force [N] at p_W during the next step only.
   virtual void add_force(int machine, int link, const Vec3& f_W, const Vec3& p_W) = 0;
 
-  /// Advances by dt [s]: joints, hydraulics, tyre forces from `ground` and from bodies, contacts of
-  /// collision shapes with the ground (at full resolution, wherever they are) and with each other,
-  /// of shells with bodies.
-  /// @throws SimulationError for a machine that is nowhere, or deep below the ground.
+  /// Advances all machines by dt [s]: joints, hydraulics, tyre forces from `ground` and from
+  /// bodies, contacts of collision shapes with the ground and with each other, contacts of shells
+  /// with bodies.
+  /// @throws SimulationError for a machine without a finite pose or deep below the ground.
   virtual void step(double dt, const GroundQuery& ground) = 0;
-  /// Height [m] of the level rock that no shell of a machine with masses goes into; far below until
-  /// told.
-  virtual void set_rock(double height) { (void)height; }
 
+  /// Returns the state of a joint after the last step.
   virtual JointState joint(int machine, int joint) const = 0;
+  /// Returns pose and velocity of a link after the last step.
   virtual LinkState link(int machine, int link) const = 0;
+  /// Returns the state of a wheel after the last step, tyre force included.
   virtual WheelState wheel(int machine, int wheel) const = 0;
-  /// Where the belt of a track pressed on the ground in the last step; none of a wheel without one,
-  /// and from engines without forces.
-  virtual std::vector<terramechanics::TrackPatch> track_patches(int machine, int wheel) const {
-    (void)machine, (void)wheel;
-    return {};
-  }
-  /// Zeros for a machine without a pump, and from engines that have none.
-  virtual PumpState pump(int machine) const {
-    (void)machine;
-    return {};
-  }
-  /// Zeros for a drive that neither has gears nor shares an engine with the pump, and from engines
-  /// without forces.
-  virtual CombustionEngineState drive_engine(int machine) const {
-    (void)machine;
-    return {};
-  }
-  /// Inverse articulated mass at the link's origin, order (angular, linear), axes of W.
+  /// Returns the inverse articulated mass at the link's origin, order (angular, linear), axes of W.
+  /// Zero for a link that forces cannot move.
   virtual Mat6 inverse_mass(int machine, int link) const = 0;
-  /// Total momentum of a machine [N s], and mechanical work done by its joints and drive since the
-  /// start [J].
-  virtual Vec3 momentum(int machine) const = 0;
-  virtual double work(int machine) const = 0;
-  /// Sum of ground impulses (tyres, contacts, rock) on a machine in the last step [N s].
-  virtual Vec3 ground_impulse(int machine) const = 0;
-  /// Impulse of the rock on a shell in the last step [N s].
-  virtual Vec3 rock_impulse(int machine, int shell) const {
-    (void)machine, (void)shell;
-    return Vec3::Zero();
-  }
-  /// Sum of all impulses of apply_impulse and add_force on a machine since the start [N s].
-  virtual Vec3 external_impulse(int machine) const {
-    (void)machine;
-    return Vec3::Zero();
-  }
 
-  /// All state between two steps; a loaded engine steps on as the saved one did. Machines must have
-  /// been added alike, and whoever owns the ground tells the rock again: it is not the engine's.
-  /// @throws InputError for another number or make of machines, or one whose place is not finite.
+  /// Visits all state between two steps; a loaded engine continues exactly as the saved one did.
+  /// Loads only into an engine to which the same machines were added.
+  /// @throws InputError for other machines, or for a machine without a finite pose.
   virtual void visit(Archive& a) = 0;
+
+  // Optional capabilities. The returned interface lives as long as the engine; null where the
+  // engine lacks the capability.
+  /// Placement of bases.
+  virtual PlacementCapability* placement() { return nullptr; }
+  /// Collisions with machines of another engine.
+  virtual ObstacleCapability* obstacles() { return nullptr; }
+  /// Hitches between machines.
+  virtual HitchCapability* hitches() { return nullptr; }
+  /// Rock below the soil.
+  virtual RockCapability* rock() { return nullptr; }
+  /// Contact patches of crawler tracks.
+  virtual const TrackCapability* tracks() const { return nullptr; }
+  /// Pumps and combustion engines.
+  virtual const PowerCapability* power() const { return nullptr; }
+  /// Momentum and work.
+  virtual const AccountCapability* accounts() const { return nullptr; }
 };
 
-/// Dynamics under gravity [m/s2, W], contacts by `materials` where both bodies have one; and
-/// positions as commanded, without forces. Neither knows the other's machines but by add_mover.
+/// Returns the target pose of a base, or its present pose where the engine cannot place bases.
+BaseInput base_target(PhysicsEngine& engine, int machine);
+/// Returns the engine's placement capability.
+/// @throws InputError for an engine that moves machines by forces; the message names `machine`.
+PlacementCapability& require_placement(PhysicsEngine& engine, int machine);
+/// Returns the engine's hitch capability.
+/// @throws InputError for an engine that cannot couple machines.
+HitchCapability& require_hitches(PhysicsEngine& engine);
+
+/// Returns the contact patches of a track in the last step; empty without a track or without the
+/// capability.
+std::vector<terramechanics::TrackPatch> track_patches(const PhysicsEngine& engine, int machine,
+                                                      int wheel);
+
+/// Makes the dynamic engine, built on Bullet. `gravity` is in W [m/s2]; contacts use `materials`
+/// where both bodies have one. Knows another engine's machines only as obstacles.
 std::unique_ptr<PhysicsEngine> make_bullet_engine(const Vec3& gravity,
                                                   const scene::Materials& materials = {});
+/// Makes the kinematic engine: machines follow their commands exactly and no force moves them.
 std::unique_ptr<PhysicsEngine> make_kinematic_engine();
 
 }  // namespace navvy::vehicle

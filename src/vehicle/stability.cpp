@@ -11,13 +11,13 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Corners of the hull, counter-clockwise, by the monotone chain.
+/// Returns the corners of the convex hull, counter-clockwise, by the monotone chain algorithm.
 std::vector<Vec2> hull_of(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
   std::vector<Vec2> hull;
-  // Once along the lower side, once back along the upper one; what turns to the right is no corner.
+  // Once along the lower side, once back along the upper one. A right turn is no corner.
   for (int side = 0; side < 2; ++side) {
     const std::size_t from = hull.size();
     for (const Vec2& p : points) {
@@ -32,20 +32,20 @@ std::vector<Vec2> hull_of(std::vector<Vec2> points) {
   return hull;
 }
 
-/// What bears a machine: where, and with what force of the last step.
+/// Support point of a machine with its force in the last step.
 struct Bearing {
   Vec3 p_W = Vec3::Zero(), f_W = Vec3::Zero();
 };
 
-/// Straight down from the centre of a wheel, in its plane: an axle that is tilted has its foot
-/// aside.
+/// Returns the point straight below the centre of a wheel, in its plane: a tilted axle has its foot
+/// to the side.
 Vec3 foot_of(const scene::Wheel& wheel, const Pose& X_WWheel) {
   const Vec3 axis = X_WWheel.linear().col(1);
   const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
   return X_WWheel.translation() + wheel.radius * down.stableNormalized();
 }
 
-/// The feet of wheel `w`: one, or the ends of its belt's lower run.
+/// Returns the feet of wheel `w`: one, or the ends of its track's lower run.
 std::vector<Vec3> feet_of(const scene::Machine& machine, const PhysicsEngine& engine, int index,
                           std::size_t w) {
   const scene::Wheel& wheel = machine.wheels[w];
@@ -56,7 +56,7 @@ std::vector<Vec3> feet_of(const scene::Machine& machine, const PhysicsEngine& en
   return {X_WC * run[0], X_WC * run[1]};
 }
 
-/// A belt's force is shared out as its rollers press.
+/// Returns all support points. The force of a track is divided as its rollers press.
 std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine& engine,
                               int index) {
   std::vector<Bearing> out;
@@ -67,7 +67,7 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine
       continue;
     }
     const std::vector<terramechanics::TrackPatch> patches =
-        engine.track_patches(index, static_cast<int>(w));
+        track_patches(engine, index, static_cast<int>(w));
     double load = 0;
     for (const terramechanics::TrackPatch& patch : patches) load += patch.load;
     for (const terramechanics::TrackPatch& patch : patches)
@@ -77,8 +77,8 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine
   return out;
 }
 
-/// Where the ground bears the machine: the place below which all its forces turn about nothing, at
-/// the height of the feet.
+/// Computes the centre of pressure on the ground: the point at the height of the feet about which
+/// all ground forces have no horizontal moment.
 bool centre_of_pressure(const std::vector<Bearing>& bearings, Vec2& out) {
   double load = 0, height = 0;
   for (const Bearing& one : bearings) {
@@ -92,10 +92,10 @@ bool centre_of_pressure(const std::vector<Bearing>& bearings, Vec2& out) {
   return true;
 }
 
-/// Machines stand on what reaches down to within this share of a wheel's radius of its foot.
+/// Machines stand on parts that reach down to within this share of a wheel's radius of its foot.
 constexpr double kFoot = 0.25;
 
-/// The lowest point of a collision shape against `up`, both in the frame of its link.
+/// Returns the lowest point of a collision shape against `up`, both in the frame of its link.
 Vec3 lowest(const scene::Collision& collision, const Vec3& up) {
   using Kind = scene::Geometry::Kind;
   const scene::Geometry& shape = collision.geometry;
@@ -114,8 +114,8 @@ Vec3 lowest(const scene::Collision& collision, const Vec3& up) {
   return collision.X_LC * down;
 }
 
-/// It keeps its height over the base: the base itself, and what is fixed to it or turns about a
-/// ball at it.
+/// Returns whether a link keeps its height above the base: the base itself, and links fixed to it
+/// or on a ball joint at it.
 bool goes_with_base(const scene::Machine& machine, int link) {
   using Type = scene::Joint::Type;
   return link == 0 ||
@@ -125,10 +125,10 @@ bool goes_with_base(const scene::Machine& machine, int link) {
          });
 }
 
-/// Points of such links' collision shapes that are as low as the wheels' feet, in W: what rolls or
-/// slides along.
-/// @param feet mean height of the wheels' feet along the base's z axis; `radius` of the smallest
-/// wheel [m]
+/// Returns the points of such links' collision shapes that are as low as the wheels' feet, in W:
+/// skids and caster balls.
+/// @param feet mean height of the wheels' feet along the base's z axis
+/// @param radius of the smallest wheel [m]
 std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engine, int index,
                         double feet, double radius) {
   using Kind = scene::Geometry::Kind;
@@ -151,6 +151,7 @@ std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engi
 
 }  // namespace
 
+// Inside, the nearest edge counts; outside, the distance to the polygon.
 double support_margin(std::vector<Vec2> feet, const Vec2& p) {
   const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
   if (hull.size() < 3) return 0;
@@ -160,13 +161,14 @@ double support_margin(std::vector<Vec2> feet, const Vec2& p) {
     const Vec2& a = hull[i];
     const Vec2 edge = hull[(i + 1) % hull.size()] - a;
     inside = inside && cross(edge, p - a) >= 0;
-    // To the edge itself and not to its line: beyond a corner the corner is nearest.
+    // Distance to the edge, not to its line: outside a corner the corner is nearest.
     const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
     least = std::min(least, (p - a - t * edge).norm());
   }
   return inside ? least : -least;
 }
 
+// Takes the minimum over all edges of the polygon.
 TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
                          const Vec2& load_point) {
   TippingLoad out;
@@ -183,6 +185,7 @@ TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass
   return out;
 }
 
+// Weights the links' centres by their masses.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
@@ -194,6 +197,7 @@ Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, 
   return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
 }
 
+// Collects the feet first: margins and loads refer to their polygon.
 Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Stability out;
   out.free = !machine.kinematic && !machine.fixed_base && !machine.wheels.empty();
@@ -201,8 +205,7 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   const LinkState base = engine.link(index, 0);
   const Vec3 up = base.X_WL.linear().col(2);
   out.tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
-  // d/dt of up = w x up, and of its height cos(tilt); an upright axis has no direction to tilt to
-  // yet.
+  // d/dt of up = w x up, and of its height cos(tilt). An upright axis has no direction of tilt.
   const double sine = std::sin(out.tilt);
   if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
   std::vector<Vec2> feet;
@@ -228,11 +231,10 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   out.tipping_load = weakest.load;
   const Vec2 ahead = base.X_WL.linear().col(0).head<2>(), left(-ahead.y(), ahead.x());
   out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
-  // What the ground does not bear, or what nothing moves, is as near to tipping as its centre of
-  // mass.
-  Vec2 borne = centre;
-  centre_of_pressure(bearings(machine, engine, index), borne);
-  out.loaded_margin = support_margin(std::move(feet), borne);
+  // Without ground forces, or for a machine that nothing moves, use the centre of mass.
+  Vec2 pressure_centre = centre;
+  centre_of_pressure(bearings(machine, engine, index), pressure_centre);
+  out.loaded_margin = support_margin(std::move(feet), pressure_centre);
   return out;
 }
 

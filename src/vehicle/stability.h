@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a machine stands or tips over: centre of mass against its feet.
+// Stability of a machine against tipping: centre of mass against its feet.
 #pragma once
 
 #include <vector>
@@ -10,34 +10,35 @@
 
 namespace navvy::vehicle {
 
-/// Signed distance [m] of `p` from the border of the convex hull of `feet`, positive within; 0
-/// where they span no area.
+/// Returns the signed distance [m] of `p` from the boundary of the convex hull of `feet`, positive
+/// inside; 0 if they span no area.
 double support_margin(std::vector<Vec2> feet, const Vec2& p);
 
-/// What tips a machine over the weakest edge of the polygon of its feet.
+/// Load that tips a machine over the weakest edge of the polygon of its feet.
 struct TippingLoad {
-  double load = kNoTippingLoad;  ///< [kg]; 0 of a machine that tips without
-  /// Unit, across that edge, seen from above; zero where no edge can tip.
+  /// Load [kg]; 0 for a machine that tips without load.
+  double load = kNoTippingLoad;
+  /// Unit vector across that edge, seen from above; zero if no edge can tip.
   Vec2 outward = Vec2::Zero();
 };
 
-/// Mass that hangs at `load_point` and brings the centre of a machine of `mass` [kg] at `centre`
-/// onto an edge, the least over all edges: m = M d / l with the distances of centre and load from
-/// the edge's line, inside and outside (static tipping load, as [ISO 10567] defines it). All points
-/// seen from above [m]: gravity is vertical, so that a slope counts by itself. Tyres and cylinders
-/// do not give way.
+/// Returns the mass at `load_point` that moves the centre of a machine of `mass` [kg] at `centre`
+/// onto an edge, the minimum over all edges: m = M d / l with the distances of centre and load from
+/// the edge's line, inside and outside (static tipping load as in [ISO 10567]). All points are seen
+/// from above [m]: gravity is vertical, so slopes are included. Tyres and cylinders are rigid.
 TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
                          const Vec2& load_point);
 
-/// Centre of mass of all links of machine `index` of the engine [m] in W; soil that it carries does
-/// not count.
+/// Returns the centre of mass of all links of machine `index` of the engine [m] in W, without the
+/// soil it carries.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
-/// How it stands after the last step. A foot is the lowest point of a wheel, whether it touches the
-/// ground or not, an end of a crawler's lower run, or the lowest point of a collision shape of the
-/// base that reaches as far down: a castor's ball, a skid. An axle that oscillates counts as
-/// locked, or at its stop: before, the machine leans to it. The load hangs on the joint of the
-/// bucket.
+/// Returns the stability after the last step.
+///
+/// A foot is the lowest point of a wheel, whether it touches the ground or not, an end of a
+/// crawler's lower run, or the lowest point of a collision shape of the base that reaches as far
+/// down: a caster's ball, a skid. An oscillating axle counts as locked, or at its stop: the machine
+/// leans until then. The load hangs on the joint of the bucket.
 Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 }  // namespace navvy::vehicle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The native loop of bench/native against the double-precision twin: a bench cannot measure what a
-// test does not check.
+// The native loop of bench/native compared with the double-precision twin: a bench cannot measure
+// what no test checks.
 #include "native/native_soil.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,8 @@ scene::Soil loam() {
   return soil;
 }
 
-/// A lump on the ground, two particles a cell along each axis, shaken, in motion and under stress.
+/// Returns a lump on the ground, two particles per cell along each axis, displaced, in motion and
+/// under stress.
 std::vector<soil::Particle> lump(int nx, int ny, int nz) {
   Random random(5);
   std::vector<soil::Particle> out;
@@ -96,7 +97,7 @@ TEST(NativeLoop, AgreesWithTheDoubleTwinOnTheGround) {
 }
 
 TEST(NativeLoop, SortingChangesNothingButTheOrderOfSums) {
-  // Long enough for several sorts. The twin keeps the homes of the start, so only the mean fall is
+  // Long enough for several sorts. The twin keeps the blocks of the start, so only the mean fall is
   // compared.
   const auto start = lump(10, 10, 10);
   NativeSoil native(loam(), kCell, kGround);
@@ -114,7 +115,8 @@ TEST(NativeLoop, SortingChangesNothingButTheOrderOfSums) {
   std::printf(
       "[ VALUE    ] native loop against double twin after 60 steps, mean position: %.2g cells\n",
       (mean - expected).norm());
-  // Homes decide which neighbours a particle's opening is mixed with, and they differ after a sort.
+  // Blocks decide with which neighbours a particle's opening is mixed, and they differ after a
+  // sort.
   EXPECT_LT((mean - expected).norm(), 2e-4);
 }
 

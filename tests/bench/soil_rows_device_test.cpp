@@ -14,7 +14,7 @@
 namespace navvy::bench {
 namespace {
 
-// Between runs ground and soil are restored together: otherwise the ledger of mass opens, and the
+// Ground and soil are restored together between runs: otherwise the mass ledger opens, and the
 // solver stops.
 TEST(SoilRows, TheSameCaseTwiceDoesTheSameWork) {
   device::Device device;

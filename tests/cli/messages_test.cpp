@@ -191,9 +191,9 @@ TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
             "<navvy:on_ground>false</navvy:on_ground></include>");
   EXPECT_EQ(run({"check", file}), 2);
   expect_said("include[digger]");
-  expect_said("starts with its middle that far below the ground");
+  expect_said("starts with its centre that far below the ground");
   EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.1", "--out", out()}), 2);
-  expect_complained("starts with its middle that far below the ground");
+  expect_complained("starts with its centre that far below the ground");
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
 }
 

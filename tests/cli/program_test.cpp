@@ -90,10 +90,10 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
         "time_share", "cycles", "bank_volume_m3", "loose_volume_m3", "payload_kg", "energy_j",
         "bucket_force_peak_n", "bucket_force_mean_n", "particles_peak", "state_hash"})
     EXPECT_TRUE(summary.contains(key)) << key;
-  const std::string documented = text_of(navvy::source_dir() + "/scenarios/README.md");
+  const std::string documented = text_of(navvy::source_dir() + "/docs/reference/results.md");
   for (const auto& [key, value] : summary.items())
     EXPECT_NE(documented.find("`" + key), std::string::npos)
-        << key << " is not in scenarios/README.md";
+        << key << " is not in docs/reference/results.md";
   for (const char* name :
        {"telemetry.csv", "terrain_start.tif", "terrain_end.tif", "scene.sdf", "run.json"})
     EXPECT_TRUE(fs::exists(fs::path(out()) / name)) << name;
@@ -153,8 +153,8 @@ TEST_F(Program, ReportsBadInputByStatusAndMessage) {
   EXPECT_NE(complained().find("no such device"), std::string::npos) << complained();
 }
 
-// Faults that scene_io's corpus (tests/scene_io/broken) cannot hold, as they show only with the
-// ground laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
+// Faults that scene_io's table (broken_scenes.txt) cannot hold, as they show only with the ground
+// laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
 // broken/NAME.txt.
 TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
   int files = 0;
@@ -225,8 +225,7 @@ TEST_F(Program, LabJudgesNothingByAToleranceForOtherSetups) {
                  result.at("missed").dump().find(name) != std::string::npos);
   }
   EXPECT_NE(
-      said().find(
-          "not judged: soil block, acceleration; its acceptance range holds for a plane so steep"),
+      said().find("not judged: soil block, acceleration; its tolerance applies to a plane so steep"),
       std::string::npos)
       << said();
 }

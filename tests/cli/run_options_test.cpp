@@ -115,7 +115,7 @@ TEST_F(RunOptions, ASnapshotOfAnotherSceneIsReportedByBothNames) {
     EXPECT_EQ(run(words), 2);
     expect_reported("'block_collapse'");
     expect_reported("bucket_path");
-    expect_reported("--resume-anyway lets parameters of one scene differ");
+    expect_reported("--resume-anyway allows other parameters, not another scene");
   }
 }
 

@@ -28,18 +28,17 @@ constexpr double kStep = 0.01;  // [s]
 /// Nod with the boom a number of times, after another machine has done its program if one is named.
 struct Nod final : ActivityStep {
   static constexpr const char* kElement = "nod";
+  static constexpr const char* kText = "Nods with the boom.";
   int times = 1;
   std::string after;
 
-  static Nod read(const scene::StepSource& source) {
-    Nod step;
-    source.fields.whole("times", step.times, {1, 10})
-        .required("times")
-        .text("after", step.after)
-        .finish();
+  void describe(scene::Fields& f) override {
+    f("times", times, {1, 10}, "Number of nods.", scene::kNeeded);
+    f("after", after, "Machine to wait for.");
+  }
+  void check(const scene::StepSource& source) const {
     source.require(source.machine && !source.machine->arm.boom.empty(),
                    "nod needs a machine with a boom");
-    return step;
   }
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }

@@ -246,7 +246,7 @@ TEST(Archive, NeverReadsPastAnyTruncationNorTakesBytesTooMany) {
         << "cut at " << n;
   std::vector<char> longer = whole;
   longer.push_back(0);
-  EXPECT_NE(fault_of(longer).find("holds more"), std::string::npos) << fault_of(longer);
+  EXPECT_NE(fault_of(longer).find("is longer"), std::string::npos) << fault_of(longer);
 }
 
 TEST(Archive, RefusesLengthsBeyondTheEndBeforeItAllocates) {
@@ -276,14 +276,14 @@ TEST(Archive, NamesTheFieldThatIsOutOfItsRange) {
   says(fault_of(overwritten("machine/share", std::numeric_limits<double>::quiet_NaN())),
        "machine/share");
   // A turn that stretches: what asks for the box of a body would get one of any size.
-  says(fault_of(overwritten("machine/X_WB", 2.0)),
-       "machine/X_WB: is no finite place of a rigid body");
+  says(fault_of(overwritten("machine/X_WB", 2.0)), "machine/X_WB: must be a finite rigid pose");
   says(fault_of(overwritten("machine/X_WB", std::numeric_limits<double>::infinity())),
-       "machine/X_WB: is no finite");
+       "machine/X_WB: must be a finite");
   says(fault_of(overwritten("machine/inner/depth", 100.0)), "machine/depth: must be below 100 m");
   says(fault_of(overwritten("machine/commanded", std::uint64_t{1})), "machine/commanded");
   says(fault_of(overwritten("joints", std::uint64_t{5})), "another number of joints");
-  says(fault_of(overwritten("machine/pending[1]", 3)), "machine/pending[1]: keys must ascend");
+  says(fault_of(overwritten("machine/pending[1]", 3)),
+       "machine/pending[1]: keys must be in ascending order");
   says(fault_of(overwritten("machine/by_column[1]", 0)), "machine/by_column[1]");
 }
 

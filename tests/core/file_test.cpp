@@ -103,7 +103,7 @@ TEST_F(File, NamesPathAndCauseWhenItCannotBeReachedOrRead) {
             "cannot read '" + path("") + "': it is a directory, a plain file is needed");
   EXPECT_EQ(message([&] { write_file_atomically(path("no/where"), std::string("x")); }),
             "cannot write '" + path("no/where") + "': there is no folder '" + path("no") +
-                "' (make it: mkdir -p '" + path("no") + "')");
+                "' (create it: mkdir -p '" + path("no") + "')");
   EXPECT_NE(message([&] { require_writable(path("no/where")); }).find("mkdir -p"),
             std::string::npos);
 }
@@ -120,7 +120,7 @@ TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
     // A lambda takes no structured binding along.
     const std::string &name = each.first, &what = each.second;
     const std::string told = "cannot write '" + path(name) + "': it is " + what +
-                             ", and only a plain file is replaced (name a file)";
+                             ", and only a plain file can be replaced (name a file)";
     EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
     EXPECT_EQ(message([&] { require_writable(path(name)); }), told);
     // Also when another library has written the part already.

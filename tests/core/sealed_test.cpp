@@ -82,7 +82,7 @@ TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
     }
     return std::string();
   };
-  EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not fit"),
+  EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not match"),
             std::string::npos)
       << told(content.size() - 1);
   // The name itself is damaged: as much of it as letters go.

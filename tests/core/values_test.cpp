@@ -78,13 +78,6 @@ TEST(Random, GivesThePublishedSequence) {
   }
 }
 
-TEST(Random, GoesOnFromItsState) {
-  Random first(7), second(8);
-  first.next();
-  second.set_state(first.state());
-  EXPECT_EQ(first.next(), second.next());
-}
-
 TEST(Random, IsUniformInItsRange) {
   Random random(3);
   constexpr int kDraws = 100000;

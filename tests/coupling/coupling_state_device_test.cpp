@@ -32,7 +32,7 @@ scene::Scene coarse_site() {
 class CouplingState : public ::testing::Test {
  protected:
   CouplingState() : world_(coarse_site(), device_), other_(coarse_site(), device_) {
-    world_.command(world_.machine(0), {0.8, 0, false});
+    world_.commands().set(world_.machines().at(0), {0.8, 0, false});
     // Longer than between two looks at the ground and two presses of ruts.
     for (int i = 0; i < 40; ++i) world_.step();
   }

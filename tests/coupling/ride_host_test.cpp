@@ -85,7 +85,7 @@ TEST_P(RideSoil, LoadsStayEvenInTheOwnRutWhateverTheCell) {
     ride.run(2);
     ride.engine().set_drive(0, {1.2, 0, false});
     ride.run(4);
-    const double start = ride.place_of_base().x(), work = ride.engine().work(0);
+    const double start = ride.place_of_base().x(), work = ride.engine().accounts()->work(0);
     std::vector<Spread> loads(4);
     ride.run(3, [&] {
       for (std::size_t w = 0; w < 4; ++w) loads[w].add(ride.wheel(static_cast<int>(w)).force_W.z());
@@ -98,7 +98,7 @@ TEST_P(RideSoil, LoadsStayEvenInTheOwnRutWhateverTheCell) {
     const double end = ride.place_of_base().x();
     EXPECT_NEAR(end - start, 3.6, 0.15);
     depth.push_back(rut_depth(ground, start, end - 1));
-    force.push_back((ride.engine().work(0) - work) / (end - start));
+    force.push_back((ride.engine().accounts()->work(0) - work) / (end - start));
     print_value("drive [N]", force.back(), "equal within 10 % for each cell",
                 "[docs/machines.md, tyres]");
     for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);

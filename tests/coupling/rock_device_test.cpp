@@ -27,13 +27,13 @@ TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
   const scene::Machine& machine = world.description().machines.at(0).machine;
   const int boom = machine.joint_index(machine.arm.boom),
             bucket = machine.link_index(machine.buckets.at(0).link);
-  world.command(world.machine(0).joint(boom), {vehicle::JointMode::kVelocity, -0.25});
+  world.commands().set(world.machines().at(0).joint(boom), {vehicle::JointMode::kVelocity, -0.25});
   double lowest = 1, most = 0;
   while (world.time() < 6) {
     world.step();
     for (const Vec3& v : machine.shells.at(0).vertices)
-      lowest = std::min(lowest, (world.machine(0).link(bucket).pose() * v).z());
-    most = std::max(most, world.tools().at(0).rock_force().z());
+      lowest = std::min(lowest, (world.machines().at(0).link(bucket).pose() * v).z());
+    most = std::max(most, world.machines().tools().at(0).rock_force().z());
   }
   print_value("bucket below the surface of the rock [mm]", 1e3 * (-kDepth - lowest), "<= 10",
               "vehicle/bullet/rock.h");
@@ -41,8 +41,8 @@ TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {
   EXPECT_LT(lowest, 0.05 - kDepth) << "it went through the soil";
   EXPECT_GT(lowest, -0.01 - kDepth);
   EXPECT_GT(most, 10e3);
-  EXPECT_GT(world.machine(0).link(0).pose().linear()(2, 0), 0.01) << "nose up";
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  EXPECT_GT(world.machines().at(0).link(0).pose().linear()(2, 0), 0.01) << "nose up";
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
 }
 
 }  // namespace

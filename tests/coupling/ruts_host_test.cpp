@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/saved_state.h"
 #include "flip_bytes.h"
+#include "heightfield/volume_change.h"
 #include "soil/exchange/exchange.h"
 #include "terramechanics/plate.h"
 #include "values.h"
@@ -234,8 +235,7 @@ TEST(Ruts, AreNotPumpedDeeperBySandThatSlidesFromTheirWalls) {
   const double early = deepest(bed.ground);
   bed.stand(27, 44e3);
   const double late = deepest(bed.ground);
-  double raised = 0, lowered = 0;
-  bed.ground.volume_change(raised, lowered);
+  const double lowered = heightfield::testing::volume_change(bed.ground).lowered;
   print_value("rut under 44 kN on dry sand after 30 s [m]", late, "0.10 .. 0.16",
               "[docs/machines.md, ruts]");
   // Bekker's law for the pressure of this tyre: 0.114 m where the tyre stands on its own sinkage.
@@ -290,9 +290,8 @@ TEST(Ruts, EdgesRiseByTheLoadTheGroundCannotSupport) {
     const Edges once = edges(ground);
     print_value("bank volume pushed aside by 44 kN on dry sand [m3]", once.volume,
                 "equal within 20 % for each cell", "[Terzaghi 1943]");
-    double raised = 0, lowered = 0;
-    ground.volume_change(raised, lowered);
-    print_value("volume of the rut [m3]", lowered, "", "[docs/machines.md, ruts]");
+    print_value("volume of the rut [m3]", heightfield::testing::volume_change(ground).lowered, "",
+                "[docs/machines.md, ruts]");
     print_value("highest edge [m]", once.height, "", "[docs/machines.md, ruts]");
     EXPECT_GT(once.height, 0.004);
     EXPECT_LT(once.height, deepest(ground));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines on loose soil that is still particles stand and drive as on the same soil in columns
-// [docs/exchange.md, footings].
+// [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,9 +46,11 @@ device::Device& shared_device() {
 }
 
 Vec3 wheel_place(const sim::World& world, int wheel) {
-  return world.machine(0).wheel(wheel).state().X_WWheel.translation();
+  return world.machines().at(0).wheel(wheel).state().X_WWheel.translation();
 }
-Vec3 base_place(const sim::World& world) { return world.machine(0).link(0).pose().translation(); }
+Vec3 base_place(const sim::World& world) {
+  return world.machines().at(0).link(0).pose().translation();
+}
 
 /// A rectangle of loose, remoulded soil on the site, 0.15 m deep; in columns, or awake.
 class Layer {
@@ -62,7 +64,7 @@ class Layer {
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
-  void wake() { parts_.soil.wake(area_, foot_); }
+  void wake() { parts_.soil.activate(area_, foot_); }
   /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within
   /// `around` [m] of a wheel's middle.
   void keep_awake(double around) {
@@ -75,7 +77,7 @@ class Layer {
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
         for (int w = 0; rests && w < 4; ++w)
           rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
-        if (rests) parts_.soil.wake({ix, iy, ix + 1, iy + 1}, foot_);
+        if (rests) parts_.soil.activate({ix, iy, ix + 1, iy + 1}, foot_);
       }
   }
   /// How much higher the ground lies for being loose [m].
@@ -112,7 +114,7 @@ void run(
   }
 }
 
-std::string kind(bool active) { return active ? "awake" : "columns"; }
+std::string kind(bool active) { return active ? "active" : "columns"; }
 
 /// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
 /// [m].
@@ -127,7 +129,7 @@ double sinks_where_it_stands(const std::string& soil, bool active) {
     most = std::max(most, layer.particles());
   });
   EXPECT_EQ(most > 5000, active);
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
   // The machine is alike on both sides, and so is the ground.
   EXPECT_NEAR(wheel_place(world, 0).z(), wheel_place(world, 1).z(), 0.005);
   return front.z() - kLifted + layer.rise() - wheel_place(world, 0).z();
@@ -137,8 +139,8 @@ TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
     const double columns = sinks_where_it_stands(soil, false),
                  active = sinks_where_it_stands(soil, true);
-    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", awake: its wheel sinks [m]",
-                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, footings]");
+    print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", active: its wheel sinks [m]",
+                active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, support areas]");
     // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
     // cell.
     EXPECT_NEAR(active, columns, 0.005);
@@ -151,7 +153,7 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     sim::World world(yard("ew180"), shared_device());
     const double x = wheel_place(world, 0).x();
     Layer layer(world, {x + 1.0, -1.9}, {x + 2.2, 1.9});
-    world.command(world.machine(0), {1.0, 0, false});
+    world.commands().set(world.machines().at(0), {1.0, 0, false});
     while (wheel_place(world, 0).x() < x + 0.5) world.step();
     if (active) layer.wake();
     int count = 0, over_active = 0;
@@ -167,9 +169,10 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     mean[active] /= count;
     EXPECT_EQ(2 * over_active > count, active);
     print_value("EW180 drives over 0.15 m of loose loam, " + kind(active) + ": its axle, mean [m]",
-                mean[active], std::to_string(mean[0]) + " +-0.005", "[docs/exchange.md, footings]");
+                mean[active], std::to_string(mean[0]) + " +-0.005",
+                "[docs/exchange.md, support areas]");
     print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
-    EXPECT_EQ(world.mass_ledger().error, 0);
+    EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
   // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm,
   // which the tread evens out over its length.
@@ -189,8 +192,8 @@ TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
     EXPECT_EQ(most > 5000, active);
     sinks[active] = base.z() - kLifted + layer.rise() - base_place(world).z();
     print_value("EX180 on 0.15 m of loose loam, " + kind(active) + ": it sinks [m]", sinks[active],
-                std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, footings]");
-    EXPECT_EQ(world.mass_ledger().error, 0);
+                std::to_string(sinks[0]) + " +-0.005", "[docs/exchange.md, support areas]");
+    EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
   EXPECT_NEAR(sinks[1], sinks[0], 0.005);
 }
@@ -200,7 +203,7 @@ TEST(Spoil, ARunGoesOnFromASnapshotInTheMiddleOfIt) {
   const double x = wheel_place(whole, 0).x();
   Layer layer(whole, {x + 0.3, -1.9}, {x + 1.3, 1.9});
   layer.wake();
-  whole.command(whole.machine(0), {1.0, 0, false});
+  whole.commands().set(whole.machines().at(0), {1.0, 0, false});
   run(whole, 0.55);
   load_saved(saved(whole), resumed);
   EXPECT_GT(layer.particles(), 1000);

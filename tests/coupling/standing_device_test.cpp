@@ -42,7 +42,7 @@ TEST(Standing, AStoneWithAShellSinksNoMillimetreInTenSeconds) {
     const scene::Scene scene = stone_on_loam(collision);
     device::Device device;
     sim::World world(scene, device);
-    const auto height = [&] { return world.machine(0).link(0).pose().translation().z(); };
+    const auto height = [&] { return world.machines().at(0).link(0).pose().translation().z(); };
     // Its soil is awake at first: it must stand on that, too. It fell by the weight of a step in
     // every step once, 16 mm/s.
     while (world.time() < 1) world.step();
@@ -53,10 +53,10 @@ TEST(Standing, AStoneWithAShellSinksNoMillimetreInTenSeconds) {
     const double before = height();
     while (world.time() < 25) world.step();
     print_value("a stone on loam sinks in 10 s [mm]", 1e3 * (before - height()), "< 1",
-                "docs/tools.md, seat");
+                "docs/tools.md, resting contact");
     EXPECT_NEAR(height(), before, 1e-3);
     EXPECT_NEAR(height(), 0, 0.05) << "half a cell";
-    EXPECT_EQ(world.mass_ledger().error, 0);
+    EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
 }
 

@@ -47,7 +47,7 @@ void run(sim::World& world, double seconds, const Each& each) {
 }
 
 double wheel_height(const sim::World& world, int machine, int wheel) {
-  return world.machine(machine).wheel(wheel).state().X_WWheel.translation().z();
+  return world.machines().at(machine).wheel(wheel).state().X_WWheel.translation().z();
 }
 
 TEST(Wheels, DropIntoATrenchOfTheMachinesOwnWithoutLaunchingIt) {
@@ -58,15 +58,15 @@ TEST(Wheels, DropIntoATrenchOfTheMachinesOwnWithoutLaunchingIt) {
   trench.width = 8;
   trench.height = 0.8;
   sim::World world(yard({trench}), shared_device());
-  world.command(world.machine(0), {0.8, 0, false});
+  world.commands().set(world.machines().at(0), {0.8, 0, false});
   double lowest = 1, fastest = 0;
   run(world, 5, [&] {
     lowest = std::min({lowest, wheel_height(world, 0, 0), wheel_height(world, 0, 1)});
-    fastest = std::max(fastest, world.machine(0).link(0).velocity().z());
+    fastest = std::max(fastest, world.machines().at(0).link(0).velocity().z());
   });
   EXPECT_LT(lowest, kWheelRadius - 0.25);  // the front wheels are in it
   EXPECT_LT(fastest, 1.0);                 // upwards; as in bullet_drive_test
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
 }
 
 TEST(Wheels, RiseOnASpoilHeapOnOneSideOnly) {
@@ -76,13 +76,13 @@ TEST(Wheels, RiseOnASpoilHeapOnOneSideOnly) {
   heap.height = 0.3;
   heap.angle = radians(20);
   sim::World world(yard({heap}), shared_device());
-  world.command(world.machine(0), {0.8, 0, false});
+  world.commands().set(world.machines().at(0), {0.8, 0, false});
   double left = 0, right = 0, fastest = 0;
   run(world, 6, [&] {
     left = std::max(left, wheel_height(world, 0, 0));
     right = std::max(right, wheel_height(world, 0, 1));
     for (int w = 0; w < 4; ++w)
-      fastest = std::max(fastest, std::abs(world.machine(0).wheel(w).state().v_W.z()));
+      fastest = std::max(fastest, std::abs(world.machines().at(0).wheel(w).state().v_W.z()));
   });
   EXPECT_GT(left, kWheelRadius + 0.15);  // of 0.3 m: the tyre presses a rut into the top
   EXPECT_LT(right, kWheelRadius + 0.05);
@@ -97,14 +97,14 @@ TEST(Wheels, StandOnASlopeFromTheStartAndClimbIt) {
   double most = 0;
   run(world, 1, [&] {
     for (int w = 0; w < 4; ++w)
-      most = std::max(most, world.machine(0).wheel(w).state().force_W.norm());
+      most = std::max(most, world.machines().at(0).wheel(w).state().force_W.norm());
   });
   // The heaviest wheel of the standing machine carries 0.35 of its weight; it settles on tyres that
   // bend by 30 mm.
   EXPECT_LT(most, 0.6 * 18000 * kGravity);
-  world.command(world.machine(0), {0.8, 0, false});
+  world.commands().set(world.machines().at(0), {0.8, 0, false});
   run(world, 5, [] {});
-  EXPECT_GT(world.machine(0).link(0).pose().translation().x(), -9 + 2);
+  EXPECT_GT(world.machines().at(0).link(0).pose().translation().x(), -9 + 2);
 }
 
 TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
@@ -118,7 +118,8 @@ TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
     lifted.machines[0].X_WM.linear() = make_pose(0, 0, 0, 0.1, 0.2, 0).linear();
     const sim::World as_it_is(yard(features), shared_device()),
         as_commanded(lifted, shared_device());
-    const Pose a = as_it_is.machine(0).link(0).pose(), b = as_commanded.machine(0).link(0).pose();
+    const Pose a = as_it_is.machines().at(0).link(0).pose(),
+               b = as_commanded.machines().at(0).link(0).pose();
     EXPECT_NEAR(b.translation().z() - a.translation().z(), 1.0, 1e-6);
     const Mat3 turn = a.linear().transpose() * b.linear();
     EXPECT_NEAR((turn - make_pose(0, 0, 0, 0.1, 0.2, 0).linear()).norm(), 0, 1e-9);
@@ -128,17 +129,19 @@ TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
 TEST(Wheels, OfTwoExcavatorsRollAsIfEachWereAlone) {
   sim::World alone(yard({}), shared_device()), both(yard({}, 2), shared_device());
   for (sim::World* world : {&alone, &both}) {
-    world->command(world->machine(0), {1.0, 0, false});
+    world->commands().set(world->machines().at(0), {1.0, 0, false});
     run(*world, 1.5, [] {});
   }
-  const Vec3 difference =
-      both.machine(0).link(0).pose().translation() - alone.machine(0).link(0).pose().translation();
-  EXPECT_GT(alone.machine(0).link(0).pose().translation().x(), -9 + 0.2);
+  const Vec3 difference = both.machines().at(0).link(0).pose().translation() -
+                          alone.machines().at(0).link(0).pose().translation();
+  EXPECT_GT(alone.machines().at(0).link(0).pose().translation().x(), -9 + 0.2);
   // One sweep of the joint solver serves both machines; what it leaves grows in the ruts: 2 mm of
   // 0.5 m measured.
-  EXPECT_LT(difference.norm(), 0.01 * (alone.machine(0).link(0).pose().translation().x() + 9));
+  EXPECT_LT(difference.norm(),
+            0.01 * (alone.machines().at(0).link(0).pose().translation().x() + 9));
   // The other one stands where it stood; 5 mm: it settles on its tyres.
-  EXPECT_LT((both.machine(1).link(0).pose().translation() - Vec3(-9, 6, 0)).head<2>().norm(), 5e-3);
+  EXPECT_LT((both.machines().at(1).link(0).pose().translation() - Vec3(-9, 6, 0)).head<2>().norm(),
+            5e-3);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(Buffer, MayBeEmpty) {
   EXPECT_TRUE(buffer.read().empty());
   buffer.fill(3);
   EXPECT_EQ(buffer.map_read().size(), 0u);
-  EXPECT_EQ(buffer.map_write().size(), 0u);
+  EXPECT_EQ(buffer.map_update().size(), 0u);
   buffer.resize(2);
   buffer.fill(3);
   EXPECT_EQ(buffer.read(), (std::vector<float>{3, 3}));
@@ -61,19 +61,11 @@ TEST(Buffer, KeepsItsValuesWhenItGrowsAndShrinks) {
   EXPECT_EQ(buffer.read(), (std::vector<int>{0, 1, 2}));
 }
 
-TEST(Buffer, CopiesRangesOfAnother) {
-  Device device;
-  const Buffer<int> from(device, std::vector<int>{1, 2, 3, 4});
-  Buffer<int> to(device, std::vector<int>{9, 9, 9});
-  to.copy_from(from, 2, 1, 1);
-  EXPECT_EQ(to.read(), (std::vector<int>{9, 2, 3}));
-}
-
-TEST(Buffer, MapsToReadWriteAndUpdate) {
+TEST(Buffer, MapsToReadAndUpdate) {
   Device device;
   Buffer<int> buffer(device, 4);
   {
-    auto view = buffer.map_write();
+    auto view = buffer.map_update();
     std::iota(view.begin(), view.end(), 10);
   }
   {
@@ -90,7 +82,7 @@ TEST(Buffer, MapsWithoutACopyWhereMemoryIsShared) {
   if (!device.info().shares_memory) GTEST_SKIP() << device.info().name << " has memory of its own";
   Buffer<int> buffer(device, 1 << 20);
   const int* first = buffer.map_read().data();
-  const int* again = buffer.map_write().data();
+  const int* again = buffer.map_update().data();
   // A staging copy would come from a fresh allocation each time.
   EXPECT_EQ(first, again);
   EXPECT_EQ(buffer.map_read(100, 1).data(), first + 100);

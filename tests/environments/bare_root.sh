@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # `navvy` in a bare root: bare_root.sh NAVVY DATA [CASE]. NAVVY is the program, DATA the folder with scenarios/, vehicles/
 # and terrain/. The root holds this machine's libraries, bound read-only, and nothing else that can be written but what a
-# case adds. Each case says which exit status and which words it expects (scenarios/README.md, "Exit status").
+# case adds. Each case says which exit status and which words it expects (docs/reference/results.md, "Faults and exit status").
 #
 # Needs root and leave to mount, and ends with status 77 (a skipped test) where it may not. It mounts in a mount namespace
 # of its own, so nothing is left behind whatever becomes of it.
@@ -163,14 +163,14 @@ fi
 if begin "no HOME, but /tmp: a temporary folder for kernels, gone afterwards"; then
   room /out && room /tmp
   run_case 0 "neither POCL_CACHE_DIR, XDG_CACHE_HOME nor HOME is set" \
-    "compiled anew for this run, in /tmp/navvy-kernels-" ++ -- "${SMALL[@]}" --out /out/run
+    "compiled again for this run, in /tmp/navvy-kernels-" ++ -- "${SMALL[@]}" --out /out/run
   same
   no_kernels_left /tmp
 fi
 if begin "a HOME that cannot be written, and TMPDIR"; then
   room /out && room /other
-  run_case 0 "kernel cache '/home/.cache/navvy/kernels': the folder cannot be made: Read-only file system" \
-    "compiled anew for this run, in /other/navvy-kernels-" ++ HOME=/home TMPDIR=/other -- "${SMALL[@]}" --out /out/run
+  run_case 0 "kernel cache '/home/.cache/navvy/kernels': the folder cannot be created: Read-only file system" \
+    "compiled again for this run, in /other/navvy-kernels-" ++ HOME=/home TMPDIR=/other -- "${SMALL[@]}" --out /out/run
   same
   no_kernels_left /other
 fi
@@ -195,7 +195,7 @@ fi
 if begin "a cache that belongs to somebody else"; then
   room /out && room /tmp && room /cache
   chown -R 0:0 "$root/cache" && chmod -R go-w "$root/cache"
-  run_case 0 "kernel cache '/cache/navvy/kernels': the folder cannot be made: Permission denied" "/tmp/navvy-kernels-" ++ \
+  run_case 0 "kernel cache '/cache/navvy/kernels': the folder cannot be created: Permission denied" "/tmp/navvy-kernels-" ++ \
     POCL_CACHE_DIR=/cache -- "${SMALL[@]}" --out /out/run
   same
   no_kernels_left /tmp

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as what a controller writes: every line is obeyed or answered, until the bytes end. Then
-// the world takes a step with the inputs that were set. One simulation serves all; it is put back
-// to its start whenever something was set.
+// Takes bytes as the output of a controller: every line is obeyed or answered, until the bytes end.
+// Then the world steps once with the inputs that were set. One simulation serves all inputs; it
+// returns to its start after each input that set something.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -34,7 +34,7 @@ struct Driven {
   int input = ::memfd_create("input", 0);
 
   Driven() {
-    // What is read as standard input from now on, and nobody reads the answers.
+    // Replaces standard input, and discards the answers.
     ::dup2(input, STDIN_FILENO);
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDOUT_FILENO);
@@ -42,7 +42,7 @@ struct Driven {
   }
 };
 
-/// Kept to the end: threads of the driver would outlive it.
+/// Returns the session, which is never destroyed: threads of the driver would outlive it.
 Driven& the_one() {
   static Driven& driven = *new Driven;
   return driven;
@@ -50,7 +50,8 @@ Driven& the_one() {
 
 }  // namespace
 
-/// Kernels that no cache holds yet are compiled for a minute, which no input is to be blamed for.
+/// Compiles the kernels before the first input, since an empty cache would cost that input a
+/// minute.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   the_one();
   return 0;
@@ -65,13 +66,13 @@ NAVVY_FUZZ_TARGET(control) {
       driven.simulation, 1, [] { return false; }, link::ControlServices{false, false});
   while (controller.exchange()) {
   }
-  // Only a line that names inputs changes something; the others cost no step.
+  // Only a line that names inputs changes the session; the others cost no step.
   if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos)
     return 0;
   try {
     driven.simulation.step();
   } catch (const Error&) {
-    // Such as a joint that was told to go to 1e300.
+    // E.g. a joint that was commanded to 1e300.
   }
   driven.simulation.reset();
   return 0;

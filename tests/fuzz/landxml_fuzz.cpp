@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as LandXML, then the surface on a small site: both may refuse with InputError, nothing
-// else.
+// Takes bytes as a LandXML file, then lays its surface on a small site. Both may refuse with
+// InputError only.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene file, read by the whole loader with libsdformat. It loads or is refused with InputError;
-// what has loaded can be written out, and that text loads.
+// Takes bytes as a scene file for the whole loader, libsdformat included. The scene loads or is
+// refused with InputError; a scene that has loaded can be written, and the written text loads.
 #include <string>
 
 #include "control/step_kinds.h"
@@ -17,7 +17,7 @@ NAVVY_FUZZ_TARGET(loader) {
   } catch (const InputError&) {
     return 0;
   }
-  // What a run leaves beside its results; a fault in it is a crash of this target.
+  // A run leaves this text beside its results; a fault in it is a crash of this target.
   scene_io::load_scene_from_string(resolved, "fuzz/scene.sdf", control::step_kinds());
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine file, with a program in it for once: our own readers on its element tree, links and
-// joints without libsdformat (sdf_stand_in.cpp). What is let in holds what the engines take for
-// granted.
+// Takes bytes as a machine file, here also with a program, for our own readers of the element tree.
+// Links and joints are read without libsdformat (sdf_stand_in.cpp). An accepted machine satisfies
+// the assumptions of the physics engines.
 #include <cmath>
 #include <string>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace navvy;
 
-/// Files are named from there.
+/// File names are relative to this path.
 const std::string kName = source_dir() + "/tests/fuzz/files/fuzz.sdf";
 
 void check_shells(const scene::Machine& machine) {
@@ -56,7 +56,7 @@ void check_joints(const scene::Machine& machine) {
 
 NAVVY_FUZZ_TARGET(machine) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  // Shipped machines are read in loader_fuzz; here their files would take nearly all of the time.
+  // loader_fuzz reads shipped machines; here their files would take nearly all of the time.
   if (text.find("model://") != std::string::npos) return 0;
   scene_io::Faults faults;
   const auto document = scene_io::Document::parse(text, kName, faults);

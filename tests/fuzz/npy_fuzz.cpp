@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an NPY: the reader may refuse them with InputError, nothing else; what it lets in
-// has the size it says.
+// Takes bytes as an NPY file. The reader may refuse them with InputError only; an accepted array
+// has the size it declares.
 #include <sys/mman.h>
 #include <unistd.h>
 

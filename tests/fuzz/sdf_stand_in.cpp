@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the place of scene_io/sdf_model.cpp in targets that read without libsdformat, which costs
-// 80 ms a model under the sanitizers: the linker takes this function and leaves the library's.
-// Links, joints and meshes come straight from the element tree; frames and poses are not resolved
-// through each other, inertias not turned, as no reader of ours asks for them. loader_fuzz reads
-// with libsdformat itself.
+// Replaces scene_io/sdf_model.cpp in targets that read without libsdformat, which costs 80 ms per
+// model under the sanitizers: the linker takes this function instead of the library's. Links,
+// joints and meshes come straight from the element tree. Frames and poses are not resolved and
+// inertias not rotated, as none of our readers needs them. loader_fuzz uses libsdformat itself.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -16,7 +15,7 @@ namespace navvy::scene_io {
 
 namespace {
 
-/// The link that a link or frame hangs on; empty when there is none.
+/// Returns the link that a link or frame is attached to, or "".
 std::string link_of(const Element& model, std::string name) {
   for (int hops = 0; hops < 8; ++hops) {
     const Element* frame = named_child(model, "frame", name);
@@ -29,7 +28,8 @@ std::string link_of(const Element& model, std::string name) {
 
 Pose pose_of(const Element& element) {
   Pose X = Pose::Identity();
-  Faults told;  // by check_sdf
+  // Faults that check_sdf has reported already.
+  Faults told;
   if (const Element* pose = element.FirstChildElement("pose")) read_pose(*pose, X, told);
   return X;
 }
@@ -40,7 +40,7 @@ double number_in(const Element* element, const char* name, double otherwise) {
   return value;
 }
 
-/// Meshes are our own reader's work; other shapes are libsdformat's.
+/// Our own reader reads meshes; libsdformat reads other shapes.
 void check_meshes(const Element& link, Faults& faults) {
   for (const char* kind : {"visual", "collision"})
     for (const Element* shape = link.FirstChildElement(kind); shape;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines as `--set KEY=VALUE`, and as the other options that change a scene, on one scene that is
-// then read. What is let in is a scene that says the same when it is written out; models go without
-// libsdformat (sdf_stand_in.cpp).
+// Takes lines as `--set KEY=VALUE`, and as the other options that change a scene, and reads one
+// scene with them. An accepted scene is equal when it is written and read again. Models are read
+// without libsdformat (sdf_stand_in.cpp).
 #include <sstream>
 #include <string>
 
@@ -32,7 +32,7 @@ const char* const kScene = R"(<sdf version="1.9" xmlns:navvy="navvy"><world name
 <child>b</child><axis><xyz>0 1 0</xyz></axis></joint><navvy:joint name="j"><initial_deg>3</initial_deg></navvy:joint>
 <navvy:program><wait><duration_s>1</duration_s></wait></navvy:program></model></world></sdf>)";
 
-/// A line with one of the options' names sets what that option sets, any other line is a setting.
+/// Applies a line: a line with the name of an option is that option, any other line is a setting.
 void take(const std::string& line, scene_io::Overrides& overrides) {
   const auto [key, value] = scene_io::parse_setting(line);
   std::istringstream in(value);
@@ -65,14 +65,13 @@ NAVVY_FUZZ_TARGET(set) {
     try {
       take(line, overrides);
     } catch (const InputError&) {
-      // No '='.
+      // The line has no '='.
     }
   }
   scene_io::Faults faults;
   const auto document = scene_io::Document::parse(kScene, "fuzz/scene.sdf", faults);
   scene_io::apply_overrides(*document, overrides, faults);
-  // Machines of other files are read in world_fuzz; here their files would take nearly all of the
-  // time.
+  // world_fuzz reads machines of other files; here their files would take nearly all of the time.
   scene_io::Element& world = *document->root()->FirstChildElement("world");
   while (scene_io::Element* include = world.FirstChildElement("include"))
     world.DeleteChild(include);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snapshots that somebody made up: edits of a good state, under checksums that fit again, loaded
-// from a file and run for three steps. An input is a list of edits of 16 bytes each; which field
-// one goes to is chosen by kinds of fields (names without their numbers), as most bytes of a state
-// are alike.
+// Edits a valid state, updates its checksums, loads it from a file and runs three steps. An input
+// is a list of edits of 16 bytes each. An edit first selects a kind of field (its name without
+// numbers) and then a field, since most bytes of a state are alike.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -28,8 +27,8 @@ namespace {
 
 using namespace navvy;
 
-// As small as a scene with all kinds of parts can be: a bucket in the soil, a dumper with a load
-// that drives.
+// The smallest scene with all kinds of parts: a bucket in the soil, and a dumper with a load that
+// drives.
 const char* const kScene =
     R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/>
 <navvy:ground><size_m>12 6</size_m><depth_m>1</depth_m></navvy:ground>
@@ -43,10 +42,11 @@ const char* const kScene =
 <navvy:load><mass_kg>300</mass_kg></navvy:load>
 <navvy:program><drive_to><target_m>3 0</target_m></drive_to></navvy:program></include></world></sdf>)";
 
-constexpr double kBefore = 0.2;  // [s]: soil is awake, each program has begun
+// Time of the state [s]: soil is active, and each program has begun.
+constexpr double kBefore = 0.2;
 constexpr std::size_t kEdit = 16, kMostEdits = 8;
 
-/// What a snapshot's file holds behind its seal.
+/// Content of a snapshot's file behind its seal.
 struct Content {
   sim::SnapshotStart start;
   session::Session& session;
@@ -57,18 +57,20 @@ struct Content {
 };
 
 struct Place {
-  std::size_t offset = 0, size = 0;  ///< [bytes]
+  // [bytes]
+  std::size_t offset = 0, size = 0;
 };
 
-/// A good state, its fields by what they are called without their numbers, and the session that
-/// takes what becomes of it.
+/// A valid state, its fields by names without numbers, and the session that loads the edited
+/// states.
 struct Crafted {
   device::Device device;
   session::Session session{
       scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
   std::vector<char> state;
   std::vector<std::vector<Place>> kinds;
-  std::vector<std::size_t> heads;  ///< offsets of the heads of sections
+  // Offsets of the heads of sections.
+  std::vector<std::size_t> heads;
   int file = ::memfd_create("snapshot", 0);
   std::string path = "/proc/self/fd/" + std::to_string(file);
 
@@ -80,7 +82,7 @@ struct Crafted {
     std::map<std::string, std::vector<Place>> by_name;
     std::size_t end = 0;
     for (const ByteMap::Field& field : map.fields) {
-      // Between fields there is nothing but heads.
+      // Only heads of sections lie between fields.
       for (; end + kSectionHead <= field.offset; end += kSectionHead) {
         heads.push_back(end);
         by_name["head"].push_back({end, kSectionHead - sizeof(std::uint64_t)});
@@ -101,7 +103,7 @@ void put(const T& value, char* to, std::size_t size) {
   if (sizeof value == size) std::memcpy(to, &value, size);
 }
 
-/// A value that no run writes, for a number of `size` bytes.
+/// Writes a value that no run writes to a number of `size` bytes.
 void put_extreme(unsigned which, char* to, std::size_t size) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   const float floats[] = {std::nanf(""), kInf, -kInf, 1e30f, -1e30f, 1e-40f, 0, 1};
@@ -121,8 +123,7 @@ void put_extreme(unsigned which, char* to, std::size_t size) {
   put(static_cast<std::uint8_t>(which * 37 - 1), to, size);
 }
 
-/// Bytes that come into the state or go out of it; the lengths of the sections round them are
-/// mended.
+/// Bytes that are inserted or removed; the lengths of the enclosing sections are updated.
 struct Resize {
   Place place;
   bool grow = false;
@@ -140,7 +141,7 @@ void apply(const Crafted& crafted, std::vector<Resize> resizes, std::vector<char
       length = resize.grow ? length + resize.place.size : length - resize.place.size;
       std::memcpy(at, &length, sizeof length);
     }
-  // From the back, so that the places in front stay where they are.
+  // Starts from the back, so that the offsets in front stay valid.
   std::sort(resizes.begin(), resizes.end(),
             [](const Resize& a, const Resize& b) { return a.place.offset > b.place.offset; });
   std::size_t last = state.size();
@@ -192,7 +193,7 @@ std::vector<char> edited(const Crafted& crafted, const std::uint8_t* data, std::
              false});
         break;
       default:
-        // Runs of plain values are eights to the eye, and may be fours.
+        // Runs of plain values look like 8-byte numbers, but may be 4-byte ones.
         put_extreme(edit[8], to, width == 8 && (edit[9] & 1) != 0 ? 4 : width);
     }
   }
@@ -200,7 +201,7 @@ std::vector<char> edited(const Crafted& crafted, const std::uint8_t* data, std::
   return state;
 }
 
-/// Kept to the end: threads of the driver would outlive it.
+/// Returns the state, which is never destroyed: threads of the driver would outlive it.
 Crafted& the_one() {
   static Crafted& crafted = *new Crafted;
   return crafted;
@@ -208,7 +209,8 @@ Crafted& the_one() {
 
 }  // namespace
 
-/// Kernels that no cache holds yet are compiled for a minute, which no input is to be blamed for.
+/// Compiles the kernels before the first input, since an empty cache would cost that input a
+/// minute.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   the_one();
   return 0;
@@ -220,7 +222,8 @@ NAVVY_FUZZ_TARGET(snapshot) {
   try {
     content = seal(edited(crafted, data, size));
   } catch (const Error&) {
-    return 0;  // its sections fit no longer
+    // The edits broke the sections.
+    return 0;
   }
   fuzz::hold(::ftruncate(crafted.file, 0) == 0);
   fuzz::hold(::pwrite(crafted.file, content.data(), content.size(), 0) ==
@@ -230,7 +233,7 @@ NAVVY_FUZZ_TARGET(snapshot) {
     for (int i = 0; i < 3; ++i) crafted.session.step();
     crafted.session.state_hash();
   } catch (const Error&) {
-    // Refused by its name, or the run stopped with a message.
+    // Refused with a field's name, or the run stopped with a message.
   }
   return 0;
 }

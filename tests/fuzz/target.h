@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function a target: libFuzzer's entry under the preset fuzz, and a function of its own name in
-// the plain build, where corpus_test.cpp gives it the kept inputs.
+// Entry point of a fuzz target: libFuzzer's function in the preset fuzz, and a function named after
+// the target in the plain build, where corpus_test.cpp passes the kept inputs to it.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace navvy::fuzz {
 
-/// A property that holds for whatever was let in; libFuzzer keeps the input for which it does not.
+/// Checks a property of accepted input; libFuzzer keeps the input that breaks it.
 inline void hold(bool property) {
   if (!property) std::abort();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a terrain map: the importer may refuse them with InputError, nothing else.
+// Takes bytes as a terrain map. The importer may refuse them with InputError only.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 
 NAVVY_FUZZ_TARGET(terrain) {
   if (size < 1) return 0;
-  // The first byte chooses the place in the map and the cell; the driver is found by content.
+  // The first byte selects the place in the map and the cell; the driver is chosen by content.
   const std::uint8_t choice = data[0];
   const int file = ::memfd_create("map", 0);
   if (file < 0) return 0;
@@ -25,7 +25,7 @@ NAVVY_FUZZ_TARGET(terrain) {
   world.soils[0].name = "loam";
   world.ground.layers = {{"loam", 1}};
   world.ground.file = path;
-  // A few columns: what is tried is reading, not the filling of gaps.
+  // Few columns: the target tests reading, not the filling of gaps.
   world.ground.size = navvy::Vec2(0.8, 0.4);
   world.solver.cell = (choice & 1) != 0 ? 0.2 : 0.1;
   world.ground.has_at = world.ground.at_is_local = (choice & 2) != 0;
@@ -33,7 +33,7 @@ NAVVY_FUZZ_TARGET(terrain) {
   if ((choice & 4) != 0) world.ground.steep = navvy::scene::SteepGround::kSettle;
   try {
     const navvy::heightfield::Ground ground = navvy::heightfield::make_ground(world);
-    // What was let in must be usable.
+    // An accepted map must be usable.
     for (int iy = 0; iy < ground.ny(); ++iy)
       for (int ix = 0; ix < ground.nx(); ++ix)
         if (!(ground.height(ix, iy) >= ground.datum())) std::abort();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mutations of XML for libFuzzer, which by itself changes bytes: nearly all of what it makes is no
-// XML, and the readers behind the parser never see it. Here elements are removed, copied, moved,
-// renamed and given other values, and trees of two inputs are crossed. One change in eight stays
-// one of bytes, as what is no XML must be refused too.
+// Mutations of XML for libFuzzer, whose own mutations change bytes: nearly all of them are no XML,
+// so that the readers behind the parser never see them. Here elements are removed, copied, moved,
+// renamed and given other values, and trees of two inputs are crossed. One mutation in eight
+// changes bytes, since input that is no XML must be refused too.
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -22,8 +22,7 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Values at and beyond the edges of what readers take, and words that mean something in some
-/// place.
+/// Values at and beyond the limits of readers, and keywords.
 const char* const kValues[] = {
     "",          "0",        "-0",          "1",        "-1",    "2",
     "3",         "0.5",      "1e-9",        "1e9",      "1e308", "1e400",
@@ -52,7 +51,7 @@ std::vector<XMLElement*> elements_of(XMLDocument& tree) {
   return all;
 }
 
-/// Names of all elements that were seen in this process, from which new ones take theirs.
+/// Names of all elements seen in this process, from which new elements take theirs.
 std::vector<std::string>& names() {
   static std::vector<std::string> seen = {"navvy:joint"};
   return seen;
@@ -65,7 +64,7 @@ void learn(const std::vector<XMLElement*>& elements) {
       names().emplace_back(element->Name());
 }
 
-/// Another value instead of the whole, or of one of its words.
+/// Replaces the whole value, or one of its words.
 std::string other_value(navvy::Random& random, const std::string& text) {
   if (below(random, 3) == 0) return any_of(random, kValues);
   std::istringstream in(text);
@@ -148,7 +147,7 @@ void change(navvy::Random& random, XMLDocument& tree) {
       change_attribute(random, element, all);
       break;
     default:
-      // Most often: values stand in elements without children.
+      // The most frequent case: values are in elements without children.
       for (int tries = 0; tries < 4; ++tries) {
         XMLElement& leaf = *any_of(random, all);
         if (leaf.FirstChildElement() != nullptr) continue;
@@ -164,7 +163,7 @@ bool parse(XMLDocument& tree, const std::uint8_t* data, std::size_t size) {
   return !tree.Error() && tree.RootElement() != nullptr;
 }
 
-/// 0 when there is no room for it.
+/// Writes the tree; returns 0 if it does not fit.
 std::size_t print(const XMLDocument& tree, std::uint8_t* data, std::size_t max_size) {
   tinyxml2::XMLPrinter printer(nullptr, true);
   tree.Print(&printer);
@@ -187,8 +186,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   return printed > 0 ? printed : LLVMFuzzerMutate(data, size, max_size);
 }
 
-/// A tree of the second input comes into the first: beside elements of its name, or below one of
-/// its parent's name.
+/// Moves a tree of the second input into the first: beside elements of the same name, or below one
+/// of its parent's name.
 extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
                                                  const std::uint8_t* data2, std::size_t size2,
                                                  std::uint8_t* out, std::size_t max_size,

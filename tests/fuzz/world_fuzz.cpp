@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene file, read by our own readers on its element tree; models without libsdformat
-// (sdf_stand_in.cpp). It is refused with a list of faults, or what it became can be written out,
-// read again as the same scene, and laid out as ground.
+// Takes bytes as a scene file for our own readers of the element tree; models are read without
+// libsdformat (sdf_stand_in.cpp). The scene is refused with a list of faults, or it can be written,
+// is equal when read again, and its ground can be built.
 #include <string>
 
 #include "control/step_kinds.h"
@@ -17,10 +17,10 @@ namespace {
 
 using namespace navvy;
 
-/// Files are named from there.
+/// File names are relative to this path.
 const std::string kName = source_dir() + "/tests/fuzz/files/fuzz.sdf";
 
-/// Far above this, time goes into columns and no longer into what is read.
+/// Far above this, columns take the time instead of reading.
 constexpr double kMostColumns = 10'000;
 
 scene::Scene read(scene_io::Document& document, scene_io::Faults& faults) {
@@ -36,7 +36,7 @@ void lay_out(const scene::Scene& world) {
     for (int iy = 0; iy < ground.ny(); ++iy)
       for (int ix = 0; ix < ground.nx(); ++ix) fuzz::hold(ground.height(ix, iy) >= ground.datum());
   } catch (const InputError&) {
-    // Such as a trench below the bedrock.
+    // E.g. a trench below the bedrock.
   }
 }
 
@@ -44,7 +44,7 @@ void lay_out(const scene::Scene& world) {
 
 NAVVY_FUZZ_TARGET(world) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  // Shipped machines are read in loader_fuzz; here their files would take nearly all of the time.
+  // loader_fuzz reads shipped machines; here their files would take nearly all of the time.
   if (text.find("model://") != std::string::npos) return 0;
   scene_io::Faults faults;
   const auto document = scene_io::Document::parse(text, kName, faults);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heightfield/esri_ascii.h"
-
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -42,7 +40,7 @@ struct Format {
   Writer writer;
 };
 std::vector<Format> formats() {
-  std::vector<Format> all = {{"map.asc", write_esri_ascii}};
+  std::vector<Format> all;
 #ifdef NAVVY_WITH_GDAL
   all.push_back({"map.tif", [](const Terrain& terrain, const std::string& path) {
                    write_geotiff(terrain, path);

@@ -14,6 +14,7 @@
 #include "core/saved_state.h"
 #include "flip_bytes.h"
 #include "heightfield/grounds.h"
+#include "heightfield/volume_change.h"
 
 namespace navvy::heightfield {
 namespace {
@@ -132,10 +133,9 @@ TEST(Ground, VolumesFromHeightsAgreeWithMass) {
   std::vector<SoilLayer> dug;
   for (int iy = 10; iy < 20; ++iy)
     for (int ix = 10; ix < 40; ++ix) fresh.take_above(ix, iy, fresh.height(ix, iy) - 0.25, dug);
-  double raised, lowered;
-  fresh.volume_change(raised, lowered);
-  EXPECT_EQ(raised, 0);
-  EXPECT_NEAR(lowered / (kilograms(total(dug)) / 1100), 1, 1e-5);
+  const testing::VolumeChange change = testing::volume_change(fresh);
+  EXPECT_EQ(change.raised, 0);
+  EXPECT_NEAR(change.lowered / (kilograms(total(dug)) / 1100), 1, 1e-5);
 }
 
 TEST(Ground, TakesDownToTheHeightAskedFor) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a parameter says it may be, and what becomes of what a person writes.
+// Ranges of parameters, and how texts are read.
 #include "lab/parameter.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ TEST(Parameter, ReadsNumbersAndTheWordsOfItsChoices) {
       choice("shape", "round", "", {{"plane", 0, "a block"}, {"round", 1, "a cylinder"}});
   EXPECT_EQ(shape.value, 1);
   EXPECT_EQ(shape.read("plane"), 0);
-  EXPECT_EQ(shape.read("1"), 1);  // the number stands for the choice as well
+  // The number is accepted for the choice, too.
+  EXPECT_EQ(shape.read("1"), 1);
   EXPECT_FALSE(shape.read("square"));
   EXPECT_EQ(shape.text(0), "plane");
   EXPECT_EQ(shape.rule(), "plane or round");
@@ -61,7 +62,8 @@ TEST(Parameter, ReadsNumbersAndTheWordsOfItsChoices) {
   const Parameter depth{"depth", 0.8, "m", "of the pit", above(0)};
   EXPECT_EQ(depth.read("1e-3"), 1e-3);
   EXPECT_EQ(depth.read("+2"), 2);
-  EXPECT_EQ(depth.read("-2"), -2);  // read, though not allowed
+  // Read, though not allowed.
+  EXPECT_EQ(depth.read("-2"), -2);
   for (const char* text : {"", "2m", "much", "+"}) EXPECT_FALSE(depth.read(text)) << text;
   EXPECT_EQ(depth.rule(), "above 0 m");
 }

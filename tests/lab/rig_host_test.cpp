@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of rigs, their parameters and examples, and the errors that setups get. No experiment
-// runs here.
+// The list of rigs, their parameters and examples, and errors of setups. No experiment runs here.
 #include "lab/rig.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ Setup setup_of(const Rig& rig) {
   return setup;
 }
 
-/// The message of the InputError that `call` throws.
+/// Returns the message of the InputError that `call` throws.
 template <class Call>
 std::string refusal(const Call& call) {
   try {
@@ -43,7 +42,7 @@ TEST(Rig, DefaultsAreAllowedAndEveryParameterSaysWhatItIs) {
     EXPECT_NO_THROW(check(rig, setup_of(rig))) << rig.name;
     for (const Parameter& p : rig.parameters) {
       EXPECT_FALSE(p.help.empty() && p.choices.empty()) << rig.name << " " << p.name;
-      // Written and read again, a default is itself.
+      // A default that is written and read again is unchanged.
       EXPECT_EQ(p.read(p.text(p.value)), p.value) << rig.name << " " << p.name;
     }
   }
@@ -66,8 +65,8 @@ TEST(Rig, ExamplesUseParametersItHasWithinTheirRanges) {
       std::istringstream words(example.arguments);
       for (std::string option, value; words >> option >> value;) {
         ASSERT_EQ(option.rfind("--", 0), 0u) << rig.name << ": " << option;
-        // The rest are options of the soil and of the program. Of a list every value must do: the
-        // last is tried here.
+        // The rest are options of the soil and of the program. Every value of a list must be valid:
+        // the last is tried here.
         if (rig.find(option.substr(2)) != nullptr)
           written[option.substr(2)] = listed(option, value).back();
       }
@@ -98,7 +97,8 @@ TEST(Rig, RefusalsNameRigParameterValueRuleAndTheNearest) {
     EXPECT_TRUE(holds(text, part)) << text;
   setup.geometry["l0"] = 1;
   setup.geometry["shape"] = 7;
-  text = refusal([&] { column.run(setup); });  // checks before it runs
+  // It checks before it runs.
+  text = refusal([&] { column.run(setup); });
   for (const char* part : {"--shape", "7", "plane or round"})
     EXPECT_TRUE(holds(text, part)) << text;
   text = refusal([&] { set_written(setup, {{"shape", "plain"}, {"ll0", "1"}, {"gap", "wide"}}); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a rig in a test and prints its rows as the validation table has them.
+// Runs a rig in a test and prints its rows as the validation table shows them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,13 +15,13 @@
 
 namespace navvy::lab {
 
-/// One device for all tests of a program: kernels build once.
+/// Returns one device for all tests of a program: kernels build once.
 inline device::Device& test_device() {
   static device::Device shared;
   return shared;
 }
 
-/// Runs `name` with the given parameters instead of the defaults and prints every result.
+/// Runs `name` with these parameters instead of the defaults and prints every result.
 inline Report run_rig(const std::string& name, const std::map<std::string, double>& geometry,
                       const std::function<void(Setup&)>& change = {}) {
   Setup setup = default_setup(find_rig(name), test_device());
@@ -30,10 +30,10 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
     setup.geometry[parameter] = value;
   }
   if (change) change(setup);
-  const Report report = find_rig(name).run(setup);  // checks the setup as the program does
+  // Checks the setup as the program does.
+  const Report report = find_rig(name).run(setup);
   for (const Quantity& q : report.results) {
-    // Who reads a gate can look up where it comes from; that the reference resolves, a style test
-    // sees.
+    // Every tolerance names its source; a style test checks that the reference resolves.
     EXPECT_TRUE(!q.has_tolerance() || q.source.find('[') != std::string::npos)
         << name << ", " << q.name << ": " << q.source;
     EXPECT_TRUE(q.in_range || !q.range.empty()) << name << ", " << q.name;
@@ -49,7 +49,7 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
   return report;
 }
 
-/// Names of the results outside their gates, for EXPECT_EQ(misses(report), "").
+/// Returns the names of the results outside their tolerances, for EXPECT_EQ(misses(report), "").
 inline std::string misses(const Report& report) {
   std::string out;
   for (const Quantity& q : report.results)
@@ -57,7 +57,7 @@ inline std::string misses(const Report& report) {
   return out;
 }
 
-/// A result by name; NaN and a failed test when the rig has none.
+/// Returns a result by name; NaN and a failed test when the rig has none.
 inline double measured(const Report& report, const std::string& name) {
   const Quantity* q = report.find(name);
   EXPECT_NE(q, nullptr) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of values: what is run, what the table says, what is drawn. No experiment runs here.
+// Lists of values: the runs, the table, the plot. No experiment runs here.
 #include "lab/sweep.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ TEST(Sweep, TableHasAxesHeadlineAndDeviations) {
   ASSERT_EQ(table.size(), 5u);
   EXPECT_EQ(table[0], (std::vector<std::string>{"speed [m/s]", "courant", "force [N]", "steps", "s",
                                                 "gates"}));
-  EXPECT_EQ(table[1][2], "1");  // 10 x 0.05 + 0.5, at the gate's end
+  // 10 x 0.05 + 0.5, at the end of the tolerance.
+  EXPECT_EQ(table[1][2], "1");
   EXPECT_EQ(table[1].back(), "");
   EXPECT_EQ(table[2][2], "0.75");
   EXPECT_EQ(table[2].back(), "MISS");

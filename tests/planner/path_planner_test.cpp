@@ -95,7 +95,7 @@ TEST(ObstacleIndex, NeverCallsAPlaceClearThatIsNot) {
     clear += is, told += says;
   }
   // What it leaves open is asked of the map itself: few enough to be worth it.
-  print_value("share of clear places that the index tells", static_cast<double>(told) / clear,
+  print_value("share of clear places that the index reports", static_cast<double>(told) / clear,
               "> 0.6", "20 000 poses");
   EXPECT_GT(told, 0.6 * clear);
 }

@@ -26,8 +26,8 @@ inline scene::Scene bucket_scene(double duration, std::string* text = nullptr) {
 /// Returns options with a sampler: the array "bucket/height_grid" of 5 x 5 heights at 50 Hz.
 inline SimulationOptions with_height_grid(SimulationOptions options = {}) {
   options.set_up = [](session::Session& session) {
-    session.add(
-        std::make_unique<sim::testing::HeightGrid>(session.world().machine("bucket"), 5, 0.2, 50));
+    session.add(std::make_unique<sim::testing::HeightGrid>(session.world().machines().at("bucket"),
+                                                           5, 0.2, 50));
   };
   return options;
 }

@@ -56,9 +56,10 @@ void expect_equal(const scene::Scene& a, const scene::Scene& b) {
     EXPECT_EQ(a.soils[i].name, b.soils[i].name);
     EXPECT_EQ(a.soils[i].source, b.soils[i].source);
     for (int c = 0; c < 3; ++c) EXPECT_EQ(a.soils[i].color[c], b.soils[i].color[c]);
-    for (const scene::SoilValue& value : scene::soil_values())
-      EXPECT_EQ(a.soils[i].*value.value, b.soils[i].*value.value)
-          << a.soils[i].name << " " << value.name;
+    scene::Soil left = a.soils[i], right = b.soils[i];
+    const auto of_left = scene::soil_values(left), of_right = scene::soil_values(right);
+    for (std::size_t v = 0; v < of_left.size(); ++v)
+      EXPECT_EQ(*of_left[v].value, *of_right[v].value) << left.name << " " << of_left[v].name;
   }
   EXPECT_EQ(a.ground.size, b.ground.size);
   EXPECT_EQ(a.ground.origin, b.ground.origin);

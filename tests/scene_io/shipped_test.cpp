@@ -104,21 +104,23 @@ TEST(ShippedFiles, TheTestBucketIsAConsistentlyWoundShell) {
   }
 }
 
-// The listings of scenarios/README.md that are whole files are loaded as they stand there.
-TEST(ShippedFiles, TheListingsOfTheTutorialLoad) {
-  const auto bytes = read_file((kRoot / "scenarios/README.md").string());
-  const std::string text(bytes.begin(), bytes.end());
+// The listings of the pages that are whole files are loaded as they stand there.
+TEST(ShippedFiles, TheListingsOfThePagesLoad) {
   const std::string directory = navvy::build_dir() + "/tutorial";
   fs::create_directories(directory);
   int count = 0;
-  for (std::size_t at = text.find("```xml\n<sdf"); at != std::string::npos;
-       at = text.find("```xml\n<sdf", at + 1)) {
-    const std::size_t begin = at + 7, end = text.find("```", begin);
-    const std::string file = directory + "/listing" + std::to_string(++count) + ".sdf";
-    write_file_atomically(file, text.substr(begin, end - begin));
-    expect_clean(file);
+  for (const char* page : {"README.md", "docs/getting_started.md", "docs/howto/machine.md"}) {
+    const auto bytes = read_file((kRoot / page).string());
+    const std::string text(bytes.begin(), bytes.end());
+    for (std::size_t at = text.find("```xml\n<sdf"); at != std::string::npos;
+         at = text.find("```xml\n<sdf", at + 1)) {
+      const std::size_t begin = at + 7, end = text.find("```", begin);
+      const std::string file = directory + "/listing" + std::to_string(++count) + ".sdf";
+      write_file_atomically(file, text.substr(begin, end - begin));
+      expect_clean(file);
+    }
   }
-  EXPECT_EQ(count, 2);
+  EXPECT_EQ(count, 3);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class ByteFlip : public testing::Test {
                                                        control::step_kinds(), overrides),
                                   device_);
     session->add(
-        std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 3, 0.2, 20));
+        std::make_unique<sim::testing::HeightGrid>(session->world().machines().at(0), 3, 0.2, 20));
     while (session->world().time() < time) session->step();
     return session;
   }
@@ -73,7 +73,7 @@ const Texts kReasons = {"counts for people, no step reads them"};
 TEST_F(ByteFlip, OfADiggingBucketIsSeen) {
   const std::vector<std::string> coarse = {"solver.cell_m=0.2"};
   const auto session = make("bucket_path.sdf", coarse, 1.5);
-  ASSERT_GT(session->world().soil_counts().particles, 50);
+  ASSERT_GT(session->world().soil().counts().particles, 50);
   const auto target = make("bucket_path.sdf", coarse, 0);
   EXPECT_EQ(test::flip_every_byte(*session, *target, kStride, kShortStride), "");
   EXPECT_EQ(reasons(*session), kReasons);
@@ -83,9 +83,9 @@ TEST_F(ByteFlip, OfADiggingBucketIsSeen) {
 TEST_F(ByteFlip, OfAnExcavatorOnItsWheelsIsSeen) {
   const auto session = make("trench.sdf", {}, 0.5), target = make("trench.sdf", {}, 0);
   EXPECT_EQ(test::flip_every_byte(*session, *target, kStride, kShortStride), "");
-  // A brake that is off is no part of the hash: one that is on is, by the place it holds.
+  // A brake that is off is not hashed; a set one is, by its held position.
   std::set<std::string> with_brakes = kReasons;
-  with_brakes.insert("hashed by the place it holds, while it is on");
+  with_brakes.insert("hashed by the held position while it is set");
   EXPECT_EQ(reasons(*session), with_brakes);
 }
 

@@ -63,7 +63,7 @@ TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
   EXPECT_GT(report.last().place.x(), -5);
   EXPECT_LT(report.last().end, 14);
   EXPECT_EQ(session.phase(1), "blocked");
-  EXPECT_TRUE(session.world().machine("truck").drive().brake);
+  EXPECT_TRUE(session.world().machines().at("truck").drive().brake);
 }
 
 TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
@@ -91,7 +91,7 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
   EXPECT_EQ(upwards.last().state, StepState::kDone) << upwards.last().reason;
   EXPECT_GT(upwards.last().end, across.last().end);
   // It was no false alarm: what was called tipped has gone on to lie on its side.
-  EXPECT_GT(session->world().machine("across").stability().tilt, radians(40));
+  EXPECT_GT(session->world().machines().at("across").stability().tilt, radians(40));
   // The report outlives a snapshot.
   const auto resumed = make();
   load_saved(bytes, *resumed);
@@ -139,9 +139,9 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
   EXPECT_EQ(session->phase(0), "tipped");
   EXPECT_EQ(session->phase(2), "idle");
   // How they stand are outputs.
-  EXPECT_GT(session->world().get("parked/stability/tilt"), radians(40));
-  EXPECT_GT(session->world().get("upwards/stability/margin"), 0.1);
-  EXPECT_NEAR(session->world().get("upwards/stability/tilt"), radians(30), radians(4));
+  EXPECT_GT(session->world().outputs().get("parked/stability/tilt"), radians(40));
+  EXPECT_GT(session->world().outputs().get("upwards/stability/margin"), 0.1);
+  EXPECT_NEAR(session->world().outputs().get("upwards/stability/tilt"), radians(30), radians(4));
   EXPECT_NE(report_line(reports[0], "parked").find("'parked' (idle): tipped: "), std::string::npos)
       << report_line(reports[0], "parked");
   // The report of the fall survives a snapshot and is logged once.
@@ -167,7 +167,7 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
                                         machine("dumper", "parked", "-4 0 0 0 0 0", "")),
       device);
   session.set("truck/drive/speed", 2);
-  const auto x = [&] { return session.world().machine(0).link(0).pose().translation().x(); };
+  const auto x = [&] { return session.world().machines().at(0).link(0).pose().translation().x(); };
   session.step();
   EXPECT_TRUE(logged().empty()) << "both stand on it";
   while (x() < 9 && session.world().time() < 10) session.step();

@@ -33,12 +33,12 @@ TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {
   device::Device device;
   Session session(short_haul(), device);
   const sim::World& world = session.world();
-  const double start_x = world.machine(0).link(0).pose().translation().x();
+  const double start_x = world.machines().at(0).link(0).pose().translation().x();
   EXPECT_NEAR(testing::carried(world, 0, "bed"), kLoad, 1e-3);
   double rise = 0;
   while (!session.done()) {
     session.step();
-    rise = std::max(rise, std::abs(world.machine(0).link(0).velocity().z()));
+    rise = std::max(rise, std::abs(world.machines().at(0).link(0).velocity().z()));
   }
   ASSERT_EQ(session.tips().size(), 2u);
   const BedTip& tip = session.tips()[0];
@@ -49,10 +49,10 @@ TEST(Haul, TheBedCarriesItsLoadAndTipsItOntoOneHeap) {
   const double heap = testing::mass_gained(world, Vec2(-13, -3), Vec2(-6, 3));
   std::printf("heap %.1f kg\n", heap);
   EXPECT_NEAR(heap, tip.payload_start, 0.01 * kLoad);
-  EXPECT_GT(world.machine(0).link(0).pose().translation().x() - start_x, 6.8);
+  EXPECT_GT(world.machines().at(0).link(0).pose().translation().x() - start_x, 6.8);
   EXPECT_LT(rise, 1.0);
-  EXPECT_EQ(world.mass_ledger().error, 0);
-  EXPECT_EQ(world.soil_counts().shell_crossings, 0u);
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
+  EXPECT_EQ(world.soil().counts().shell_crossings, 0u);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
   for (const double stop : {0.6, 1.5, 2.5, 3.5, 4.5, 6.0, 8.0, 11.0, 11.4, 13.0}) {
     SCOPED_TRACE(stop);
     while (world.time() < stop) session.step();
-    const sim::MassLedger ledger = world.mass_ledger();
+    const sim::MassLedger ledger = world.soil().mass_ledger();
     const sim::ActivePlaces active = sim::active_places(world);
     // Every unit of mass is in one of the books.
     EXPECT_EQ(ledger.error, 0);
@@ -106,7 +106,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     const double held = kilograms_of(active.held), elsewhere = kilograms_of(active.elsewhere),
                  lies = kilograms_of(active.lies);
     // The same question asked in another way.
-    EXPECT_NEAR(held, world.machine(0).tool(0).payload(), 1e-9);
+    EXPECT_NEAR(held, world.machines().at(0).tool(0).payload(), 1e-9);
 
     const heightfield::TerrainView map =
         sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
@@ -129,7 +129,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     EXPECT_GE(lying_volume, 0.88 * lies / loam.bank_density);
     EXPECT_LE(lying_volume, 1.001 * loam.swell * lies / loam.bank_density);
 
-    const record::Earthwork earth = record::measure_earthwork(world);
+    const record::Earthwork earth = record::measure_earthwork(world, active.lying);
     EXPECT_GE(earth.loose_volume, 0);
     EXPECT_GE(earth.bank_volume, 0);
     // A twentieth of a cell a column is left out of the sums of earthwork: at most so much of what

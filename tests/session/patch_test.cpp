@@ -10,6 +10,7 @@
 #include "record/summary.h"
 #include "scene_io/loader.h"
 #include "session/session.h"
+#include "sim/world_terrain.h"
 #include "values.h"
 
 namespace navvy::session {
@@ -45,14 +46,14 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnLedger) {
   std::vector<double> active(3, 0.0);  // most at once [kg]
   while (!session.done()) {
     session.step();
-    const sim::MassLedger ledger = world.mass_ledger();
+    const sim::MassLedger ledger = world.soil().mass_ledger();
     for (std::size_t i = 0; i < 3; ++i) {
       ASSERT_EQ(ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i],
                 0);
       active[i] = std::max(active[i], kilograms(ledger.particles[i]));
     }
   }
-  const record::Earthwork earth = record::measure_earthwork(world);
+  const record::Earthwork earth = record::measure_earthwork(world, sim::active_places(world).lying);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = world.description().soils.at(i).name;
     const double kept = earth.soils.at(i).spoil / earth.soils[i].dug;

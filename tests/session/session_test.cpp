@@ -52,7 +52,7 @@ TEST_F(SessionTest, TheSameRunTwiceEndsInTheSameState) {
   for (std::string& hash : hashes) {
     const auto session = make(description);
     run_to(*session, kInSoil);
-    EXPECT_GT(session->world().soil_counts().particles, 100);
+    EXPECT_GT(session->world().soil().counts().particles, 100);
     hash = session->state_hash();
   }
   EXPECT_EQ(hashes[0], hashes[1]);
@@ -77,13 +77,13 @@ TEST_F(SessionTest, AParticleBudgetShrinksActivationAndNeitherDropsSoilNorStretc
   const auto run = [&](const std::string& budget) {
     auto session = make(load("bucket_path.sdf", {"solver.max_particles=" + budget}));
     run_to(*session, 2.2);
-    EXPECT_EQ(session->world().mass_ledger().error, 0);
+    EXPECT_EQ(session->world().soil().mass_ledger().error, 0);
     return session;
   };
   const auto whole = run("100000"), bounded = run("6000");
-  EXPECT_GT(whole->world().soil_counts().particles_peak, 10000);
-  EXPECT_LE(bounded->world().soil_counts().particles_peak, 6000);
-  EXPECT_GT(bounded->world().soil_counts().particles_peak, 3000) << "it still digs";
+  EXPECT_GT(whole->world().soil().counts().particles_peak, 10000);
+  EXPECT_LE(bounded->world().soil().counts().particles_peak, 6000);
+  EXPECT_GT(bounded->world().soil().counts().particles_peak, 3000) << "it still digs";
   EXPECT_EQ(bounded->world().steps(), whole->world().steps());
 }
 
@@ -97,17 +97,17 @@ TEST_F(SessionTest, ASnapshotOfAnotherSceneIsRefused) {
 TEST_F(SessionTest, ABlockThatStartsActiveCollapsesIntoAHeap) {
   const auto session = make(load("block_collapse.sdf"));
   const heightfield::Ground& ground = session->world().ground();
-  const int top = static_cast<int>(session->world().soil_counts().particles);
+  const int top = static_cast<int>(session->world().soil().counts().particles);
   run_to(*session, 0.8);
   EXPECT_EQ(top, 0);  // counted by the first step
-  EXPECT_GT(session->world().soil_counts().particles_peak, 25000);
+  EXPECT_GT(session->world().soil().counts().particles_peak, 25000);
   // 2 x 2 x 1 m of sand: the heap is wider than the block was and lower than its edge.
   double widest = 0;
   for (const soil::Particle& p : parts(session->world()).soil.particles())
     widest = std::max(widest, ground.origin().x() +
                                   ground.cell() * (4 * p.block[0] + static_cast<double>(p.x[0])));
   EXPECT_GT(widest, 0.6 + 0.5);
-  EXPECT_EQ(session->world().mass_ledger().error, 0);
+  EXPECT_EQ(session->world().soil().mass_ledger().error, 0);
 }
 
 TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
@@ -128,7 +128,7 @@ TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
   run_to(*session, 0.2);
   const std::string phase = session->phase(0);
   const double nan = std::nan("");
-  const sim::MachineHandle machine = session->world().machine(0);
+  const sim::MachineHandle machine = session->world().machines().at(0);
   EXPECT_THROW(session->command(machine.joint(0), {vehicle::JointMode::kVelocity, nan}),
                InputError);
   EXPECT_THROW(session->command(machine, {nan, 0, false}), InputError);
@@ -154,14 +154,14 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_EQ(session->phase(0), "inputs");
   EXPECT_NE(session->phase(1), "inputs");
   run_to(*session, 4);
-  const Vec3 place = world.machine(0).link(0).pose().translation();
+  const Vec3 place = world.machines().at(0).link(0).pose().translation();
   const int boom =
       description.machines[0].machine.joint_index(description.machines[0].machine.arm.boom);
-  const double angle = world.machine(0).joint(boom).position();
+  const double angle = world.machines().at(0).joint(boom).position();
   const std::vector<char> bytes = saved(*session);
   run_to(*session, 6);
-  EXPECT_LT((world.machine(0).link(0).pose().translation() - place).norm(), 0.02) << "braked";
-  EXPECT_NEAR(world.machine(0).joint(boom).position(), angle, 0.005);
+  EXPECT_LT((world.machines().at(0).link(0).pose().translation() - place).norm(), 0.02) << "braked";
+  EXPECT_NEAR(world.machines().at(0).joint(boom).position(), angle, 0.005);
   EXPECT_FALSE(session->done());
   const auto resumed = make(description);
   load_saved(bytes, *resumed);
@@ -176,7 +176,7 @@ TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
   EXPECT_THROW(session->set("bucket/slide_x/velocity", std::nan("")), InputError);
   EXPECT_THROW(session->set("bucket/slyde_x/velocity", 1), InputError);
   EXPECT_EQ(session->phase(0), "trajectory");
-  const sim::JointHandle slide = session->world().machine("bucket").joint("slide_x");
+  const sim::JointHandle slide = session->world().machines().at("bucket").joint("slide_x");
   const double start = slide.position(), begun = session->world().time();
   session->command(slide, {vehicle::JointMode::kVelocity, 0.5});
   EXPECT_EQ(session->phase(0), "inputs");
@@ -190,7 +190,7 @@ TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
   const auto with_grid = [&] {
     auto session = make(description);
     session->add(
-        std::make_unique<sim::testing::HeightGrid>(session->world().machine(0), 5, 0.2, 20));
+        std::make_unique<sim::testing::HeightGrid>(session->world().machines().at(0), 5, 0.2, 20));
     return session;
   };
   const auto whole = with_grid();
@@ -227,9 +227,9 @@ TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   load_saved(bytes, *second);
   const sim::World& resumed = second->world();
   second->set("excavator/drive/steer", 0.2);
-  EXPECT_EQ(resumed.machine(0).drive().speed, 1.5);  // steering alone does not stop the machine
-  EXPECT_EQ(resumed.machine(0).drive().steer, 0.2);
-  EXPECT_FALSE(resumed.machine(0).drive().brake);
+  EXPECT_EQ(resumed.machines().at(0).drive().speed, 1.5);  // steering alone does not stop the machine
+  EXPECT_EQ(resumed.machines().at(0).drive().steer, 0.2);
+  EXPECT_FALSE(resumed.machines().at(0).drive().brake);
 }
 
 TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
@@ -237,7 +237,7 @@ TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
   double in_air = 0, in_soil = 0;
   while (session->world().time() < kInSoil) {
     session->step();
-    const double force = session->world().machine("bucket").tool(0).force().norm();
+    const double force = session->world().machines().at("bucket").tool(0).force().norm();
     (session->world().time() < 0.3 ? in_air : in_soil) =
         std::max(session->world().time() < 0.3 ? in_air : in_soil, force);
   }
@@ -260,10 +260,11 @@ TEST_F(SessionTest, MomentumOfTheNodalSolveAndTheLedgerCloseEveryStep) {
   const auto session = make(load("bucket_path.sdf"));
   while (session->world().time() < kInSoil) {
     session->step();
-    if (session->world().steps() % 50 == 0) ASSERT_EQ(session->world().mass_ledger().error, 0);
+    if (session->world().steps() % 50 == 0)
+      ASSERT_EQ(session->world().soil().mass_ledger().error, 0);
   }
-  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, books]
-  EXPECT_EQ(session->world().soil_counts().shell_crossings, 0u);
+  EXPECT_LE(session->force().residual_max, 1e-5);  // rounding [docs/tools.md, ledger]
+  EXPECT_EQ(session->world().soil().counts().shell_crossings, 0u);
 }
 
 TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
@@ -271,7 +272,8 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
   run_to(*session, 0.5);
   for (int m = 0; m < 2; ++m) {
     double load = 0;
-    for (int w = 0; w < 4; ++w) load += session->world().machine(m).wheel(w).state().force_W.z();
+    for (int w = 0; w < 4; ++w)
+      load += session->world().machines().at(m).wheel(w).state().force_W.z();
     // 18 t standing still; the springs still ring a little.
     EXPECT_NEAR(load, 18000 * kGravity, 0.15 * 18000 * kGravity) << "machine " << m;
   }
@@ -297,10 +299,10 @@ TEST_F(SessionTest, ChannelsAreNamedAndAWrongNameGetsTheNearest) {
   const auto session = make(load("trench.sdf"));
   const sim::World& world = session->world();
   EXPECT_NO_THROW(session->set("excavator/boom_joint/position", 0.5));
-  EXPECT_NEAR(world.get("excavator/pose/x"), -9, 1e-9);
+  EXPECT_NEAR(world.outputs().get("excavator/pose/x"), -9, 1e-9);
   EXPECT_THROW(session->set("excavator/boom_joint/position", std::nan("")), InputError);
   try {
-    world.get("excavator/bom_joint/position");
+    world.outputs().get("excavator/bom_joint/position");
     FAIL() << "an unknown output was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("excavator/boom_joint/position"), std::string::npos)

@@ -64,7 +64,7 @@ const std::vector<std::string> kCoarse = {"solver.cell_m=0.2"};
 TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
   // With the bucket in the soil.
   const auto session = make("bucket_path.sdf", kCoarse, 1.5);
-  ASSERT_GT(session->world().soil_counts().particles, 0u);
+  ASSERT_GT(session->world().soil().counts().particles, 0u);
   session->save(path_);
   const std::vector<char> whole = read_file(path_);
   const std::string hash = session->state_hash();

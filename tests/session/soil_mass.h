@@ -23,7 +23,7 @@ inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& 
       for (const heightfield::SoilLayer& layer : now) sum += layer.mass;
       for (const heightfield::SoilLayer& layer : start) sum -= layer.mass;
     }
-  for (const sim::ActiveParticle& loose : world.loose_soil())
+  for (const sim::ActiveParticle& loose : world.soil().loose_soil())
     if (loose.ix >= from.x() && loose.iy >= from.y() && loose.ix < to.x() && loose.iy < to.y())
       sum += loose.mass;
   return kilograms(sum);
@@ -31,7 +31,7 @@ inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& 
 
 /// Soil in the shell `name` of machine `m` [kg].
 inline double carried(const sim::World& world, int m, const std::string& name) {
-  return world.machine(m).tool(name).payload();
+  return world.machines().at(m).tool(name).payload();
 }
 
 }  // namespace navvy::session::testing

@@ -20,7 +20,7 @@ scene::Scene unhitch() {
 }
 
 Vec3 place(const sim::World& world, const char* machine) {
-  return world.machine(machine).link(0).pose().translation();
+  return world.machines().at(machine).link(0).pose().translation();
 }
 
 TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
@@ -31,9 +31,9 @@ TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
   double apart = 0;
   while (!session.done()) {
     session.step();
-    if (!world.hitch(0).closed) continue;
+    if (!world.machines().hitch(0).closed) continue;
     left = place(world, "trailer");
-    apart = std::max(apart, world.get("trailer/hitch/apart"));
+    apart = std::max(apart, world.outputs().get("trailer/hitch/apart"));
   }
   EXPECT_TRUE(session.complete());
   // It was drawn to the place and rolled on by the length of its drawbar at most; the robot came
@@ -42,8 +42,8 @@ TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
   EXPECT_LT((place(world, "trailer") - left).head<2>().norm(), 0.5);
   EXPECT_LT((place(world, "robot") - Vec3(-2.5, 2.5, 0)).head<2>().norm(), 0.3);
   EXPECT_LT(apart, 2e-3);
-  EXPECT_EQ(world.get("trailer/hitch/closed"), 0);
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  EXPECT_EQ(world.outputs().get("trailer/hitch/closed"), 0);
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
 }
 
 TEST(Unhitch, AnInputLetsGoAndLeavesTheProgramToGoOn) {
@@ -51,12 +51,12 @@ TEST(Unhitch, AnInputLetsGoAndLeavesTheProgramToGoOn) {
   Session session(unhitch(), device);
   for (int i = 0; i < 300; ++i) session.step();
   session.set("trailer/hitch/closed", 0);
-  EXPECT_EQ(session.world().get("trailer/hitch/closed"), 0);
+  EXPECT_EQ(session.world().outputs().get("trailer/hitch/closed"), 0);
   while (!session.done()) session.step();
   EXPECT_TRUE(session.complete());
   // Out of reach by now: refused, and nothing changes.
   EXPECT_THROW(session.set("trailer/hitch/closed", 1), InputError);
-  EXPECT_EQ(session.world().get("trailer/hitch/closed"), 0);
+  EXPECT_EQ(session.world().outputs().get("trailer/hitch/closed"), 0);
 }
 
 }  // namespace

@@ -45,21 +45,24 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
     EXPECT_EQ(std::erase_if(list, holds), count);
     return list;
   };
-  EXPECT_EQ(without(names(exact.inputs()), "/pose/", 7), names(rolling.inputs()));
-  EXPECT_EQ(names(exact.outputs()), without(names(rolling.outputs()), "/stability/", 2));
+  EXPECT_EQ(without(names(exact.inputs().channels()), "/pose/", 7),
+            names(rolling.inputs().channels()));
+  EXPECT_EQ(names(exact.outputs().channels()),
+            without(names(rolling.outputs().channels()), "/stability/", 2));
   for (World* world : {&exact, &rolling}) {
-    world->set("robot/spin_left/velocity", 4);
-    world->set("robot/spin_right/velocity", 4);
+    world->inputs().set("robot/spin_left/velocity", 4);
+    world->inputs().set("robot/spin_right/velocity", 4);
     // No more than half of the register: 0.43 of a turn.
     while (world->time() < 0.7) world->step();
     // 4 rad/s of 0.7 s, and up to 0.15 s of a motor's start.
-    EXPECT_NEAR(world->get("robot/pose/x"), -3.5 + 0.1 * 4 * 0.7, 0.1 * 4 * 0.16);
-    const double turns = world->get("robot/spin_left/position") / (2 * kPi);
-    EXPECT_EQ(world->get("robot/spin_left/counts"), std::floor(std::fmod(turns * 76600, 65536)));
-    EXPECT_EQ(static_cast<double>(world->machine("robot").joint("spin_left").counts()),
-              world->get("robot/spin_left/counts"));
+    EXPECT_NEAR(world->outputs().get("robot/pose/x"), -3.5 + 0.1 * 4 * 0.7, 0.1 * 4 * 0.16);
+    const double turns = world->outputs().get("robot/spin_left/position") / (2 * kPi);
+    EXPECT_EQ(world->outputs().get("robot/spin_left/counts"),
+              std::floor(std::fmod(turns * 76600, 65536)));
+    EXPECT_EQ(static_cast<double>(world->machines().at("robot").joint("spin_left").counts()),
+              world->outputs().get("robot/spin_left/counts"));
   }
-  EXPECT_THROW(exact.machine("robot").joint("spin_ball").counts(), InputError);
+  EXPECT_THROW(exact.machines().at("robot").joint("spin_ball").counts(), InputError);
 }
 
 TEST_F(ControllerChannels, AKinematicMachineFollowsItsCommandAndPushesSoil) {
@@ -68,22 +71,23 @@ TEST_F(ControllerChannels, AKinematicMachineFollowsItsCommandAndPushesSoil) {
   // goes ahead.
   scene.machines[0].machine.fixed_base = false;
   World world(scene, device_);
-  const double before = world.get("bucket/pose/z");
-  world.set("bucket/pose/duration", 0.5);
-  world.set("bucket/pose/z", before - 0.45);
+  const double before = world.outputs().get("bucket/pose/z");
+  world.inputs().set("bucket/pose/duration", 0.5);
+  world.inputs().set("bucket/pose/z", before - 0.45);
   while (world.time() < 0.6) world.step();
-  EXPECT_NEAR(world.get("bucket/pose/z"), before - 0.45, 1e-9);
-  world.set("bucket/pose/x", world.get("bucket/pose/x") + 0.2);
+  EXPECT_NEAR(world.outputs().get("bucket/pose/z"), before - 0.45, 1e-9);
+  world.inputs().set("bucket/pose/x", world.outputs().get("bucket/pose/x") + 0.2);
   while (world.time() < 0.9) world.step();
-  EXPECT_NEAR(world.get("bucket/velocity/x"), 0.4, 1e-6);
+  EXPECT_NEAR(world.outputs().get("bucket/velocity/x"), 0.4, 1e-6);
   print_value("soil on a bucket that is pushed along [N]",
-              world.get("bucket/bucket/smooth_force_x"), "< 0", "");
-  EXPECT_LT(world.get("bucket/bucket/smooth_force_x"), -50);
+              world.outputs().get("bucket/bucket/smooth_force_x"), "< 0", "");
+  EXPECT_LT(world.outputs().get("bucket/bucket/smooth_force_x"), -50);
   World forces(testing::load("paper/diff_physics.sdf"), device_);
-  EXPECT_THROW(forces.command(forces.machine("robot"), vehicle::BaseInput{}), InputError);
+  EXPECT_THROW(forces.commands().set(forces.machines().at("robot"), vehicle::BaseInput{}),
+               InputError);
   vehicle::BaseInput far;
   far.p_W.x() = 1e9;
-  EXPECT_THROW(world.command(world.machine("bucket"), far), InputError);
+  EXPECT_THROW(world.commands().set(world.machines().at("bucket"), far), InputError);
 }
 
 /// A block of 0.6 x 0.6 x 0.4 m by its visual alone.
@@ -103,46 +107,51 @@ TEST_F(ControllerChannels, AKinematicBodyPushesALooseOne) {
           block("pusher", "0", "<navvy:engine>kinematic</navvy:engine>") + "</world></sdf>",
       "w.sdf", control::step_kinds());
   World whole(scene, device_), resumed(scene, device_);
-  whole.set("pusher/pose/duration", 2);
-  whole.set("pusher/pose/x", 1);
+  whole.inputs().set("pusher/pose/duration", 2);
+  whole.inputs().set("pusher/pose/x", 1);
   while (whole.time() < 1) whole.step();
-  EXPECT_NEAR(whole.get("pushed/pose/x"), 1.1, 0.01);
+  EXPECT_NEAR(whole.outputs().get("pushed/pose/x"), 1.1, 0.01);
   load_saved(saved(whole), resumed);
   for (World* world : {&whole, &resumed})
     while (world->time() < 2.5) world->step();
-  EXPECT_NEAR(whole.get("pushed/pose/x"), 1.6, 0.02);
-  EXPECT_EQ(whole.state_hash(), resumed.state_hash());
+  EXPECT_NEAR(whole.outputs().get("pushed/pose/x"), 1.6, 0.02);
+  EXPECT_EQ(whole.hashes().state(), resumed.hashes().state());
 }
 
 TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   const scene::Scene scene = testing::load("paper/diff_kinematic.sdf");
   World whole(scene, device_), resumed(scene, device_), other(scene, device_);
   for (World* world : {&whole, &other}) {
-    world->set("robot/drive/speed", 0.5);
+    world->inputs().set("robot/drive/speed", 0.5);
     for (int i = 0; i < 50; ++i) world->step();
   }
-  EXPECT_EQ(whole.state_hash(), other.state_hash());
-  whole.set("robot/spin_left/encoder_missed", 0.1);
-  EXPECT_NE(whole.state_hash(), other.state_hash());
-  const auto parts = whole.hash_parts();
+  EXPECT_EQ(whole.hashes().state(), other.hashes().state());
+  whole.inputs().set("robot/spin_left/encoder_missed", 0.1);
+  EXPECT_NE(whole.hashes().state(), other.hashes().state());
+  const auto parts = whole.hashes().parts();
   EXPECT_TRUE(std::any_of(parts.begin(), parts.end(),
                           [](const auto& part) { return part.first == "encoders"; }));
   load_saved(saved(whole), resumed);
   for (World* world : {&whole, &resumed, &other})
     for (int i = 0; i < 50; ++i) world->step();
-  EXPECT_EQ(resumed.state_hash(), whole.state_hash());
-  EXPECT_EQ(resumed.get("robot/spin_left/counts"), whole.get("robot/spin_left/counts"));
-  EXPECT_LT(whole.get("robot/spin_left/counts"), other.get("robot/spin_left/counts"));
-  EXPECT_EQ(whole.get("robot/spin_right/counts"), other.get("robot/spin_right/counts"));
-  EXPECT_EQ(whole.get("robot/pose/x"), other.get("robot/pose/x"));
+  EXPECT_EQ(resumed.hashes().state(), whole.hashes().state());
+  EXPECT_EQ(resumed.outputs().get("robot/spin_left/counts"),
+            whole.outputs().get("robot/spin_left/counts"));
+  EXPECT_LT(whole.outputs().get("robot/spin_left/counts"),
+            other.outputs().get("robot/spin_left/counts"));
+  EXPECT_EQ(whole.outputs().get("robot/spin_right/counts"),
+            other.outputs().get("robot/spin_right/counts"));
+  EXPECT_EQ(whole.outputs().get("robot/pose/x"), other.outputs().get("robot/pose/x"));
 }
 
 TEST_F(ControllerChannels, OfAPowerTrainReportShaftsAndAcceptGears) {
   World world(testing::load("paper/power_train.sdf"), device_);
-  world.set("truck/drive/speed", 2);
-  world.set("truck/drive/gear", 1);
+  world.inputs().set("truck/drive/speed", 2);
+  world.inputs().set("truck/drive/gear", 1);
   while (world.time() < 2.5) world.step();
-  const auto get = [&](const char* name) { return world.get(std::string("truck/") + name); };
+  const auto get = [&](const char* name) {
+    return world.outputs().get(std::string("truck/") + name);
+  };
   EXPECT_EQ(get("engine/gear"), 1);
   EXPECT_GT(get("engine/speed"), 1000 * kPi / 30);
   EXPECT_NEAR(get("engine/speed"), 3.4 * 11.5 * get("axle_1/speed"), 0.02 * get("engine/speed"));
@@ -153,11 +162,12 @@ TEST_F(ControllerChannels, OfAPowerTrainReportShaftsAndAcceptGears) {
   EXPECT_NEAR(get("axle_1/torque"),
               get("spin_rear_left/shaft_torque") + get("spin_rear_right/shaft_torque"), 1e-9);
   for (const double gear : {-1.0, 1.5, 4.0, 1e9})
-    EXPECT_THROW(world.set("truck/drive/gear", gear), InputError) << gear;
+    EXPECT_THROW(world.inputs().set("truck/drive/gear", gear), InputError) << gear;
   World other(testing::load("trench.sdf"), device_);
-  EXPECT_THROW(other.get("excavator/engine/speed"), InputError);
-  EXPECT_THROW(other.command(other.machine("excavator"), vehicle::DriveInput{1, 0, false, 1}),
-               InputError);
+  EXPECT_THROW(other.outputs().get("excavator/engine/speed"), InputError);
+  EXPECT_THROW(
+      other.commands().set(other.machines().at("excavator"), vehicle::DriveInput{1, 0, false, 1}),
+      InputError);
 }
 
 TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
@@ -167,11 +177,11 @@ TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
     if (sae) scene.machines[0].machine.levers.pattern = scene::Levers::Pattern::kSae;
     World world(std::move(scene), device_);
     const auto rate = [&](const char* joint) {
-      return world.get(std::string("excavator/") + joint + "/velocity");
+      return world.outputs().get(std::string("excavator/") + joint + "/velocity");
     };
-    world.set("excavator/levers/left_y", -1);     // towards the operator
-    world.set("excavator/levers/right_y", 0.04);  // within the dead band
-    world.set("excavator/levers/left_x", -1);     // to the left
+    world.inputs().set("excavator/levers/left_y", -1);     // towards the operator
+    world.inputs().set("excavator/levers/right_y", 0.04);  // within the dead band
+    world.inputs().set("excavator/levers/left_x", -1);     // to the left
     for (int i = 0; i < 200; ++i) world.step();
     // ISO draws the stick in, SAE lifts the boom; the other one is held.
     if (sae) EXPECT_GT(rate("boom_joint"), 0.05);
@@ -183,22 +193,26 @@ TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
 
 TEST_F(ControllerChannels, BrakesHoldJointsUntilTheyAreLetGo) {
   World world(testing::load("trench.sdf"), device_);
-  const auto get = [&](const char* name) { return world.get(std::string("excavator/") + name); };
-  world.set("excavator/swing_joint/brake", 1);
-  world.set("excavator/levers/left_x", -1);
-  world.set("excavator/front_axle_oscillation/brake", 1);
+  const auto get = [&](const char* name) {
+    return world.outputs().get(std::string("excavator/") + name);
+  };
+  world.inputs().set("excavator/swing_joint/brake", 1);
+  world.inputs().set("excavator/levers/left_x", -1);
+  world.inputs().set("excavator/front_axle_oscillation/brake", 1);
   for (int i = 0; i < 200; ++i) world.step();
   EXPECT_EQ(get("swing_joint/brake"), 1);
   EXPECT_NEAR(get("swing_joint/position"), 0, 1e-3);
-  world.set("excavator/drive/speed", 0.5);  // the lock is no matter of the drive
+  world.inputs().set("excavator/drive/speed", 0.5);  // the lock is no matter of the drive
   for (int i = 0; i < 200; ++i) world.step();
   EXPECT_EQ(get("front_axle_oscillation/brake"), 1);
-  world.set("excavator/swing_joint/brake", 0);
+  world.inputs().set("excavator/swing_joint/brake", 0);
   for (int i = 0; i < 200; ++i) world.step();
   EXPECT_EQ(get("swing_joint/brake"), 0);
   EXPECT_GT(get("swing_joint/velocity"), 0.2);
-  EXPECT_THROW(world.set("excavator/boom_joint/brake", 1), InputError);
-  EXPECT_THROW(world.brake(world.machine("excavator").joint("boom_joint"), true), InputError);
+  EXPECT_THROW(world.inputs().set("excavator/boom_joint/brake", 1), InputError);
+  EXPECT_THROW(
+      world.commands().set_brake(world.machines().at("excavator").joint("boom_joint"), true),
+      InputError);
   // Of the same machine: how near it is to tipping.
   EXPECT_GT(get("stability/tipping_load"), 500);
   // It drives and swings: inertia counts.
@@ -210,19 +224,19 @@ TEST_F(ControllerChannels, OfACrawlerAreThoseOfADifferentialDrive) {
   World world(testing::load("paper/tracks.sdf"), device_);
   World wheeled(testing::load("paper/diff_physics.sdf"), device_);
   for (const char* name : {"drive/speed", "drive/steer", "drive/brake"}) {
-    EXPECT_NO_THROW(world.input(std::string("crawler/") + name));
-    EXPECT_NO_THROW(wheeled.input(std::string("robot/") + name));
+    EXPECT_NO_THROW(world.inputs().index(std::string("crawler/") + name));
+    EXPECT_NO_THROW(wheeled.inputs().index(std::string("robot/") + name));
   }
-  world.set("robot/drive/speed", 0.4);
-  world.set("crawler/drive/speed", 0);
-  world.set("crawler/drive/steer", 0.3);
+  world.inputs().set("robot/drive/speed", 0.4);
+  world.inputs().set("crawler/drive/speed", 0);
+  world.inputs().set("crawler/drive/steer", 0.3);
   while (world.time() < 3) world.step();
-  EXPECT_NEAR(world.get("robot/velocity/x"), 0.4, 0.03);
-  EXPECT_GT(world.get("robot/drive_left/counts"), 0);
-  EXPECT_LT(world.get("crawler/drive_left/spin"), 0);
-  EXPECT_GT(world.get("crawler/drive_right/spin"), 0);
-  EXPECT_GT(world.get("crawler/pose/yaw"), 0.05);
-  EXPECT_GT(world.get("crawler/drive_left/load"), 50e3);
+  EXPECT_NEAR(world.outputs().get("robot/velocity/x"), 0.4, 0.03);
+  EXPECT_GT(world.outputs().get("robot/drive_left/counts"), 0);
+  EXPECT_LT(world.outputs().get("crawler/drive_left/spin"), 0);
+  EXPECT_GT(world.outputs().get("crawler/drive_right/spin"), 0);
+  EXPECT_GT(world.outputs().get("crawler/pose/yaw"), 0.05);
+  EXPECT_GT(world.outputs().get("crawler/drive_left/load"), 50e3);
   // As one number: ruts, shear and belts are part of the state.
   World other(testing::load("paper/tracks.sdf"), device_);
   load_saved(saved(world), other);
@@ -239,18 +253,19 @@ TEST_F(ControllerChannels, AnyLinkIsWatchedByItsName) {
   ASSERT_EQ(world.outputs().size(), before + 12);
   world.watch("excavator/stick");
   EXPECT_EQ(world.outputs().size(), before + 12);
-  world.set("excavator/levers/left_x", 0.5);
+  world.inputs().set("excavator/levers/left_x", 0.5);
   for (int i = 0; i < 100; ++i) world.step();
-  const LinkHandle stick = world.machine("excavator").link("stick");
-  EXPECT_EQ(world.get("excavator/stick/pose/z"), stick.pose().translation().z());
-  EXPECT_EQ(world.get("excavator/stick/velocity/y"), stick.velocity().y());
-  EXPECT_EQ(world.get("excavator/stick/angular_velocity/z"), stick.angular_velocity().z());
-  EXPECT_GT(std::abs(world.get("excavator/stick/angular_velocity/z")), 0.05);
+  const LinkHandle stick = world.machines().at("excavator").link("stick");
+  EXPECT_EQ(world.outputs().get("excavator/stick/pose/z"), stick.pose().translation().z());
+  EXPECT_EQ(world.outputs().get("excavator/stick/velocity/y"), stick.velocity().y());
+  EXPECT_EQ(world.outputs().get("excavator/stick/angular_velocity/z"),
+            stick.angular_velocity().z());
+  EXPECT_GT(std::abs(world.outputs().get("excavator/stick/angular_velocity/z")), 0.05);
   // The tip moves as the bucket does.
-  const double y = world.get("excavator/bucket/tip_y");
+  const double y = world.outputs().get("excavator/bucket/tip_y");
   world.step();
-  EXPECT_NEAR((world.get("excavator/bucket/tip_y") - y) / world.dt(),
-              world.get("excavator/bucket/tip_velocity_y"), 0.02);
+  EXPECT_NEAR((world.outputs().get("excavator/bucket/tip_y") - y) / world.dt(),
+              world.outputs().get("excavator/bucket/tip_velocity_y"), 0.02);
   for (const char* name : {"excavator", "excavator/stik", "digger/stick"})
     EXPECT_THROW(world.watch(name), InputError) << name;
 }

@@ -47,25 +47,26 @@ std::string failure(Call&& call) {
 
 TEST_F(Handles, DescribeTheirChannels) {
   World world(testing::load("trench.sdf"), device_);
-  const MachineHandle machine = world.machine("excavator");
+  const MachineHandle machine = world.machines().at("excavator");
   const JointHandle boom = machine.joint("boom_joint");
   const WheelHandle wheel = machine.wheel(0);
   const ToolHandle bucket = machine.tool("bucket");
-  world.command(boom, {vehicle::JointMode::kVelocity, 0.1});
-  world.command(machine, {0.5, 0.1, false});
+  world.commands().set(boom, {vehicle::JointMode::kVelocity, 0.1});
+  world.commands().set(machine, {0.5, 0.1, false});
   for (int i = 0; i < 60; ++i) world.step();
   EXPECT_GT(boom.velocity(), 0);
   EXPECT_GT(wheel.state().force_W.z(), 0);
   EXPECT_EQ(machine.drive().steer, 0.1);
-  EXPECT_EQ(boom.position(), world.get("excavator/boom_joint/position"));
-  EXPECT_EQ(boom.state().cylinder_force, world.get("excavator/boom_joint/cylinder_force"));
-  EXPECT_EQ(machine.link(0).pose().translation().x(), world.get("excavator/pose/x"));
-  EXPECT_EQ(machine.link(0).velocity().z(), world.get("excavator/velocity/z"));
-  EXPECT_EQ(wheel.state().slip, world.get("excavator/" + wheel.name() + "/slip"));
-  EXPECT_EQ(bucket.force().z(), world.get("excavator/bucket/force_z"));
-  EXPECT_EQ(bucket.rock_force().z(), world.get("excavator/bucket/rock_force_z"));
-  EXPECT_EQ(bucket.payload(), world.get("excavator/bucket/payload"));
-  EXPECT_EQ(machine.pump().flow, world.get("excavator/pump/flow"));
+  EXPECT_EQ(boom.position(), world.outputs().get("excavator/boom_joint/position"));
+  EXPECT_EQ(boom.state().cylinder_force,
+            world.outputs().get("excavator/boom_joint/cylinder_force"));
+  EXPECT_EQ(machine.link(0).pose().translation().x(), world.outputs().get("excavator/pose/x"));
+  EXPECT_EQ(machine.link(0).velocity().z(), world.outputs().get("excavator/velocity/z"));
+  EXPECT_EQ(wheel.state().slip, world.outputs().get("excavator/" + wheel.name() + "/slip"));
+  EXPECT_EQ(bucket.force().z(), world.outputs().get("excavator/bucket/force_z"));
+  EXPECT_EQ(bucket.rock_force().z(), world.outputs().get("excavator/bucket/rock_force_z"));
+  EXPECT_EQ(bucket.payload(), world.outputs().get("excavator/bucket/payload"));
+  EXPECT_EQ(machine.pump().flow, world.outputs().get("excavator/pump/flow"));
   // And what the engine itself says, of a link that is not the base.
   const LinkHandle stick = machine.link("stick");
   const vehicle::LinkState state = parts(world).coupling.engine(0).link(
@@ -79,19 +80,20 @@ TEST_F(Handles, DescribeTheirChannels) {
 
 TEST_F(Handles, OfAnUnknownNameSuggestTheNearest) {
   const World world(testing::load("trench.sdf"), device_);
-  const MachineHandle machine = world.machine(0);
-  EXPECT_NE(failure([&] { world.machine("excavater"); }).find("'excavator'"), std::string::npos);
+  const MachineHandle machine = world.machines().at(0);
+  EXPECT_NE(failure([&] { world.machines().at("excavater"); }).find("'excavator'"),
+            std::string::npos);
   EXPECT_NE(failure([&] { machine.link("bom"); }).find("'boom'"), std::string::npos);
   EXPECT_NE(failure([&] { machine.joint("boom_join"); }).find("'boom_joint'"), std::string::npos);
   EXPECT_NE(failure([&] { machine.tool("buckett"); }).find("'bucket'"), std::string::npos);
-  EXPECT_NE(failure([&] { world.machine(1); }).find("there are 1, counted from 0"),
+  EXPECT_NE(failure([&] { world.machines().at(1); }).find("there are 1, counted from 0"),
             std::string::npos);
   EXPECT_NE(failure([&] { machine.wheel(-1); }).find("no wheel of this index"), std::string::npos);
 }
 
 TEST_F(Handles, ReadWithoutAllocating) {
   World world(testing::load("trench.sdf"), device_);
-  const MachineHandle machine = world.machine("excavator");
+  const MachineHandle machine = world.machines().at("excavator");
   const LinkHandle link = machine.link("boom");
   const JointHandle joint = machine.joint("arm_joint");
   const WheelHandle wheel = machine.wheel(1);
@@ -108,10 +110,10 @@ TEST_F(Handles, ReadWithoutAllocating) {
 
 TEST_F(Handles, StayValidThroughALoadedSnapshot) {
   World world(testing::load("bucket_path.sdf"), device_);
-  const JointHandle slide = world.machine("bucket").joint("slide_x");
+  const JointHandle slide = world.machines().at("bucket").joint("slide_x");
   const std::vector<char> bytes = saved(world);
   const double start = slide.position();
-  world.command(slide, {vehicle::JointMode::kVelocity, 0.5});
+  world.commands().set(slide, {vehicle::JointMode::kVelocity, 0.5});
   for (int i = 0; i < 20; ++i) world.step();
   EXPECT_GT(slide.position(), start);
   load_saved(bytes, world);

@@ -18,7 +18,7 @@ struct ShellInWorld {
   explicit ShellInWorld(const World& world)
       : geometry(world.description().machines[0].machine.shells.at(0), world.ground().cell()) {
     const scene::Machine& machine = world.description().machines[0].machine;
-    X_WT = world.machine(0).link(machine.link_index(geometry.shell().link)).pose();
+    X_WT = world.machines().at(0).link(machine.link_index(geometry.shell().link)).pose();
   }
   soil::ShellGeometry geometry;
   Pose X_WT = Pose::Identity();

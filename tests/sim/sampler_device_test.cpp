@@ -27,11 +27,11 @@ class SamplerTest : public ::testing::Test {
   std::unique_ptr<World> rolling(bool with_grid = true) {
     auto world = std::make_unique<World>(testing::load("trench.sdf"), device_);
     if (with_grid) world->add(grid(*world));
-    world->command(world->machine(0), {1.0, 0, false});
+    world->commands().set(world->machines().at(0), {1.0, 0, false});
     return world;
   }
   static std::unique_ptr<Sampler> grid(const World& world) {
-    return std::make_unique<HeightGrid>(world.machine(0), kNodes, kSpacing, kRate);
+    return std::make_unique<HeightGrid>(world.machines().at(0), kNodes, kSpacing, kRate);
   }
   static void run_to(World& world, double time) {
     while (world.time() < time) world.step();
@@ -67,8 +67,10 @@ TEST_F(SamplerTest, PublishesTheGroundUnderTheMachineInItsFrame) {
     EXPECT_NEAR(values[static_cast<std::size_t>(row * kNodes + 2)],
                 world->ground().sample(p_W.x(), p_W.y()) - view.X_WF().translation().z(), 0.02);
   }
-  EXPECT_EQ(world->get("excavator/height_grid/samples"), static_cast<double>(view.sequence()));
-  EXPECT_LE(world->get("excavator/height_grid/lowest"), static_cast<double>(values[0]) + 1e-6);
+  EXPECT_EQ(world->outputs().get("excavator/height_grid/samples"),
+            static_cast<double>(view.sequence()));
+  EXPECT_LE(world->outputs().get("excavator/height_grid/lowest"),
+            static_cast<double>(values[0]) + 1e-6);
 }
 
 TEST_F(SamplerTest, IsReadInPlace) {
@@ -84,7 +86,7 @@ TEST_F(SamplerTest, ChangesNothingOfTheWorldItLooksAt) {
   const auto watched = rolling(), alone = rolling(false);
   run_to(*watched, 0.1);
   run_to(*alone, 0.1);
-  const auto with = watched->hash_parts(), without = alone->hash_parts();
+  const auto with = watched->hashes().parts(), without = alone->hashes().parts();
   ASSERT_GT(with.size(), without.size());
   for (std::size_t i = 0; i < without.size(); ++i) EXPECT_EQ(with[i], without[i]);
 }
@@ -98,9 +100,9 @@ TEST_F(SamplerTest, GoesOnFromASnapshotToTheSameState) {
   load_saved(bytes, *resumed);
   EXPECT_GT(resumed->arrays().view(0).sequence(), 1u);
   run_to(*resumed, 0.1);
-  EXPECT_EQ(resumed->state_hash(), whole->state_hash());
-  EXPECT_EQ(resumed->get("excavator/height_grid/samples"),
-            whole->get("excavator/height_grid/samples"));
+  EXPECT_EQ(resumed->hashes().state(), whole->hashes().state());
+  EXPECT_EQ(resumed->outputs().get("excavator/height_grid/samples"),
+            whole->outputs().get("excavator/height_grid/samples"));
   const auto blind = rolling(false);
   EXPECT_THROW(load_saved(bytes, *blind), InputError);
 }
@@ -133,10 +135,10 @@ class Clumsy final : public Sampler {
 
 TEST_F(SamplerTest, OneThatIsRefusedLeavesNoTrace) {
   const auto world = rolling(false);
-  const std::string hash = world->state_hash(), list = channel_list(*world);
+  const std::string hash = world->hashes().state(), list = channel_list(*world);
   EXPECT_THROW(world->add(std::make_unique<Clumsy>()), InputError);
   EXPECT_EQ(channel_list(*world), list);
-  EXPECT_EQ(world->state_hash(), hash);
+  EXPECT_EQ(world->hashes().state(), hash);
 }
 
 TEST_F(SamplerTest, StandsInTheListOfChannels) {

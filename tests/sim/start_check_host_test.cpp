@@ -51,7 +51,7 @@ TEST(StartCheck, NamesABodyThatStartsBelowTheGround) {
   expect_one(
       faults_of(stone("-0.35", "")),
       {"w.sdf:", "include[stone]", "0.35 m",
-       "link 'rock' starts with its middle that far below the ground", "raise it by its <pose>"});
+       "link 'rock' starts with its centre that far below the ground", "raise it by its <pose>"});
 }
 
 TEST(StartCheck, NamesAWheelThatStartsBelowTheGround) {

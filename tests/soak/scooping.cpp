@@ -48,7 +48,8 @@ Scooping::Scooping(device::Device& device, const std::string& from, const std::s
   if (std::abs(static_cast<double>(steps_in_cycle_) * dt - kCycle) > 1e-9)
     throw Error("the base step of " + std::to_string(dt) +
                 " s does not divide a cycle of the soak");
-  for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = session_->world().input(kJoints[i]);
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    inputs_[i] = session_->world().inputs().index(kJoints[i]);
   if (!record.empty()) recorder_ = std::make_unique<record::Recorder>(*session_, options);
 }
 
@@ -88,8 +89,8 @@ Phase Scooping::phase() const {
   Phase out;
   out.cycle = cycles();
   out.time = world.time();
-  out.particles = world.soil_counts().particles;
-  out.ledger = world.mass_ledger().error;
+  out.particles = world.soil().counts().particles;
+  out.ledger = world.soil().mass_ledger().error;
   out.hash = session_->state_hash();
   out.bytes = bytes_in_use(device_.memory_used());
   return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A box digs in level ground with wake, deposit and slump at work: books, snapshots, places.
+// A box digs in level ground with activation, deposition and slumping: ledger, snapshots,
+// translation of the site.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -114,7 +115,8 @@ TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   const Vec3 cut = scoop.force();
   scoop.lift();
   const double lifted = scoop.payload();
-  scoop.go(10.4, 0.9, -5, 0.4);  // what stopping shakes has passed
+  // The shaking of the stop has passed.
+  scoop.go(10.4, 0.9, -5, 0.4);
   const double rested = scoop.payload();
   scoop.go(10.4, 0.9, -5, 0.3);
   const double held = scoop.payload();
@@ -136,7 +138,7 @@ TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   std::printf("[ VALUE    ] particles %d (peak %d), blocks %d, wakes %lu, deposits %lu\n",
               scoop.solver().stats().particles, scoop.solver().stats().particles_peak,
               scoop.solver().stats().blocks,
-              static_cast<unsigned long>(scoop.solver().stats().wakes),
+              static_cast<unsigned long>(scoop.solver().stats().activations),
               static_cast<unsigned long>(scoop.solver().stats().deposits));
 }
 
@@ -152,7 +154,7 @@ TEST(SoilDig, GoesOnFromASnapshotInMidCut) {
 }
 
 TEST(SoilDig, IsTheSameAtTheOtherEndOfASquareKilometre) {
-  // The shift is a whole number of blocks; otherwise rounding differs and grains part ways after
+  // The shift is a whole number of blocks; otherwise rounding differs and particles separate after
   // some seconds.
   Scoop near(Vec2::Zero(), 5000, 10000), far(Vec2(895.2, 694.8), 5000, 10000);
   near.cut();
@@ -187,13 +189,13 @@ TEST(SoilDig, ABucketGetsItsSoilBesideAWheelAndFromUnderIt) {
     payload[where] = scoop.payload();
     const std::string name = names[where];
     print_value(name + ": payload [kg]", payload[where], std::to_string(payload[0]) + " +-10 %",
-                "[docs/exchange.md, footings]");
+                "[docs/exchange.md, support areas]");
     print_value(name + ": drag in the cut [N]", drag[where], std::to_string(drag[0]) + " +-15 %",
                 "the same");
     EXPECT_EQ(scoop.solver().ledger().error(), 0);
   }
-  // What bears the wheel stays a column until the tool is beside it: the soil before the tool gives
-  // way less, and a little more or less is torn off at the seam.
+  // Soil under the wheel stays a column until the tool is beside it: the soil before the tool
+  // yields less, and a little more or less is torn off at the border.
   for (int where = 1; where < 3; ++where) {
     EXPECT_NEAR(payload[where], payload[0], 0.1 * payload[0]) << names[where];
     EXPECT_NEAR(drag[where], drag[0], 0.15 * drag[0]) << names[where];
@@ -207,7 +209,7 @@ TEST(SoilDig, AWheelUnderALowBucketLeavesItItsLoad) {
   scoop.go(10.2, 0.3, 0, 0.5);
   scoop.go(10.2, 0.12, 0, 0.3);
   const double before = scoop.payload();
-  // So low that what it holds has no gap of two cells under it, and within the wheel's rim.
+  // So low that its soil has no gap of two cells below it, and within the wheel's rim.
   scoop.stand({10.2, 10.02, 0.1});
   scoop.go(10.2, 0.12, 0, 0.2);
   EXPECT_GT(before, 40);

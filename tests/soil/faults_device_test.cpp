@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults: each stops the run with step and cause and leaves a state that a snapshot holds, or is
+// Faults: each stops the run with step and cause and leaves a state that a snapshot can hold, or is
 // bounded.
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ std::string push(Rig& rig, double speed, double seconds) {
   return "";
 }
 
-/// The state goes into a snapshot and out of it again, mass and all.
+/// Saves the state and loads it again, with its mass.
 void expect_saved_whole(Rig& rig, Rig& fresh) {
   load_saved(saved(rig.solver()), fresh.solver());
   EXPECT_EQ(fresh.solver().particles().size(), rig.solver().particles().size());
@@ -151,7 +151,7 @@ TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
     all = rig.fill(big, true);
     wanted = all.size();
   }
-  // 120 bytes a particle, once for the state and once more for the first re-bin: the limit lies
+  // 120 bytes per particle, once for the state and once more for the first re-bin: the limit lies
   // between.
   const std::size_t state = 120 * wanted;
   setenv("NAVVY_DEVICE_MEMORY_MIB", std::to_string((state * 7 / 4) >> 20).c_str(), 1);
@@ -174,7 +174,7 @@ TEST(SoilFaults, AFullDeviceStopsTheRunAndKeepsEveryParticle) {
   EXPECT_NE(cause.find("bytes are in use"), std::string::npos) << cause;
   EXPECT_EQ(solver.particles().size(), wanted);
   EXPECT_EQ(solver.ledger().error(), 0);
-  // On a device with room the snapshot goes on.
+  // The snapshot continues on a device with enough memory.
   Solver larger(Rig::device(), world, place.ground());
   load_saved(saved(solver), larger);
   EXPECT_EQ(larger.particles().size(), wanted);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that has no memory left, at every buffer that a dig asks for: books stay closed, and the
-// state goes on.
+// A device without memory, at every buffer that a dig allocates: the ledger stays balanced, and the
+// state remains usable.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -14,14 +14,15 @@
 
 namespace {
 
-long made = 0;    ///< buffers asked for since `refuse` was set
-long refuse = 0;  ///< number of the one that is refused, from 1; 0: none
+/// Buffers requested since `refuse` was set.
+long made = 0;
+/// Number of the refused one, from 1; 0: none.
+long refuse = 0;
 bool refused = false;
 
 }  // namespace
 
-/// Stands before the loader's function of this name, which every buffer of this program comes
-/// through.
+/// Replaces the loader's function of this name, which every buffer of this program uses.
 extern "C" void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t size, void* host,
                                 std::int32_t* result) {
   using Function = void* (*)(void*, std::uint64_t, std::size_t, void*, std::int32_t*);
@@ -35,8 +36,8 @@ extern "C" void* clCreateBuffer(void* context, std::uint64_t flags, std::size_t 
 namespace navvy::soil {
 namespace {
 
-/// A blade that digs its way through two metres of sand and pushes what it has before it over the
-/// site's edge: soil wakes, is sorted anew, leaves, and the lists near the blade grow.
+/// A blade that digs through two metres of sand and pushes the soil before it over the site's edge:
+/// soil becomes active, is sorted again and leaves, and the lists near the blade grow.
 class Dig {
  public:
   Dig()
@@ -68,12 +69,12 @@ TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesABalancedLedgerAndAUsableSta
     whole.run();
     ASSERT_GT(whole.left(), 0) << "some soil went over the edge";
     ASSERT_GT(whole.solver().stats().rebins, 2u);
-    ASSERT_GT(whole.solver().stats().wakes, 10u);
+    ASSERT_GT(whole.solver().stats().activations, 10u);
   }
   const long all = made;
   int of_solver = 0, of_steps = 0;
   Dig larger;
-  // Every other one: all of them took half a minute, and were tried once.
+  // Every other one: all of them took half a minute, and passed once.
   for (long n = 1; n <= all; n += 2) {
     made = 0, refuse = n, refused = false;
     std::unique_ptr<Dig> dig;
@@ -90,7 +91,7 @@ TEST(SoilMemory, AnyBufferThatTheDeviceRefusesLeavesABalancedLedgerAndAUsableSta
     if (!dig) continue;
     ASSERT_NE(said.find("soil step"), std::string::npos) << n << ": " << said;
     ASSERT_EQ(dig->solver().ledger().error(), 0) << n << ": " << said;
-    // As a snapshot holds it: every particle, on a device with room.
+    // As in a snapshot: every particle, on a device with enough memory.
     refuse = 0;
     load_saved(saved(dig->solver()), larger.solver());
     ASSERT_EQ(larger.solver().particles().size(), dig->solver().particles().size())

@@ -17,7 +17,8 @@ using rig::SiteBox;
 
 TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
   for (const double cohesion : {0.0, 5000.0}) {
-    scene::Soil soil = rig::sand(35);  // at 30 the cone yields under the elastic rest ratio
+    // At 30 the soil yields under the elastic rest ratio.
+    scene::Soil soil = rig::sand(35);
     soil.cohesion = soil.residual_cohesion = cohesion;
     const SiteBox pit{Vec3(8.6, 8.6, -0.8), Vec3(11.4, 11.4, 0)};
     Rig rig({soil}, pit);
@@ -61,8 +62,8 @@ TEST(SoilRest, LevelGroundKeepsItsPlaceAndTheStressOfItsWeight) {
 }
 
 TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
-  // Between two smooth plates 0.5 m apart, against a third one; a = 1, L0 = 20 cells (the gate's
-  // own run has 30).
+  // Between two smooth plates 0.5 m apart, against a third one; a = 1, L0 = 20 cells (the run with
+  // the tolerance has 30).
   scene::Soil soil = rig::sand(33);
   soil.tool_friction_angle = 0;
   Rig rig({soil});
@@ -91,15 +92,16 @@ TEST(SoilRest, PlaneColumnCollapsesIntoTheBandOfTheExperiments) {
   const double run_out = (front - x0 - length) / length;
   print_value("plane collapse a = 1, run-out / L0", run_out, "1.0 .. 1.8",
               "[Lube 2005], lower end for 20 cells [docs/validation.md, Columns and collapse]");
-  // The gate is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 % short.
+  // The tolerance is 1.2 .. 1.8 at L0 >= 30 cells; at 20 cells the method is known to stop 5-20 %
+  // short.
   EXPECT_GT(run_out, 1.0);
   EXPECT_LT(run_out, 1.8);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
 }
 
-/// Mean volume ratio of a load of bank soil that was tipped from 1.2 m and has come to rest. Single
-/// grains that lie about (cells with fewer than 4 particles, where 8 is the bank's number) remember
-/// the volume they flew through and are no heap: they are left out.
+/// Returns the mean volume ratio of a load of bank soil that was dumped from 1.2 m and has come to
+/// rest. Single particles (cells with fewer than 4, where the bank has 8) keep the volume of their
+/// flight and are left out.
 double tipped(const scene::Soil& soil, double& speed) {
   Rig rig({soil});
   const Pose X = make_pose(10.03, 10.02, 1.2, 0, 0, 0);
@@ -150,7 +152,8 @@ double tipped(const scene::Soil& soil, double& speed) {
 }
 
 TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
-  scene::Soil loam;  // the default is the loam of the first dig
+  // The default is the loam of the first dig.
+  scene::Soil loam;
   loam.name = "loam";
   scene::Soil dense = loam;
   dense.swell = 1;
@@ -166,8 +169,8 @@ TEST(SoilSwell, DugAndDumpedSoilEndsAtItsSwell) {
   }
 }
 
-/// Density / bank [-] in the middle of a heap of twice the particles that the bank has, after it
-/// fell apart for 2 s. Each is sure (J = 1) of having its full volume: J alone cannot tell.
+/// Returns density / bank [-] in the middle of a heap of twice the particles that the bank has,
+/// after it collapsed for 2 s. J alone does not show it: each particle has J = 1.
 double crowded_density(bool crowding) {
   Rig rig({rig::sand(35)});
   rig.solver().set_crowding(crowding);
@@ -195,8 +198,8 @@ double crowded_density(bool crowding) {
   return mass / (75 * std::pow(rig.cell(), 3)) / rig.world().soils[0].bank_density;
 }
 
-// The heap shears where it slides apart, and there it makes room; its core, which rests, is left
-// alone [docs/soil.md, crowding].
+// The heap shears where it slides apart, and there it spreads; its resting core stays
+// [docs/soil.md, crowding].
 TEST(SoilRest, CrowdedSoilSpreadsWhereItShears) {
   const double with = crowded_density(true), without = crowded_density(false);
   print_value("crowded soil after 2 s, density / bank", with, "2 at the start",

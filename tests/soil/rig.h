@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small set-ups shared by the tests of the soil: the laboratory's site, soil and shells as these
-// tests want them.
+// Small setups shared by the soil tests: the laboratory's site, soils and shells.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +30,14 @@ class Rig : public lab::Site {
                int cells = 200, const Vec2& origin = Vec2::Zero())
       : Site(device(), soils, cell, options(pit, cell * cells, origin)) {}
 
-  /// One device for all tests of a program: kernels build once.
+  /// Returns one device for all tests of a program: kernels build once.
   static device::Device& device() {
     static device::Device shared;
     return shared;
   }
   double datum() const { return ground().datum(); }
-  /// Particles on a lattice of half a cell; `depth_stress`: with the stress of resting ground whose
-  /// top is the box's.
+  /// Returns particles on a lattice of half a cell; `depth_stress`: with the stress of resting
+  /// ground whose top is the box's.
   std::vector<Particle> fill(const SiteBox& box, bool depth_stress = false, int soil = 0) const {
     std::vector<Particle> out = Site::fill(box, {}, soil);
     if (depth_stress) rest(out, box.high.z());

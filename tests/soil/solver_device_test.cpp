@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particle solver without tools: against the double twin, motion, books, repeatability.
+// The particle solver without tools: comparison with the double twin, motion, ledger,
+// repeatability.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 using rig::Rig;
 using rig::SiteBox;
 
-/// Particles strewn over a few blocks, in motion and under stress.
+/// Returns particles scattered over a few blocks, in motion and under stress.
 std::vector<Particle> strewn(const Rig& rig, int count, std::uint64_t seed, const Vec3& low) {
   Random random(seed);
   std::vector<Particle> out;
@@ -71,8 +72,8 @@ void expect_agreement(const std::vector<scene::Soil>& soils, int count) {
   print_value("float against double after 6 steps, positions [cells]", worst_x, "< 2e-5",
               "float ulp of 4 cells x steps");
   // Positions: a few ulp (4.8e-7) of an offset of up to 5.5 cells. Velocities: stress rounding (J
-  // to 6e-8 times K = 1e6 Pa is 0.06 Pa) over six steps, and the yield decision may fall the other
-  // way for a particle on the edge.
+  // to 6e-8 times K = 1e6 Pa is 0.06 Pa) over six steps, and the yield decision may differ for a
+  // particle on the surface.
   EXPECT_LT(worst_x, 2e-5);
   EXPECT_LT(worst_v, 2e-3);
   EXPECT_LT(worst_s, 20);
@@ -82,7 +83,8 @@ TEST_P(TwinTest, AgreesWithTheDoubleTwin) { expect_agreement({rig::sand(), loam(
 
 TEST_P(TwinTest, AgreesWithTheDoubleTwinWhenSoilsCompact) {
   scene::Soil sand = rig::sand(), soft = loam();
-  soft.compaction_pressure = 200;  // what a step presses is some hundreds
+  // A step exerts some hundreds.
+  soft.compaction_pressure = 200;
   expect_agreement({sand, soft}, GetParam());
 }
 
@@ -199,11 +201,12 @@ TEST(SoilSolver, RefusesSoilThatNoSceneHas) {
   rig.solver().insert(rig.fill({Vec3(5, 5, 0), Vec3(5.2, 5.2, 0.2)}));
   ByteMap map;
   const std::vector<char> state = saved(rig.solver(), &map);
-  // The first field of that name with another number at its beginning is refused by its name.
+  // The first field of that name with another number at its start is rejected by its name.
   const auto refused = [&](const std::string& name, std::int32_t value) {
     const auto field =
         std::find_if(map.fields.begin(), map.fields.end(), [&](const ByteMap::Field& f) {
-          return f.path.ends_with(name) && f.size > sizeof(std::uint64_t);  // not a length
+          // Not a length.
+          return f.path.ends_with(name) && f.size > sizeof(std::uint64_t);
         });
     std::vector<char> bytes = state;
     std::memcpy(bytes.data() + field->offset, &value, sizeof value);
@@ -219,7 +222,7 @@ TEST(SoilSolver, RefusesSoilThatNoSceneHas) {
   EXPECT_TRUE(refused(tag, 1)) << "there is one soil";
   EXPECT_TRUE(refused("block", std::numeric_limits<std::int32_t>::max()))
       << "its neighbours have no number";
-  // A tool that one has and the other lacks.
+  // A tool that only one of them has.
   target.solver().add_tool(rig::blade(0.2, 0.2));
   EXPECT_THROW(load_saved(state, target.solver()), InputError);
 }
@@ -228,7 +231,8 @@ TEST(SoilSolver, IsTheSameEverywhereOnTheSite) {
   // Same soil at block (13, 13) and (2250, 1750) of a 1 km site: every number of the particles is
   // equal.
   std::vector<std::vector<Particle>> got;
-  for (const Vec3i& shift : {Vec3i(13, 13, 10), Vec3i(2250, 1750, 10)}) {
+  for (const Eigen::Vector3i& shift :
+       {Eigen::Vector3i(13, 13, 10), Eigen::Vector3i(2250, 1750, 10)}) {
     Rig rig({rig::sand()}, {Vec3::Zero(), Vec3::Zero()}, 0.1, 10000);
     auto soil = rig.fill({Vec3(0, 0, 0), Vec3(0.5, 0.5, 0.6)});
     for (Particle& p : soil) {
@@ -269,7 +273,8 @@ TEST(SoilSolver, StopsAtANumberThatIsNotFinite) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     (where == 0 ? soil[17].v[1] : where == 1 ? soil[17].s[3] : soil[17].j) = nan;
     rig.solver().insert(soil);
-    EXPECT_EQ(rig.solver().ledger().error(), soil[17].mass);  // a NaN counts as lost
+    // A NaN counts as lost.
+    EXPECT_EQ(rig.solver().ledger().error(), soil[17].mass);
     try {
       rig.run(0.01);
       FAIL() << "the run went on";

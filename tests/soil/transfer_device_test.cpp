@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transfers of a fixed length: what they damp, what half a step changes, and a run that goes on in
+// Transfers of a fixed length: their damping, the effect of half a step, and a run that resumes in
 // the middle of one.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@ namespace {
 using rig::Rig;
 using rig::SiteBox;
 
-/// Amplitude of a shear wave v_y = sin(2 pi x / 8 cells) over its two middle waves [m/s].
+/// Returns the amplitude of a shear wave v_y = sin(2 pi x / 8 cells) over its two middle waves
+/// [m/s].
 double amplitude(const Rig& rig, double from, double wave) {
   double sum = 0;
   int count = 0;
@@ -28,8 +29,8 @@ double amplitude(const Rig& rig, double from, double wave) {
   return sum / count;
 }
 
-// Opened soil without weight carries no stress: what the wave loses, transfers take. Half the step
-// has as many of them.
+// Opened soil without weight carries no stress: only transfers damp the wave. Half the step has as
+// many of them.
 TEST(SoilTransfer, DampsAWaveOfEightCellsOncePerTransferWhateverTheStep) {
   const double wave = 0.8;
   for (const int parts : {1, 2}) {
@@ -84,7 +85,7 @@ TEST(SoilTransfer, GoesOnFromASnapshotInTheMiddleAsIfNothingHappened) {
   std::vector<std::vector<char>> states;
   std::vector<ToolMotion> motions;
   for (int i = 0; i < kSteps; ++i) {
-    // Every place within a transfer, of four steps as a rule.
+    // Every position within a transfer, of four steps as a rule.
     if (i >= 20 && i < 25) {
       states.push_back(saved(whole.rig.solver()));
       motions.push_back(whole.motion);
@@ -114,7 +115,8 @@ TEST(SoilTransfer, ReportsTheMeanForceOverAWholeTransfer) {
       drag.rig.solver().step(dt, std::span(&drag.motion, 1), std::span(&drag.impulse, 1));
       drag.motion.X_WT.translation() += dt * drag.motion.v_WT;
       sum += drag.impulse.J_W;
-      // Told is the transfer before; over the first there is none, so its own steps.
+      // The reported force is that of the previous transfer; during the first one, of its own
+      // steps.
       const Vec3 expected = transfer > 0 ? before : Vec3(sum / ((i + 1) * dt));
       EXPECT_LT((drag.impulse.force_W - expected).norm(), 1e-9 * (1 + expected.norm()))
           << transfer << ", step " << i;
@@ -124,7 +126,8 @@ TEST(SoilTransfer, ReportsTheMeanForceOverAWholeTransfer) {
   EXPECT_GT(before.x(), 50);
 }
 
-// Soil that comes in, wakes or loses its tool ends a transfer: nothing is held over it.
+// Soil that comes in or becomes active, or a tool that leaves, ends a transfer: nothing is held
+// across it.
 TEST(SoilTransfer, EndsWhereSoilOrToolsComeAndGo) {
   Rig rig({rig::sand()});
   rig.solver().insert(rig.fill({Vec3(5, 5, 2), Vec3(5.3, 5.3, 2.3)}));

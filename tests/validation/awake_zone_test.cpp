@@ -23,7 +23,7 @@ Drag drag(const std::string& zone) {
   session::Session session(load_scene("bucket_path.sdf", {"solver.awake_zone=" + zone}),
                            shared_device());
   const sim::World& world = session.world();
-  const sim::ToolHandle tool = world.tools().at(0);
+  const sim::ToolHandle tool = world.machines().tools().at(0);
   Drag out;
   int samples = 0;
   while (world.time() < 6.7) {
@@ -35,15 +35,15 @@ Drag drag(const std::string& zone) {
   }
   out.force /= samples;
   out.payload = tool.payload();
-  out.particle_steps = world.soil_counts().particle_steps;
-  EXPECT_EQ(world.mass_ledger().error, 0);
+  out.particle_steps = world.soil().counts().particle_steps;
+  EXPECT_EQ(world.soil().mass_ledger().error, 0);
   return out;
 }
 
 TEST(ActiveZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
   const char* source =
-      "the awake zone does not show [docs/validation.md, Buckets and carried loads]";
+      "the active zone has no effect [docs/validation.md, Buckets and carried loads]";
   print_value("mean draft of the drag [N]", usual.force, "not gated", source);
   expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98,
                  1.02, source);

@@ -22,7 +22,7 @@ struct Push {
 
 lab::Report push(const Push& of, double from, double travel) {
   lab::Report report = lab::run_rig(
-      "blade", {{"speed", of.speed}, {"from", from}, {"travel", travel}, {"gate-percent", 0}},
+      "blade", {{"speed", of.speed}, {"from", from}, {"travel", travel}, {"tolerance-percent", 0}},
       [&](lab::Setup& s) {
         s.cell = of.cell;
         s.soil.bank_density = 1540, s.soil.friction_angle = radians(30);

@@ -24,7 +24,7 @@ class ScoopWatch {
  public:
   void look(const session::Session& session) {
     const std::string phase = session.phase(0);
-    const Mat3 R = session.world().machine(0).link(0).pose().linear();
+    const Mat3 R = session.world().machines().at(0).link(0).pose().linear();
     // Of the base's x axis over the horizontal: these digs lie ahead of the machine.
     const double pitch = std::asin(R(2, 0)), time = session.world().time();
     if (phase == "penetrate" && last_ != phase) start_ = pitch;
@@ -92,10 +92,11 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
             0.15 * figure(*reported_dig, "design_volume_m3"));
   expect_between("nose's rise in a scoop [deg]", watch.rise(), 0, 3, kSource);
   expect_between("longest curl [s]", watch.longest_curl(), 1, 6, kSource);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
-                 0, 0, kSource);
+  expect_between("ledger error [units]",
+                 static_cast<double>(session.world().soil().mass_ledger().error), 0, 0, kSource);
   expect_between("shell crossings",
-                 static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, kSource);
+                 static_cast<double>(session.world().soil().counts().shell_crossings), 0, 0,
+                 kSource);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -130,8 +131,8 @@ TEST(DrySand, SupportsAnIdleMachineAndLetsItDriveAway) {
   // 30 s at rest, 1 s after the end.
   expect_between("12 m of dry sand take [s]", session.world().time() - 30 - recording.settle, 10,
                  20, source);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
-                 0, 0, source);
+  expect_between("ledger error [units]",
+                 static_cast<double>(session.world().soil().mass_ledger().error), 0, 0, source);
 }
 
 }  // namespace

@@ -33,14 +33,14 @@ Scooped scoop(const std::vector<std::string>& settings, double until) {
   double steps = 0;
   while (session.world().time() < until) {
     session.step();
-    const Vec3 force = session.world().tools().at(0).force();
+    const Vec3 force = session.world().machines().tools().at(0).force();
     out.most = std::max(out.most, force.norm());
     if (session.world().time() < kDragStart || session.world().time() > kDragEnd) continue;
     out.drag -= force.x();
     steps += 1;
   }
   out.drag /= std::max(steps, 1.0);
-  out.payload = session.world().tools().at(0).payload();
+  out.payload = session.world().machines().tools().at(0).payload();
   return out;
 }
 
@@ -103,7 +103,7 @@ double borne(session::Session& session, double until) {
   double sum = 0, steps = 0;
   for (; session.world().time() < until; ++steps) {
     session.step();
-    sum += session.world().tools().at(0).force().z();
+    sum += session.world().machines().tools().at(0).force().z();
   }
   return sum / steps;
 }
@@ -113,7 +113,7 @@ TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
                            shared_device());
   // It stops at 0.9 s; what pressing fast adds is gone soon after.
   const double stopped = borne(session, 1.4), later = borne(session, 4.9);
-  print_value("pressed bucket: what bears it up half a second after it stopped [N]", stopped,
+  print_value("pressed bucket: supporting force half a second after it stopped [N]", stopped,
               "no gate", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");

@@ -89,7 +89,7 @@ lab::Report rake(double degrees, double speed, double from, double travel) {
                                      {"from", from},
                                      {"travel", travel},
                                      {"ahead", 4},
-                                     {"gate-percent", 0}},
+                                     {"tolerance-percent", 0}},
                                     [](lab::Setup& s) {
                                       s.cell = 0.033;
                                       s.soil.bank_density = 1460;

@@ -24,14 +24,15 @@ TEST(LoadTruck, TheBedHoldsFivePayloadsAndTheHeapHoldsTheBed) {
   std::size_t tips = 0;
   while (!session.done()) {
     session.step();
-    fastest_rise = std::max(fastest_rise, std::abs(world.machine(truck).link(0).velocity().z()));
+    fastest_rise =
+        std::max(fastest_rise, std::abs(world.machines().at(truck).link(0).velocity().z()));
     if (loaded < 0 && session.cycles().size() == 5 && session.phase(truck) == "drive") {
       loaded = session::testing::carried(world, truck, "bed");
-      from = world.machine(truck).link(0).pose().translation().x();
+      from = world.machines().at(truck).link(0).pose().translation().x();
     }
     if (tips == 0 && session.phase(truck) == "tip") {
       tips = 1;
-      to = world.machine(truck).link(0).pose().translation().x();
+      to = world.machines().at(truck).link(0).pose().translation().x();
     }
   }
   double brought = 0;
@@ -48,15 +49,15 @@ TEST(LoadTruck, TheBedHoldsFivePayloadsAndTheHeapHoldsTheBed) {
   expect_between("heap / bed mass", heap / before_tip, 0.99, 1.01, kSource);
   expect_between("left in the bed [kg]", session::testing::carried(world, truck, "bed"), 0,
                  0.01 * before_tip, kSource);
-  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0,
-                 kSource);
-  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0,
-                 kSource);
+  expect_between("ledger error [units]", static_cast<double>(world.soil().mass_ledger().error), 0,
+                 0, kSource);
+  expect_between("shell crossings", static_cast<double>(world.soil().counts().shell_crossings), 0,
+                 0, kSource);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, kSource);
   expect_between("truck's vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
   std::printf("%.0f s simulated, at most %d particles\n", world.time(),
-              world.soil_counts().particles_peak);
+              world.soil().counts().particles_peak);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
   while (!session.done() && tool.smooth_W.norm() < 5000) session.step();
   const vehicle::PhysicsEngine& engine = parts(world).coupling.engine(0);
   const int m = parts(world).coupling.index(0);
-  const Vec3 start = engine.momentum(m);
+  const Vec3 start = engine.accounts()->momentum(m);
   const double t0 = world.time();
   Vec3 bucket = Vec3::Zero(), ground = Vec3::Zero();
   double bucket_size = 0, residual = 0;
@@ -50,18 +50,18 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
     session.step();
     bucket += tool.impulse.J_W;
     bucket_size += tool.impulse.J_W.norm();
-    ground += engine.ground_impulse(m);
+    ground += engine.accounts()->ground_impulse(m);
     if (tool.impulse.scale > 0)
       residual = std::max(residual, tool.impulse.residual.norm() / tool.impulse.scale);
   }
   const Vec3 weight = mass * description.gravity * (world.time() - t0);
-  const Vec3 open = engine.momentum(m) - start - weight - ground - bucket;
+  const Vec3 open = engine.accounts()->momentum(m) - start - weight - ground - bucket;
   std::printf(
       "t %.2f s: bucket (%.0f, %.0f, %.0f) N s, tyres (%.0f, %.0f, %.0f), weight %.0f, change "
       "(%.0f, %.0f, %.0f)\n",
       t0, bucket.x(), bucket.y(), bucket.z(), ground.x(), ground.y(), ground.z(), weight.z(),
-      (engine.momentum(m) - start).x(), (engine.momentum(m) - start).y(),
-      (engine.momentum(m) - start).z());
+      (engine.accounts()->momentum(m) - start).x(), (engine.accounts()->momentum(m) - start).y(),
+      (engine.accounts()->momentum(m) - start).z());
   expect_between("bucket impulse of 1 s [N s]", bucket_size, 1000, 1e6, "a dig, not a touch");
   expect_between("machine: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3,
                  kSource);

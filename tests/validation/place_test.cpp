@@ -39,19 +39,19 @@ Dug dig_at(double x, double y, double until = 20) {
     if (session.world().time() < kLifted)
       out.payload = 0;
     else if (out.payload == 0)
-      out.payload = session.world().tools().at(0).payload();
+      out.payload = session.world().machines().tools().at(0).payload();
   }
   out.wall = watch.seconds();
   out.force = session.force().mean();
   out.earth = record::measure_earthwork(session.world());
-  out.work = static_cast<double>(session.world().soil_counts().particle_steps);
-  EXPECT_EQ(session.world().mass_ledger().error, 0);
+  out.work = static_cast<double>(session.world().soil().counts().particle_steps);
+  EXPECT_EQ(session.world().soil().mass_ledger().error, 0);
   std::printf(
       "(%.1f, %.1f): force %.6g N, payload %.6g kg, bank %.6g m3, loose %.6g m3, %.6g "
       "particle-steps, %d still awake, "
       "%.1f s\n",
       x, y, out.force, out.payload, out.earth.bank_volume, out.earth.loose_volume, out.work,
-      session.world().soil_counts().particles, out.wall);
+      session.world().soil().counts().particles, out.wall);
   return out;
 }
 

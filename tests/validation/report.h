@@ -11,7 +11,7 @@
 
 namespace navvy::validation {
 
-using gates::expect_between;
+using tolerances::expect_between;
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 

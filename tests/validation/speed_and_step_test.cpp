@@ -17,7 +17,7 @@ const char* const kStep = "the step [docs/validation.md, speed and step]";
 
 double blade(double cell, double speed, double courant) {
   const lab::Report report =
-      lab::run_rig("blade", {{"speed", speed}, {"courant", courant}, {"gate-percent", 0}},
+      lab::run_rig("blade", {{"speed", speed}, {"courant", courant}, {"tolerance-percent", 0}},
                    [&](lab::Setup& s) { s.cell = cell; });
   EXPECT_EQ(report.ledger_error, 0);
   return lab::measured(report, "horizontal over expected");
@@ -153,7 +153,7 @@ TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
   double mean = 0, squares = 0;
   for (int i = 0; i < 8; ++i) {
     const lab::Report report =
-        lab::run_rig("blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"gate-percent", 0}},
+        lab::run_rig("blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"tolerance-percent", 0}},
                      [](lab::Setup& s) { s.cell = 0.1; });
     forces.push_back(lab::measured(report, "horizontal over expected"));
     mean += forces.back() / 8;
@@ -175,7 +175,7 @@ TEST(ToolSpread, OfARakedBladeOverSteps) {
                                              {"travel", 0.3},
                                              {"ahead", 4},
                                              {"courant", courant},
-                                             {"gate-percent", 0}},
+                                             {"tolerance-percent", 0}},
                                             [](lab::Setup& s) {
                                               s.cell = 0.033;
                                               s.soil.bank_density = 1460;

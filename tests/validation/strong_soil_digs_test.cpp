@@ -42,7 +42,7 @@ struct Scoops {
 
 Scoops dig(const std::vector<std::string>& settings, int scoops) {
   session::Session session(load_scene("trench.sdf", settings), shared_device());
-  const sim::MachineHandle machine = session.world().machine(0);
+  const sim::MachineHandle machine = session.world().machines().at(0);
   const std::vector<sim::JointHandle> arm = {
       machine.joint("boom_joint"), machine.joint("arm_joint"), machine.joint("bucket_joint")};
   Scoops out;
@@ -70,8 +70,8 @@ Scoops dig(const std::vector<std::string>& settings, int scoops) {
     out.cycle += (one.end - one.start) / out.count;
   }
   out.force = session.force().mean();
-  EXPECT_EQ(session.world().mass_ledger().error, 0);
-  EXPECT_EQ(session.world().soil_counts().shell_crossings, 0u);
+  EXPECT_EQ(session.world().soil().mass_ledger().error, 0);
+  EXPECT_EQ(session.world().soil().counts().shell_crossings, 0u);
   return out;
 }
 

@@ -5,6 +5,8 @@
   table.py collect RESULTS.csv CASE=LOG... [--state S] [--device D] [--date DAY] [--seconds SECONDS.csv]
   table.py write RESULTS.csv PAGE.md    writes the page's tables anew
   table.py check RESULTS.csv PAGE.md    fails when a table is not what `write` would make it
+  table.py summary RESULTS.csv PAGE.md  writes the table of one row per case, of summary.csv beside RESULTS.csv
+  table.py check-summary RESULTS.csv PAGE.md
   table.py selftest
 
 A table stands in the page between two marks; the first names the cases it holds, as shell patterns:
@@ -13,7 +15,7 @@ A table stands in the page between two marks; the first names the cases it holds
   <!-- generated: end -->
 
 Every row of results.csv belongs to exactly one table. `collect` renews the rows of the cases in the logs; a log without
-`CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/gates,
+`CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/tolerances,
 | figure | measured | expected | gate | result | source |, and those of tests/values.h,
 [ VALUE    ] figure: measured M, expected E (source).
 """
@@ -21,6 +23,7 @@ import argparse
 import collections
 import csv
 import fnmatch
+import os
 import re
 import sys
 
@@ -29,6 +32,7 @@ COLUMNS = ["case", "figure", "measured", "half", "expected", "gate", "result", "
 RESULTS = {"ok": "within", "MISS": "miss", "known deviation": "known deviation", "ok, table old": "within",
            "GATE MOVED": "miss"}
 BEGIN = re.compile(r"^<!-- generated: begin; cases: (.*) -->$")
+SUMMARY = "<!-- generated: begin; summary -->"
 END = "<!-- generated: end -->"
 GATED = re.compile(r"^(?:\d+: )?\| (.*) \|$")
 VALUE = re.compile(r"^(?:\d+: )?\[ VALUE    \] (.*): measured (\S+), expected (.*) \((.*)\)$")
@@ -137,7 +141,7 @@ def table(rows):
     halves = {(row["case"][:-4], row["figure"]): row for row in rows
               if row["case"].endswith("Half") and row["case"][:-4] in names}
     runs = []
-    lines = ["| Case | Figure | Measured | Half the cell | Expected | Gate | Source | s | Run |",
+    lines = ["| Case | Quantity | Measured | Half the cell | Expected | Tolerance | Source | s | Run |",
              "|---|---|---|---|---|---|---|---|---|"]
     last = None
     for row in rows:
@@ -193,6 +197,55 @@ def written(page, rows):
     return "\n".join(out) + "\n", wrong
 
 
+def shown_result(row):
+    if row["result"] == "known deviation":
+        return "**no**, known deviation"
+    return "**no**" if row["result"] == "miss" else "yes"
+
+
+def slug(heading):
+    """Anchor of a heading, as GitHub and MyST make it."""
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def summary(rows, chosen):
+    """Markdown of the chosen quantities, one row each, and what is wrong with the choice."""
+    found, wrong = {}, []
+    for row in rows:
+        found.setdefault((row["case"], row["figure"]), row)
+    lines = ["| Section | Case | Measured | Expected | Tolerance | Pass |", "|---|---|---|---|---|---|"]
+    last = None
+    for choice in chosen:
+        row = found.get((choice["case"], choice["quantity"]))
+        if row is None:
+            wrong.append("no result '%s' of %s" % (choice["quantity"], choice["case"]))
+            continue
+        section = choice["section"]
+        link = "" if section == last else "[%s](validation.md#%s)" % (section, slug(section))
+        last = section
+        lines.append("| " + " | ".join([link, choice["what"], bold(row["measured"], row), row["expected"],
+                                        shown_gate(row["gate"]), shown_result(row)]) + " |")
+    counts = collections.Counter(row["result"] for row in rows)
+    lines += ["", "Of all %d results with a tolerance of their own, %d are within it and %d are not; of these, %d are"
+              % (sum(counts.values()) - counts["value"], counts["within"], counts["miss"] + counts["known deviation"],
+                 counts["known deviation"]),
+              "known deviations of automatic cases, and %d are runs of the laboratory by hand. Another %d results are"
+              % (counts["miss"], counts["value"]),
+              "asserted by their tests. Measured between %s and %s."
+              % (min(row["date"] for row in rows), max(row["date"] for row in rows))]
+    return lines, wrong
+
+
+def with_summary(page, rows, chosen):
+    """The page with the lines between its marks made of `rows`; and what is wrong."""
+    begin, end = SUMMARY + "\n", END + "\n"
+    head, found, rest = page.partition(begin)
+    if not found or end not in rest:
+        return page, ["no marks of a generated summary"]
+    lines, wrong = summary(rows, chosen)
+    return head + begin + "\n".join(lines) + "\n" + end + rest.partition(end)[2], wrong
+
+
 def selftest():
     log = ("7: [ RUN      ] A.Holds\n7: | force [N] |  2 |  1 |  0 .. inf | known deviation | Rankine |\n"
            "[ VALUE    ] drag (dry): measured 3.5, expected 3 +-20 % (statics, as above)\n| Test | Figure |\n")
@@ -211,6 +264,12 @@ def selftest():
     assert not wrong and "by hand" not in text and text.endswith("prose\n"), (text, wrong)
     assert "| A.Holds | force [N] | **2** | 4 | 1 | at least 0 | Rankine | 2 | a |" in text, text
     assert written(text, kept)[0] == text
+    chosen = [{"section": "Rest, and stress", "what": "a force", "case": "A.Holds", "quantity": "force [N]"}]
+    page = SUMMARY + "\nold\n" + END + "\nprose\n"
+    short, wrong = with_summary(page, kept, chosen)
+    assert not wrong and "old" not in short and short.endswith("prose\n"), (short, wrong)
+    assert "[Rest, and stress](validation.md#rest-and-stress) | a force | **2** | 1 | at least 0 | **no**" in short, short
+    assert with_summary(page, kept, [dict(chosen[0], quantity="x")])[1] == ["no result 'x' of A.Holds"]
     assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B stands in 0 tables"]
     assert written("<!-- generated: begin; cases: C.* -->\n", [])[1] == ["no case is called C.*",
                                                                          "the last table does not end"]
@@ -218,7 +277,7 @@ def selftest():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("command", choices=["collect", "write", "check", "selftest"])
+    parser.add_argument("command", choices=["collect", "write", "check", "summary", "check-summary", "selftest"])
     parser.add_argument("results", nargs="?")
     parser.add_argument("rest", nargs="*")
     parser.add_argument("--date", default="")
@@ -244,10 +303,14 @@ def main():
     path = options.rest[0]
     with open(path) as file:
         before = file.read()
-    after, wrong = written(before, rows)
+    if options.command in ("summary", "check-summary"):
+        chosen = read(os.path.join(os.path.dirname(options.results), "summary.csv"))
+        after, wrong = with_summary(before, rows, chosen)
+    else:
+        after, wrong = written(before, rows)
     for line in wrong:
         print("%s: %s" % (path, line), file=sys.stderr)
-    if options.command == "write":
+    if options.command in ("write", "summary"):
         with open(path, "w") as file:
             file.write(after)
     elif before != after:

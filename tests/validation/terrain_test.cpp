@@ -56,7 +56,7 @@ TEST_P(RealTerrain, DigsATrenchOfHalfTheLengthAndTheMassBalanceHolds) {
   double fastest = 0, deepest = 0;
   while (!session.done()) {
     session.step();
-    fastest = std::max(fastest, std::abs(session.world().machine(0).link(0).velocity().z()));
+    fastest = std::max(fastest, std::abs(session.world().machines().at(0).link(0).velocity().z()));
   }
   for (double s = 0; s <= 1.6; s += ground.cell()) {
     const Vec2i column = ground.column_at(3.25 + s, 0);
@@ -67,17 +67,18 @@ TEST_P(RealTerrain, DigsATrenchOfHalfTheLengthAndTheMassBalanceHolds) {
   const char* source = "real terrain [docs/validation.md, Whole digs]";
   std::printf("%s: %zu cycles in %.0f s, bank %.2f m3, loose %.2f m3, most %d particles\n",
               spot.file, session.cycles().size(), session.world().time(), earth.bank_volume,
-              earth.loose_volume, session.world().soil_counts().particles_peak);
+              earth.loose_volume, session.world().soil().counts().particles_peak);
   expect_between("the program's end [s]", session.world().time(), 10,
                  description.recording.duration - 1, source);
   expect_between("cycles", static_cast<double>(session.cycles().size()), 2, 30, source);
   expect_between("deepest on the line [m]", deepest, 0.7, 1.1, source);
   expect_between("bank volume [m3]", earth.bank_volume, 1.0, 6, source);
   expect_between("machine's vertical speed [m/s]", fastest, 0, 1.0, source);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
-                 0, 0, source);
+  expect_between("ledger error [units]",
+                 static_cast<double>(session.world().soil().mass_ledger().error), 0, 0, source);
   expect_between("shell crossings",
-                 static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, source);
+                 static_cast<double>(session.world().soil().counts().shell_crossings), 0, 0,
+                 source);
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, RealTerrain, testing::ValuesIn(kSpots),

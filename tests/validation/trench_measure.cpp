@@ -106,7 +106,8 @@ WheelTracks::WheelTracks(const heightfield::Ground& ground)
 void WheelTracks::mark(const sim::World& world) {
   const auto& wheels = world.description().machines.at(0).machine.wheels;
   for (std::size_t w = 0; w < wheels.size(); ++w) {
-    const Vec3 center = world.machine(0).wheel(static_cast<int>(w)).state().X_WWheel.translation();
+    const Vec3 center =
+        world.machines().at(0).wheel(static_cast<int>(w)).state().X_WWheel.translation();
     const double reach = 0.5 * (wheels[w].twin_spacing + wheels[w].width) + ground_.cell();
     const Vec2i low = ground_.column_at(center.x() - reach, center.y() - reach);
     const Vec2i high = ground_.column_at(center.x() + reach, center.y() + reach);

@@ -33,7 +33,7 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
     session.step();
     tracks.mark(session.world());
     fastest_rise =
-        std::max(fastest_rise, std::abs(session.world().machine(0).link(0).velocity().z()));
+        std::max(fastest_rise, std::abs(session.world().machines().at(0).link(0).velocity().z()));
   }
   const double real_time_factor = session.world().time() / watch.seconds();
   const heightfield::Ground& ground = session.world().ground();
@@ -65,10 +65,11 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   expect_between("slope of the heap over 0.6 m, steepest [deg]", slopes.back(), -kNoLimit, 50,
                  heap);
   expect_between("real-time factor without pictures", real_time_factor, 0.2, kNoLimit, source);
-  expect_between("ledger error [units]", static_cast<double>(session.world().mass_ledger().error),
-                 0, 0, source);
+  expect_between("ledger error [units]",
+                 static_cast<double>(session.world().soil().mass_ledger().error), 0, 0, source);
   expect_between("shell crossings",
-                 static_cast<double>(session.world().soil_counts().shell_crossings), 0, 0, source);
+                 static_cast<double>(session.world().soil().counts().shell_crossings), 0, 0,
+                 source);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
   expect_between("machine's vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
@@ -82,8 +83,8 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   double uplift = 0;
   for (const session::Cycle& cycle : session.cycles()) uplift = std::max(uplift, cycle.uplift_peak);
   expect_between("soil's push up on the bucket in a curl, less the load [N]", uplift, 0, 10e3,
-                 "the heel does not bear the machine [docs/validation.md, Whole digs]");
-  print_value("peak draft of the lip [N]", session.force().draft_peak, "not gated", "plausibility");
+                 "the heel does not carry the machine [docs/validation.md, Whole digs]");
+  print_value("peak draft of the cutting edge [N]", session.force().draft_peak, "not gated", "plausibility");
   expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01,
                  "the shell holds its load [docs/validation.md, Buckets and carried loads]");
 }

@@ -21,7 +21,8 @@ TEST(TwoExcavators, DigSideBySideToTheEnd) {
   while (!session.done()) {
     session.step();
     for (int m = 0; m < 2; ++m)
-      fastest_rise = std::max(fastest_rise, std::abs(world.machine(m).link(0).velocity().z()));
+      fastest_rise =
+          std::max(fastest_rise, std::abs(world.machines().at(m).link(0).velocity().z()));
   }
   std::array<double, 2> cycles{};
   double worst_loss = 0;
@@ -39,10 +40,10 @@ TEST(TwoExcavators, DigSideBySideToTheEnd) {
                  "the shell holds its load [docs/validation.md, Buckets and carried loads]");
   expect_between("machines' vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
-  expect_between("ledger error [units]", static_cast<double>(world.mass_ledger().error), 0, 0,
-                 source);
-  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0,
-                 source);
+  expect_between("ledger error [units]", static_cast<double>(world.soil().mass_ledger().error), 0,
+                 0, source);
+  expect_between("shell crossings", static_cast<double>(world.soil().counts().shell_crossings), 0,
+                 0, source);
   expect_between("momentum residual / scale", session.force().residual_max, 0, 1e-5, source);
 }
 

@@ -35,7 +35,7 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
   const control::Dig dig = dig_step(description);
   const TrenchMeasure trench = measure(world.ground(), dig);
   const record::Earthwork earth = record::measure_earthwork(world);
-  const sim::MassLedger ledger = world.mass_ledger();
+  const sim::MassLedger ledger = world.soil().mass_ledger();
   const double cap = description.ground.layers.at(0).thickness;
   double swelled = 0;  // of what was dug, each soil at its own loose density [m3]
   for (std::size_t i = 0; i < 2; ++i) {
@@ -57,8 +57,8 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
                  0.95, 1.05, kSource);
   expect_between("floor within 0.10 m, share of length", trench.floor_share, 0.8, 1.0,
                  "the trench [docs/validation.md, Whole digs]");
-  expect_between("shell crossings", static_cast<double>(world.soil_counts().shell_crossings), 0, 0,
-                 kSource);
+  expect_between("shell crossings", static_cast<double>(world.soil().counts().shell_crossings), 0,
+                 0, kSource);
   std::printf("%zu cycles, %.0f s simulated, %.2f m3 bank, %.2f m3 loose, %.0f and %.0f kg dug\n",
               session.cycles().size(), world.time(), earth.bank_volume, earth.loose_volume,
               earth.soils[0].dug, earth.soils[1].dug);

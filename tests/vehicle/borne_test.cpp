@@ -48,7 +48,7 @@ double height(const PhysicsEngine& engine, int machine) {
   return engine.link(machine, 0).X_WL.translation().z();
 }
 
-TEST(Borne, ABodyOnABodySupportedBySoilDoesNotSink) {
+TEST(SupportedBody, ABodyOnABodySupportedBySoilDoesNotSink) {
   for (const double dt : {1.0 / 150, 1.0 / 600}) {
     const auto engine = pair();
     const auto ground = testing::flat();
@@ -76,7 +76,7 @@ TEST(Borne, ABodyOnABodySupportedBySoilDoesNotSink) {
   }
 }
 
-TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
+TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
   const double dt = 1.0 / 600;
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(block(kLower), make_pose(0, 0, kHigh));
@@ -85,7 +85,8 @@ TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
   for (int i = 0; i < 300; ++i) {
     engine->step(dt, ground);
     momentum.z() -= dt * kLower * kGravity;
-    EXPECT_LT((engine->momentum(0) - momentum).norm(), 1e-9) << "what soil is told, step " << i;
+    EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9)
+        << "what soil is told, step " << i;
     // Pushes that come and go, with gaps, so that what is expected is wrong nearly always.
     if (i % 7 < 4) {
       const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)),
@@ -97,12 +98,12 @@ TEST(Borne, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
     place += dt / kLower * momentum;
   }
   // Rounding of 300 steps.
-  EXPECT_LT((engine->momentum(0) - momentum).norm(), 1e-9 * kLower);
+  EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9 * kLower);
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - place).norm(), 1e-9);
   EXPECT_NEAR(engine->link(0, 0).w_WL.z(), spin.z() / (kLower / 12 * 0.72), 1e-9);
 }
 
-TEST(Borne, ASnapshotKnowsWhatTheNextStepExpects) {
+TEST(SupportedBody, ASnapshotKnowsWhatTheNextStepExpects) {
   const double dt = 1.0 / 600;
   const auto ground = testing::flat();
   const auto go_on = [&](PhysicsEngine& engine, int steps) {

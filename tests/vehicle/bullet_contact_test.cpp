@@ -30,7 +30,7 @@ TEST(BulletContact, BoxRestsOnTheGroundWithItsWeight) {
   engine->add_machine(box(), make_pose(3, -2.5, 1001.8));
   run(*engine, ground, 2, kStep);
   Vec3 impulse = Vec3::Zero();
-  run(*engine, ground, 2, kStep, [&](double) { impulse += engine->ground_impulse(0); });
+  run(*engine, ground, 2, kStep, [&](double) { impulse += engine->accounts()->ground_impulse(0); });
   // 1 cm: the contact is a stiff spring (1000 kg on 4 x 2e7 N/m is 0.1 mm) plus Bullet's margins.
   EXPECT_NEAR(engine->link(0, 0).X_WL.translation().z(), 1000.5, 0.01);
   EXPECT_NEAR(engine->link(1, 0).X_WL.translation().z(), 1001.5, 0.01);
@@ -53,7 +53,8 @@ TEST(BulletContact, FrictionHoldsBelowAndSlidesAboveItsAngle) {
       EXPECT_LT(v, 0.02);
       // Normal and friction together carry the weight.
       Vec3 impulse = Vec3::Zero();
-      run(*engine, ground, 1, kStep, [&](double) { impulse += engine->ground_impulse(0); });
+      run(*engine, ground, 1, kStep,
+          [&](double) { impulse += engine->accounts()->ground_impulse(0); });
       EXPECT_LT((impulse + 1000 * kDown).norm(), 0.01 * 1000 * kGravity);
     } else {
       const double expected =
@@ -142,10 +143,12 @@ TEST(BulletContact, MachinesPushEachOtherAndMomentumIsConserved) {
   engine->add_machine(box(), make_pose(1.5, 0.1, 0.05));
   engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), Vec3::Zero());
   run(*engine, FunctionGround([](double, double) { return -5.0; }), 1, kStep);
-  EXPECT_GT(engine->momentum(1).x(), 500);
+  EXPECT_GT(engine->accounts()->momentum(1).x(), 500);
   // 1e-6: the iterations of the solver act on both bodies alike.
-  EXPECT_LT((engine->momentum(0) + engine->momentum(1) - Vec3(2000, 0, 0)).norm(), 2e-3);
-  EXPECT_TRUE(engine->ground_impulse(1).isZero());
+  EXPECT_LT(
+      (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - Vec3(2000, 0, 0)).norm(),
+      2e-3);
+  EXPECT_TRUE(engine->accounts()->ground_impulse(1).isZero());
 }
 
 TEST(BulletContact, EachBodyMeetsTheGroundInFullWhereverTheOtherIs) {

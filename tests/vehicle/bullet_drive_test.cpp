@@ -39,7 +39,7 @@ TEST(BulletDrive, StandsStillOnItsTyres) {
   double load = 0;
   for (int w = 0; w < 4; ++w) load += engine->wheel(0, w).force_W.z();
   EXPECT_NEAR(load, 18000 * kGravity, 1e-3 * 18000 * kGravity);
-  EXPECT_NEAR(engine->ground_impulse(0).z(), 18000 * kGravity * kStep,
+  EXPECT_NEAR(engine->accounts()->ground_impulse(0).z(), 18000 * kGravity * kStep,
               1e-3 * 18000 * kGravity * kStep);
 }
 
@@ -154,7 +154,7 @@ TEST(BulletDrive, DropsIntoATrenchWithoutBeingLaunched) {
   run(*engine, ground, 8, kStep, [&](double) {
     const LinkState chassis = engine->link(0, 0);
     lowest = std::min(lowest, (chassis.X_WL * Vec3(2.8, 0, 0)).z());
-    fastest = std::max({fastest, chassis.v_WL.z(), engine->momentum(0).z() / 18000});
+    fastest = std::max({fastest, chassis.v_WL.z(), engine->accounts()->momentum(0).z() / 18000});
   });
   EXPECT_LT(fastest, 1.0);   // upwards: rear axle and centre of mass
   EXPECT_LT(lowest, -0.25);  // the front wheels are in it

@@ -130,11 +130,11 @@ TEST(BulletEngine, ImpulseChangesTheMomentumByItself) {
   const Vec3 J(300, -500, 700), L(40, 50, -60);
   for (const char* name : {"chassis", "bucket", "wheel_front_left"}) {
     const int link = ew180().link_index(name);
-    const Vec3 before = engine->momentum(0);
+    const Vec3 before = engine->accounts()->momentum(0);
     engine->apply_impulse(0, link, J, L, engine->link(0, link).X_WL * Vec3(0.3, 0.2, 0.1));
-    EXPECT_LT((engine->momentum(0) - before - J).norm(), 1e-9 * J.norm()) << name;
+    EXPECT_LT((engine->accounts()->momentum(0) - before - J).norm(), 1e-9 * J.norm()) << name;
   }
-  EXPECT_TRUE(engine->external_impulse(0).isApprox(3 * J));
+  EXPECT_TRUE(engine->accounts()->external_impulse(0).isApprox(3 * J));
 }
 
 TEST(BulletEngine, InverseMassPredictsTheVelocityChangeOfAnImpulse) {

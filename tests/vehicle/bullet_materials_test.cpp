@@ -149,8 +149,10 @@ TEST(BulletMaterials, MomentumIsConservedInABlow) {
   engine->add_machine(of("stone", testing::box()), make_pose(1.5, 0.1, 50.05));
   engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), Vec3(0, 0, 50));
   run(*engine, flat(), 1, kStep);
-  EXPECT_GT(engine->momentum(1).x(), 1000);
-  EXPECT_LT((engine->momentum(0) + engine->momentum(1) - Vec3(2000, 0, 0)).norm(), 1e-3 * 2000);
+  EXPECT_GT(engine->accounts()->momentum(1).x(), 1000);
+  EXPECT_LT(
+      (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - Vec3(2000, 0, 0)).norm(),
+      1e-3 * 2000);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct OverRock {
     machine.fixed_base = fixed;
     engine = make_bullet_engine(kDown);
     engine->add_machine(machine, Pose::Identity());
-    engine->set_rock(kRock);
+    engine->rock()->set_rock(kRock);
     bucket = machine.link_index("bucket");
   }
   int joint(const std::string& name) const { return machine.joint_index(name); }
@@ -41,7 +41,7 @@ struct OverRock {
       z = std::min(z, (engine->link(0, bucket).X_WL * v).z());
     return z;
   }
-  Vec3 rock_force() const { return engine->rock_impulse(0, 0) / kStep; }
+  Vec3 rock_force() const { return engine->rock()->rock_impulse(0, 0) / kStep; }
 
   scene::Machine machine;
   std::unique_ptr<PhysicsEngine> engine;
@@ -112,7 +112,8 @@ TEST(BulletRock, AMachineLiftsItselfOnItsBucket) {
   EXPECT_GT(dig.rock_force().z(), 15e3);
   // At rest ground and rock carry the weight.
   Vec3 sum = Vec3::Zero();
-  run(*dig.engine, flat(), 1, kStep, [&](double) { sum += dig.engine->ground_impulse(0); });
+  run(*dig.engine, flat(), 1, kStep,
+      [&](double) { sum += dig.engine->accounts()->ground_impulse(0); });
   EXPECT_NEAR(sum.z(), 18000 * kGravity, 0.01 * 18000 * kGravity);
 }
 

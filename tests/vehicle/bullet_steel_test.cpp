@@ -87,8 +87,10 @@ TEST(BulletSteel, MomentumOfTwoTouchingMachinesIsConserved) {
   engine->apply_impulse(1, 0, thrown, Vec3::Zero(), side);
   run(*engine, flat(), 1, kStep);
   // The side of the bucket stopped it, and nothing else could.
-  EXPECT_GT(engine->momentum(0).norm(), 0.3 * thrown.norm());
-  const double lost = (engine->momentum(0) + engine->momentum(1) - thrown).norm() / thrown.norm();
+  EXPECT_GT(engine->accounts()->momentum(0).norm(), 0.3 * thrown.norm());
+  const double lost =
+      (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - thrown).norm() /
+      thrown.norm();
   print_value("momentum of a bucket and a stone that hits it, change", lost, "<= 1e-3", "kept");
   EXPECT_LT(lost, 1e-3);
 }

@@ -67,7 +67,7 @@ TEST_P(Crawlers, StandOnTheirRollersWithTheirWeight) {
   EXPECT_GT(stability(machine, *engine, 0).margin, 0.1 * gauge());
   for (int w = 0; w < 2; ++w) {
     double pressed = 0;
-    for (const terramechanics::TrackPatch& patch : engine->track_patches(0, w))
+    for (const terramechanics::TrackPatch& patch : engine->tracks()->track_patches(0, w))
       pressed += patch.load;
     EXPECT_NEAR(pressed, engine->wheel(0, w).force_W.z(), 0.01 * pressed);
   }
@@ -170,7 +170,7 @@ TEST_P(Crawlers, PullOnSoilByItsCohesionAndFriction) {
   });
   double area = 0, length = 0;
   for (int w = 0; w < 2; ++w)
-    for (const terramechanics::TrackPatch& patch : engine->track_patches(0, w)) {
+    for (const terramechanics::TrackPatch& patch : engine->tracks()->track_patches(0, w)) {
       area += patch.length * patch.width;
       length += 0.5 * patch.length;
     }

@@ -208,13 +208,13 @@ TEST(Ew180, WorkOfTheCylindersIsTheHeightGained) {
     return sum;
   };
   run(*engine, ground, 1, kStep);
-  const double before = engine->work(0), low = height();
+  const double before = engine->accounts()->work(0), low = height();
   engine->set_joint(0, m.joint_index("boom_joint"), {JointMode::kPosition, 0.7});
   run(*engine, ground, 5, kStep);
   const double expected = kGravity * (height() - low);
   EXPECT_GT(expected, 50e3);
   // 1 %: forces of the first order in the step.
-  EXPECT_NEAR(engine->work(0) - before, expected, 0.01 * expected);
+  EXPECT_NEAR(engine->accounts()->work(0) - before, expected, 0.01 * expected);
 }
 
 TEST(Ew180, BucketShellIsWoundInwardAndHoldsItsVolume) {

@@ -137,7 +137,7 @@ TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
     digger.turn(name, -3);
   double most = 0;
   run(*digger.engine, flat(), 1, kStep,
-      [&](double) { most = std::max(most, digger.engine->pump(0).flow); });
+      [&](double) { most = std::max(most, digger.engine->power()->pump(0).flow); });
   const double flow = digger.machine.pump.flow;
   print_value("most oil of three functions at once [l/min]", 6e4 * most, "429, gated at 1 %",
               "vehicles/ew180/SOURCE.md");

@@ -57,8 +57,8 @@ TEST(KinematicEngine, DrivesTheExactArc) {
 TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
   auto engine = make_kinematic_engine();
   engine->add_machine(arm(), make_pose(1, 2, 0.5));
-  EXPECT_EQ(engine->base(0).p_W, Vec3(1, 2, 0.5));
-  engine->set_base(0, {Vec3(2, 2, 0.5), Vec3(0, 0, 4), 0.5});
+  EXPECT_EQ(engine->placement()->base(0).p_W, Vec3(1, 2, 0.5));
+  engine->placement()->set_base(0, {Vec3(2, 2, 0.5), Vec3(0, 0, 4), 0.5});
   run(*engine, flat(), 0.25, kStep);
   const LinkState half = engine->link(0, 0);
   EXPECT_NEAR(half.X_WL.translation().x(), 1.5, 1e-12);
@@ -72,7 +72,7 @@ TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
   EXPECT_EQ(there.X_WL.matrix(), make_pose(2, 2, 0.5, 0, 0, 4).matrix());
   EXPECT_TRUE(there.v_WL.isZero() && there.w_WL.isZero());
   // At once, in all six, and its links go along.
-  engine->set_base(0, {Vec3(0, 1, 2), Vec3(0.1, -0.2, 0.3), 0});
+  engine->placement()->set_base(0, {Vec3(0, 1, 2), Vec3(0.1, -0.2, 0.3), 0});
   engine->step(kStep, flat());
   EXPECT_EQ(engine->link(0, 0).X_WL.matrix(), make_pose(0, 1, 2, 0.1, -0.2, 0.3).matrix());
   EXPECT_LT((engine->link(0, 2).X_WL.translation() - Vec3(0, 1, 2)).norm(), 9);
@@ -86,7 +86,7 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
   };
   auto whole = build(), resumed = build();
   whole->set_drive(0, {1, 0, false});
-  whole->set_base(0, {Vec3(0, 3, 1), Vec3(0, 0, 0), 1});
+  whole->placement()->set_base(0, {Vec3(0, 3, 1), Vec3(0, 0, 0), 1});
   run(*whole, flat(), 0.5, kStep);
   load_saved(saved(*whole), *resumed);
   for (PhysicsEngine* engine : {whole.get(), resumed.get()}) run(*engine, flat(), 1, kStep);
@@ -101,7 +101,8 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
 TEST(KinematicEngine, AloneMovesABaseAsCommanded) {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(testing::box(), make_pose(0, 0, 1));
-  EXPECT_THROW(engine->set_base(0, {}), InputError);
+  EXPECT_EQ(engine->placement(), nullptr);
+  EXPECT_THROW(require_placement(*engine, 0), InputError);
 }
 
 TEST(KinematicEngine, ResumesEqual) {

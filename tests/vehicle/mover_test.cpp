@@ -25,21 +25,21 @@ struct BothEngines {
     told.kinematic = true;
     links = told.links.size();
     kinematic->add_machine(told, X_WM);
-    mover = bullet->add_mover(told);
+    mover = bullet->obstacles()->add_obstacle(told);
   }
   void go(double duration, const GroundQuery& ground = flat()) {
     for (int i = 0; i < std::lround(duration / kStep); ++i) {
       std::vector<LinkState> states;
       for (std::size_t l = 0; l < links; ++l)
         states.push_back(kinematic->link(0, static_cast<int>(l)));
-      bullet->move(mover, states);
+      bullet->obstacles()->move_obstacle(mover, states);
       bullet->step(kStep, ground);
       kinematic->step(kStep, ground);
     }
   }
   /// To x in so many seconds.
   void send(const Vec3& p_W, double seconds) {
-    kinematic->set_base(0, {p_W, Vec3::Zero(), seconds});
+    kinematic->placement()->set_base(0, {p_W, Vec3::Zero(), seconds});
   }
   Vec3 place(int machine) const { return bullet->link(machine, 0).X_WL.translation(); }
   Vec3 speed(int machine) const { return bullet->link(machine, 0).v_WL; }

@@ -87,8 +87,8 @@ TEST(PowerTrain, GoesInEachGearAsFastAsTheEngineIsGoverned) {
                 std::to_string(expected), "w r / (i g)");
     // 3 %: the loaded radius is 12 mm less than 525, the tyres slip a little.
     EXPECT_NEAR(rig.speed(), expected, 0.03 * expected);
-    EXPECT_NEAR(rig.engine->drive_engine(0).speed, 300, 0.01 * 300);
-    EXPECT_EQ(rig.engine->drive_engine(0).gear, gear);
+    EXPECT_NEAR(rig.engine->power()->drive_engine(0).speed, 300, 0.01 * 300);
+    EXPECT_EQ(rig.engine->power()->drive_engine(0).gear, gear);
   }
 }
 
@@ -104,8 +104,8 @@ TEST(PowerTrain, PullsWithTorqueTimesRatioTimesEfficiencyByRadius) {
   print_value("drawbar pull at idle, the clutch slipping [N]", force,
               std::to_string(torque / 0.513), "i g eta T / r");
   EXPECT_NEAR(force, torque / 0.513, 0.03 * torque / 0.513);
-  EXPECT_EQ(rig.engine->drive_engine(0).speed, 100) << "it is not stalled";
-  EXPECT_NEAR(rig.engine->drive_engine(0).torque, 150, 1e-9);
+  EXPECT_EQ(rig.engine->power()->drive_engine(0).speed, 100) << "it is not stalled";
+  EXPECT_NEAR(rig.engine->power()->drive_engine(0).torque, 150, 1e-9);
 }
 
 TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
@@ -114,7 +114,7 @@ TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
   const double rated = scene::rated_point(diesel()).speed * scene::rated_point(diesel()).torque;
   double most = 0;
   run(*rig.engine, flat(), 8, kStep, [&](double) {
-    const CombustionEngineState state = rig.engine->drive_engine(0);
+    const CombustionEngineState state = rig.engine->power()->drive_engine(0);
     most = std::max(most, state.power);
     EXPECT_GE(state.speed, 100);
     // 1 %: the torque was told for the speed at the step's start.
@@ -145,7 +145,7 @@ TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
   rig.engine->set_drive(0, {3, 0, false});
   int changes = 0, last = 1;
   run(*rig.engine, slope(angle), 10, kStep, [&](double) {
-    const int gear = rig.engine->drive_engine(0).gear;
+    const int gear = rig.engine->power()->drive_engine(0).gear;
     changes += gear != last;
     last = gear;
   });
@@ -156,7 +156,7 @@ TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
   Rig level(cart_with(diesel()));
   level.engine->set_drive(0, {3, 0, false});
   run(*level.engine, flat(), 8, kStep);
-  EXPECT_EQ(level.engine->drive_engine(0).gear, 2);
+  EXPECT_EQ(level.engine->power()->drive_engine(0).gear, 2);
   EXPECT_NEAR(level.speed(), 3, 0.1);
 }
 
@@ -167,7 +167,7 @@ TEST(PowerTrain, TurnsRoundToGoBack) {
   rig.engine->set_drive(0, {-1.5, 0, false});
   run(*rig.engine, flat(), 8, kStep);
   EXPECT_NEAR(rig.speed(), -1.5, 0.06);
-  EXPECT_GE(rig.engine->drive_engine(0).speed, 100);
+  EXPECT_GE(rig.engine->power()->drive_engine(0).speed, 100);
 }
 
 TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
@@ -180,7 +180,7 @@ TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
     EXPECT_GT(right.spin, 1.1 * left.spin) << "in a turn to the left";
     EXPECT_GT(left.shaft_torque, 0);
     EXPECT_NEAR(left.shaft_torque, right.shaft_torque, 0.01 * right.shaft_torque);
-    const CombustionEngineState engine = rig.engine->drive_engine(0);
+    const CombustionEngineState engine = rig.engine->power()->drive_engine(0);
     const GearedEngine gears(about, false);
     const double ratio = gears.ratio(engine.gear);
     EXPECT_NEAR(engine.speed, ratio * rig.carrier(), 0.01 * engine.speed);
@@ -205,13 +205,14 @@ TEST(PowerTrain, ASpeedSourceTurnsTheDifferentialCarrierAsCommanded) {
   rig.engine->set_drive(0, {1.5, 0.2, false});
   run(*rig.engine, flat(), 4, kStep);
   EXPECT_NEAR(rig.carrier() * 0.525, 1.5, 1e-3 * 1.5) << "by the unloaded radius";
-  EXPECT_NEAR(rig.engine->drive_engine(0).speed, 20 * rig.carrier(), 1e-3 * 20 * rig.carrier());
+  EXPECT_NEAR(rig.engine->power()->drive_engine(0).speed, 20 * rig.carrier(),
+              1e-3 * 20 * rig.carrier());
   // Held, it gives its largest torque and turns no further.
   Rig tied(cart_with(source()));
   tied.engine->set_drive(0, {1.5, 0, false});
   run(*tied.engine, flat(), 6, kStep, [&](double) { tied.tie(); });
   EXPECT_NEAR(tied.torque(), 20 * 0.9 * 150, 1);
-  EXPECT_NEAR(tied.engine->drive_engine(0).torque, 150, 0.1);
+  EXPECT_NEAR(tied.engine->power()->drive_engine(0).torque, 150, 0.1);
   EXPECT_NEAR(tied.speed(), 0, 0.02);
 }
 
@@ -226,7 +227,8 @@ TEST(PowerTrain, ResumesEqual) {
     load_saved(saved(*whole.engine), *resumed.engine);
     EXPECT_EQ(testing::digest(*resumed.engine), testing::digest(*whole.engine));
     EXPECT_EQ(resumed.torque(), whole.torque());
-    EXPECT_EQ(resumed.engine->drive_engine(0).torque, whole.engine->drive_engine(0).torque);
+    EXPECT_EQ(resumed.engine->power()->drive_engine(0).torque,
+              whole.engine->power()->drive_engine(0).torque);
     run(*whole.engine, flat(), 1.5, kStep);
     run(*resumed.engine, flat(), 1.5, kStep);
     EXPECT_EQ(testing::digest(*resumed.engine), testing::digest(*whole.engine));

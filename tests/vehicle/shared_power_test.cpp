@@ -63,11 +63,11 @@ Powers climb_and_lift(const scene::Machine& machine) {
     double drive = 0;
     for (int w = 0; w < static_cast<int>(machine.wheels.size()); ++w)
       drive += engine->wheel(0, w).shaft_torque * engine->wheel(0, w).spin;
-    const double pump = engine->pump(0).flow * engine->pump(0).pressure;
+    const double pump = engine->power()->pump(0).flow * engine->power()->pump(0).pressure;
     out.pump = std::max(out.pump, pump);
     out.drive = std::max(out.drive, drive);
     out.most = std::max(out.most, pump + drive);
-    out.shared = std::max(out.shared, engine->drive_engine(0).power);
+    out.shared = std::max(out.shared, engine->power()->drive_engine(0).power);
   });
   out.speed = engine->link(0, 0).X_WL.linear().col(0).dot(engine->link(0, 0).v_WL);
   out.digest = testing::digest(*engine);

@@ -40,7 +40,8 @@ TEST(Rest, AStillBodyStaysBitIdenticalAndIsCarried) {
   const Pose X = pose(*engine, 0);
   EXPECT_NEAR(X.translation().z(), 0.5, 0.01);
   Vec3 impulse = Vec3::Zero();
-  run(*engine, flat(), 60, kStep, [&](double) { impulse += engine->ground_impulse(0); });
+  run(*engine, flat(), 60, kStep,
+      [&](double) { impulse += engine->accounts()->ground_impulse(0); });
   EXPECT_TRUE(pose(*engine, 0).isApprox(X, 0));
   EXPECT_NEAR(impulse.z(), 1000 * kGravity * 60, 1e-6 * 1000 * kGravity * 60);
 }
@@ -60,7 +61,7 @@ TEST(Rest, APushWakes) {
   run(*engine, flat(), 2, kStep);
   ASSERT_TRUE(sleeps(*engine, 0));
   engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), Vec3(0, 0, 0.5));
-  EXPECT_NEAR(engine->momentum(0).x(), 2000, 1e-6);
+  EXPECT_NEAR(engine->accounts()->momentum(0).x(), 2000, 1e-6);
   run(*engine, flat(), 0.1, kStep);
   EXPECT_GT(pose(*engine, 0).translation().x(), 0.1);
   run(*engine, flat(), 3, kStep);
@@ -68,7 +69,7 @@ TEST(Rest, APushWakes) {
   // A force as well, and one that its friction holds moves nothing.
   engine->add_force(0, 0, Vec3(3e4, 0, 0), Vec3(0, 0, 0.5));
   engine->step(kStep, flat());
-  EXPECT_NEAR(engine->momentum(0).x(), (3e4 - 0.5 * 1000 * kGravity) * kStep, 5);
+  EXPECT_NEAR(engine->accounts()->momentum(0).x(), (3e4 - 0.5 * 1000 * kGravity) * kStep, 5);
 }
 
 TEST(Rest, GroundThatIsDugAwayWakes) {

@@ -195,7 +195,7 @@ TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
         tipped = load;
     });
     print_value("tipping load [kg]", tipped, std::to_string(before.tipping_load) + " +-6 %",
-                "told before");
+                "reported before");
     // 6 %: it leans on its tyres by a degree before it goes, which is told as it leans, not before.
     EXPECT_NEAR(tipped, before.tipping_load, 0.06 * before.tipping_load);
   }

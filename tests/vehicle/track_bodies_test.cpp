@@ -227,8 +227,11 @@ TEST_P(TrackBodies, TrackAndBodyConserveMomentum) {
                         engine->link(0, 0).X_WL.translation());
   engine->set_drive(0, {0.4 * top_speed(), 0, false});
   run(*engine, flat(), 1.5, kStep);
-  EXPECT_GT(engine->momentum(1).x(), 0.05 * push);
-  const double lost = (engine->momentum(0) + engine->momentum(1) - Vec3(push, 0, 0)).norm() / push;
+  EXPECT_GT(engine->accounts()->momentum(1).x(), 0.05 * push);
+  const double lost =
+      (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - Vec3(push, 0, 0))
+          .norm() /
+      push;
   print_value("momentum lost [-]", lost, "below 1e-3", "action and reaction");
   EXPECT_LT(lost, 1e-3);
 }
@@ -244,7 +247,7 @@ TEST_P(TrackBodies, ALightBodyThatATrackDrivesOntoIsNotThrown) {
     fastest = std::max(fastest, engine->link(1, 0).v_WL.norm());
     highest = std::max(highest, tilt(*engine));
   });
-  print_value("speed of a stone under a belt [m/s]", fastest, "below 8",
+  print_value("speed of a stone under a track [m/s]", fastest, "below 8",
               "some times the machine's");
   EXPECT_LT(fastest, 8.0);
   EXPECT_LT(highest, radians(10));

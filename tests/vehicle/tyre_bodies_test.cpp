@@ -125,7 +125,7 @@ TEST(TyreBodies, AWheelOnAPlatePressesItAndNotTheGround) {
     EXPECT_NEAR(wheel.body_W.z(), wheel.force_W.z(), 1e-9);
   }
   EXPECT_NEAR(load, 2000 * kGravity, 0.01 * 2000 * kGravity);
-  EXPECT_TRUE(engine->ground_impulse(0).isZero());
+  EXPECT_TRUE(engine->accounts()->ground_impulse(0).isZero());
 }
 
 TEST(TyreBodies, TyreAndBodyKeepTheirMomentum) {
@@ -135,8 +135,10 @@ TEST(TyreBodies, TyreAndBodyKeepTheirMomentum) {
   engine->add_machine(block(Vec3(1, 3, 1), false, 600), make_pose(4.2, 0, 50.5));
   engine->apply_impulse(0, 0, Vec3(4000, 0, 0), Vec3::Zero(), Vec3(1.4, 0, 50.7));
   run(*engine, flat(), 1.5, kStep);
-  EXPECT_GT(engine->momentum(1).x(), 1000);
-  EXPECT_LT((engine->momentum(0) + engine->momentum(1) - Vec3(4000, 0, 0)).norm(), 1e-3 * 4000);
+  EXPECT_GT(engine->accounts()->momentum(1).x(), 1000);
+  EXPECT_LT(
+      (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - Vec3(4000, 0, 0)).norm(),
+      1e-3 * 4000);
 }
 
 TEST(TyreBodies, ALightBodyIsPushedAsideAndNotThrown) {

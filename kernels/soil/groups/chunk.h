@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chunk of a home's particles in local memory, sorted by cell, and the sums of one cell.
+// A chunk of a block's particles in local memory, sorted by cell, and the sums of one cell.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 #define NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
-#define CHUNK 208  // particles at a time, a multiple of NAVVY_LANES and at most CELLS
+// Particles at a time, a multiple of NAVVY_LANES and at most CELLS.
+#define CHUNK 208
 
 // Staged words of a particle, word f of slot i at f * CHUNK + i: momentum at the base node, change
 // of momentum per node along x, y, z, mass [SI], offset from the base node [cells].
@@ -16,14 +17,15 @@
 #define STAGED_F 13
 #define STAGED 16
 
-// Number of the cell of base nodes.
+// Returns the index of the cell of a particle's base node.
 static inline int cell_of(float x, float y, float z) {
   return (int)base_node(x) + 1 + 6 * ((int)base_node(y) + 1) + 36 * ((int)base_node(z) + 1);
 }
 
-// Place of this work-item's particle among the `count` of the chunk, by cell, then in stored order.
-// first, counts (zero before): where each cell's particles stand afterwards.
-static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first, local int* counts) {
+// Returns the place of this work-item's particle among the `count` particles of the chunk, by cell,
+// then in stored order. first, counts (zero before): range of each cell's particles.
+static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first,
+                                 local int* counts) {
   const int me = get_local_id(0);
   int lower = 0, earlier = 0;
   for (int i = 0; i < count; ++i) {
@@ -35,13 +37,13 @@ static inline int place_in_chunk(local const int* cells, int count, int cell, lo
   return lower + earlier;
 }
 
-// Base node of a cell in the tile.
+// Returns the index in the tile of the base node of a cell.
 static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 64 * (cell / 36); }
 
-// Momentum and mass that the `count` particles from slot `first` on give to the nine nodes of one
-// layer (0..2 above the base node), x fastest; of those that belong to tile t.
-static inline void add_layer(local const float* stage, local const int* sides, int first, int count, int t, int layer,
-                             float4* sums) {
+// Adds the momentum and mass that the `count` particles from slot `first` on give to the nine nodes
+// of one layer (0..2 above the base node), x fastest. Counts particles that belong to tile t only.
+static inline void add_layer(local const float* stage, local const int* sides, int first, int count,
+                             int t, int layer, float4* sums) {
   UNROLL
   for (int o = 0; o < 9; ++o) sums[o] = (float4)(0.0f);
   for (int i = first; i < first + count; ++i) {
@@ -51,7 +53,8 @@ static inline void add_layer(local const float* stage, local const int* sides, i
     spline(staged[(STAGED_F + 0) * CHUNK], wx);
     spline(staged[(STAGED_F + 1) * CHUNK], wy);
     spline(staged[(STAGED_F + 2) * CHUNK], wz);
-    const float4 start = (float4)(staged[0], staged[CHUNK], staged[2 * CHUNK], staged[STAGED_MASS * CHUNK]);
+    const float4 start =
+        (float4)(staged[0], staged[CHUNK], staged[2 * CHUNK], staged[STAGED_MASS * CHUNK]);
     const float4 ax = (float4)(staged[3 * CHUNK], staged[4 * CHUNK], staged[5 * CHUNK], 0.0f);
     const float4 ay = (float4)(staged[6 * CHUNK], staged[7 * CHUNK], staged[8 * CHUNK], 0.0f);
     const float4 az = (float4)(staged[9 * CHUNK], staged[10 * CHUNK], staged[11 * CHUNK], 0.0f);

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of the two node fields with tools: schedule of work-groups.
+// Solves the contact of both node fields with tools: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/contact.cl. One work-group per near block, one node per work-item; sums
-// over nodes and blocks are halved pair by pair in a fixed order. Host: src/soil/tools/contact.cpp.
+// In, Out: as in soil/lanes/contact.cl.
+//
+// Parallel: one work-group per near block, one node per work-item. Repeatable: sums over nodes and
+// blocks are added pairwise in a fixed order. Host: src/soil/tools/contact.cpp.
 #include "soil/contact_node.h"
 
-// Out: sums per near block.
-__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
-                                                                                  global ContactSums* restrict sums) {
+// Computes the sums of one tool. Out: one ContactSums per near block.
+__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(
+    BLOCK_ARGS, NODE_ARGS, global ContactSums* restrict sums) {
   local float parts[CONTACT_SUM_WORDS * BLOCK_NODES];
   const int near = get_group_id(0), me = get_local_id(0);
   const int3 key = keys[near_list[near]].xyz;
   ContactSums mine = NO_SUMS;
   for (int s = 0; s < 2; ++s) add_sums(&mine, s, near, me, key, NODE_SAME);
-  const float* words = mine.wrench;  // of the whole struct
+  // All words of the struct.
+  const float* words = mine.wrench;
   for (int i = 0; i < CONTACT_SUM_WORDS; ++i) parts[BLOCK_NODES * i + me] = words[i];
   barrier(CLK_LOCAL_MEM_FENCE);
   for (int left = BLOCK_NODES / 2; left > 0; left /= 2) {
@@ -25,9 +28,10 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sum
   if (me < CONTACT_SUM_WORDS) ((global float*)(sums + near))[me] = parts[BLOCK_NODES * me];
 }
 
-// One sweep of the two-way solve by one work-group: a work-item adds up one sum over the blocks.
+// Solves one Newton iteration in one work-group: each work-item adds up one word over the blocks.
 __attribute__((reqd_work_group_size(CONTACT_SUM_WORDS, 1, 1))) kernel void contact_twist(
-    global Tool* restrict tools, const int tool, global const ContactSums* restrict sums, const int blocks) {
+    global Tool* restrict tools, const int tool, global const ContactSums* restrict sums,
+    const int blocks) {
   local float parts[CONTACT_SUM_WORDS];
   const int me = get_local_id(0);
   float sum = 0.0f;
@@ -43,7 +47,8 @@ __attribute__((reqd_work_group_size(CONTACT_SUM_WORDS, 1, 1))) kernel void conta
 
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_apply(
     BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
-    global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {
+    global ContactRecord* restrict records, global float4* restrict velocity0,
+    global float4* restrict velocity1) {
   local int changed;
   const int near = get_group_id(0), me = get_local_id(0);
   const int block = near_list[near], i = near_node(near, me);
@@ -52,8 +57,8 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_app
   const NodeResult result = apply_contact(near, me, keys[block].xyz, floors + block, NODE_SAME);
   records[2 * i] = result.records[0];
   records[2 * i + 1] = result.records[1];
-  velocity0[(size_t)block * BLOCK_NODES + me] = result.felt[0];
-  velocity1[i] = result.felt[1];
+  velocity0[(size_t)block * BLOCK_NODES + me] = result.seen[0];
+  velocity1[i] = result.seen[1];
   atomic_or(&changed, result.changed);
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me == 0) touched[near] = changed;

@@ -1,60 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and books their way: schedule of work-groups.
+// Gathers node velocities to particles and records their displacement: schedule of work-groups.
 //
-// In, Out: as in soil/lanes/grid_to_particle.cl. One work-group per home block: it loads the nodes
-// of its tile, then each work-item takes one particle after the other. Every particle is one
-// work-item's; the fastest of a block is found by an integer maximum, which has no order. Host:
+// In, Out: as in soil/lanes/grid_to_particle.cl.
+//
+// Parallel: one work-group per block. It loads the nodes of its tile, then each work-item processes
+// one particle after the other. Repeatable: every particle belongs to one work-item; the fastest of
+// a block is an integer maximum, which does not depend on order. Host:
 // src/soil/particles/grid_to_particle.cpp.
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
 #define MEMBERS 128
 
-// Node of a particle's own field: split nodes (1 in front, 2 behind) hold another velocity behind
-// the shell.
-static inline float4 felt(local const float4* front, local const float4* back, local const uchar* split, int node,
-                          int side) {
+// Returns a node of the particle's own field: split nodes (1 in front, 2 behind) have another
+// velocity behind the shell.
+static inline float4 felt(local const float4* front, local const float4* back,
+                          local const uchar* split, int node, int side) {
   const bool behind = split[node] != 0 && (side == 2 || (side == 0 && split[node] == 2));
   return behind ? back[node] : front[node];
 }
 
-// v and its first moments about the base node: over x, y, z.
-static inline float4 gather(local const float4* front, local const float4* back, local const uchar* split, int base,
-                            int side, const float* wx, const float* wy, const float* wz, float4* mx, float4* my,
-                            float4* mz) {
+// Computes v and its first moments about the base node over x, y, z.
+static inline float4 gather(local const float4* front, local const float4* back,
+                            local const uchar* split, int base, int side, const float* wx,
+                            const float* wy, const float* wz, float4* mx, float4* my, float4* mz) {
   float4 sum = 0.0f;
   *mx = *my = *mz = (float4)(0.0f);
   UNROLL
-  for (int k = 0; k < 3; ++k)
-    UNROLL
-    for (int j = 0; j < 3; ++j) {
-      const int node = base + 8 * j + 64 * k;
-      const float w = wz[k] * wy[j];
-      const float4 b = wx[1] * felt(front, back, split, node + 1, side);
-      const float4 c = wx[2] * felt(front, back, split, node + 2, side);
-      const float4 row = fma((float4)(wx[0]), felt(front, back, split, node, side), b) + c;
-      sum = fma((float4)(w), row, sum);
-      *mx = fma((float4)(w), fma((float4)(2.0f), c, b), *mx);
-      *my = fma((float4)(j * w), row, *my);
-      *mz = fma((float4)(k * w), row, *mz);
-    }
+  for (int k = 0; k < 3; ++k) UNROLL
+  for (int j = 0; j < 3; ++j) {
+    const int node = base + 8 * j + 64 * k;
+    const float w = wz[k] * wy[j];
+    const float4 b = wx[1] * felt(front, back, split, node + 1, side);
+    const float4 c = wx[2] * felt(front, back, split, node + 2, side);
+    const float4 row = fma((float4)(wx[0]), felt(front, back, split, node, side), b) + c;
+    sum = fma((float4)(w), row, sum);
+    *mx = fma((float4)(w), fma((float4)(2.0f), c, b), *mx);
+    *my = fma((float4)(j * w), row, *my);
+    *mz = fma((float4)(k * w), row, *mz);
+  }
   return sum;
 }
 
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
-    global const int* restrict neighbours, global const float4* restrict velocity0,
-    global const float4* restrict velocity1, global const int* restrict near_slot,
-    global const int* restrict node_split, global const int* restrict used, global Report* restrict report,
-    const float dt, const float dx, const float full, const float filled, const float closing, const float spread,
+    global float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global const int* restrict neighbours,
+    global const float4* restrict velocity0, global const float4* restrict velocity1,
+    global const int* restrict near_slot, global const int* restrict node_split,
+    global const int* restrict used, global Report* restrict report, const float dt, const float dx,
+    const float full, const float filled, const float closing, const float spread,
     const float most) {
   local float4 front[TILE_SIZE], back[TILE_SIZE];
   local uchar split[TILE_SIZE];
   local int fastest;
   const int block = get_group_id(0), me = get_local_id(0);
-  const ParticleBlock home = particle_blocks[block];
-  // Tells the lanes' schedule which tiles to copy; here split nodes choose their field when they
-  // are read
+  const ParticleBlock particle_block = particle_blocks[block];
+  // The other schedule copies tiles by it; here split nodes choose their field when they are read.
   (void)used;
   if (me == 0) fastest = 0;
   for (int i = me; i < TILE_SIZE; i += MEMBERS) {
@@ -67,7 +68,7 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     front[i] = velocity0[(size_t)active * BLOCK_NODES + n];
     back[i] = (float4)(0.0f);
     split[i] = 0;
-    const int near = home.near ? near_slot[active] : -1;
+    const int near = particle_block.near ? near_slot[active] : -1;
     if (near >= 0 && node_split[near * BLOCK_NODES + n] != 0) {
       split[i] = (uchar)node_split[near * BLOCK_NODES + n];
       back[i] = velocity1[(size_t)near * BLOCK_NODES + n];
@@ -75,7 +76,8 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (int slot = home.start + me; slot < home.start + home.count; slot += MEMBERS) {
+  for (int slot = particle_block.start + me; slot < particle_block.start + particle_block.count;
+       slot += MEMBERS) {
     const float x[3] = {LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2)};
     const float b[3] = {base_node(x[0]), base_node(x[1]), base_node(x[2])};
     float w[3][3];
@@ -84,9 +86,10 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     const int base = (int)b[0] + 1 + 8 * ((int)b[1] + 1) + 64 * ((int)b[2] + 1);
     float4 moments[3];
     const int tile = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-    const float4 sum = gather(front, back, split, base, tile, w[0], w[1], w[2], &moments[0], &moments[1], &moments[2]);
+    const float4 sum = gather(front, back, split, base, tile, w[0], w[1], w[2], &moments[0],
+                              &moments[1], &moments[2]);
     const float v[3] = {sum.x, sum.y, sum.z};
-    // v, C, and the way: dt v, and apart where soil is crowded.
+    // v, C, and the displacement: dt v, plus a separation where soil is crowded.
     float c[9], speed[3];
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
@@ -98,14 +101,15 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
     UNROLL
     for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     const float j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0);
-    STORE(FIELD_J, seen_opening(j, j0, sum.w, filled, closing));
+    STORE(FIELD_J, close_noise(j, j0, sum.w, filled, closing));
     const float share = crowding(c, j, j0, sum.w, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
       const float lean = moments[axis].w - (x[axis] - b[axis]) * sum.w;
-      const float way = (dt / dx) * v[axis] + crowding_displacement(share, lean, sum.w, most);
-      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
-      speed[axis] = way * (dx / dt);
+      const float displacement =
+          (dt / dx) * v[axis] + crowding_displacement(share, lean, sum.w, most);
+      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + displacement);
+      speed[axis] = displacement * (dx / dt);
     }
     atomic_max_nonnegative(&fastest, fastest_component(speed));
   }
@@ -113,11 +117,13 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particl
   if (me == 0) report[block].speed = as_float(fastest);
 }
 
-// See soil/lanes/grid_to_particle.cl.
+// Ends a transfer, see soil/lanes/grid_to_particle.cl.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void grid_to_particle_end(
-    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks) {
-  const ParticleBlock home = particle_blocks[get_group_id(0)];
-  for (int slot = home.start + (int)get_local_id(0); slot < home.start + home.count; slot += MEMBERS)
+    global float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks) {
+  const ParticleBlock particle_block = particle_blocks[get_group_id(0)];
+  for (int slot = particle_block.start + (int)get_local_id(0);
+       slot < particle_block.start + particle_block.count; slot += MEMBERS)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));
       STORE(FIELD_MOVED + axis, 0.0f);

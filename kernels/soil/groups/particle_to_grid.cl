@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of each particle, then scatter of mass and momentum to its block's tile: schedule
-// of work-groups.
+// Updates the stress of each particle, then scatters mass and momentum to the tile of its block:
+// schedule of work-groups.
 //
-// In, Out: as in soil/lanes/particle_to_grid.cl, tiles without their pad. One work-group per home
-// block. A work-item is first one particle of a chunk (law), then one cell of base nodes: it adds
-// up the cell's particles for three layers of nodes in turn, and gives the nine nodes of a layer to
-// the tile one offset after the other. Cells of one offset share no node, so nothing is atomic.
-// Particles are taken in stored order, cell by cell: sums repeat bit for bit. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
+// In, Out: as in soil/lanes/particle_to_grid.cl, tiles without padding.
+//
+// Parallel: one work-group per block. A work-item is first one particle of a chunk (law), then one
+// cell of base nodes. It adds up the particles of the cell for three layers of nodes in turn, and
+// adds the nine nodes of a layer to the tile one offset after the other. Cells of one offset share
+// no node, so nothing is atomic. Repeatable: particles in stored order, cell by cell. Host:
+// src/soil/particles/particle_to_grid.cpp. Reference:
+// tests/soil/reference/reference_solver.cpp.
 #include "soil/groups/chunk.h"
 
 static inline LawSoil load_soil(constant SoilRow* row) {
@@ -17,9 +19,11 @@ static inline LawSoil load_soil(constant SoilRow* row) {
   return soil;
 }
 
-// Law and momentum of the particle in `slot`; false when a value is not finite. out: STAGED words.
-static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils, float opening,
-                           float dt, float dx, float mixing, float most_mixing, float carried, float* out) {
+// Computes law and momentum of the particle in `slot`. Returns false when a value is not finite.
+// out: STAGED words.
+static inline bool prepare(global float* state, int capacity, int slot, constant SoilRow* soils,
+                           float opening, float dt, float dx, float mixing, float most_mixing,
+                           float carried, float* out) {
   constant SoilRow* row = soils + (as_int(LOAD(FIELD_TAG)) & 0xffff);
   const LawSoil soil = load_soil(row);
   float c[9], sigma[6];
@@ -52,16 +56,17 @@ static inline bool prepare(global float* state, int capacity, int slot, constant
   return isfinite(sum);
 }
 
-// Mean opening of the cells of a home: J / J0 by mass, 0 where no particle is open (mean_opening in
+// Returns the mean opening J / J0 of a cell, by mass, 0 where no particle is open (mean_opening in
 // soil/point.h). A work-item is a cell.
-static inline float cell_opening(global const float* state, int capacity, ParticleBlock home, local int* cells,
+static inline float cell_opening(global const float* state, int capacity,
+                                 ParticleBlock particle_block, local int* cells,
                                  local float* stage) {
   const int me = get_local_id(0);
   float volume = 0.0f, bank = 0.0f;
   bool open = false;
-  for (int begin = 0; begin < home.count; begin += CHUNK) {
-    const int count = min(CHUNK, home.count - begin);
-    const int slot = home.start + begin + me;
+  for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
+    const int count = min(CHUNK, particle_block.count - begin);
+    const int slot = particle_block.start + begin + me;
     if (me < count) {
       const float mass = convert_float(as_int(LOAD(FIELD_MASS)));
       cells[me] = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
@@ -80,54 +85,58 @@ static inline float cell_opening(global const float* state, int capacity, Partic
   return mean_opening(volume, bank, open ? 1.0f : 0.0f);
 }
 
-// What a home needs: bit 0 always, 1 and 2 for the tiles of a shell's sides, 3 when any particle is
-// open.
-static inline int needs(global float* state, int capacity, ParticleBlock home) {
+// Returns what a block needs: bit 0 always, bits 1 and 2 for the tiles of a shell's sides, bit 3
+// when any particle is open.
+static inline int needs(global float* state, int capacity, ParticleBlock particle_block) {
   int out = 1;
-  for (int i = get_local_id(0); i < home.count; i += CELLS) {
-    const int slot = home.start + i, tag = as_int(LOAD(FIELD_TAG));
+  for (int i = get_local_id(0); i < particle_block.count; i += CELLS) {
+    const int slot = particle_block.start + i, tag = as_int(LOAD(FIELD_TAG));
     out |= LOAD(FIELD_J) > LOAD(FIELD_J0) ? 8 : 0;
-    if (home.near)
+    if (particle_block.near)
       out |= 1 << tile_of(tag >> 16);
     else
-      STORE(FIELD_TAG, as_float(tag & 0xffff));  // far from every shell nobody has a side
+      // Far from every shell no particle has a side.
+      STORE(FIELD_TAG, as_float(tag & 0xffff));
   }
   return out;
 }
 
 __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
-    global float4* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float mixing, const float most_mixing, const float carried) {
+    global float* restrict state, const int capacity, constant SoilRow* soils,
+    global const ParticleBlock* restrict particle_blocks, global float4* restrict tiles,
+    global int* restrict used, global Report* restrict report, const float dt, const float dx,
+    const float mixing, const float most_mixing, const float carried) {
   local float4 tile[TILE_SIZE];
   local float stage[STAGED * CHUNK];
   local int cells[CHUNK], sides[CHUNK], first[CELLS], counts[CELLS];
   local float openings[CELLS];
   local int wanted, broken;
   const int block = get_group_id(0), me = get_local_id(0);
-  const ParticleBlock home = particle_blocks[block];
+  const ParticleBlock particle_block = particle_blocks[block];
   if (me == 0) wanted = broken = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  atomic_or(&wanted, needs(state, capacity, home));
+  atomic_or(&wanted, needs(state, capacity, particle_block));
   for (int i = me; i < TILE_SIZE; i += CELLS) tile[i] = (float4)(0.0f);
   openings[me] = 0.0f;
   barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
   const int mask = wanted & 7;
   for (int t = 1; mask >> t; ++t)
-    for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)(home.tile + t) * TILE_NODES + i] = (float4)(0.0f);
-  if (wanted & 8) openings[me] = cell_opening(state, capacity, home, cells, stage);
+    for (int i = me; i < TILE_SIZE; i += CELLS)
+      tiles[(size_t)(particle_block.tile + t) * TILE_NODES + i] = (float4)(0.0f);
+  if (wanted & 8) openings[me] = cell_opening(state, capacity, particle_block, cells, stage);
   barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 
-  for (int begin = 0; begin < home.count; begin += CHUNK) {
-    const int count = min(CHUNK, home.count - begin);
+  for (int begin = 0; begin < particle_block.count; begin += CHUNK) {
+    const int count = min(CHUNK, particle_block.count - begin);
     float mine[STAGED];
     int cell = 0, side = 0;
     first[me] = counts[me] = 0;
     if (me < count) {
-      const int slot = home.start + begin + me;
+      const int slot = particle_block.start + begin + me;
       cell = cell_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
       side = tile_of(as_int(LOAD(FIELD_TAG)) >> 16);
-      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing, carried, mine))
+      if (!prepare(state, capacity, slot, soils, openings[cell], dt, dx, mixing, most_mixing,
+                   carried, mine))
         atomic_or(&broken, 1);
       cells[me] = cell;
     }
@@ -151,17 +160,19 @@ __attribute__((reqd_work_group_size(CELLS, 1, 1))) kernel void particle_to_grid(
               if (t == 0)
                 tile[node] += sums[o];
               else
-                tiles[(size_t)(home.tile + t) * TILE_NODES + node] += sums[o];
+                tiles[(size_t)(particle_block.tile + t) * TILE_NODES + node] += sums[o];
             }
             barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
           }
         }
   }
-  for (int i = me; i < TILE_SIZE; i += CELLS) tiles[(size_t)home.tile * TILE_NODES + i] = tile[i];
+  for (int i = me; i < TILE_SIZE; i += CELLS)
+    tiles[(size_t)particle_block.tile * TILE_NODES + i] = tile[i];
   if (me > 0) return;
   used[block] = mask;
   report[block].broken = broken;
-  if (!home.near) {  // else soil/groups/shell.cl said so
+  // Otherwise soil/groups/shell.cl has written them.
+  if (!particle_block.near) {
     report[block].push = 0.0f;
     report[block].crossed = 0;
   }

@@ -1,51 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks, inside a block by cell, in stable order: schedule of
+// Sorts particles into their new blocks, within a block by cell, in stable order: schedule of
 // work-groups.
 //
-// In, Out: as in soil/lanes/rebin.cl, and the same order. One work-group per home. Counting uses
-// integer atomics, whose order does not matter; the order inside a cell is found by one work-item
-// per cell. Host: src/soil/particles/rebin.cpp.
+// In, Out: as in soil/lanes/rebin.cl, in the same order.
+//
+// Parallel: one work-group per block. Repeatable: counts use integer atomics, whose order does not
+// matter; one work-item per cell finds the order within it. Host: src/soil/particles/rebin.cpp.
 #include "soil/groups/group.h"
 #include "soil/place.h"
 
 #define MEMBERS 64
 
-// site: x and y of its lower left and of its upper right corner [cells].
+// Counts. site: x and y of its lower left and of its upper right corner [cells].
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_count(
-    global const float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
-    global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
-    global int* restrict counts, const int4 site) {
+    global const float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
+    global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
+    const int4 site) {
   local int count[CODES];
-  const int home = get_group_id(0), me = get_local_id(0);
+  const int particle_block = get_group_id(0), me = get_local_id(0);
   if (me < CODES) count[me] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  const float4 from_block = site_from(site, keys[home]);
-  for (int slot = particle_blocks[home].start + me; slot < particle_blocks[home].start + particle_blocks[home].count; slot += MEMBERS) {
+  const float4 from_block = site_from(site, keys[particle_block]);
+  for (int slot = particle_blocks[particle_block].start + me;
+       slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
+       slot += MEMBERS) {
     const Place place = place_of(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2), from_block);
     codes[slot] = place.code;
     cells[slot] = place.cell;
     atomic_inc(&count[place.code]);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (me < CODES) counts[CODES * home + me] = count[me];
+  if (me < CODES) counts[CODES * particle_block + me] = count[me];
 }
 
-// A work-item is a cell of the new home: it counts, then lists its particles, taking the sources in
-// order.
+// Lists the old slots of each new block. A work-item is a cell of the new block. It counts, then
+// lists its particles, taking the sources in order.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
-    global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes, global const uchar* restrict cells,
-    global const int* restrict counts, global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
+    global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes,
+    global const uchar* restrict cells, global const int* restrict counts,
+    global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
     global int* restrict from) {
   local int found[MEMBERS];
   local uchar cell[MEMBERS];
-  const int home = get_group_id(0), me = get_local_id(0);
+  const int particle_block = get_group_id(0), me = get_local_id(0);
   int next = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (int n = 0; n < 27; ++n) {
-      const int old = sources[27 * home + n];
+      const int old = sources[27 * particle_block + n];
       const int end = old < 0 ? 0 : old_particle_blocks[old].start + old_particle_blocks[old].count;
       int left = old < 0 ? 0 : counts[CODES * old + n];
-      for (int begin = old < 0 ? 0 : old_particle_blocks[old].start; begin < end && left > 0; begin += MEMBERS) {
+      for (int begin = old < 0 ? 0 : old_particle_blocks[old].start; begin < end && left > 0;
+           begin += MEMBERS) {
         const int slot = begin + me;
         cell[me] = slot < end && codes[slot] == n ? cells[slot] : (uchar)255;
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -61,26 +67,29 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_gather(
     if (pass == 0) {
       found[me] = next;
       barrier(CLK_LOCAL_MEM_FENCE);
-      next = particle_blocks[home].start;
+      next = particle_blocks[particle_block].start;
       for (int i = 0; i < me; ++i) next += found[i];
     }
   }
 }
 
-// Also the mean surface of each home (soil/lanes/rebin.cl), and the lanes past its count, which get
-// mass 0.
+// Copies every field. Also computes the mean surface of each block (soil/lanes/rebin.cl), and sets
+// the mass of lanes beyond its count to 0.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
-    global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
-    global const int* restrict from, global const ParticleBlock* restrict particle_blocks, global float* restrict state,
+    global const float* restrict old_state, const int old_capacity,
+    global const uchar* restrict codes, global const int* restrict from,
+    global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
   local float4 surface[MEMBERS];
-  const int home = get_group_id(0), me = get_local_id(0);
-  const int start = particle_blocks[home].start, end = start + particle_blocks[home].count;
+  const int particle_block = get_group_id(0), me = get_local_id(0);
+  const int start = particle_blocks[particle_block].start,
+            end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
-  // Differences from the first particle's: a home of one soil has its values to the last bit.
+  // Differences from the first particle: the mean of a single soil is then exact.
   float4 first = 0.0f, sum = 0.0f;
   if (end > start)
-    first = surface_of(soils + (as_int(old_state[(size_t)FIELD_TAG * old_capacity + from[start]]) & 0xffff));
+    first = surface_of(
+        soils + (as_int(old_state[(size_t)FIELD_TAG * old_capacity + from[start]]) & 0xffff));
   for (int slot = start + me; slot < padded; slot += MEMBERS) {
     const bool empty = slot >= end;
     const int old = empty ? 0 : from[slot];
@@ -100,5 +109,5 @@ __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void rebin_move(
     if (me < members) surface[me] += surface[me + members];
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  if (me == 0) block_surface[home] = first + surface[0] / (float)max(end - start, 1);
+  if (me == 0) block_surface[particle_block] = first + surface[0] / (float)max(end - start, 1);
 }

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells: schedule of work-groups.
+// Finds signed distance, normal and side of nodes and particles near shells: schedule of
+// work-groups.
 //
-// In, Out: as in soil/lanes/shell.cl. One work-group per near block, one node or particle per
-// work-item; what a block reports is found by integer atomics, which have no order. Host:
+// In, Out: as in soil/lanes/shell.cl.
+//
+// Parallel: one work-group per near block, one node or particle per work-item. Repeatable: the
+// values of a block are found by integer atomics, which do not depend on order. Host:
 // src/soil/tools/shell.cpp.
 #include "soil/groups/group.h"
 #include "soil/shell_side.h"
 
 #define MEMBERS 64
 
-// Out per near node: split (0 none, 1 in front, 2 behind), tool, and where it lies.
+// Classifies near nodes. Out, per node: split (0 none, 1 in front, 2 behind), tool, and NodeShell.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes(
     global const int* restrict near_list, global const int4* restrict keys,
-    global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims, const int rim_count,
-    global const Tool* restrict tools, global const int* restrict first, global const int* restrict list,
-    const float band, global int* restrict node_split, global int* restrict node_tool,
-    global NodeShell* restrict node_shell) {
+    global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims,
+    const int rim_count, global const Tool* restrict tools, global const int* restrict first,
+    global const int* restrict list, const float band, global int* restrict node_split,
+    global int* restrict node_tool, global NodeShell* restrict node_shell) {
   const int near = get_group_id(0), me = get_local_id(0);
   const int node = near * BLOCK_NODES + me;
   const int3 key = keys[near_list[near]].xyz, in_block = (int3)(me & 3, (me >> 2) & 3, me >> 4);
   Closest best;
-  query((float)in_block.x, (float)in_block.y, (float)in_block.z, key, triangles, tools, list, first[near],
-        first[near + 1], band, &best);
+  query((float)in_block.x, (float)in_block.y, (float)in_block.z, key, triangles, tools, list,
+        first[near], first[near + 1], band, &best);
   node_split[node] = 0;
   node_tool[node] = -1;
   if (best.feature < 0) return;
@@ -31,42 +34,49 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void shell_nodes
   float phi;
   float3 normal;
   bool rim;
-  resolve(triangles, best.feature, here - (float3)(best.x, best.y, best.z), best.distance2, &phi, &normal, &rim);
+  resolve(triangles, best.feature, here - (float3)(best.x, best.y, best.z), best.distance2, &phi,
+          &normal, &rim);
   node_tool[node] = tool;
   node_split[node] = split_of(rim, phi, band);
   node_shell[node] = node_shell_of(normal, phi, sqrt(inset2));
 }
 
-// Out: side and position of the particles; Report.push and Report.crossed of the near homes.
+// Updates side and position of the particles. Out: Report.push and Report.crossed of the near
+// blocks.
 __attribute__((reqd_work_group_size(MEMBERS, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
     global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
-    global const ShellTriangle* restrict triangles, global const Tool* restrict tools, global const int* restrict first,
-    global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
+    global const ShellTriangle* restrict triangles, global const Tool* restrict tools,
+    global const int* restrict first, global const int* restrict list, const float band,
+    const float longest_push, global Report* restrict report) {
   local int push, crossings;
   const int near = get_group_id(0), me = get_local_id(0);
-  const int home = near_list[near];
-  const int3 key = keys[home].xyz;
+  const int particle_block = near_list[near];
+  const int3 key = keys[particle_block].xyz;
   if (me == 0) push = crossings = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  for (int slot = particle_blocks[home].start + me; slot < particle_blocks[home].start + particle_blocks[home].count; slot += MEMBERS) {
+  for (int slot = particle_blocks[particle_block].start + me;
+       slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
+       slot += MEMBERS) {
     const float3 x = (float3)(LOAD(FIELD_X), LOAD(FIELD_X + 1), LOAD(FIELD_X + 2));
     const int tag = as_int(LOAD(FIELD_TAG));
     Closest best;
-    query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f, &best);
-    // Out of the band and never inside it: nothing to keep.
+    query(x.x, x.y, x.z, key, triangles, tools, list, first[near], first[near + 1], band + 1.0f,
+          &best);
+    // Outside the band, and not inside it before: the particle has no side.
     if (!(best.distance2 < band * band) && tag >> 16 == 0) continue;
-    const SideResult kept = enforce_side(x, tag >> 16, key, best.feature, best.distance2,
-                                      (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);
-    STORE(FIELD_X, kept.x.x);
-    STORE(FIELD_X + 1, kept.x.y);
-    STORE(FIELD_X + 2, kept.x.z);
-    STORE(FIELD_TAG, as_float((tag & 0xffff) | (kept.side << 16)));
-    atomic_max_nonnegative(&push, kept.push);
-    if (kept.crossed) atomic_inc(&crossings);
+    const SideResult result =
+        enforce_side(x, tag >> 16, key, best.feature, best.distance2,
+                     (float3)(best.x, best.y, best.z), band, longest_push, triangles, tools);
+    STORE(FIELD_X, result.x.x);
+    STORE(FIELD_X + 1, result.x.y);
+    STORE(FIELD_X + 2, result.x.z);
+    STORE(FIELD_TAG, as_float((tag & 0xffff) | (result.side << 16)));
+    atomic_max_nonnegative(&push, result.push);
+    if (result.crossed) atomic_inc(&crossings);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (me > 0) return;
-  report[home].push = as_float(push);
-  report[home].crossed = crossings;
+  report[particle_block].push = as_float(push);
+  report[particle_block].crossed = crossings;
 }

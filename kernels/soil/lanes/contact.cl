@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of the two node fields with tools: kinematic, unilateral, Coulomb and adhesion; and the
-// sums of the two-way solve.
+// Solves the contact of both node fields with tools: kinematic, unilateral, Coulomb friction and
+// adhesion; and computes the sums of the two-way solve.
 //
-// In:  fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per
-// near node; tools.
-//      only: tool whose nodes count, -1: all.
-// One work-item per near block. Host: src/soil/tools/contact.cpp. Lengths of node data in cells,
-// everything else SI. The tool's twist is about its frame's origin, axes of W.
+// In: fields per near node (v after gravity [m/s], m [kg]); shell data of shell.cl; surface per
+// near node; tools; only = tool whose nodes count, -1: all. Lengths of node data are in cells,
+// everything else is SI. A tool's twist is about the origin of its frame, along the axes of W.
+//
+// Parallel: one work-item per near block. Repeatable: fixed order of sums. Host:
+// src/soil/tools/contact.cpp.
 #include "soil/contact_node.h"
 
-// Out: sums per near block.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(BLOCK_ARGS, NODE_ARGS,
-                                                                        global ContactSums* restrict sums) {
+// Computes the sums of one tool. Out: one ContactSums per near block.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(
+    BLOCK_ARGS, NODE_ARGS, global ContactSums* restrict sums) {
   const int near = get_global_id(0);
   const int3 key = keys[near_list[near]].xyz;
   ContactSums out = NO_SUMS;
@@ -20,10 +21,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(BLOCK_AR
   sums[near] = out;
 }
 
-// One sweep of the two-way solve.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global Tool* restrict tools, const int tool,
-                                                                         global const ContactSums* restrict sums,
-                                                                         const int blocks) {
+// Solves one Newton iteration for the twist of one tool. Out: its twist.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(
+    global Tool* restrict tools, const int tool, global const ContactSums* restrict sums,
+    const int blocks) {
   ContactSums total = NO_SUMS;
   for (int near = 0; near < blocks; ++near) {
     for (int i = 0; i < 6; ++i) total.wrench[i] += sums[near].wrench[i];
@@ -32,13 +33,15 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_twist(global 
   solve_twist(tools + tool, &total);
 }
 
-// Applies the impulses of the final twist, then holds nodes at or below the resting ground. Out:
-// velocity0 (per active block) and velocity1 (per near block) = what particles will feel, with
-// masses per room (soil/node.h). For the host: touched[near] = 1 when any node of the block
+// Applies the impulses of the final twists, then holds nodes at or below the resting ground.
+//
+// Out: velocity0 (per active block) and velocity1 (per near block): what particles see, with mass
+// per free volume (soil/node.h). For the host: touched[near] = 1 when any node of the block
 // changed; records per node and field, valid in touched blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     BLOCK_ARGS, NODE_ARGS, global const BlockFloor* restrict floors, global int* restrict touched,
-    global ContactRecord* restrict records, global float4* restrict velocity0, global float4* restrict velocity1) {
+    global ContactRecord* restrict records, global float4* restrict velocity0,
+    global float4* restrict velocity1) {
   const int near = get_global_id(0);
   const int block = near_list[near];
   const int3 key = keys[block].xyz;
@@ -48,8 +51,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_apply(
     const NodeResult result = apply_contact(near, n, key, floors + block, NODE_SAME);
     records[2 * i] = result.records[0];
     records[2 * i + 1] = result.records[1];
-    velocity0[(size_t)block * BLOCK_NODES + n] = result.felt[0];
-    velocity1[i] = result.felt[1];
+    velocity0[(size_t)block * BLOCK_NODES + n] = result.seen[0];
+    velocity1[i] = result.seen[1];
     changed |= result.changed;
   }
   touched[near] = changed;

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers node velocities to particles and books their way; particles take it at the transfer's
-// end.
+// Gathers node velocities to particles and records their displacement.
 //
-// In:  velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per room [kg],
-// node.h),
-//      BLOCK_NODES per active block; full, filled = such masses of a node that mean packed, and closed [kg]; closing,
-//      spread [s] and most [cells]: seen_opening(), crowding() and crowding_displacement() of point.h;
-//      neighbours = 27 active-block indices per home block; near_slot = index into the near arrays or -1 per active
-//      block; node_split = per near node 0 (one field) or 1 + own, own = 0 front, 1 back.
-// Out: v, C, moved and the opening (J) of the particles; Report.speed, of the way that is booked.
-// One work-item per home block, no shared writes. Host: src/soil/particles/grid_to_particle.cpp.
+// In: velocity of field 0 and (near shells) field 1, float4 per node (v [m/s], mass per free volume
+// [kg]), BLOCK_NODES per active block; full, filled = such masses that mean packed, and closed;
+// closing, spread [s], most [cells]: see point.h; neighbours = 27 active-block indices per block;
+// near_slot = index into the near arrays or -1 per active block; node_split = per near node 0 (one
+// field) or 1 + own, own = 0 front, 1 back. Out: v, C, moved and J of the particles; Report.speed.
+// Parallel: one work-item per block, no shared writes. Repeatable: fixed order of sums.
+// Host: src/soil/particles/grid_to_particle.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 #include "soil/point.h"
 
-// Copies the part of an active block that a home block's tile needs. d = -1, 0, 1: where the block
-// lies.
+// Copies the part of an active block that the tile of a block needs. d = -1, 0, 1: offset of the
+// active block.
 static inline void copy_part(global const float* block, float* tile, int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -31,10 +29,10 @@ static inline void copy_part(global const float* block, float* tile, int3 d) {
     }
 }
 
-// Overwrites split nodes of the tile: front takes field 0, back field 1, neutral the field of the
-// node's own side. Without a tile for the back (0) only neutral ones.
-static inline void copy_split(global const float* field1, global const int* split, float* neutral, float* back,
-                              int3 d) {
+// Overwrites split nodes of the tile: the front takes field 0, the back field 1, the neutral tile
+// the field of the node's own side. Without a tile for the back (0), only the neutral tile.
+static inline void copy_split(global const float* field1, global const int* split, float* neutral,
+                              float* back, int3 d) {
   const int z0 = d.z < 0 ? 3 : 0, z1 = d.z > 0 ? 3 : 4, y0 = d.y < 0 ? 3 : 0, y1 = d.y > 0 ? 3 : 4;
   const int x0 = d.x < 0 ? 3 : 0, x1 = d.x > 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -43,7 +41,8 @@ static inline void copy_split(global const float* field1, global const int* spli
       const int4 any_split = vload4(row, split);
       if (((any_split.x | any_split.y) | (any_split.z | any_split.w)) == 0) continue;
       for (int x = x0; x < x1; ++x) {
-        const int n = x + 4 * row, to = (x + 4 * d.x + 1) + 8 * (y + 4 * d.y + 1) + 64 * (z + 4 * d.z + 1);
+        const int n = x + 4 * row,
+                  to = (x + 4 * d.x + 1) + 8 * (y + 4 * d.y + 1) + 64 * (z + 4 * d.z + 1);
         if (split[n] == 0) continue;
         if (back) vstore4(vload4(n, field1), to, back);
         if (split[n] == 2) vstore4(vload4(n, field1), to, neutral);
@@ -53,14 +52,14 @@ static inline void copy_split(global const float* field1, global const int* spli
 
 INLINED void load_rows(const float* tile, int node, Rows* rows) {
   UNROLL
-  for (int k = 0; k < 3; ++k)
-    UNROLL
-    for (int j = 0; j < 3; ++j) rows->row[3 * k + j] = vload16(0, tile + 4 * (node + 8 * j + 64 * k));
+  for (int k = 0; k < 3; ++k) UNROLL
+  for (int j = 0; j < 3; ++j) rows->row[3 * k + j] = vload16(0, tile + 4 * (node + 8 * j + 64 * k));
 }
 
-// v and its first moments about the base node of one particle: (v | dx | dy | dz) as float4s.
-INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v, float4* mx,
-                    float4* my, float4* mz) {
+// Computes v and its first moments about the base node of one particle: (v | dx | dy | dz) as
+// float4s.
+INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* wz, float4* v,
+                    float4* mx, float4* my, float4* mz) {
   float16 sum = 0.0f, sum_y = 0.0f, sum_z = 0.0f;
   const float w0 = wy[0], w1 = wy[16], w2 = wy[32];
   UNROLL
@@ -83,29 +82,33 @@ INLINED void gather(const Rows* rows, float4 wx, const float* wy, const float* w
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
-    global float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
-    global const int* restrict neighbours, global const float* restrict velocity0,
-    global const float* restrict velocity1, global const int* restrict near_slot, global const int* restrict node_split,
-    global const int* restrict used, global Report* restrict report, const float dt, const float dx, const float full,
-    const float filled, const float closing, const float spread, const float most) {
+    global float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global const int* restrict neighbours,
+    global const float* restrict velocity0, global const float* restrict velocity1,
+    global const int* restrict near_slot, global const int* restrict node_split,
+    global const int* restrict used, global Report* restrict report, const float dt, const float dx,
+    const float full, const float filled, const float closing, const float spread,
+    const float most) {
   const int block = get_global_id(0);
-  const ParticleBlock home = particle_blocks[block];
+  const ParticleBlock particle_block = particle_blocks[block];
   float tile[3 * TILE_NODES * 4];
   for (int n = 0; n < 27; ++n)
-    copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile, neighbour_offset(n));
+    copy_part(velocity0 + (size_t)neighbours[27 * block + n] * (4 * BLOCK_NODES), tile,
+              neighbour_offset(n));
   for (int i = 2048; i < 4 * TILE_NODES; ++i) tile[i] = 0.0f;
-  if (home.near) {
+  if (particle_block.near) {
     const int mask = used[block];
     for (int t = 1; mask >> t; ++t) {
       if (!(mask >> t & 1)) continue;
-      for (int i = 0; i < TILE_NODES / 4; ++i) vstore16(vload16(i, tile), i, tile + 4 * TILE_NODES * t);
+      for (int i = 0; i < TILE_NODES / 4; ++i)
+        vstore16(vload16(i, tile), i, tile + 4 * TILE_NODES * t);
     }
     float* back = mask & 4 ? tile + 8 * TILE_NODES : 0;
     for (int n = 0; n < 27; ++n) {
       const int near = near_slot[neighbours[27 * block + n]];
       if (near >= 0)
-        copy_split(velocity1 + (size_t)near * (4 * BLOCK_NODES), node_split + near * BLOCK_NODES, tile, back,
-                   neighbour_offset(n));
+        copy_split(velocity1 + (size_t)near * (4 * BLOCK_NODES), node_split + near * BLOCK_NODES,
+                   tile, back, neighbour_offset(n));
     }
   }
 
@@ -114,8 +117,9 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   Rows rows;
   int cell = -1;
   real fastest = 0.0f;
-  for (int slot = home.start; slot < home.start + home.count; slot += 16) {
-    const int count = min(16, home.start + home.count - slot);
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count;
+       slot += 16) {
+    const int count = min(16, particle_block.start + particle_block.count - slot);
     UNROLL
     for (int f = 0; f < FIELD_S; ++f) SOON(f);
     SOON(FIELD_J);
@@ -136,7 +140,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     vstore16(w[2], 2, wz);
     spline(f[0], w);
     TURN(wxs, w[0], w[1], w[2], zero);
-    vstore16(tile_node(bx, by, bz) + tile_of(as_int16(LOAD(FIELD_TAG)) >> 16) * TILE_NODES, 0, nodes);
+    vstore16(tile_node(bx, by, bz) + tile_of(as_int16(LOAD(FIELD_TAG)) >> 16) * TILE_NODES, 0,
+             nodes);
     for (int l = 0; l < count; ++l) {
       const int t = turned(l);
       float4 v, mx, my, mz;
@@ -150,9 +155,10 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
       vstore4(my, t, parts[2]);
       vstore4(mz, t, parts[3]);
     }
-    for (int l = count; l < 16; ++l)  // lanes without a particle stay where they are
+    // Lanes without a particle keep their values.
+    for (int l = count; l < 16; ++l)
       for (int part = 0; part < 4; ++part) vstore4((float4)(0.0f), turned(l), parts[part]);
-    // v, C, and the way: dt v, and apart where soil is crowded.
+    // v, C, and the displacement: dt v, plus a separation where soil is crowded.
     real v[3], m[3], c[9], lean[3], node_mass;
     UNTURN(parts[0], v[0], v[1], v[2], node_mass);
     for (int axis = 0; axis < 3; ++axis) {
@@ -164,13 +170,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
     for (int k = 0; k < 9; ++k) STORE(FIELD_C + k, c[k]);
     for (int axis = 0; axis < 3; ++axis) STORE(FIELD_V + axis, v[axis]);
     const real j = LOAD(FIELD_J), j0 = LOAD(FIELD_J0);
-    STORE(FIELD_J, seen_opening(j, j0, node_mass, filled, closing));
+    STORE(FIELD_J, close_noise(j, j0, node_mass, filled, closing));
     const real share = crowding(c, j, j0, node_mass, full, spread);
     UNROLL
     for (int axis = 0; axis < 3; ++axis) {
-      const real way = (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
-      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + way);
-      m[axis] = way * (dx / dt);
+      const real displacement =
+          (dt / dx) * v[axis] + crowding_displacement(share, lean[axis], node_mass, most);
+      STORE(FIELD_MOVED + axis, LOAD(FIELD_MOVED + axis) + displacement);
+      m[axis] = displacement * (dx / dt);
     }
     fastest = fmax(fastest, fastest_component(m));
   }
@@ -179,12 +186,13 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle(
   report[block].speed = fmax(fmax(f4.x, f4.y), fmax(f4.z, f4.w));
 }
 
-// Ends a transfer: particles go the way they were booked, which begins anew.
-__attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(global float* restrict state,
-                                                                                const int capacity,
-                                                                                global const ParticleBlock* restrict particle_blocks) {
-  const ParticleBlock home = particle_blocks[get_global_id(0)];
-  for (int slot = home.start; slot < home.start + home.count; slot += 16)
+// Ends a transfer: adds the displacement of each particle to its position and clears it.
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_to_particle_end(
+    global float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks) {
+  const ParticleBlock particle_block = particle_blocks[get_global_id(0)];
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count;
+       slot += 16)
     for (int axis = 0; axis < 3; ++axis) {
       STORE(FIELD_X + axis, LOAD(FIELD_X + axis) + LOAD(FIELD_MOVED + axis));
       STORE(FIELD_MOVED + axis, (real)(0.0f));

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the tiles around each active block and turns momentum into velocity.
 //
-// In:  tiles of the home blocks, used = bits of those written; around = 27 home indices per active
-// block (-1: no
-//      particles there); homes.
-//      floors = resting ground per active block.
-//      hold = 1 in a held step: nodes add the step's impulse to the velocity they have.
-// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells m
-// is divided by the
-//      share of the node's kernel that lies above the ground (soil/node.h).
-// One work-item per active block, neighbours in fixed order. Host:
+// In: tiles of the blocks, used = bits of those written; around = 27 block indices per active block
+// (-1: no particles there); floors = resting ground per active block; hold = 1 in a held step:
+// nodes add the impulse of the step to their velocity.
+//
+// Out: float4 (v [m/s] after gravity, m [kg]) per node; 0 where there is no mass. Far from shells,
+// m is divided by the fraction of the node's kernel that lies above the ground (soil/node.h).
+//
+// Parallel: one work-item per active block. Repeatable: neighbours in fixed order. Host:
 // src/soil/particles/grid_update.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/node.h"
 #include "soil/place.h"
 
-// Adds the part of a neighbour's tile that lies on this block; d: where the neighbour lies.
+// Adds the part of a neighbour's tile that lies on this block; d: offset of the neighbour.
 static inline void add_part(global const float* tile, float16* rows, int3 d) {
   const int z0 = d.z > 0 ? 3 : 0, z1 = d.z < 0 ? 3 : 4, y0 = d.y > 0 ? 3 : 0, y1 = d.y < 0 ? 3 : 4;
   for (int z = z0; z < z1; ++z)
@@ -32,20 +31,24 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
     }
 }
 
-// v = p / m + g dt, on top of the velocity before in a held step, for four nodes; nodes lighter
-// than a mass quantum are empty.
-static inline float16 velocity_of(float16 momentum, float4 dv, int hold, global const float* before) {
+// Returns v = p / m + g dt of four nodes, added to the velocity before in a held step. Nodes
+// lighter than a mass quantum are empty.
+static inline float16 velocity_of(float16 momentum, float4 dv, int hold,
+                                  global const float* before) {
   const float4 m = momentum.s37bf;
   const float4 inv = INVERSE_MASS(m);
   const float4 on = select((float4)(0.0f), (float4)(1.0f), m > MASS_QUANTUM);
   float16 v = momentum * (float16)(inv.xxxx, inv.yyyy, inv.zzzz, inv.wwww) +
               (float16)(dv * on.x, dv * on.y, dv * on.z, dv * on.w);
-  if (hold) v += vload16(0, before) * (float16)((float4)(on.x), (float4)(on.y), (float4)(on.z), (float4)(on.w));
+  if (hold)
+    v += vload16(0, before) *
+         (float16)((float4)(on.x), (float4)(on.y), (float4)(on.z), (float4)(on.w));
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Rows of four nodes at or below the floor lose their velocity [docs/soil.md, resting ground];
-// masses become mass per room above the ground [docs/soil.md, room].
+// Sets the velocity of nodes at or below the floor to 0, for a row of four
+// [docs/soil.md, resting ground], and divides masses by the free volume above the ground
+// [docs/soil.md, free volume].
 static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
   const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
@@ -56,7 +59,7 @@ static inline float16 held(float16 v, global const BlockFloor* ground, int row) 
                        on.www, 1.0f / free_fraction_above(below.hi.hi));
 }
 
-// Whether no node of the block is held or has less than its full room.
+// Returns true when no node of the block is held or has ground in its kernel.
 static inline bool far_above(global const BlockFloor* ground) {
   float16 highest = vload16(0, ground->around[0]) + 1.5f;
   for (int i = 1; i < 4; ++i) highest = fmax(highest, vload16(i, ground->around[0]) + 1.5f);
@@ -64,18 +67,20 @@ static inline bool far_above(global const BlockFloor* ground) {
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
-    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
-    global const float* restrict tiles, global const int* restrict used, global const BlockFloor* restrict floors,
+    global const int* restrict list, global const int* restrict around,
+    global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
+    global const int* restrict used, global const BlockFloor* restrict floors,
     global float* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_global_id(0)];
   float16 rows[16];
   for (int i = 0; i < 16; ++i) rows[i] = 0.0f;
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n];
-    if (home < 0) continue;
-    for (int t = 0; used[home] >> t; ++t)
-      if (used[home] >> t & 1)
-        add_part(tiles + (size_t)(particle_blocks[home].tile + t) * (4 * TILE_NODES), rows, neighbour_offset(n));
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
+    for (int t = 0; used[particle_block] >> t; ++t)
+      if (used[particle_block] >> t & 1)
+        add_part(tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES),
+                 rows, neighbour_offset(n));
   }
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const BlockFloor* ground = floors + block;
@@ -90,46 +95,50 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   }
 }
 
-// Blocks near shells: split nodes keep a front (field 0) and a back (field 1) velocity
-// [Bardenhagen 2000], neither held yet [docs/tools.md, two nodal fields]. node_split per near node:
-// 0 one field, 1 split and in front, 2 split and behind. block_surface = a ContactSoil per home
-// block; node_surface = its mean at the node by mass. last0 (per active block) and last1 = what
-// contact made of both fields in the step before.
+// Updates blocks near shells. Split nodes keep a front (field 0) and a back (field 1) velocity
+// [Bardenhagen 2000], neither of them held yet [docs/tools.md, two nodal fields].
+//
+// node_split per near node: 0 one field, 1 split and in front, 2 split and behind. block_surface =
+// a ContactSoil per block; node_surface = its mean by mass at the node. last0 (per active block)
+// and last1 = both fields after contact in the previous step.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
-    global const int* restrict list, global const int* restrict around, global const ParticleBlock* restrict particle_blocks,
-    global const float* restrict tiles, global const int* restrict used, global const float4* restrict block_surface,
-    global const int* restrict node_split, global float* restrict field0, global float* restrict field1,
-    global float4* restrict node_surface, global const float* restrict last0, global const float* restrict last1,
-    const float4 dv, const int hold) {
+    global const int* restrict list, global const int* restrict around,
+    global const ParticleBlock* restrict particle_blocks, global const float* restrict tiles,
+    global const int* restrict used, global const float4* restrict block_surface,
+    global const int* restrict node_split, global float* restrict field0,
+    global float* restrict field1, global float4* restrict node_surface,
+    global const float* restrict last0, global const float* restrict last1, const float4 dv,
+    const int hold) {
   const int near = get_global_id(0);
   const int block = list[near];
   float16 rows[3][16], total[16];
   float4 weight[64];
   for (int i = 0; i < 16; ++i) rows[0][i] = rows[1][i] = rows[2][i] = total[i] = 0.0f;
-  // Where all homes around have one surface, as nearly everywhere, there is nothing to weigh.
+  // Where all blocks around have the same surface, as almost everywhere, no mean is needed.
   float4 first = (float4)(0.0f);
   bool mixed = false, any_block = false;
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n];
-    if (home < 0) continue;
-    if (!any_block) first = block_surface[home];
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
+    if (!any_block) first = block_surface[particle_block];
     any_block = true;
-    mixed = mixed || any(block_surface[home] != first);
+    mixed = mixed || any(block_surface[particle_block] != first);
   }
   if (mixed)
     for (int i = 0; i < 64; ++i) weight[i] = (float4)(0.0f);
   for (int n = 0; n < 27; ++n) {
-    const int home = around[27 * block + n];
-    if (home < 0) continue;
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
     for (int i = 0; i < 16; ++i) total[i] = 0.0f;
-    for (int t = 0; used[home] >> t; ++t) {
-      if (!(used[home] >> t & 1)) continue;
-      global const float* tile = tiles + (size_t)(particle_blocks[home].tile + t) * (4 * TILE_NODES);
+    for (int t = 0; used[particle_block] >> t; ++t) {
+      if (!(used[particle_block] >> t & 1)) continue;
+      global const float* tile =
+          tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES);
       add_part(tile, rows[t], neighbour_offset(n));
       add_part(tile, total, neighbour_offset(n));
     }
     if (!mixed) continue;
-    const float4 here = block_surface[home];
+    const float4 here = block_surface[particle_block];
     for (int i = 0; i < 16; ++i) {
       const float4 m = total[i].s37bf;
       weight[4 * i] += here * m.x;
@@ -143,7 +152,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
   global float* out0 = field0 + (size_t)near * (4 * BLOCK_NODES);
   global float* out1 = field1 + (size_t)near * (4 * BLOCK_NODES);
   for (int i = 0; i < 16; ++i) {
-    // Neutral soil joins the side its node lies on; an unsplit node joins everything.
+    // Neutral soil joins the side of its node; an unsplit node joins all.
     const int4 split = vload4(i, node_split + near * BLOCK_NODES);
     const int16 s = (int16)(split.xxxx, split.yyyy, split.zzzz, split.wwww);
     const float16 none = 0.0f;

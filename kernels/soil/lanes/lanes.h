@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen lanes at a time: loads, weights, and the turn between "one component of 16 particles" and
-// "4 components of one particle". PoCL's own vectoriser gives up on kernels like ours, so float16
-// is written out (it maps to AVX-512 or to pairs of AVX2 registers); other devices split it as they
-// like.
+// Sixteen lanes at a time: loads, weights, and the transpose between "one component of 16
+// particles" and "4 components of one particle". PoCL's vectoriser fails on kernels like these, so
+// float16 is written out. It maps to AVX-512 registers or to pairs of AVX2 registers; other devices
+// split it as they like.
 #ifndef NAVVY_KERNELS_SOIL_LANES_H
 #define NAVVY_KERNELS_SOIL_LANES_H
 
-// float16 arguments of built-ins are inlined; that they would be passed in memory on AVX2 is no
-// news worth printing.
+// float16 arguments of built-ins are inlined, so how AVX2 would pass them does not matter.
 #pragma clang diagnostic ignored "-Wpsabi"
 
 #include "common/portable.h"
 #include "soil/layout.h"
 
-// The dialect of kernels/README.md: what is computed with is sixteen lanes.
+// The dialect of kernels/README.md: the type of computation is sixteen lanes.
 typedef float16 real;
 typedef int16 ints;
 typedef float scalar;
 typedef float3 scalar3;
 typedef float4 columns;
 
-// Loops over a particle's rows of nodes are unrolled by hand: then the rows stay in registers.
+// Loops over a particle's rows of nodes are unrolled by hand, so that the rows stay in registers.
 #define UNROLL _Pragma("unroll")
 #define INLINED static inline __attribute__((always_inline))
 
-// One vector out of the lanes of two. Written as single lanes, or as shuffle2, PoCL makes three
-// times the instructions.
+// Picks lanes of two vectors. Written as single lanes, or as shuffle2, PoCL makes three times as
+// many instructions.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_shufflevector)
 #define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
@@ -39,22 +38,22 @@ typedef float4 columns;
 #define PICK_LOW2(a, b) PICK(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
 #define PICK_HIGH2(a, b) PICK(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
 
-// Rows r0..r3 hold components 0..3 of 16 particles. Afterwards o0..o3 hold float4s: the one of
-// particle 4 q + i is part q of o_i. Applied again it undoes itself.
-#define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                         \
-  do {                                                                     \
-    const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1);         \
-    const float16 t2_ = PICK_LOW(r2, r3), t3_ = PICK_HIGH(r2, r3);         \
-    o0 = PICK_LOW2(t0_, t2_);                                              \
-    o1 = PICK_HIGH2(t0_, t2_);                                             \
-    o2 = PICK_LOW2(t1_, t3_);                                              \
-    o3 = PICK_HIGH2(t1_, t3_);                                             \
+// Transposes rows r0..r3, which hold components 0..3 of 16 particles. Afterwards o0..o3 hold
+// float4s: that of particle 4 q + i is part q of o_i. It is its own inverse.
+#define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                 \
+  do {                                                             \
+    const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1); \
+    const float16 t2_ = PICK_LOW(r2, r3), t3_ = PICK_HIGH(r2, r3); \
+    o0 = PICK_LOW2(t0_, t2_);                                      \
+    o1 = PICK_HIGH2(t0_, t2_);                                     \
+    o2 = PICK_LOW2(t1_, t3_);                                      \
+    o3 = PICK_HIGH2(t1_, t3_);                                     \
   } while (0)
 
-// Field of the 16 slots from `slot` on, in kernels that name their arguments state and capacity;
-// and the same for all fields of a list (particle_fields.h) into or out of a struct.
-#define LOAD(field) vload16(0, state + (size_t)(field) * capacity + slot)
-#define STORE(field, value) vstore16(value, 0, state + (size_t)(field) * capacity + slot)
+// Fields of the 16 slots from `slot` on, in kernels that name their arguments state and capacity,
+// and all fields of a list (particle_fields.h) into or out of a struct.
+#define LOAD(field) vload16(0, state + (size_t)(field)*capacity + slot)
+#define STORE(field, value) vstore16(value, 0, state + (size_t)(field)*capacity + slot)
 #define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
 #define LOAD_MANY(NAME, member, count, rest) \
   for (int k_ = 0; k_ < (count); ++k_) soil_state.member[k_] = LOAD(FIELD_##NAME + k_);
@@ -62,57 +61,58 @@ typedef float4 columns;
 #define STORE_MANY(NAME, member, count, rest) \
   for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
-// Asks for a field of the pack four packs on: thirty arrays are more streams than a processor
-// follows by itself. Nothing where the compiler does not know how.
+// Prefetches a field of the fourth pack ahead: thirty arrays are more streams than a processor
+// follows by itself. Does nothing where the compiler has no such built-in.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_prefetch)
-#define SOON(field) \
-  __builtin_prefetch((const void*)(size_t)(state + (size_t)(field) * capacity + slot + 4 * NAVVY_LANES))
+#define SOON(field)   \
+  __builtin_prefetch( \
+      (const void*)(size_t)(state + (size_t)(field)*capacity + slot + 4 * NAVVY_LANES))
 #endif
 #endif
 #ifndef SOON
 #define SOON(field)
 #endif
 
-// Turns four rows into 16 float4s in `part`, and back.
-#define TURN(part, a, b, c, d)                    \
-  do {                                            \
-    float16 o0_, o1_, o2_, o3_;                   \
-    TRANSPOSE4(a, b, c, d, o0_, o1_, o2_, o3_);   \
-    vstore16(o0_, 0, part);                       \
-    vstore16(o1_, 1, part);                       \
-    vstore16(o2_, 2, part);                       \
-    vstore16(o3_, 3, part);                       \
+// Transposes four rows into 16 float4s in `part`, and back.
+#define TURN(part, a, b, c, d)                  \
+  do {                                          \
+    float16 o0_, o1_, o2_, o3_;                 \
+    TRANSPOSE4(a, b, c, d, o0_, o1_, o2_, o3_); \
+    vstore16(o0_, 0, part);                     \
+    vstore16(o1_, 1, part);                     \
+    vstore16(o2_, 2, part);                     \
+    vstore16(o3_, 3, part);                     \
   } while (0)
-#define UNTURN(part, a, b, c, d)                                                   \
-  do {                                                                             \
-    const float16 i0_ = vload16(0, part), i1_ = vload16(1, part);                  \
-    const float16 i2_ = vload16(2, part), i3_ = vload16(3, part);                  \
-    TRANSPOSE4(i0_, i1_, i2_, i3_, a, b, c, d);                                    \
+#define UNTURN(part, a, b, c, d)                                  \
+  do {                                                            \
+    const float16 i0_ = vload16(0, part), i1_ = vload16(1, part); \
+    const float16 i2_ = vload16(2, part), i3_ = vload16(3, part); \
+    TRANSPOSE4(i0_, i1_, i2_, i3_, a, b, c, d);                   \
   } while (0)
 
-// Whether a lane of a comparison is true. any() of PoCL asks one lane after the other.
+// Returns true if any lane of a comparison is true. any() of PoCL tests one lane after the other.
 static inline bool some(int16 lanes) {
   const int8 eight = lanes.lo | lanes.hi;
   const int4 four = eight.lo | eight.hi;
   return ((four.x | four.y) | (four.z | four.w)) != 0;
 }
 
-// The nine rows of four nodes around the particles of one cell. Particles come sorted by cell, so
-// the rows stay in registers until the cell changes.
+// Nine rows of four nodes around the particles of one cell. Particles are sorted by cell, so the
+// rows stay in registers until the cell changes.
 typedef struct Rows {
   float16 row[9];
 } Rows;
 
-// Slot of particle l among the float4s of a turned pack.
+// Returns the slot of particle l among the float4s of a transposed pack.
 static inline int turned(int l) { return (l & 3) * 4 + (l >> 2); }
 
-// Number in the tile of a base node that base_node() gave.
+// Returns the index in the tile of a base node from base_node().
 static inline int16 tile_node(real bx, real by, real bz) {
   return convert_int16(bx) + 1 + 8 * (convert_int16(by) + 1) + 64 * (convert_int16(bz) + 1);
 }
 
-// Mean over the four columns around a node.
+// Returns the mean over the four columns around a node.
 static inline float mean_of(float4 t) { return 0.25f * ((t.x + t.y) + (t.z + t.w)); }
 
 #endif  // NAVVY_KERNELS_SOIL_LANES_H

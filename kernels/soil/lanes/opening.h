@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean opening J / J0 of the soil in a cell. Sixteen lanes.
+// Mean opening J / J0 of the soil in a cell, for sixteen lanes.
 #ifndef NAVVY_KERNELS_SOIL_LANES_OPENING_H
 #define NAVVY_KERNELS_SOIL_LANES_OPENING_H
 
 #include "soil/lanes/lanes.h"
 #include "soil/point.h"
 
-// Cells of base nodes -1..4 in a home, x fastest.
+// Cells of base nodes -1..4 in a block, x fastest.
 #define CELLS 216
 static inline int16 cell_of(real x, real y, real z) {
   return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) +
          36 * (convert_int16(base_node(z)) + 1);
 }
 
-// Sums per cell in float4s: volume, bank volume, open particles, 0. False, and no sums, when no
-// particle is open.
-INLINED bool cell_openings(global const float* state, int capacity, int start, int end, float* openings) {
+// Sums per cell into float4s: volume, bank volume, open particles, 0. Returns false, without sums,
+// when no particle is open.
+INLINED bool cell_openings(global const float* state, int capacity, int start, int end,
+                           float* openings) {
   bool open = false;
-  for (int slot = start; slot < end && !open; slot += 16) open = some(LOAD(FIELD_J) > LOAD(FIELD_J0));
+  for (int slot = start; slot < end && !open; slot += 16)
+    open = some(LOAD(FIELD_J) > LOAD(FIELD_J0));
   if (!open) return false;
   for (int i = 0; i < CELLS / 4; ++i) vstore16((float16)(0.0f), i, openings);
   int cell = 0;
@@ -43,7 +45,7 @@ INLINED bool cell_openings(global const float* state, int capacity, int start, i
   return true;
 }
 
-// Mean J / J0 of the cells of 16 particles, 0 where none is open.
+// Returns the mean J / J0 of the cells of 16 particles, 0 where none is open.
 INLINED real opening_of(const float* openings, int16 cell) {
   int cells[16];
   float parts[64];

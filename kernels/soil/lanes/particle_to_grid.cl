@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of each particle, then scatter of mass and momentum to its block's tile.
+// Updates the stress of each particle, then scatters mass and momentum to the tile of its block.
 //
-// In:  state (field after field, particle_fields.h), soils (one row each), home blocks; mixing [s],
-// most_mixing [-]: of
-//      advance_state() in point.h; carried = 0 in a held step, whose nodes have kept their momentum.
-// Out: used = bits of the tiles written, one int per home; tiles, float4 (p_x, p_y, p_z [kg m/s], m
-// [kg]) of the nodes
-//      -1..6 around the block; stress, J, J0 and plastic shear of the particles; Report.broken.
-// One work-item per home block; particles in stored order, so sums repeat bit for bit. Host:
-// src/soil/particles/particle_to_grid.cpp. Reference: src/soil/reference/reference_solver.cpp.
+// In: state (field after field, particle_fields.h), soils (one row each), blocks; mixing [s] and
+// most_mixing [-]: parameters of advance_state() in point.h; carried = 0 in a held step, whose
+// nodes still have their momentum.
+//
+// Out: tiles, float4 (p_x, p_y, p_z [kg m/s], m [kg]) of the nodes -1..6 around the block; used =
+// bits of the tiles written, one int per block; stress, J, J0 and plastic shear of the particles;
+// Report.broken.
+//
+// Parallel: one work-item per block. Repeatable: particles in stored order. Host:
+// src/soil/particles/particle_to_grid.cpp. Reference:
+// tests/soil/reference/reference_solver.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/lanes/opening.h"
 #include "soil/point.h"
 
-// Constants of the soils of 16 particles, of which the first `count` are.
-static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawSoil* soil, real* inv_density) {
+// Loads the constants of the soils of 16 particles, of which the first `count` exist.
+static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawSoil* soil,
+                             real* inv_density) {
   const int first = tag.s0 & 0xffff;
   int kinds[16];
   vstore16(tag & 0xffff, 0, kinds);
@@ -26,7 +30,7 @@ static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawS
     *inv_density = soils[first].inv_density;
     return;
   }
-#define LANE_SOIL(name)                                      \
+#define LANE_SOIL(name)                                        \
   for (int l = 0; l < 16; ++l) lane[l] = soils[kinds[l]].name; \
   soil->name = vload16(0, lane);
   float lane[16];
@@ -37,17 +41,17 @@ static inline void load_soil(constant SoilRow* soils, int16 tag, int count, LawS
 
 INLINED void flush(global float* tile, int node, const Rows* sums) {
   UNROLL
-  for (int k = 0; k < 3; ++k)
-    UNROLL
-    for (int j = 0; j < 3; ++j) {
-      global float* row = tile + 4 * (node + 8 * j + 64 * k);
-      vstore16(vload16(0, row) + sums->row[3 * k + j], 0, row);
-    }
+  for (int k = 0; k < 3; ++k) UNROLL
+  for (int j = 0; j < 3; ++j) {
+    global float* row = tile + 4 * (node + 8 * j + 64 * k);
+    vstore16(vload16(0, row) + sums->row[3 * k + j], 0, row);
+  }
 }
 
-// Adds one particle's shares; its turned components are momentum at the base node and mass, then
-// the change of momentum per node in x, y, z.
-INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx, const float* wyz) {
+// Adds the shares of one particle. Its transposed components are momentum at the base node and
+// mass, then the change of momentum per node in x, y, z.
+INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, float4 wx,
+                     const float* wyz) {
   const float16 w = (float16)(wx.xxxx, wx.yyyy, wx.zzzz, (float4)(0.0f));
   const float4 next = start + ax;
   const float16 rx = w * (float16)(start, next, next + ax, (float4)(0.0f));
@@ -64,41 +68,49 @@ INLINED void scatter(Rows* sums, float4 start, float4 ax, float4 ay, float4 az, 
   }
 }
 
-// Which of a home's tiles its particles need: bit 0 always, bits 1 and 2 where particles have a
-// side.
+// Returns the tiles of a block that its particles need: bit 0 always, bits 1 and 2 where particles
+// have a side.
 static inline int tiles_used(global const float* state, int capacity, int start, int end) {
-  int16 tiles = 0;  // 1 or 2 each, or neither
+  // 1 or 2 each, or neither.
+  int16 tiles = 0;
   for (int slot = start; slot < end; slot += 16) tiles |= tile_of(as_int16(LOAD(FIELD_TAG)) >> 16);
   return 1 | (some(tiles & 1) ? 2 : 0) | (some(tiles & 2) ? 4 : 0);
 }
 
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
-    global float* restrict state, const int capacity, constant SoilRow* soils, global const ParticleBlock* restrict particle_blocks,
-    global float* restrict tiles, global int* restrict used, global Report* restrict report, const float dt,
-    const float dx, const float mixing, const float most_mixing, const float carried) {
+    global float* restrict state, const int capacity, constant SoilRow* soils,
+    global const ParticleBlock* restrict particle_blocks, global float* restrict tiles,
+    global int* restrict used, global Report* restrict report, const float dt, const float dx,
+    const float mixing, const float most_mixing, const float carried) {
   const int block = get_global_id(0);
-  const ParticleBlock home = particle_blocks[block];
-  global float* tile = tiles + (size_t)home.tile * (4 * TILE_NODES);
-  const int mask = home.near ? tiles_used(state, capacity, home.start, home.start + home.count) : 1;
+  const ParticleBlock particle_block = particle_blocks[block];
+  global float* tile = tiles + (size_t)particle_block.tile * (4 * TILE_NODES);
+  const int mask = particle_block.near ? tiles_used(state, capacity, particle_block.start,
+                                                    particle_block.start + particle_block.count)
+                                       : 1;
   used[block] = mask;
   for (int t = 0; mask >> t; ++t) {
     if (!(mask >> t & 1)) continue;
-    for (int i = 0; i < TILE_NODES / 4; ++i) vstore16((float16)(0.0f), i, tile + 4 * TILE_NODES * t);
+    for (int i = 0; i < TILE_NODES / 4; ++i)
+      vstore16((float16)(0.0f), i, tile + 4 * TILE_NODES * t);
   }
 
   float openings[4 * CELLS];
-  const bool open = cell_openings(state, capacity, home.start, home.start + home.count, openings);
+  const bool open = cell_openings(state, capacity, particle_block.start,
+                                  particle_block.start + particle_block.count, openings);
   float wxs[4 * 16], wyz[9 * 16], turned_parts[4][64];
   int nodes[16];
   Rows sums;
   int cell = -1;
   int broken = 0;
-  for (int slot = home.start; slot < home.start + home.count; slot += 16) {
-    const int count = min(16, home.start + home.count - slot);
+  for (int slot = particle_block.start; slot < particle_block.start + particle_block.count;
+       slot += 16) {
+    const int count = min(16, particle_block.start + particle_block.count - slot);
     UNROLL
     for (int f = 0; f < FIELD_ID; ++f) SOON(f);
     int16 tag = as_int16(LOAD(FIELD_TAG));
-    if (!home.near) {  // far from every shell nobody has a side
+    // Far from every shell no particle has a side.
+    if (!particle_block.near) {
       tag &= 0xffff;
       STORE(FIELD_TAG, as_float16(tag));
     }
@@ -125,7 +137,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
     real p[3], a[9];
     affine_momentum(c, sigma, v, f, mass, mass * inv_density, soil_state.j, carried, dt, dx, p, a);
 
-    // A sum is finite only if each term is; lanes past the count hold zeros.
+    // A sum is finite only if each term is. Lanes beyond the count hold zeros.
     const real sum = (x + y + z) + (p[0] + p[1] + p[2]) + (a[0] + a[4] + a[8]) +
                      (soil_state.j + soil_state.j0 + soil_state.shear) +
                      (soil_state.s[3] + soil_state.s[4] + soil_state.s[5]);
@@ -152,13 +164,14 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
         for (int i = 0; i < 9; ++i) sums.row[i] = 0.0f;
         cell = nodes[l];
       }
-      scatter(&sums, vload4(t, turned_parts[0]), vload4(t, turned_parts[1]), vload4(t, turned_parts[2]),
-              vload4(t, turned_parts[3]), vload4(t, wxs), wyz + l);
+      scatter(&sums, vload4(t, turned_parts[0]), vload4(t, turned_parts[1]),
+              vload4(t, turned_parts[2]), vload4(t, turned_parts[3]), vload4(t, wxs), wyz + l);
     }
   }
   if (cell >= 0) flush(tile, cell, &sums);
   report[block].broken = broken ? 1 : 0;
-  if (!home.near) {  // else soil/lanes/shell.cl said so
+  // Otherwise soil/lanes/shell.cl has written them.
+  if (!particle_block.near) {
     report[block].push = 0.0f;
     report[block].crossed = 0;
   }

@@ -1,71 +1,83 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts particles into their new home blocks without atomics, inside a block by cell, in stable
-// order.
+// Sorts particles into their new blocks without atomics, within a block by cell, in stable order.
 //
-// 1 rebin_count: per old home, where each particle goes (code 0..26, x fastest; 27 = left the site)
-// and how many, and the   cell of its base node there (0..63, x fastest). 2 (host) builds the new
-// homes from the counts, and for each the 27 old homes it takes from. 3 rebin_gather: per new home,
-// the old slot of each new slot. 4 rebin_move: per new home, copies every field. One work-item per
-// home. Host: src/soil/particles/rebin.cpp.
+// 1 rebin_count, per old block: where each particle goes (code 0..26, x fastest; 27 = left the
+// site), how many go there, and the cell of the base node there (0..63, x fastest).
+//
+// 2 (host): builds the new blocks from the counts, and for each the 27 old blocks that it takes
+// particles from.
+//
+// 3 rebin_gather, per new block: the old slot of each new slot.
+//
+// 4 rebin_move, per new block: copies every field.
+//
+// Parallel: one work-item per block. Repeatable: stable order. Host: src/soil/particles/rebin.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/place.h"
 
-// site: x and y of its lower left and of its upper right corner [cells].
+// Counts. site: x and y of its lower left and of its upper right corner [cells].
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_count(
-    global const float* restrict state, const int capacity, global const ParticleBlock* restrict particle_blocks,
-    global const int4* restrict keys, global uchar* restrict codes, global uchar* restrict cells,
-    global int* restrict counts, const int4 site) {
-  const int home = get_global_id(0);
-  const float4 from_block = site_from(site, keys[home]);
+    global const float* restrict state, const int capacity,
+    global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
+    global uchar* restrict codes, global uchar* restrict cells, global int* restrict counts,
+    const int4 site) {
+  const int particle_block = get_global_id(0);
+  const float4 from_block = site_from(site, keys[particle_block]);
   int count[CODES];
   for (int i = 0; i < CODES; ++i) count[i] = 0;
-  for (int slot = particle_blocks[home].start; slot < particle_blocks[home].start + particle_blocks[home].count; ++slot) {
+  for (int slot = particle_blocks[particle_block].start;
+       slot < particle_blocks[particle_block].start + particle_blocks[particle_block].count;
+       ++slot) {
     const Place place = place_of(state[slot], state[(FIELD_X + 1) * (size_t)capacity + slot],
-                                 state[(FIELD_X + 2) * (size_t)capacity + slot],
-                                 from_block);
+                                 state[(FIELD_X + 2) * (size_t)capacity + slot], from_block);
     codes[slot] = place.code;
     cells[slot] = place.cell;
     ++count[place.code];
   }
-  for (int i = 0; i < CODES; ++i) counts[CODES * home + i] = count[i];
+  for (int i = 0; i < CODES; ++i) counts[CODES * particle_block + i] = count[i];
 }
 
-// sources[27 * new + n] = old home from which code n leads here, or -1. Particles of one cell stand
-// together, in the order of their arrival: scatter and gather then work on the same nodes for a
-// while.
+// Lists the old slots of each new block. sources[27 * new + n] = old block from which code n leads
+// here, or -1. Particles of one cell are stored together, in the order of their arrival: scatter
+// and gather then work on the same nodes for a while.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_gather(
-    global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes, global const uchar* restrict cells,
-    global const int* restrict counts, global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
+    global const ParticleBlock* restrict old_particle_blocks, global const uchar* restrict codes,
+    global const uchar* restrict cells, global const int* restrict counts,
+    global const ParticleBlock* restrict particle_blocks, global const int* restrict sources,
     global int* restrict from) {
-  const int home = get_global_id(0);
+  const int particle_block = get_global_id(0);
   int next[65];
   for (int i = 0; i < 65; ++i) next[i] = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (int n = 0; n < 27; ++n) {
-      const int old = sources[27 * home + n];
+      const int old = sources[27 * particle_block + n];
       if (old < 0) continue;
       int left = counts[CODES * old + n];
       for (int slot = old_particle_blocks[old].start; left > 0; ++slot) {
         if (codes[slot] != n) continue;
-        if (pass == 0) ++next[cells[slot] + 1];
-        else from[next[cells[slot]]++] = slot;
+        if (pass == 0)
+          ++next[cells[slot] + 1];
+        else
+          from[next[cells[slot]]++] = slot;
         --left;
       }
     }
     if (pass == 1) break;
-    next[0] = particle_blocks[home].start;
+    next[0] = particle_blocks[particle_block].start;
     for (int i = 1; i < 65; ++i) next[i] += next[i - 1];
   }
 }
 
-// Also the mean surface of each home (ContactSoil), and
-// the lanes past its count, which get mass 0.
+// Copies every field. Also computes the mean surface of each block (ContactSoil), and sets the mass
+// of lanes beyond its count to 0.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
-    global const float* restrict old_state, const int old_capacity, global const uchar* restrict codes,
-    global const int* restrict from, global const ParticleBlock* restrict particle_blocks, global float* restrict state,
+    global const float* restrict old_state, const int old_capacity,
+    global const uchar* restrict codes, global const int* restrict from,
+    global const ParticleBlock* restrict particle_blocks, global float* restrict state,
     const int capacity, constant SoilRow* soils, global float4* restrict block_surface) {
-  const int home = get_global_id(0);
-  const int start = particle_blocks[home].start, end = start + particle_blocks[home].count;
+  const int particle_block = get_global_id(0);
+  const int start = particle_blocks[particle_block].start,
+            end = start + particle_blocks[particle_block].count;
   const int padded = (end + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES;
   for (int f = 0; f < FIELD_COUNT; ++f) {
     global const float* in = old_state + (size_t)f * old_capacity;
@@ -74,7 +86,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     const float rest = rest_of(f);
     for (int slot = end; slot < padded; ++slot) out[slot] = rest;
   }
-  // Differences from the first: a home of one soil has its values to the last bit.
+  // Differences from the first particle: the mean of a single soil is then exact.
   float4 first = (float4)(0.0f), more = (float4)(0.0f);
   for (int slot = start; slot < end; ++slot) {
     const int3 d = neighbour_offset(codes[from[slot]]);
@@ -86,5 +98,5 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void rebin_move(
     if (slot == start) first = here;
     more += here - first;
   }
-  block_surface[home] = first + more / (float)max(end - start, 1);
+  block_surface[particle_block] = first + more / (float)max(end - start, 1);
 }

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells: signed distance, normal, side; keeps
-// particles on their side.
+// Finds signed distance, normal and side of nodes and particles near shells, and keeps particles on
+// their side.
 //
-// In:  triangles, rims, tools (tool.h); first / list: candidate triangles per near block
-// (compressed rows). Band [cells]:      how far a side reaches. One work-item per near block,
-// nothing shared. Host: src/soil/tools/shell.cpp.
+// In: triangles, rims, tools (tool.h); first / list: candidate triangles per near block (compressed
+// rows); band: distance within which particles have a side [cells].
+//
+// Parallel: one work-item per near block, nothing shared. Repeatable: fixed order. Host:
+// src/soil/tools/shell.cpp.
 #include "soil/lanes/lanes.h"
 #include "soil/shell_side.h"
 
-// The same for `packs` packs of a home's particles from `slot` on: what a triangle needs is worked
-// out once for all.
+// Finds the closest point for `packs` packs of a block's particles from `slot` on. What a triangle
+// needs is computed once for all of them.
 #define PACKS 8
-static inline void query_packs(global const float* state, int capacity, int slot, int packs, int3 key,
-                               global const ShellTriangle* triangles, global const Tool* tools, global const int* list,
-                               int begin, int end, float far, Closest* best) {
+static inline void query_packs(global const float* state, int capacity, int slot, int packs,
+                               int3 key, global const ShellTriangle* triangles,
+                               global const Tool* tools, global const int* list, int begin, int end,
+                               float far, Closest* best) {
   for (int p = 0; p < packs; ++p) {
     best[p].distance2 = INFINITY;
     best[p].x = best[p].y = best[p].z = 0.0f;
@@ -22,19 +25,19 @@ static inline void query_packs(global const float* state, int capacity, int slot
   for (int i = begin; i < end; ++i) {
     const float3 shift = convert_float3(4 * (key - window_of(tools, triangles[list[i]].tool)));
     for (int p = 0; p < packs; ++p, slot += NAVVY_LANES)
-      closest_triangle(LOAD(FIELD_X) + shift.x, LOAD(FIELD_X + 1) + shift.y, LOAD(FIELD_X + 2) + shift.z, triangles,
-                       list[i], far, best + p);
+      closest_triangle(LOAD(FIELD_X) + shift.x, LOAD(FIELD_X + 1) + shift.y,
+                       LOAD(FIELD_X + 2) + shift.z, triangles, list[i], far, best + p);
     slot -= NAVVY_LANES * packs;
   }
 }
 
-// Out per near node: split (0 none, 1 in front, 2 behind), tool, and where it lies.
+// Classifies near nodes. Out, per node: split (0 none, 1 in front, 2 behind), tool, and NodeShell.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
     global const int* restrict near_list, global const int4* restrict keys,
-    global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims, const int rim_count,
-    global const Tool* restrict tools, global const int* restrict first, global const int* restrict list,
-    const float band, global int* restrict node_split, global int* restrict node_tool,
-    global NodeShell* restrict node_shell) {
+    global const ShellTriangle* restrict triangles, global const ShellRim* restrict rims,
+    const int rim_count, global const Tool* restrict tools, global const int* restrict first,
+    global const int* restrict list, const float band, global int* restrict node_split,
+    global int* restrict node_tool, global NodeShell* restrict node_shell) {
   const int near = get_global_id(0);
   const int3 key = keys[near_list[near]].xyz;
   const real step_x = (real)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
@@ -42,15 +45,16 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
   for (int layer = 0; layer < 4; ++layer) {
     Closest best;
     const real step_z = (float)layer;
-    query(step_x, step_y, step_z, key, triangles, tools, list, first[near], first[near + 1], band, &best);
+    query(step_x, step_y, step_z, key, triangles, tools, list, first[near], first[near + 1], band,
+          &best);
     float d2[16], cx[16], cy[16], cz[16], inset[16];
     int feature[16], tool_of[16];
     vstore16(best.feature, 0, feature);
-    for (int l = 0; l < 16; ++l)
-      tool_of[l] = feature[l] < 0 ? -1 : triangles[feature[l] >> 3].tool;
+    for (int l = 0; l < 16; ++l) tool_of[l] = feature[l] < 0 ? -1 : triangles[feature[l] >> 3].tool;
     const int16 tool_lanes = vload16(0, tool_of);
     real inset2 = INFINITY;
-    if (some(best.distance2 < band * band)) inset2 = inset2_of(best.x, best.y, best.z, tool_lanes, rims, rim_count);
+    if (some(best.distance2 < band * band))
+      inset2 = inset2_of(best.x, best.y, best.z, tool_lanes, rims, rim_count);
     vstore16(best.distance2, 0, d2);
     vstore16(best.x, 0, cx);
     vstore16(best.y, 0, cy);
@@ -61,42 +65,45 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_nodes(
       node_split[node] = 0;
       node_tool[node] = tool_of[l];
       if (tool_of[l] < 0) continue;
-      const float3 here = convert_float3(4 * (key - window_of(tools, tool_of[l])) + (int3)(l & 3, l >> 2, layer));
+      const float3 here =
+          convert_float3(4 * (key - window_of(tools, tool_of[l])) + (int3)(l & 3, l >> 2, layer));
       float phi;
       float3 normal;
       bool rim;
-      resolve(triangles, feature[l], here - (float3)(cx[l], cy[l], cz[l]), d2[l], &phi, &normal, &rim);
+      resolve(triangles, feature[l], here - (float3)(cx[l], cy[l], cz[l]), d2[l], &phi, &normal,
+              &rim);
       node_split[node] = split_of(rim, phi, band);
       node_shell[node] = node_shell_of(normal, phi, inset[l]);
     }
   }
 }
 
-// Gives particles their side, keeps it, and puts those that sank into a plate back on its surface
-// (position only). Out: Report.push and Report.crossed of the near homes.
+// Updates the side of particles and moves those that sank into a plate back to its surface
+// (position only). Out: Report.push and Report.crossed of the near blocks.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     global float* restrict state, const int capacity, global const int* restrict near_list,
     global const ParticleBlock* restrict particle_blocks, global const int4* restrict keys,
-    global const ShellTriangle* restrict triangles, global const Tool* restrict tools, global const int* restrict first,
-    global const int* restrict list, const float band, const float longest_push, global Report* restrict report) {
+    global const ShellTriangle* restrict triangles, global const Tool* restrict tools,
+    global const int* restrict first, global const int* restrict list, const float band,
+    const float longest_push, global Report* restrict report) {
   const int near = get_global_id(0);
-  const int home = near_list[near];
-  const int3 key = keys[home].xyz;
+  const int particle_block = near_list[near];
+  const int3 key = keys[particle_block].xyz;
   float far_push = 0.0f;
   int crossings = 0;
-  const int end = particle_blocks[home].start + particle_blocks[home].count;
+  const int end = particle_blocks[particle_block].start + particle_blocks[particle_block].count;
   Closest found[PACKS];
   int pack = PACKS;
-  for (int slot = particle_blocks[home].start; slot < end; slot += 16, ++pack) {
+  for (int slot = particle_blocks[particle_block].start; slot < end; slot += 16, ++pack) {
     const int count = min(16, end - slot);
     if (pack == PACKS) {
-      query_packs(state, capacity, slot, min(PACKS, (end - slot + 15) / 16), key, triangles, tools, list, first[near],
-                  first[near + 1], band + 1.0f, found);
+      query_packs(state, capacity, slot, min(PACKS, (end - slot + 15) / 16), key, triangles, tools,
+                  list, first[near], first[near + 1], band + 1.0f, found);
       pack = 0;
     }
     const Closest best = found[pack];
     const real x = LOAD(FIELD_X), y = LOAD(FIELD_X + 1), z = LOAD(FIELD_X + 2);
-    // Out of the band and never inside it: nothing to keep.
+    // Outside the band, and not inside it before: the particle has no side.
     const int16 tags = as_int16(LOAD(FIELD_TAG));
     const int16 near_shell = best.distance2 < band * band | tags >> 16 != 0;
     if (!some(near_shell)) continue;
@@ -114,20 +121,21 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void shell_particles(
     vstore16(tags, 0, tag);
     for (int l = 0; l < count; ++l) {
       if (!concerned[l]) continue;
-      const SideResult kept = enforce_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
-                                  (float3)(cx[l], cy[l], cz[l]), band, longest_push, triangles, tools);
-      px[l] = kept.x.x;
-      py[l] = kept.x.y;
-      pz[l] = kept.x.z;
-      far_push = fmax(far_push, kept.push);
-      crossings += kept.crossed;
-      tag[l] = (tag[l] & 0xffff) | (kept.side << 16);
+      const SideResult result =
+          enforce_side((float3)(px[l], py[l], pz[l]), tag[l] >> 16, key, feature[l], d2[l],
+                       (float3)(cx[l], cy[l], cz[l]), band, longest_push, triangles, tools);
+      px[l] = result.x.x;
+      py[l] = result.x.y;
+      pz[l] = result.x.z;
+      far_push = fmax(far_push, result.push);
+      crossings += result.crossed;
+      tag[l] = (tag[l] & 0xffff) | (result.side << 16);
     }
     STORE(FIELD_X, vload16(0, px));
     STORE(FIELD_X + 1, vload16(0, py));
     STORE(FIELD_X + 2, vload16(0, pz));
     STORE(FIELD_TAG, as_float16(vload16(0, tag)));
   }
-  report[home].push = far_push;
-  report[home].crossed = crossings;
+  report[particle_block].push = far_push;
+  report[particle_block].crossed = crossings;
 }

@@ -89,23 +89,12 @@ class Driving final : public ActivityWith<Memory> {
 
 }  // namespace
 
-DriveTo DriveTo::read(const scene::StepSource& source) {
-  DriveTo step;
-  scene::FieldSource& fields = source.fields;
-  fields.vec2("target_m", step.target, {-1e6, 1e6})
-      .required("target_m")
-      .number("heading_deg", step.heading, {-360, 360}, scene::kDegree)
-      .number("speed_m_per_s", step.speed, {-20, 20})
-      .number("tolerance_m", step.tolerance, {0.01, 5})
-      .finish();
-  // Without a heading the machine arrives as the way leads it.
-  step.has_heading = fields.has("heading_deg");
-  if (fields.has("speed_m_per_s") && step.speed == 0)
-    fields.error("speed_m_per_s", "0", "the speed must not be zero");
+void DriveTo::check(const scene::StepSource& source) const {
+  if (source.has("speed_m_per_s") && speed == 0)
+    source.error("speed_m_per_s", "0", "the speed must not be zero");
   source.require(source.machine && source.machine->has_drive,
                  "drive_to needs a machine with <navvy:drive>");
-  source.on_site("target_m", step.target);
-  return step;
+  source.on_site("target_m", target);
 }
 
 std::unique_ptr<Activity> DriveTo::activity(OperatorContext& place) const {

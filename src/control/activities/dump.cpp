@@ -72,12 +72,9 @@ class Dumping final : public ActivityWith<Memory> {
 
 }  // namespace
 
-Dump Dump::read(const scene::StepSource& source) {
-  Dump step;
-  source.fields.number("hold_s", step.hold, {0, 600}).finish();
+void Dump::check(const scene::StepSource& source) const {
   source.require(source.machine && !source.machine->arm.bucket.empty(),
                  "dump needs a machine with <navvy:arm>/bucket_joint");
-  return step;
 }
 
 std::unique_ptr<Activity> Dump::activity(OperatorContext& place) const {

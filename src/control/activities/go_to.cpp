@@ -309,25 +309,10 @@ class Going final : public ActivityWith<Memory> {
 
 }  // namespace
 
-GoTo GoTo::read(const scene::StepSource& source) {
-  GoTo step;
-  source.fields.vec2("target_m", step.target, {-1e6, 1e6})
-      .required("target_m")
-      .number("heading_deg", step.heading, {-360, 360}, scene::kDegree)
-      .required("heading_deg")
-      .number("speed_m_per_s", step.speed, {0.05, 20})
-      .number("tolerance_m", step.tolerance, {0.05, 5})
-      .number("tolerance_deg", step.turn_tolerance, {0.5, 180}, scene::kDegree)
-      .number("clearance_m", step.clearance, {0, 10})
-      .number("retry_s", step.retry, {0, 1e5})
-      .whole("tries", step.tries, {1, 1000})
-      .whole("iterations", step.iterations, {1, 1e6})
-      .whole("seed", step.seed, {1, 1e9})
-      .finish();
+void GoTo::check(const scene::StepSource& source) const {
   source.require(source.machine && source.machine->has_drive,
                  "go_to needs a machine with <navvy:drive>");
-  source.on_site("target_m", step.target);
-  return step;
+  source.on_site("target_m", target);
 }
 
 PathQuery GoTo::query(const PlanePose& from, int plan) const {

@@ -16,6 +16,9 @@ namespace navvy::control {
 struct GoTo final : ActivityStep {
   /// Name in scene files.
   static constexpr const char* kElement = "go_to";
+  /// Sentence for the reference of scene elements.
+  static constexpr const char* kText =
+      "Drives to a pose along a planned path, around ground that is not traversable.";
   /// Goal of the base link's origin [m] in W.
   Vec2 target = Vec2::Zero();
   /// Heading at the goal [rad].
@@ -36,9 +39,21 @@ struct GoTo final : ActivityStep {
   /// Seed of the first search; each further search takes the next one.
   int seed = 1;
 
-  /// Reads <target_m>, <heading_deg>, <speed_m_per_s>, <tolerance_m>, <tolerance_deg>,
-  /// <clearance_m>, <retry_s>, <tries>, <iterations>, <seed>; the target must be on the site.
-  static GoTo read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("target_m", target, {-1e6, 1e6}, "Target in W, on the site.", scene::kNeeded);
+    f("heading_deg", heading, {-360, 360}, "Heading at the target, from W's x.", scene::kNeeded);
+    f("speed_m_per_s", speed, {0.05, 20}, "Top speed, forwards and backwards.");
+    f("tolerance_m", tolerance, {0.05, 5}, "Tolerance of the place.");
+    f("tolerance_deg", turn_tolerance, {0.5, 180}, "Tolerance of the heading.");
+    f("clearance_m", clearance, {0, 10},
+      "Clearance from ground that is not traversable or unknown, and from the site's edge.");
+    f("retry_s", retry, {0, 1e5}, "Time between tries if there is no path.");
+    f("tries", tries, {1, 1000}, "Number of tries.");
+    f("iterations", iterations, {1, 1e6}, "Iterations of each search.");
+    f("seed", seed, {1, 1e9}, "Seed of the first search; each further search uses the next.");
+  }
+  /// Checks that the machine has a drive and the target is on the site.
+  void check(const scene::StepSource& source) const;
   const char* element() const override { return kElement; }
   bool needs_planner() const override { return true; }
   std::optional<PathQuery> path_ahead(const PlanePose& from) const override {

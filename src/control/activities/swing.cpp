@@ -40,14 +40,9 @@ class Swinging final : public ActivityWith<ArmMove> {
 
 }  // namespace
 
-Swing Swing::read(const scene::StepSource& source) {
-  Swing step;
-  source.fields.number("angle_deg", step.angle, {-3600, 3600}, scene::kDegree)
-      .required("angle_deg")
-      .finish();
+void Swing::check(const scene::StepSource& source) const {
   source.require(source.machine && !source.machine->arm.swing.empty(),
                  "swing needs a machine with <navvy:arm>/swing_joint");
-  return step;
 }
 
 std::unique_ptr<Activity> Swing::activity(OperatorContext& place) const {

@@ -68,27 +68,18 @@ class Tipping final : public ActivityWith<Memory> {
 
 }  // namespace
 
-Tip Tip::read(const scene::StepSource& source) {
-  Tip step;
-  scene::FieldSource& fields = source.fields;
+void Tip::check(const scene::StepSource& source) const {
   const scene::Machine* machine = source.machine;
-  fields.number("angle_deg", step.angle, {-360, 360}, scene::kDegree)
-      .required("angle_deg")
-      .number("hold_s", step.hold, {0, 600})
-      .finish();
   source.require(machine && !machine->beds.empty(), "tip needs a machine with <navvy:bed>");
-  if (!machine || machine->beds.empty() || !fields.has("angle_deg")) return step;
-  // Limits can only be asked of a machine that has the bed, an angle that was given, and a joint
-  // that exists.
+  if (!machine || machine->beds.empty() || !source.has("angle_deg")) return;
   const int index = machine->joint_index(machine->beds[0].joint);
-  if (index < 0) return step;
+  if (index < 0) return;
   const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
-  if (joint.has_limits && (step.angle < joint.lower - 1e-6 || step.angle > joint.upper + 1e-6))
-    fields.error("angle_deg", fields.written("angle_deg"),
-                 "must lie within the limits of the bed's joint, " +
+  if (joint.has_limits && (angle < joint.lower - 1e-6 || angle > joint.upper + 1e-6))
+    source.error("angle_deg", source.written("angle_deg"),
+                 "must be within the limits of the bed's joint, " +
                      std::to_string(joint.lower / scene::kDegree) + " to " +
                      std::to_string(joint.upper / scene::kDegree));
-  return step;
 }
 
 void Tip::check_machine(const scene::Machine& machine) const {

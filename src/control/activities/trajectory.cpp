@@ -12,7 +12,6 @@
 namespace navvy::control {
 namespace {
 
-using scene::FieldSource;
 using scene::kDegree;
 
 // Of a joint: a servo's lag under load is less [m]
@@ -80,94 +79,70 @@ class Following final : public Activity {
   std::vector<int> joints_;  // indices in Machine::joints
 };
 
-/// Whether the machine has the joint, in the unit that it is given in, and gets there.
-void check_joint(FieldSource& fields, const scene::Machine* machine, const std::string& name,
-                 bool in_degrees, const std::vector<double>& positions) {
-  // A machine that could not be read has been told of already.
+/// Checks that the machine has the joint of a column, in the unit of its positions, and that they
+/// are within its limits.
+void check_column(const scene::StepSource& source, const Trajectory::Column& column, int item) {
+  const scene::Machine* machine = source.machine;
+  const auto fault = [&](const std::string& value, const std::string& rule,
+                         const std::string& remedy = "") {
+    source.error("joint", value, rule, remedy, item);
+  };
+  // A machine that could not be read has been reported.
   if (!machine || machine->links.empty()) return;
-  const int index = machine->joint_index(name);
+  const int index = machine->joint_index(column.joint);
   if (index < 0) {
     std::vector<std::string> names;
     for (const scene::Joint& joint : machine->joints) names.push_back(joint.name);
-    fields.error("", name, "no joint of this name in the machine", suggestion(name, names));
-    return;
+    return fault(column.joint, "no joint of this name in the machine",
+                 suggestion(column.joint, names));
   }
   const scene::Joint& joint = machine->joints[static_cast<std::size_t>(index)];
-  // The unit in the element's name must be the joint's: 90 read as metres would be a fault of
-  // another kind.
   const bool turns = joint.type == scene::Joint::Type::kRevolute;
-  if (!turns && joint.type != scene::Joint::Type::kPrismatic) {
-    fields.error("", name, "only revolute and prismatic joints can be moved");
-  } else if (turns != in_degrees) {
-    fields.error(
-        "", name,
-        turns ? "a revolute joint needs <positions_deg>" : "a prismatic joint needs <positions_m>");
-  } else if (joint.has_limits) {
-    const double f = turns ? 1 / kDegree : 1;
-    // The first one beyond them is enough to find the slip; rounding of degrees is let pass.
-    for (const double position : positions) {
-      if (position >= joint.lower - 1e-6 && position <= joint.upper + 1e-6) continue;
-      fields.error("", std::to_string(position * f),
-                   "must lie within the joint's limits, " + std::to_string(joint.lower * f) +
-                       " to " + std::to_string(joint.upper * f));
-      break;
-    }
-  }
-}
-
-/// One joint's positions over the times; its name is added to the step.
-std::vector<double> read_joint(FieldSource& fields, const scene::Machine* machine,
-                               Trajectory& step) {
-  std::string name;
-  std::vector<double> in_degrees, in_metres;
-  fields.attribute("name", name)
-      .list("positions_deg", in_degrees, {-36000, 36000}, kDegree)
-      .list("positions_m", in_metres, {-1e4, 1e4})
-      .finish();
-  // Faulty ones, too, so that columns and names stay side by side.
-  step.joints.push_back(name);
-  // Exactly one of the two.
-  const bool turns = fields.has("positions_deg");
-  if (turns == fields.has("positions_m")) {
-    fields.error("", "", "needs either <positions_deg> or <positions_m>");
-    return {};
-  }
-  // Both lists are SI by now.
-  const std::vector<double>& positions = turns ? in_degrees : in_metres;
-  if (positions.size() != step.times.size())
-    fields.error("", std::to_string(positions.size()) + " positions",
-                 "needs one position for each of the " + std::to_string(step.times.size()) +
-                     " times of <times_s>");
-  check_joint(fields, machine, name, turns, positions);
-  return positions;
+  if (!turns && joint.type != scene::Joint::Type::kPrismatic)
+    return fault(column.joint, "only revolute and prismatic joints can be moved");
+  if (turns != column.turns)
+    return fault(column.joint, turns ? "a revolute joint needs <positions_deg>"
+                                     : "a prismatic joint needs <positions_m>");
+  if (!joint.has_limits) return;
+  const double f = turns ? 1 / kDegree : 1;
+  // One position is enough to find the mistake; the slack covers the rounding of degrees.
+  for (const double position : column.positions())
+    if (position < joint.lower - 1e-6 || position > joint.upper + 1e-6)
+      return fault(std::to_string(position * f), "must be within the joint's limits, " +
+                                                     std::to_string(joint.lower * f) + " to " +
+                                                     std::to_string(joint.upper * f));
 }
 
 }  // namespace
 
-Trajectory Trajectory::read(const scene::StepSource& source) {
-  Trajectory step;
-  std::vector<std::vector<double>> columns;
-  FieldSource& fields = source.fields;
-  fields.list("times_s", step.times, {0, 1e6})
-      .required("times_s")
-      .each("joint",
-            [&](FieldSource& joint) { columns.push_back(read_joint(joint, source.machine, step)); })
-      .required("joint")
-      .finish();
+void Trajectory::check(const scene::StepSource& source) {
   // Equal times would be a jump, for which no joint has a servo.
-  for (std::size_t i = 1; i < step.times.size(); ++i)
-    if (step.times[i] <= step.times[i - 1]) {
-      fields.error("times_s", fields.written("times_s"), "times must increase");
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] <= times[i - 1]) {
+      source.error("times_s", source.written("times_s"), "times must increase");
       break;
     }
-  if (fields.has("times_s") && step.times.empty())
-    fields.error("times_s", "", "needs at least one time");
-  // The file gives a row a joint, the operator wants a row a time.
-  step.positions.assign(step.times.size(), std::vector<double>(columns.size(), 0.0));
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    for (std::size_t k = 0; k < step.times.size() && k < columns[j].size(); ++k)
-      step.positions[k][j] = columns[j][k];
-  return step;
+  if (source.has("times_s") && times.empty())
+    source.error("times_s", "", "needs at least one time");
+  positions.assign(times.size(), std::vector<double>(columns.size(), 0.0));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const Column& column = columns[j];
+    const std::vector<double>& given = column.positions();
+    const int item = static_cast<int>(j);
+    joints.push_back(column.joint);
+    if (column.turns == column.slides) {
+      source.error("joint", "", "needs either <positions_deg> or <positions_m>", "", item);
+      continue;
+    }
+    if (given.size() != times.size())
+      source.error("joint", std::to_string(given.size()) + " positions",
+                   "needs one position for each of the " + std::to_string(times.size()) +
+                       " times of <times_s>",
+                   "", item);
+    check_column(source, column, item);
+    // The file has a row per joint, the operator a row per time.
+    for (std::size_t k = 0; k < times.size() && k < given.size(); ++k) positions[k][j] = given[k];
+  }
 }
 
 void Trajectory::check_machine(const scene::Machine& machine) const {

@@ -23,13 +23,6 @@ class LettingGo final : public Activity {
 
 }  // namespace
 
-Unhitch Unhitch::read(const scene::StepSource& source) {
-  // Whether the machine has such a hitch is asked when all machines have been read.
-  Unhitch step;
-  source.fields.text("hitch", step.hitch).required("hitch").finish();
-  return step;
-}
-
 std::unique_ptr<Activity> Unhitch::activity(OperatorContext& place) const {
   return std::make_unique<LettingGo>(place, *this);
 }

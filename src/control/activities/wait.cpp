@@ -24,12 +24,6 @@ class Resting final : public Activity {
 
 }  // namespace
 
-Wait Wait::read(const scene::StepSource& source) {
-  Wait step;
-  source.fields.number("duration_s", step.duration, {0, 1e6}).required("duration_s").finish();
-  return step;
-}
-
 std::unique_ptr<Activity> Wait::activity(OperatorContext& place) const {
   return std::make_unique<Resting>(place, *this);
 }

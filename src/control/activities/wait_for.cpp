@@ -41,17 +41,6 @@ class WaitingFor final : public Activity {
 
 }  // namespace
 
-WaitFor WaitFor::read(const scene::StepSource& source) {
-  // Whether there is such a machine, with so many steps, is asked when all programs have been read.
-  WaitFor step;
-  source.fields.text("machine", step.machine)
-      .required("machine")
-      .whole("steps", step.steps, {1, 1e6})
-      .number("longest_s", step.longest, {0, 1e6})
-      .finish();
-  return step;
-}
-
 std::unique_ptr<Activity> WaitFor::activity(OperatorContext& place) const {
   return std::make_unique<WaitingFor>(place, *this);
 }

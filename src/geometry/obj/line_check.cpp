@@ -11,7 +11,7 @@
 namespace navvy::geometry {
 namespace {
 
-/// The next word of a line, taken off it; empty at the end.
+/// Removes the next word from a line and returns it; empty at the end.
 std::string_view next_word(std::string_view& line) {
   constexpr std::string_view kBlank = " \t";
   line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
@@ -23,13 +23,12 @@ std::string_view next_word(std::string_view& line) {
 class LineCheck {
  public:
   LineCheck(const std::string& path, std::string_view text) : path_(path) {
-    // Faces may name vertices that come later in the file, so those are counted first.
+    // Faces may refer to later vertices, so vertices are counted first.
     each_line(text, [this](std::string_view line) { vertices_ += next_word(line) == "v"; });
     most(vertices_, limits::kObjVertices, "vertices");
     each_line(text, [this](std::string_view line) {
       ++line_;
-      // Faces are read corner by corner, and a polygon is cut with all its corners held against
-      // each other.
+      // Faces are read corner by corner, and cutting a polygon compares all of its corners.
       if (line.size() > limits::kObjLineBytes)
         refuse_obj(path_, line_, line.substr(0, 40),
                    "a line may have at most " + std::to_string(limits::kObjLineBytes) + " bytes");
@@ -50,35 +49,38 @@ class LineCheck {
     while (!text.empty()) {
       const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
       work(text.substr(0, end));
-      // Lines end in \n, \r\n or \r, as the library takes them.
+      // Lines end in LF, CR LF or CR, as the library takes them.
       const std::size_t mark = text.substr(end, 2) == "\r\n" ? 2 : 1;
       text.remove_prefix(std::min(end + mark, text.size()));
     }
   }
 
+  /// Refuses the file if `count` exceeds its limit.
   void most(long count, std::size_t limit, const char* what) const {
     if (count > static_cast<long>(limit))
       refuse_obj(path_, line_, std::to_string(count),
                  "an OBJ file may have at most " + std::to_string(limit) + " " + what,
-                 "thin the mesh out, or split it");
+                 "simplify or split the mesh");
   }
 
+  /// Checks the coordinates of a vertex.
   void vertex(std::string_view line, std::string_view rest) {
     ++seen_;
     for (int k = 0; k < 3; ++k) {
       std::string_view word = next_word(rest);
-      // The library takes a plus sign, from_chars does not.
+      // The library accepts a plus sign, from_chars does not.
       if (!word.empty() && word.front() == '+') word.remove_prefix(1);
       double value = 0;
       const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
-      // Vertices are kept in single precision, which holds centimetres at the limit; it shuts out
-      // nan and inf too.
+      // Vertices are stored in single precision, which resolves centimetres at the limit. The
+      // comparison excludes nan and inf too.
       if (failed != std::errc() || end != word.data() + word.size() ||
           !(std::abs(value) <= limits::kCoordinate))
         refuse_obj(path_, line_, line, "a vertex must be three numbers from -1e6 to 1e6 m");
     }
   }
 
+  /// Checks the corners of a face.
   void face(std::string_view line, std::string_view rest) {
     int corners = 0;
     for (std::string_view word = next_word(rest); !word.empty();
@@ -100,7 +102,8 @@ class LineCheck {
   }
 
   const std::string& path_;
-  long vertices_ = 0, seen_ = 0;  // in the file, so far
+  // Vertices in the whole file, and up to this line.
+  long vertices_ = 0, seen_ = 0;
   long triangles_ = 0, libraries_ = 0, statements_ = 0;
   int line_ = 0;
 };

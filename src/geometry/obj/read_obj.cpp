@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whoever wrote the OBJ file chose the names of its MTL files: they are opened in its folder and
-/// below, and only plain files of a bounded size.
+/// Opens MTL files. The author of the OBJ file chose their names, so they are opened only in its
+/// folder and below, and only regular files of bounded size.
 class MaterialsBeside final : public tinyobj::MaterialReader {
  public:
   explicit MaterialsBeside(const std::string& obj)
@@ -36,7 +36,7 @@ class MaterialsBeside final : public tinyobj::MaterialReader {
     const std::string path = (folder_ / plain).string();
     std::error_code unknown;
     if (!fs::exists(path, unknown)) {
-      // Told once and passed over: it changes colours only.
+      // Logged once and ignored, as it changes colours only.
       *warning += "no material file '" + path + "'\n";
       return false;
     }
@@ -45,7 +45,7 @@ class MaterialsBeside final : public tinyobj::MaterialReader {
       bytes = read_file(path, limits::kMtlBytes);
     } catch (const FileError& failure) {
       refuse_obj(obj_, 0, "mtllib " + name, failure.what(),
-                 "name a material file, or take the line out");
+                 "name a material file, or remove the line");
     }
     std::istringstream stream(std::string(bytes.begin(), bytes.end()));
     tinyobj::LoadMtl(map, materials, &stream, warning, error);
@@ -57,7 +57,7 @@ class MaterialsBeside final : public tinyobj::MaterialReader {
   fs::path folder_;
 };
 
-/// Ambient light, textures and the like are left out: pictures do without.
+/// Converts a material. Ambient light and textures are ignored, as pictures do not use them.
 MeshMaterial to_material(const tinyobj::material_t& m) {
   return {m.name,
           {m.diffuse[0], m.diffuse[1], m.diffuse[2]},
@@ -66,7 +66,7 @@ MeshMaterial to_material(const tinyobj::material_t& m) {
           m.dissolve};
 }
 
-/// A warning for every face would be as long as the file.
+/// Shortens warnings: one for every face would be as long as the file.
 std::string first_of(const std::string& warnings) {
   constexpr std::size_t kMost = 500;
   return warnings.size() <= kMost ? warnings : warnings.substr(0, kMost) + " ...";
@@ -99,7 +99,7 @@ TriangleMesh read_obj(const std::string& path) {
   // A missing MTL file changes colours only.
   if (!warning.empty()) log_warning(path + ": " + first_of(warning));
 
-  // Indices into the vertices stay the file's own: vertices are not split by normals or materials.
+  // Indices of vertices are the file's own: vertices are not split by normals or materials.
   TriangleMesh mesh;
   const std::vector<tinyobj::real_t>& v = attributes.vertices;
   for (std::size_t i = 0; i + 2 < v.size(); i += 3)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads Wavefront OBJ files.
+// Reader of Wavefront OBJ files.
 #pragma once
 
 #include <string>
@@ -8,16 +8,17 @@
 
 namespace navvy::geometry {
 
-/// The mesh of an OBJ file, in the file's own frame [m], with the materials of its MTL files.
+/// Reads a mesh from an OBJ file, in the file's own frame [m], with the materials of its MTL files.
 ///
-/// All vertices stay, in the file's order and in single precision, whether a face uses them or not;
-/// shells, pictures and collision hulls thus see the same points. Faces of more than three corners
-/// are cut into triangles; groups and objects are not kept apart, lines and loose points are left
-/// out. Normals and texture places are not read. An MTL file that is missing is told as a warning
-/// in the log; its faces have no material then.
-/// @throws FileError when the file cannot be read; InputError naming file and line for a vertex
-/// that is not three finite numbers and a face that has fewer than three corners or names a vertex
-/// that does not exist, or for a file beyond 64 MB.
+/// All vertices are kept in the file's order and in single precision, whether a face uses them or
+/// not, so that shells, pictures and collision hulls use the same points. Faces of more than three
+/// corners are cut into triangles. Groups and objects are merged; lines, loose points, normals and
+/// texture coordinates are ignored. A missing MTL file is logged as a warning, and its faces have
+/// no material.
+/// @throws FileError if the file cannot be read.
+/// @throws InputError naming file and line for a vertex that is not three finite numbers, a face
+/// that has fewer than three corners or names a vertex that does not exist, and for a file beyond
+/// the limits of core/limits.h.
 TriangleMesh read_obj(const std::string& path);
 
 }  // namespace navvy::geometry

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `blade`: a flat plate pushed through the ground.
 //
-// A blade in plane strain is the digging force in its purest form: a wedge slides up between blade
-// and rupture surface. Smooth and upright the surface is a plane and the force Rankine's, exactly.
-// A rough upright blade bends it: the plane wedge is then an upper bound only, and the force is
-// held against slip lines and log spiral (theory/earth_pressure.h). A rough or flat blade also
-// lifts soil that piles up and rides on it, so that the force grows with the travel: it is held
-// against a wedge under the pile as it lies, which tells errors of force from errors of the pile's
-// shape. A narrow blade in open ground carries crescents at its sides besides.
+// A blade in plane strain is the simplest case of digging: a wedge slides up between blade and
+// rupture surface. For a smooth upright blade the surface is a plane and the force is exactly
+// Rankine's. A rough upright blade bends it: the plane wedge is then only an upper bound, and slip
+// lines and a log spiral give the reference (theory/earth_pressure.h). A rough or flat blade also
+// lifts soil that piles up and rides on it, so the force grows with the travel. It is compared with
+// a wedge under the present pile, which separates errors of the force from errors of the pile's
+// shape. A narrow blade in open ground has crescents at its sides, too.
 #include <algorithm>
 #include <cmath>
 
@@ -30,25 +30,25 @@ BladeCase case_of(const Setup& setup) {
   return blade_case(setup, rake_of(setup), setup["depth"], setup["width"]);
 }
 
-/// Of the blade's upper edge over its lip [m].
+/// Returns the height of the blade's upper edge over its cutting edge [m].
 double blade_height(const Setup& setup) {
   const double length = setup["length"];
   return length > 0 ? length * std::sin(radians(setup["rake-deg"]))
                     : setup["depth"] * (1 + setup["above"]);
 }
 
-/// What the mean force is held against, and where that says something.
+/// Reference of the mean force, and its validity.
 struct Tolerance {
   double expected = 0, low = kNone, high = kNone;
   std::string source, range;
   bool here = false;
 };
 
-/// A measured force replaces theory. Theory gates upright blades in plane strain, smooth within
-/// --gate-percent, rough ones from 0.95 of the lower bound (0.80 with cohesion, as soil without
-/// dilatancy is weaker) to 1.05 of the spiral.
+/// Returns the tolerance of the mean force. A measured force replaces theory. Theory applies to
+/// upright blades in plane strain: smooth ones within --tolerance-percent, rough ones from 0.95 of
+/// the lower bound (0.80 with cohesion, as soil without dilatancy is weaker) to 1.05 of the spiral.
 Tolerance tolerance_of(const Setup& setup, const BladeForce& wedge, const std::string& source) {
-  const double given = setup["expected-n"], share = setup["gate-percent"] / 100;
+  const double given = setup["expected-n"], share = setup["tolerance-percent"] / 100;
   const bool upright = setup.is("plane", "yes") && std::abs(setup["rake-deg"] - 90) < 1e-6;
   const Reference theory = upright ? upright_reference(case_of(setup)) : Reference{};
   Tolerance out;
@@ -71,8 +71,8 @@ Tolerance tolerance_of(const Setup& setup, const BladeForce& wedge, const std::s
   return out;
 }
 
-/// The largest force [N] of what is slower than the grid: passing two cells of soil takes 2 cell /
-/// v.
+/// Returns the largest force [N] without fluctuations of the grid: passing two cells of soil takes
+/// 2 cell / v.
 double smooth_peak(const Setup& setup, const Trace& trace, double scale) {
   std::vector<double> x;
   for (const Vec3& f : trace.force) x.push_back(-scale * f.x());
@@ -82,11 +82,12 @@ double smooth_peak(const Setup& setup, const Trace& trace, double scale) {
   return peak;
 }
 
-/// What both kinds of bed read off the trace. `wedge` is the formula of the bed's kind.
+/// Reads the results of both kinds of bed from the trace. `wedge` is the formula for the kind of
+/// bed.
 void read_force(const Setup& setup, const ToolDriver& driver, double scale, const BladeForce& wedge,
                 const std::string& source, Report& report) {
   const double from = setup["from"], to = setup["travel"];
-  // One window for mean and scatter, the one that an experiment states.
+  // One window for mean and scatter, as in the cited experiment.
   const Vec3 force = scale * mean_force(driver.trace(), from, to),
              scatter = scale * force_scatter(driver.trace(), from, to);
   const Tolerance tolerance = tolerance_of(setup, wedge, source);
@@ -94,8 +95,8 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
       .add("horizontal force", -force.x(), "N", tolerance.expected, tolerance.low, tolerance.high,
            tolerance.source)
       .holds_for(tolerance.range, tolerance.here);
-  // The formula stands beside whatever else is expected, without a gate; a planar wedge is an upper
-  // bound.
+  // The formula is listed beside any other expectation, without a tolerance; a planar wedge is an
+  // upper bound.
   if (std::abs(tolerance.expected / wedge.horizontal - 1) > 1e-6)
     report.add("horizontal force, against the wedge", -force.x(), "N", wedge.horizontal, kNone,
                kNone, source + (setup.is("plane", "yes") ? ", planar wedge: an upper bound" : ""));
@@ -108,7 +109,7 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
   }
   report.add("vertical force on the blade, down", -force.z(), "N", wedge.vertical, kNone, kNone,
              source);
-  // One number to compare runs of other soils and depths by.
+  // One number to compare runs of other soils and depths.
   report.add("horizontal over expected", -force.x() / tolerance.expected, "", 1, kNone, kNone, "");
   report.note("scatter of the force", 100 * scatter.x() / std::abs(force.x()), "%",
               "rms about the mean over its window");
@@ -117,15 +118,15 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
   report.add("peak over expected", peak / tolerance.expected, "", 1, kNone, kNone, "");
 }
 
-/// Height over the lip [m] of what lies at x ahead of it, mean over the middle half of the chute.
-/// Beyond the bed's end the ground rests, `depth` over the lip.
+/// Returns the height over the edge [m] of the soil at x ahead of it, averaged over the middle half
+/// of the chute. Beyond the bed's end the ground rests, `depth` over the edge.
 std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const ChuteBed& bed,
                                       double gap, double depth) {
   const HeapSurface s =
       surface_of(in_contact(site, site.solver().particles()), site.cell(), p_lip.z());
   const int low = static_cast<int>((p_lip.y() + 0.25 * gap - s.origin.y()) / s.spacing),
             high = static_cast<int>((p_lip.y() + 0.75 * gap - s.origin.y()) / s.spacing);
-  // A cell short of the bed's end, where particles lean on resting ground.
+  // A cell before the bed's end, where particles lean on resting ground.
   const double end = bed.ahead - p_lip.x() - site.cell();
   return [=](double x) {
     const int ix = static_cast<int>(std::lround((p_lip.x() + x - s.origin.x()) / s.spacing));
@@ -136,8 +137,8 @@ std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const
   };
 }
 
-/// Holds the force of the last tenth of the travel against a wedge under the pile as it lies then:
-/// whether it is the force or the pile that differs from an experiment.
+/// Compares the force of the last tenth of the travel with a wedge under the pile of that moment:
+/// this shows whether force or pile differ from an experiment.
 void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, const ChuteBed& bed,
                double gap, Report& report) {
   const double travel = setup["travel"], height = blade_height(setup), depth = setup["depth"];
@@ -147,8 +148,8 @@ void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, c
   const double end =
       -setup["width"] / gap * mean_force(driver.trace(), 0.9 * travel, 2 * travel).x();
   const double wedge = wedge_under(c, height, surface).horizontal;
-  // A wide band: the plane wedge is an upper bound for a rough blade, and the law's zero dilatancy
-  // lowers it.
+  // A wide range: the plane wedge is an upper bound for a rough blade, and the law's zero dilatancy
+  // reduces it.
   report
       .add("horizontal force at the end", end, "N", wedge, 0.75 * wedge, 1.25 * wedge,
            std::string("wedge under the pile as it lies [Coulomb 1776] ") + kSource)
@@ -160,8 +161,8 @@ void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, c
   double top = 0;
   for (double x = -height / std::tan(c.rake); x < travel; x += site.cell() / 4)
     top = std::max(top, surface(x));
-  report.note("top of the pile over the lip", top, "m");
-  // The formula is for a blade of its own length: without one there is nothing to ride up.
+  report.note("top of the pile over the cutting edge", top, "m");
+  // The formula is for a blade of finite length: without one, nothing rides up.
   if (setup["length"] > 0)
     report.add("horizontal force, against a riding layer", end, "N",
                riding_layer(c, setup["length"]).horizontal, kNone, kNone,
@@ -169,7 +170,7 @@ void read_pile(const Setup& setup, const ToolDriver& driver, const Site& site, c
                "upper bound");
 }
 
-/// The tools of a plane bed. A smooth blade and its side plates are one shell; a rough blade's
+/// Adds the tools of a plane bed. A smooth blade and its side plates are one shell; a rough blade's
 /// plates are another shell, without friction.
 ToolDriver plane_tools(const Setup& setup, Site& site, const ChuteShape& shape, bool rough) {
   // Both shells start at one pose and have one twist: they stay together.
@@ -181,23 +182,23 @@ ToolDriver plane_tools(const Setup& setup, Site& site, const ChuteShape& shape, 
   return driver;
 }
 
-/// Plane strain: the blade spans a chute. Forces are scaled to `width`.
+/// Runs plane strain: the blade spans a chute. Forces are scaled to `width`.
 Report run_plane(const Setup& setup) {
   const double cell = setup.cell, depth = setup["depth"], width = setup["width"],
                rake = radians(setup["rake-deg"]);
-  // Soil that the blade never comes near still carries the wedge's foot.
+  // Soil that the blade never approaches still supports the wedge's foot.
   const double reach = setup["travel"] + setup["ahead"] * depth;
   const bool rough = setup.soil.tool_friction_angle > 0 || setup.soil.adhesion > 0;
   double share = 0;
   const double gap = rough ? chute_width(cell) : chute_gap(setup, share);
   const double below = whole_cells(depth * (1 + setup["below"]), cell);
-  // Six cells behind the lip: what flows under it must have somewhere to lie.
+  // Six cells behind the edge, for the soil that flows under it.
   const ChuteBed bed{6 * cell, cell * std::ceil(reach / cell), below};
   Site site(setup, chute_site(setup, bed, gap));
   ChuteShape shape;
   shape.half = chute_half(cell), shape.gap = gap, shape.rake = rake,
   shape.height = blade_height(setup),
-  // Over what piles up in front
+  // Above the pile in front.
       shape.top = std::max(shape.height, 2.5 * depth) + (rough ? 2 * depth : 0);
   shape.back = bed.back + 3 * cell, shape.ahead = bed.ahead + 3 * cell,
   shape.bottom = depth - below - 2 * cell;
@@ -212,7 +213,7 @@ Report run_plane(const Setup& setup) {
   driver.start(setup["travel"], Vec3(speed, 0, 0), setup["ramp"]);
 
   Report report;
-  // The chute is a few cells wide; forces are given for the width asked for.
+  // The chute is a few cells wide; forces are given for the requested width.
   read_force(setup, driver, width / gap, reece_wedge(case_of(setup)), "[Reece 1964]", report);
   // The wedge under a pile is for dry soil and a blade that does not overhang.
   if (setup.soil.cohesion == 0 && setup.soil.adhesion == 0 && setup["rake-deg"] <= 90)
@@ -220,7 +221,7 @@ Report run_plane(const Setup& setup) {
   return finish_blade(site, driver, report);
 }
 
-/// A blade of finite width in open ground.
+/// Runs a blade of finite width in open ground.
 Report run_open(const Setup& setup) {
   const double cell = setup.cell, depth = setup["depth"], width = setup["width"],
                rake = radians(setup["rake-deg"]);
@@ -235,17 +236,17 @@ Report run_open(const Setup& setup) {
   options.depth = up + 8 * cell;
   options.surface = pit(bed);
   Site site(setup, options);
-  // The trench behind the blade is as wide as the blade and half a cell more.
+  // The trench behind the blade is half a cell wider than the blade.
   auto soil = site.fill(bed, [&](const Vec3& p) {
     return std::abs(p.y()) > width / 2 + 0.5 * cell || ahead_of_blade(p, depth, rake, cell);
   });
-  // At rest beside the trench as everywhere: the trench is as wide as the blade only.
+  // At rest beside the trench, which is only as wide as the blade.
   site.rest(soil,
             [=](double x, double y) { return x > 0 || std::abs(y) > width / 2 ? 0.0 : -depth; });
   site.solver().insert(soil);
   scene::Shell shell = blade(width, blade_height(setup), rake);
   shell.half_thickness = setup["thick"] / 2;
-  // The plate's face, not its middle, starts at x = 0.
+  // The plate's face, not its mid-plane, starts at x = 0.
   ToolDriver driver(site, shell,
                     make_pose(-shell.half_thickness / std::sin(rake), 0.07 * cell, -depth));
   const double speed = setup["speed"];
@@ -254,7 +255,7 @@ Report run_open(const Setup& setup) {
   Report report;
   read_force(setup, driver, 1, mckyes_ali(case_of(setup)), std::string("[McKyes 1977] ") + kSource,
              report);
-  // What the crescents add shows in the difference of the two.
+  // The difference of the two is the effect of the crescents.
   report.add("2-D wedge alone", -mean_force(driver.trace(), setup["from"], setup["travel"]).x(),
              "N", reece_wedge(case_of(setup)).horizontal, kNone, kNone, "[Reece 1964]");
   return finish_blade(site, driver, report);
@@ -267,69 +268,70 @@ Report run_blade(const Setup& setup) {
 
 const std::vector<Parameter> kBlade = {
     {"width", 1, "m", "of the blade; in plane strain forces are scaled to it", above(0)},
-    {"depth", 0.3, "m", "of the lip under the ground", above(0)},
+    {"depth", 0.3, "m", "of the cutting edge under the ground", above(0)},
     {"rake-deg", 90, "deg", "of the blade's face with the ground ahead, 90 is upright",
      between(15, 150)},
     {"speed", 0.3, "m/s", "ahead", above(0)},
     {"from", 0.03, "m", "of travel at which the mean begins", above(0)},
     {"travel", 0.07, "m", "at which it ends", above(0)},
-    {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
+    {"ramp", 0.015, "m", "of travel over which it accelerates; 0: at once", at_least(0)},
     yes_no("plane", true, "plane strain between smooth plates",
            "a blade of its width in open ground"),
     {"ahead", 3, "depths", "of soil in front after the travel", at_least(0)},
     {"beside", 2, "depths", "of soil on either side (open ground)", at_least(0)},
-    {"below", 1, "depths", "of soil under the lip", at_least(0)},
+    {"below", 1, "depths", "of soil under the cutting edge", at_least(0)},
     {"thick", 0.01, "m",
      "of the plate in open ground; in plane strain it is half a cell and only its face counts",
      above(0)},
-    {"above", 1, "depths", "of blade over the ground", above(0)},
-    {"length", 0, "m", "of the blade from its lip along its face; 0: as high as `above` says",
+    {"above", 1, "depths", "of the blade over the ground", above(0)},
+    {"length", 0, "m", "of the blade along its face; 0: its height follows from `above`",
      at_least(0)},
-    {"expected-n", 0, "N", "a measured force to be held against instead of the formula; 0: none",
+    {"expected-n", 0, "N", "a measured force for comparison instead of the formula; 0: none",
      at_least(0)},
-    {"gate-percent", 15, "%", "of the expected force; 0: no gate", at_least(0)}};
+    {"tolerance-percent",
+     15,
+     "%",
+     "of the expected force; 0: no tolerance",
+     at_least(0),
+     {},
+     "gate-percent"}};
 
 }  // namespace
 
 Rig blade_rig() {
   Rig rig;
   rig.name = "blade";
-  rig.summary = "flat blade pushed through the ground: force against wedge theory or an experiment";
+  rig.summary =
+      "flat blade pushed through the ground: force compared with wedge theory or an experiment";
   rig.drawing =
-      "A plate with its lip `depth` under level ground, a trench open behind it, moves ahead at "
-      "`speed`. The force is "
-      "the mean of the soil's impulses while the travel is between `from` and `travel`. `plane` "
-      "yes: the plate spans "
-      "a chute of smooth side plates that travel with it, 5 cells wide, 8 with tool friction. In "
-      "soil without "
-      "cohesion the force of the last tenth of the travel is held against Coulomb's wedge under "
-      "the pile as it lies "
-      "then; with `length` Miedema's layer that rides on the whole blade stands beside it, an "
-      "upper bound. What gates: "
-      "an "
-      "upright smooth blade Rankine, a rough one 0.95 of the lower bound (slip lines; weight by "
-      "Lancellotta) to 1.05 "
-      "of the log spiral (Caquot and Kerisel); Reece's planar wedge is an upper bound and only "
-      "printed. Soil that "
-      "softens is held against its residual cohesion and not gated. No: open ground, beside McKyes "
-      "and Ali.";
+      "A plate with its cutting edge `depth` under level ground, with an open trench behind it, "
+      "moves ahead at `speed`. The force is the mean of the soil's impulses while the travel is "
+      "between `from` and `travel`. `plane` yes: the plate spans a chute of smooth side plates "
+      "that travel with it, 5 cells wide, 8 with tool friction. In soil without cohesion the "
+      "force of the last tenth of the travel is compared with Coulomb's wedge under the pile of "
+      "that moment; with `length`, Miedema's layer that rides on the whole blade is an upper "
+      "bound. Tolerances: an upright smooth blade Rankine, a rough one 0.95 of the lower bound "
+      "(slip lines; weight by Lancellotta) to 1.05 of the log spiral (Caquot and Kerisel). "
+      "Reece's planar wedge is an upper bound and only listed. Soil that softens is compared with "
+      "its residual cohesion, without a tolerance. `plane` no: open ground, with McKyes and Ali "
+      "for comparison.";
   rig.examples = {{"Narrow blade in washed sand [Obermayr 2011]; depths 0.10, 0.15, 0.20, 0.25 m "
                    "measured 280, 505, 820, 1310 N",
                    "--plane no --width 0.2 --depth 0.10 --density 1440 --phi-deg 35 --delta-deg "
                    "16.2 --speed 0.45 --from 0.5 "
-                   "--travel 1.5 --expected-n 280 --gate-percent 25 --cell 0.05"},
+                   "--travel 1.5 --expected-n 280 --tolerance-percent 25 --cell 0.05"},
                   {"Raked blade in sand [Hatamura 1977]; the formula of [Miedema 2014] for the "
                    "largest force gives 259, 400, 605 N "
                    "at "
                    "rakes of 30, 45, 60",
                    "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
                    "--density 1460 --depth 0.10 --cell "
-                   "0.033 --ahead 4 --gate-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
-                  {"The same six times as fast, its pile full grown",
+                   "0.033 --ahead 4 --tolerance-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},
+                  {"The same six times as fast, with a fully developed pile",
                    "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
                    "--density 1460 --depth 0.10 --cell "
-                   "0.033 --ahead 4 --gate-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
-                  {"Three speeds and two steps in one table, with a picture",
+                   "0.033 --ahead 4 --tolerance-percent 0 --speed 0.3 --from 1.0 --travel 1.5"},
+                  {"Three speeds and two steps in one table, with a plot",
                    "--speed 0.05,0.15,0.3 --courant 0.5,0.25 --cell 0.05 --plot blade.svg"}};
   rig.parameters = kBlade;
   rig.default_soil = clean_sand(35);

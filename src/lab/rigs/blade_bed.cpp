@@ -12,7 +12,7 @@ BladeCase blade_case(const Setup& setup, double rake, double depth, double width
   BladeCase out;
   out.phi = s.friction_angle, out.delta = s.tool_friction_angle, out.rake = rake;
   out.depth = depth, out.width = width;
-  // The cohesion of intact soil that softens is gone where the tool has been: it is no reference.
+  // Cohesion that softens is gone where the tool has been, so it is no reference.
   out.unit_weight = s.bank_density * kGravity, out.cohesion = s.residual_cohesion,
   out.adhesion = s.adhesion;
   return out;
@@ -30,7 +30,7 @@ Reference upright_reference(const BladeCase& blade) {
   }
   const PassiveBand band = rough_passive(blade);
   out.expected = out.low = band.low, out.high = band.high, out.vertical = -band.vertical;
-  // Both ends are named: a reader must see which theory a rough tool is held against.
+  // Both bounds are named, so that the reference of a rough tool is clear.
   out.source =
       "rough: slip lines [Sokolovskii 1965], weight from [Lancellotta 2002] to log spiral [Caquot "
       "1948]";
@@ -38,7 +38,7 @@ Reference upright_reference(const BladeCase& blade) {
 }
 
 bool ahead_of_blade(const Vec3& p, double depth, double rake, double cell) {
-  // Under the lip everything is soil; over it only what lies ahead of the face.
+  // Under the edge everything is soil; above it only what lies ahead of the face.
   return p.z() < -depth || p.x() + (p.z() + depth) / std::tan(rake) > 0.1 * cell / std::sin(rake);
 }
 

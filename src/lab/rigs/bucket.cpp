@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigs `bucket` (fill along a path), `scrape` (flat on level ground), `cycle` (dig and dump at one
-// place).
+// Rigs `bucket` (filling along a path), `scrape` (flat on level ground), `cycle` (dig and dump at
+// one place).
 //
-// No closed form fills a bucket. What can be asked is that force and load change little when the
-// cell is halved, that a bucket dragged flat neither jams nor throws, and that over several digs
-// not a gram is lost while ground wakes and takes soil back. The wedge of the literature stands
-// beside the drag for scale only.
+// No closed form gives the filling of a bucket. These rigs check that force and load change little
+// when the cell is halved, that a bucket dragged flat neither jams nor throws soil, and that
+// several digs lose no mass while ground becomes particles and takes them back. The wedge of the
+// literature is listed beside the drag for scale only.
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +19,8 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Buckets and carried loads]";
 
-/// Profile of a bucket of unit size: lip, end of the floor, heel, back, rim; the mouth looks ahead
-/// and up.
+/// Returns the profile of a bucket of unit size: cutting edge, end of the floor, heel, back, rim;
+/// the mouth faces forwards and up.
 const std::vector<Vec2>& profile() {
   // Like an excavator's: a floor to cut with, a round heel to roll the soil on, a back, an open
   // mouth.
@@ -29,7 +29,8 @@ const std::vector<Vec2>& profile() {
   return points;
 }
 
-/// Of the unit profile, rim to lip closed by the strike plane: the shoelace formula.
+/// Returns the area of the unit profile, closed by the strike plane from rim to edge (shoelace
+/// formula).
 double profile_area() {
   double sum = 0;
   for (std::size_t i = 0; i < profile().size(); ++i) {
@@ -40,7 +41,7 @@ double profile_area() {
   return std::abs(sum);
 }
 
-/// A bucket of `width` and struck volume, with its frame at the lip.
+/// A bucket of `width` and struck volume, with its frame at the cutting edge.
 struct Bucket {
   double width, size;
   Bucket(double width_in, double volume)
@@ -52,51 +53,52 @@ struct Bucket {
       s.vertices.emplace_back(size * p.x(), -width / 2, size * p.y());
       s.vertices.emplace_back(size * p.x(), width / 2, size * p.y());
     }
-    // Strips across the width, then a fan from the lip over either side; inside is front.
+    // Strips across the width, then a fan from the edge over either side; inside is front.
     for (int i = 0; i + 1 < static_cast<int>(profile().size()); ++i) {
       const int a = 2 * i, b = 2 * i + 2;
       s.triangles.push_back({a, a + 1, b + 1});
       s.triangles.push_back({a, b + 1, b});
     }
     for (int i = 1; i + 1 < static_cast<int>(profile().size()); ++i) {
-      s.triangles.push_back({0, 2 * i, 2 * i + 2});  // y = -width/2, looks along +y
+      // y = -width/2, facing +y.
+      s.triangles.push_back({0, 2 * i, 2 * i + 2});
       s.triangles.push_back({1, 2 * i + 3, 2 * i + 1});
     }
     return s;
   }
 };
 
-/// What a load would measure when heaped loose [m3]: fill factors are quoted so.
+/// Returns the heaped loose volume of a load [m3], on which fill factors are based.
 double loose_volume(const scene::Soil& soil, double mass) {
   return mass / soil.bank_density * soil.swell;
 }
 
-/// Turns the bucket about its lip by `angle` [rad] (positive: mouth up) while the lip moves by
-/// `travel`.
+/// Turns the bucket about its edge by `angle` [rad] (positive: mouth up) while the edge moves by
+/// `travel`. Returns the mean force [N].
 Vec3 turn(ToolDriver& driver, double angle, const Vec3& travel, double seconds) {
   // Mouth up is a turn about -y.
   driver.set_twist(travel / seconds, Vec3(0, -angle / seconds, 0));
   return driver.run(seconds);
 }
 
-/// Lip down at `attack`, level drag, curl, lift: `fill` returns the mean horizontal force of the
-/// drag [N].
+/// Path of a filling: edge down at `attack`, level drag, curl, lift. `fill` returns the mean
+/// horizontal force of the drag [N].
 struct Scoop {
   double depth, drag, speed, attack, curl, lift;
   double fill(ToolDriver& driver) const {
-    // The way in is along the floor's own direction: the bucket cuts, its back does not press.
+    // The entry is along the floor's own direction: the bucket cuts, its back does not press.
     const double in = depth / std::tan(attack);
     driver.advance(std::hypot(in, depth), speed * Vec3(std::cos(attack), 0, -std::sin(attack)));
-    // Floor level, one rad/s or two
+    // Floor level, at one or two rad/s.
     turn(driver, attack, Vec3(0.5 * attack * speed, 0, 0), 0.5 * attack);
     const Vec3 force = driver.advance(drag, Vec3(speed, 0, 0));
-    // The lip rises as it curls, or the heel would dig in behind it.
+    // The edge rises as it curls; otherwise the heel would dig in behind it.
     turn(driver, curl, Vec3(0.35 * depth, 0, 1.2 * depth), curl);
-    // Slowly enough that what lies in it stays.
+    // Slowly enough that the load stays.
     driver.advance(lift, Vec3(0, 0, 0.8));
     return -force.x();
   }
-  // For the progress line alone.
+  // For the progress line only.
   double seconds() const {
     return (depth / std::sin(attack) + drag) / speed + 0.5 * attack + curl + lift / 0.8;
   }
@@ -112,16 +114,17 @@ Scoop scoop_of(const Setup& setup) {
           setup["depth"] + setup["lift"]};
 }
 
-/// What one filling gave: mean drag [N], load [kg], force that holds it over its weight.
+/// Results of one filling: mean drag [N], load [kg], holding force / weight.
 struct Filled {
   double force = 0, payload = 0, held = 0;
 };
 
-/// `write`: the trace goes into the report; of the run at half the cell only the sums do.
+/// Runs one filling. `write`: the trace goes into the report; the run at half the cell only adds
+/// its sums.
 Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   const Bucket bucket(setup["width"], setup["volume"]);
   const Scoop scoop = scoop_of(setup);
-  // Half a bucket and more beyond the path on every side, so that the bed's walls are not felt.
+  // More than half a bucket beyond the path on every side, so that the bed's walls have no effect.
   const double reach = scoop.depth / std::tan(scoop.attack) + scoop.drag + 1.0 + 2 * scoop.depth,
                side = bucket.width / 2 + 1.5 * scoop.depth;
   const SiteBox bed{Vec3(-0.5, -whole_cells(side, cell), -whole_cells(scoop.depth + 0.3, cell)),
@@ -137,16 +140,16 @@ Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   auto soil = site.fill(bed);
   site.rest(soil, 0.0);
   site.solver().insert(soil);
-  // The lip starts just over the ground, off the grid's planes in y.
+  // The edge starts just above the ground, off the grid's planes in y.
   ToolDriver driver(site, bucket.shell(), make_pose(0, 0.07 * cell, 0.02, 0, scoop.attack, 0));
   Filled out;
   out.force = scoop.fill(driver);
   driver.set_twist(Vec3::Zero());
-  // The load settles and loose grains fall before it is weighed.
+  // The load settles and loose particles fall before it is weighed.
   driver.run(0.6);
   const Vec3 force = driver.run(0.4);
   out.payload = site.solver().payload(driver.tool(), driver.pose());
-  // The payload is counted, the force is felt: both by other ways.
+  // The payload is counted, the force is measured: two independent readings.
   out.held = force.z() / (-out.payload * kGravity);
   out.held = std::abs(out.held);
   if (write) driver.write(report, setup["speed"] / (2 * cell));
@@ -156,7 +159,7 @@ Filled run_fill(const Setup& setup, double cell, Report& report, bool write) {
   return out;
 }
 
-/// One filling; with `refine` a second one at half the cell, which is what the gates compare.
+/// Runs one filling; with `refine` a second one at half the cell, to which the tolerances apply.
 Report run_bucket(const Setup& setup) {
   Report report;
   const Filled coarse = run_fill(setup, setup.cell, report, true);
@@ -166,7 +169,7 @@ Report run_bucket(const Setup& setup) {
   report.add("held force over the load's weight", coarse.held, "", 1, 0.98, 1.02,
              std::string("held bucket, grains may fall ") + kSource);
   report.note("loose volume over struck volume", volume / setup["volume"], "");
-  // An upright blade as wide and as deep as the drag.
+  // An upright blade of the width and depth of the drag.
   const BladeCase wedge{setup.soil.friction_angle,
                         setup.soil.tool_friction_angle,
                         kPi / 2,
@@ -179,8 +182,8 @@ Report run_bucket(const Setup& setup) {
   report.add("drag over an upright wedge of the depth",
              coarse.force / reece_wedge(wedge).horizontal, "", kNone, kNone, kNone,
              "[Reece 1964], for scale");
-  // The cell is the one length the soil does not have: a result that changes with it is the
-  // method's.
+  // The cell is the one length that the soil does not have: a result that changes with it is due to
+  // the method.
   if (setup.is("refine", "no")) return report;
   const Filled fine = run_fill(setup, setup.cell / 2, report, false);
   report.add("force over the run at half the cell", coarse.force / fine.force, "", 1, 0.75, 1.25,
@@ -190,8 +193,9 @@ Report run_bucket(const Setup& setup) {
   return report;
 }
 
-/// Highest change of the ground's surface outside the bucket's path [m]. One and a half metres
-/// beyond the drag's ends and a width beside it, soil may have been pushed or fallen.
+/// Returns the largest change of the ground's surface outside the bucket's path [m]. Soil may have
+/// been pushed, or have fallen, within one and a half metres beyond the drag's ends and a width
+/// beside it.
 double change_outside(const heightfield::Ground& ground, double width, double length) {
   double most = 0;
   for (int iy = 0; iy < ground.ny(); ++iy)
@@ -203,15 +207,16 @@ double change_outside(const heightfield::Ground& ground, double width, double le
   return most;
 }
 
-/// What the drag of `scrape` told.
+/// Results of the drag of `scrape`.
 struct Dragged {
   /// Mean forces; dragging: over the second half [N].
   Vec3 pressing = Vec3::Zero(), dragging = Vec3::Zero();
-  double load = 0;  ///< in the bucket at its end [kg]
+  /// In the bucket at its end [kg].
+  double load = 0;
 };
 
-/// Ground of its own for every drag: it wakes where the bucket comes, without particles at the
-/// start.
+/// Each drag has its own ground, which becomes particles where the bucket comes; there are none at
+/// the start.
 SiteOptions scrape_site(const Setup& setup, bool crowding) {
   SiteOptions options;
   options.size = 2 * (setup["drag"] + 4);
@@ -225,7 +230,7 @@ Dragged drag_flat(const Setup& setup, const Site& site, ToolDriver& driver) {
   const double press = setup["press"], drag = setup["drag"];
   const Vec3 ahead(setup["speed"], 0, 0);
   Dragged out;
-  // A fifth of a second, hard: a jam would show as a force without bound.
+  // A fifth of a second, hard: a jam would show as an unbounded force.
   out.pressing = driver.advance(press + 0.01, Vec3(0, 0, -(press + 0.01) / 0.2));
   driver.advance(0.5 * drag, ahead);
   // The first half fills the bucket, the second is read.
@@ -234,9 +239,9 @@ Dragged drag_flat(const Setup& setup, const Site& site, ToolDriver& driver) {
   return out;
 }
 
-/// Flat contact over the whole floor, the case in which a grid contact is most likely to jam. Held
-/// against the same drag without crowding: moving particles apart must not carry what slides over
-/// them.
+/// Runs flat contact over the whole floor, the case in which a grid contact is most likely to jam.
+/// Compared with the same drag without crowding: separating particles must not carry soil that
+/// slides over them.
 Report run_scrape(const Setup& setup) {
   const Bucket bucket(setup["width"], setup["volume"]);
   const Pose start = make_pose(0, 0.07 * setup.cell, 0.015 + 0.01);
@@ -252,10 +257,10 @@ Report run_scrape(const Setup& setup) {
   site.expect(0.2 + drag / speed + 4);
   const Dragged with = drag_flat(setup, site, driver);
   driver.advance(0.8, Vec3(0, 0, 0.8));
-  // Compressed soil that springs back would throw grains as the bucket leaves.
+  // Compressed soil that springs back would throw particles as the bucket leaves.
   const double fastest = site.solver().stats().max_speed;
   driver.set_twist(Vec3::Zero());
-  // Time to come to rest and go back into the ground, so that its surface is whole again.
+  // Time for soil to come to rest and return to the ground, so that the surface is complete again.
   driver.run(3);
   Report report;
   report.add("drag, second half", -with.dragging.x(), "N", -without.dragging.x(),
@@ -265,7 +270,7 @@ Report run_scrape(const Setup& setup) {
   report.add("vertical force, second half of the drag", std::abs(with.dragging.z()), "N", kNone,
              kNone, 1.2 * with.load * kGravity,
              std::string("the weight of the load and 20 %, either way ") + kSource);
-  // Three times the bucket's own speed: grains may roll, not be shot.
+  // Three times the bucket's own speed: particles may roll, not be thrown.
   report.add("fastest soil when the bucket lifts off", fastest, "m/s", speed, kNone, 3 * speed,
              std::string("no energy gain ") + kSource);
   report.add("ground outside the path", 1000 * change_outside(site.ground(), bucket.width, drag),
@@ -280,7 +285,7 @@ Report run_scrape(const Setup& setup) {
   return report;
 }
 
-/// Digs, carries and tips again and again at one place, on ground that exchanges soil with the
+/// Digs, carries and dumps repeatedly at one place, on ground that exchanges soil with the
 /// particles.
 Report run_cycle(const Setup& setup) {
   const Bucket bucket(setup["width"], setup["volume"]);
@@ -294,16 +299,16 @@ Report run_cycle(const Setup& setup) {
   const double away = setup["dump"];
   const Pose start = make_pose(0, 0.07 * setup.cell, 0.02, 0, scoop.attack, 0);
   ToolDriver driver(site, bucket.shell(), start);
-  // Five seconds a cycle go for lifting, tipping and waiting.
+  // Lifting, dumping and waiting take five seconds per cycle.
   site.expect(count * (scoop.seconds() + 2 * away / 3 + 5));
   Series volumes{"loose volume over struck volume", "", {}}, forces{"mean drag", "N", {}};
   double ledger = 0, sum = 0;
   for (int i = 0; i < count; ++i) {
     // Each dig begins where the last one left the floor, deeper by the step.
-    const Pose home =
+    const Pose above_hole =
         make_pose(0, 0.07 * setup.cell, 0.02 - i * setup["step-down"], 0, scoop.attack, 0);
-    // Put back rather than moved: the way home would cost time and touch nothing.
-    site.tool(driver.tool()).motion.X_WT = home;  // in the air over the hole
+    // Placed there instead of moved: the way back would cost time and touch nothing.
+    site.tool(driver.tool()).motion.X_WT = above_hole;
     forces.values.push_back(scoop.fill(driver));
     driver.advance(1.0 + i * setup["step-down"], Vec3(0, 0, 1));
     driver.set_twist(Vec3::Zero());
@@ -312,7 +317,7 @@ Report run_cycle(const Setup& setup) {
     volumes.values.push_back(loose_volume(setup.soil, mass) / setup["volume"]);
     sum += volumes.values.back();
     driver.advance(away, Vec3(0, 3, 0));
-    // Tipped, and given time for the last grains to fall.
+    // Dumped, with time for the last particles to fall.
     turn(driver, -radians(130), Vec3::Zero(), 1.3);
     driver.set_twist(Vec3::Zero());
     driver.run(1.2);
@@ -330,7 +335,7 @@ Report run_cycle(const Setup& setup) {
   report.note("last cycle", volumes.values.back(), "");
   report.add("ledger, summed over cycles", ledger, "quanta", 0, 0, 0,
              "exact: mass is counted in whole quanta [docs/exchange.md, ledger]");
-  report.note("wakes", static_cast<double>(site.solver().stats().wakes), "");
+  report.note("activated columns", static_cast<double>(site.solver().stats().activations), "");
   report.note("deposits", static_cast<double>(site.solver().stats().deposits), "");
   report.note("particles at the end", site.solver().stats().particles, "");
   report.note("particles through the shell",
@@ -340,16 +345,16 @@ Report run_cycle(const Setup& setup) {
   return report;
 }
 
-/// Shared by the rigs that fill a bucket on the path of `Scoop`.
+/// Returns the parameters of all rigs that fill a bucket on the path of `Scoop`.
 std::vector<Parameter> scoop_parameters() {
   return {{"width", 0.8, "m", "of the bucket", above(0)},
           {"volume", 0.3, "m3", "struck, of the bucket", above(0)},
-          {"depth", 0.25, "m", "of the lip in the drag", above(0)},
+          {"depth", 0.25, "m", "of the cutting edge in the drag", above(0)},
           {"drag", 0.8, "m", "level", above(0)},
-          {"speed", 0.8, "m/s", "of the lip", above(0)},
-          {"attack-deg", 30, "deg", "of the floor as the lip goes in", between(10, 80)},
-          {"curl-deg", 50, "deg", "by which it turns up behind the drag", between(1, 120)},
-          {"lift", 0.4, "m", "behind the curl, over and above `depth`", above(0)}};
+          {"speed", 0.8, "m/s", "of the cutting edge", above(0)},
+          {"attack-deg", 30, "deg", "of the floor as the edge enters", between(10, 80)},
+          {"curl-deg", 50, "deg", "by which it turns up after the drag", between(1, 120)},
+          {"lift", 0.4, "m", "after the curl, in addition to `depth`", above(0)}};
 }
 
 }  // namespace
@@ -357,19 +362,17 @@ std::vector<Parameter> scoop_parameters() {
 Rig bucket_rig() {
   Rig rig;
   rig.name = "bucket";
-  rig.summary = "bucket filled along a path: force and load, against half the cell";
+  rig.summary = "bucket filled along a path: force and load, compared with half the cell";
   rig.drawing =
-      "A bucket (flat floor, heel, back, two sides, 30 mm plates) goes into a bed with its floor "
-      "at `attack-deg`, "
-      "levels out at `depth`, is dragged `drag` at `speed`, curls by `curl-deg`, goes up by "
-      "`depth` and `lift` and "
-      "holds. `refine` yes repeats it at half the cell and compares mean force of the drag and "
-      "load.";
+      "A bucket (flat floor, heel, back, two sides, 30 mm plates) enters a bed with its floor at "
+      "`attack-deg`, levels out at `depth`, is dragged by `drag` at `speed`, curls by `curl-deg`, "
+      "rises by `depth` and `lift`, and holds. `refine` yes repeats it at half the cell and "
+      "compares the load and the mean force of the drag.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back(yes_no("refine", false, "also at half the cell", "one run"));
   rig.headline = {"mean horizontal force of the drag", "load", "held force over the load's weight",
                   "drag over an upright wedge of the depth"};
-  rig.examples = {{"Two cells and two steps in one table, with a picture",
+  rig.examples = {{"Two cells and two steps in one table, with a plot",
                    "--cell 0.1,0.05 --courant 0.5,0.25 --plot bucket.svg"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run_bucket;
@@ -381,12 +384,10 @@ Rig scrape_rig() {
   rig.name = "scrape";
   rig.summary = "bucket pressed flat on level ground and dragged: no jam, no gain of energy";
   rig.drawing =
-      "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged `drag` at "
-      "`speed` and "
-      "lifted; soil wakes and is deposited by itself. The drag's second half is held against the "
-      "same with crowding "
-      "off, "
-      "its vertical force against the weight of the load.";
+      "The bucket's floor is pressed `press` into level resting ground in 0.2 s, dragged by "
+      "`drag` at `speed`, and lifted. The ground becomes particles and takes soil back by itself. "
+      "The second half of the drag is compared with the same without crowding, its vertical force "
+      "with the weight of the load.";
   rig.parameters = {{"width", 0.8, "m", "of the bucket", above(0)},
                     {"volume", 0.3, "m3", "struck, of the bucket", above(0)},
                     {"press", 0.05, "m", "into the ground", at_least(0)},
@@ -402,9 +403,9 @@ Rig cycle_rig() {
   rig.name = "cycle";
   rig.summary = "dig and dump several times at one place: volume per pass, ledger";
   rig.drawing =
-      "The bucket's path of rig `bucket` on ground that wakes and takes soil back by itself, "
-      "`cycles` times, each "
-      "`step-down` deeper; every load is carried `dump` to the side and tipped by 130 degrees.";
+      "The bucket follows the path of rig `bucket`, `cycles` times, each `step-down` deeper, on "
+      "ground that becomes particles and takes soil back by itself. Every load is carried `dump` "
+      "to the side and dumped by a turn of 130 degrees.";
   rig.parameters = scoop_parameters();
   rig.parameters.push_back({"cycles", 3, "", "in all", count_from(1)});
   rig.parameters.push_back({"step-down", 0.15, "m", "per cycle", above(0)});

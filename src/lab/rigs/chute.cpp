@@ -11,7 +11,7 @@ namespace {
 using Triangles = std::vector<std::array<int, 3>>;
 
 /// Appends a side plate: triangles over vertices that alternate between y = 0 (even) and y = gap
-/// (odd). `corners` are those at y = 0, in an order whose normal looks along +y.
+/// (odd). `corners` are those at y = 0, in an order whose normal faces +y.
 void add_sides(scene::Shell& s, const Triangles& corners) {
   for (const auto& t : corners) {
     s.triangles.push_back({2 * t[0], 2 * t[1], 2 * t[2]});
@@ -19,22 +19,23 @@ void add_sides(scene::Shell& s, const Triangles& corners) {
   }
 }
 
-/// One corner of both side plates. They stand off by half their thickness: faces, not middles,
-/// bound the soil.
+/// Adds one corner of both side plates. They are offset by half their thickness: faces, not
+/// mid-planes, bound the soil.
 void add_pair(scene::Shell& s, const ChuteShape& c, double x, double z) {
   s.vertices.emplace_back(x, -c.half, z);
   s.vertices.emplace_back(x, c.gap + c.half, z);
 }
 
-/// The strip between corners a and b of both sides; its normal follows from their order.
+/// Adds the strip between corners a and b of both sides; its normal follows from their order.
 void add_strip(scene::Shell& s, int a, int b) {
   s.triangles.push_back({2 * a, 2 * a + 1, 2 * b + 1});
   s.triangles.push_back({2 * a, 2 * b + 1, 2 * b});
 }
 
-// Four blocks are enough for the middle to be plane; a block on either side keeps it off the
+// Four blocks are enough for the middle to be plane; a block on either side separates it from the
 // plates.
-constexpr double kRoughBlocks = 4;  ///< in the middle of a chute with friction
+/// In the middle of a chute with friction.
+constexpr double kRoughBlocks = 4;
 
 }  // namespace
 
@@ -42,11 +43,14 @@ scene::Shell blade_chute(const ChuteShape& c) {
   scene::Shell s;
   s.name = "chute";
   s.half_thickness = c.half;
-  // The plates stand on the blade's ends, so that blade and plates are one surface without a gap.
+  // The plates stand on the blade's ends, so that blade and plates form one surface without a gap.
   const double lean = -c.height / std::tan(c.rake);
-  const double x = -c.half / std::sin(c.rake);  // of the lip's middle
-  add_pair(s, c, x, 0);                         // 0 lip
-  add_pair(s, c, x + lean, c.height);           // 1 the blade's upper edge
+  // Of the edge's mid-plane.
+  const double x = -c.half / std::sin(c.rake);
+  // 0: cutting edge.
+  add_pair(s, c, x, 0);
+  // 1: the blade's upper edge.
+  add_pair(s, c, x + lean, c.height);
   add_pair(s, c, c.ahead, c.top);
   add_pair(s, c, c.ahead, c.bottom);
   add_pair(s, c, -c.back, c.bottom);
@@ -60,7 +64,7 @@ scene::Shell chute_sides(const ChuteShape& c) {
   scene::Shell s;
   s.name = "sides";
   s.half_thickness = c.half;
-  // Smooth whatever the soil: what the blade's own shell feels along its face is then the blade's
+  // Smooth for any soil: the force on the blade's shell along its face is then that of the blade
   // alone.
   s.friction_share = s.adhesion_share = 0;
   add_pair(s, c, -c.back, c.bottom);
@@ -73,7 +77,7 @@ scene::Shell chute_sides(const ChuteShape& c) {
 
 scene::Shell chute_blade(const ChuteShape& c) {
   scene::Shell s;
-  // From plate middle to plate middle, so that no soil passes its ends.
+  // From plate mid-plane to plate mid-plane, so that no soil passes its ends.
   s.name = "blade";
   s.half_thickness = c.half;
   const double x = -c.half / std::sin(c.rake);
@@ -99,7 +103,8 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
   add_pair(s, c, -half, c.top);
   add_sides(s, {{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}});
   // The sole, then both flanks of the stem.
-  add_strip(s, 0, 1);  // looks down
+  // Faces down.
+  add_strip(s, 0, 1);
   add_strip(s, 1, 2);
   add_strip(s, 7, 0);
   return s;
@@ -107,7 +112,7 @@ scene::Shell footing_chute(const ChuteShape& c, double breadth) {
 
 double chute_offset(double cell) { return 0.07 * cell; }
 
-// Measured, see the header: the force no longer depends on it.
+// Measured, see the header: the force does not depend on it any more.
 double chute_width(double cell) { return 8 * cell; }
 
 double chute_half(double cell) { return 0.25 * cell; }
@@ -115,9 +120,9 @@ double chute_half(double cell) { return 0.25 * cell; }
 double chute_gap(const Setup& setup, double& share) {
   const bool rough = setup.soil.tool_friction_angle > 0 || setup.soil.adhesion > 0;
   const double block = soil::kBlockCells * setup.cell;
-  // The part of the width that carries tool friction; none for a smooth tool.
+  // Share of the width that carries tool friction; none for a smooth tool.
   share = rough ? kRoughBlocks / (kRoughBlocks + 2) : 0;
-  // Smooth plates need no more than a few cells: nothing varies across them.
+  // Smooth plates need only a few cells: nothing varies across them.
   return rough ? (kRoughBlocks + 2) * block : 5 * setup.cell;
 }
 
@@ -144,16 +149,16 @@ std::vector<soil::Particle> chute_fill(const Site& site, const ChuteBed& bed, do
                                        bool rough, const std::function<bool(const Vec3&)>& keep,
                                        const std::function<double(double, double)>& surface) {
   const double cell = site.cell(), inset = chute_offset(cell), block = soil::kBlockCells * cell;
-  // Soil fills the chute alone; the margin outside the plates stays empty.
+  // Soil fills only the chute; the margin outside the plates stays empty.
   const SiteBox box{Vec3(-bed.back, inset, -bed.below), Vec3(bed.ahead, inset + gap, 0)};
   auto out = site.fill(box, keep, rough ? 0 : 1);
   if (rough)
     for (soil::Particle& p : out) {
       const double y = site.position(p).y();
-      // Against the plates lies the smooth kind of the same soil.
+      // The smooth variant of the same soil lies against the plates.
       if (y < block || y > gap - block) p.soil = 1;
     }
-  // Both kinds weigh the same: one stress at rest for all.
+  // Both variants have the same weight: one stress at rest for all.
   site.rest(out, surface);
   return out;
 }

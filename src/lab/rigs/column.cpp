@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `column`: granular column collapse, plane or axisymmetric.
 //
-// A column that is let go spreads, stops and leaves a deposit; how far and how high depends on the
-// aspect ratio a alone, hardly on the grains. So the laws of the literature hold for any sand, and
-// the rig needs no material data. Between plates the collapse is plane strain, the state in which
-// the law's friction angle is defined; the free cylinder is nearer to triaxial states and spreads a
-// little less than its law. Below 30 cells of length the run-out falls short, as the thin tongue at
-// the front is then a cell high.
+// A released column spreads, stops and leaves a deposit. Run-out and height depend on the aspect
+// ratio a alone and hardly on the grains. The laws of the literature therefore hold for any sand,
+// and the rig needs no material data. Between plates the collapse is plane strain, in which the
+// law's friction angle is defined; the free cylinder is closer to triaxial states and spreads a
+// little less than its law. Below 30 cells of length the run-out is too short, as the thin tongue
+// at the front is then a cell high.
 #include <algorithm>
 #include <cmath>
 
@@ -21,26 +21,27 @@ namespace navvy::lab {
 namespace {
 
 const char* const kChapter = "[docs/validation.md, Columns and collapse]";
-constexpr int kSamples = 40;  ///< of the front, 0.1 tau apart in the default `time`
+/// Samples of the front, 0.1 tau apart for the default `time`.
+constexpr int kSamples = 40;
 
-/// What is let go. `length` is L0 of a plane column, R0 of a round one.
+/// The released column. `length` is L0 of a plane column, R0 of a round one.
 struct Column {
   bool axisymmetric;
   double a, length, height, gap;
   double front(const Vec3& p) const { return axisymmetric ? p.head<2>().norm() : p.x(); }
 };
 
-/// Between smooth plates, against a third one; the plates stand a little off the grid's planes, as
-/// any plate does.
+/// Builds a column between smooth plates, against a third one. The plates are a little off the
+/// grid's planes, as any plate is.
 void build_plane(Site& site, const Column& column) {
   const double cell = site.cell(), x0 = 0.13 * cell, y0 = 0.07 * cell;
   scene::Shell walls = channel(column.length * (2 + 4 * column.a), column.gap, -6 * cell,
                                column.height + 8 * cell, true);
-  // Plates long enough for the widest run-out, low enough that no grain creeps under, high enough
-  // for the splash.
+  // Plates long enough for the widest run-out, low enough that no particle passes under them, high
+  // enough for the splash.
   walls.half_thickness = 0.2 * cell;
   site.add_tool(walls, make_pose(x0, y0, 0));
-  // A quarter cell: half the spacing of particles, face and first row apart
+  // A quarter of a cell: half the spacing of particles, between face and first row.
   const double inset = 0.25 * cell;
   const SiteBox box{Vec3(x0 + inset, y0 + inset, 0),
                     Vec3(x0 + column.length, y0 + column.gap - inset, column.height)};
@@ -59,8 +60,8 @@ void build_round(Site& site, const Column& column) {
   site.solver().insert(soil);
 }
 
-/// Grains that fly ahead of the heap are no front: only those in contact count, and of them all but
-/// the first percent.
+/// Returns the front. Particles that fly ahead of the heap do not count: only those in contact,
+/// without the first percent.
 double front_of(const Site& site, const Column& column) {
   std::vector<double> distance;
   for (const Vec3& p : in_contact(site, site.solver().particles()))
@@ -68,13 +69,13 @@ double front_of(const Site& site, const Column& column) {
   return percentile(std::move(distance), 0.99);
 }
 
-/// When the front moves [tau]: `accelerates` until its speed first reaches 95 % of the highest
-/// (read over 0.2 tau), `stops` when it has covered 99 % of its way.
+/// Times of the front [tau]: `accelerates` until its speed first reaches 95 % of the highest (over
+/// 0.2 tau), `stops` when it has covered 99 % of its run-out.
 struct FrontTimes {
   double accelerates = kNone, stops = kNone;
 };
 
-/// `time` [tau] and `front` in any unit, the first at rest.
+/// Finds the times. `time` [tau] and `front` in any unit, the first at rest.
 FrontTimes times_of(const std::vector<double>& time, const std::vector<double>& front) {
   FrontTimes out;
   std::vector<double> speed;
@@ -85,8 +86,8 @@ FrontTimes times_of(const std::vector<double>& time, const std::vector<double>& 
   const double far = front.front() + 0.99 * (front.back() - front.front());
   const auto risen =
       std::find_if(speed.begin(), speed.end(), [fast](double v) { return v >= fast; });
-  // The first sample at this speed, not the last: later the front only loses speed.
-  // The middle of its two intervals
+  // The first sample at this speed, not the last: later the front only slows down. Centre of its
+  // two intervals.
   out.accelerates = time[static_cast<std::size_t>(risen - speed.begin()) + 1];
   for (std::size_t i = 1; i < time.size() && std::isnan(out.stops); ++i)
     if (front[i] >= far)
@@ -95,7 +96,7 @@ FrontTimes times_of(const std::vector<double>& time, const std::vector<double>& 
   return out;
 }
 
-/// Two laws are printed for the plane height since they part by a tenth; neither is a gate.
+/// Two laws are listed for the plane height since they differ by a tenth; neither has a tolerance.
 void judge_height(const Column& c, double height, Report& report) {
   const double h = height / c.length;
   if (c.axisymmetric) {
@@ -113,8 +114,9 @@ void judge(const Setup& setup, const Column& c, double run_out, double height, R
   const std::string source =
       std::string(c.axisymmetric ? "[Lube 2004] " : "[Lube 2005] ") + kChapter;
   const double expected = c.axisymmetric ? lube_axisymmetric_run_out(c.a) : lube_plane_run_out(c.a);
-  // Bands around the law, as published runs scatter; wider for tall columns.
-  double low = kNone, high = kNone;  // bands are given for these aspect ratios only
+  // Ranges around the law, as published runs scatter; wider for tall columns.
+  // Ranges exist for these aspect ratios only.
+  double low = kNone, high = kNone;
   if (!c.axisymmetric && c.a == 1) low = 1.2, high = 1.8;
   if (!c.axisymmetric && c.a == 5)
     low = 1.6 * std::pow(5, 2.0 / 3), high = 2.7 * std::pow(5, 2.0 / 3);
@@ -129,20 +131,21 @@ void judge(const Setup& setup, const Column& c, double run_out, double height, R
   judge_height(c, height, report);
 }
 
-/// Builds the column at rest, lets it go at once, and samples the front until all is still.
+/// Builds the column at rest, releases it at once, and samples the front until everything is still.
 Report run(const Setup& setup) {
   const Column column{setup.is("shape", "round"), setup["a"], setup["l0"], setup["a"] * setup["l0"],
                       setup["gap"] * setup.cell};
   SiteOptions options;
-  // Room for a run-out of 4 a on every side, well over any that is seen.
+  // Space for a run-out of 4 a on every side, well above any observed.
   options.size = 2 * column.length * (2 + 4 * column.a);
   options.depth = 8 * setup.cell;
   Setup smooth = setup;
-  if (!column.axisymmetric) smooth.soil = without_tool_friction(setup.soil);  // the side plates
+  // The side plates.
+  if (!column.axisymmetric) smooth.soil = without_tool_friction(setup.soil);
   Site site(smooth, options);
   column.axisymmetric ? build_round(site, column) : build_plane(site, column);
 
-  // The time of free fall over the height orders all phases of a collapse.
+  // The time of free fall over the height scales all phases of a collapse.
   const double tau = std::sqrt(column.height / kGravity), seconds = setup["time"] * tau;
   site.expect(seconds);
   Series time{"time over tau", "", {}}, front{"front over L0", "", {}};
@@ -153,8 +156,8 @@ Report run(const Setup& setup) {
   }
 
   Report report;
-  // The height is read from the surface a ball rolls on: the topmost grain stands above what
-  // carries others.
+  // The height is that of the rolling-ball surface: the topmost particle is higher than the support
+  // of others.
   const HeapSurface surface =
       surface_of(in_contact(site, site.solver().particles()), setup.cell, 0);
   judge(setup, column, front.values.back(), surface.highest(), report);
@@ -163,7 +166,7 @@ Report run(const Setup& setup) {
              std::string("[Lube 2004] [Lube 2005] ") + kChapter);
   report.add("front stops after", times.stops, "tau", 3, kNone, kNone,
              std::string("near 3 tau [Lube 2004] [Lube 2005] ") + kChapter);
-  // A leak would shorten the run-out without a word.
+  // A leak would shorten the run-out unnoticed.
   report.note("particles through a plate",
               static_cast<double>(site.solver().stats().shell_crossings), "");
   report.series = {time, front};
@@ -176,22 +179,16 @@ Report run(const Setup& setup) {
 Rig column_rig() {
   Rig rig;
   rig.name = "column";
-  rig.summary =
-      "column collapse: run-out and height of a plane or round column of sand that is let go";
+  rig.summary = "column collapse: run-out and height of a released plane or round column of sand";
   rig.drawing =
       "`shape` plane: a block `l0` long and a x l0 high stands on rough level ground between two "
-      "smooth plates `gap` "
-      "cells apart, its back against a third plate, and is let go on its free side. `shape` round: "
-      "a free-standing "
-      "cylinder of radius `l0`, no plates. After `time` x sqrt(H0/g) the run-out is the 99th "
-      "percentile of the "
-      "distances of particles that touch others; the height is that of the surface over the heap. "
-      "The front "
-      "accelerates until its speed is within 5 % of the highest, and stops when 99 % of the way is "
-      "done. The ground "
-      "holds the lowest layer, so the floor's friction is the soil's own. Bands hold for l0 of at "
-      "least 30 cells, phi "
-      "33 and a = 1 or 5 (plane), 1 or 3 (round).";
+      "smooth plates `gap` cells apart, its back against a third plate, and is released on its "
+      "free side. `shape` round: a free cylinder of radius `l0`, without plates. After `time` x "
+      "sqrt(H0/g) the run-out is the 99th percentile of the distances of particles in contact; "
+      "the height is that of the surface over the heap. The front accelerates until its speed is "
+      "within 5 % of the highest, and stops when it has covered 99 % of its run-out. The ground "
+      "holds the lowest layer, so the floor has the soil's own friction. Tolerances apply to l0 "
+      "of at least 30 cells, phi 33 and a = 1 or 5 (plane), 1 or 3 (round).";
   rig.examples = {
       {"Negative control: nearly rigid sand must fall outside the band", "--phi-deg 59"}};
   rig.parameters = {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `cone`: heaps built at a given angle, one that should stand and one that should slide.
 //
-// The sharp pair to `pour`: nothing falls here, the heap simply stands there at an angle a little
-// below or above what its friction holds. A law with a threshold keeps the first and loses the
-// second; viscosity in disguise would lose both slowly.
+// This is a sharper test than `pour`: nothing falls; the heap starts at an angle a little below or
+// above what its friction holds. A law with a threshold keeps the first and loses the second.
+// Viscosity in place of a threshold would lose both slowly.
 #include <algorithm>
 #include <cmath>
 
@@ -18,13 +18,15 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Swell, pouring and heaps]";
 
-/// What became of one heap.
+/// Result of one heap.
 struct Outcome {
-  double before = 0, after = 0;  ///< flank angle [deg]
-  double moved = 0;              ///< 99th percentile of displacements [m]
+  /// Flank angle [deg].
+  double before = 0, after = 0;
+  /// 99th percentile of displacements [m].
+  double moved = 0;
 };
 
-/// Builds a heap at `angle` [deg], lets it be for `time`, and books the run into the report.
+/// Builds a heap at `angle` [deg], waits for `time`, and adds the run to the report.
 Outcome stand(const Setup& setup, double angle, Report& report) {
   const bool round = setup.is("shape", "cone");
   const double base = setup["base"], cell = setup.cell, gap = setup["gap"] * cell,
@@ -46,7 +48,7 @@ Outcome stand(const Setup& setup, double angle, Report& report) {
   const auto surface = [=](double x, double y) {
     return slope * (base - (round ? std::hypot(x, y) : std::abs(x)));
   };
-  // A quarter of a cell off the plates, half the spacing of particles; the plates stand off the
+  // A quarter of a cell off the plates, half the spacing of particles; the plates are off the
   // grid's planes.
   const double y = round ? base : gap / 2 - 0.25 * cell, middle = round ? 0 : 0.07 * cell;
   auto soil = site.fill({Vec3(-base, middle - y, 0), Vec3(base, middle + y, slope * base)},
@@ -55,7 +57,7 @@ Outcome stand(const Setup& setup, double angle, Report& report) {
   // shear themselves.
   site.rest(soil, surface);
   site.solver().insert(soil);
-  // The same reading before and after: a bias of the measure falls out of the difference.
+  // The same reading before and after: its bias cancels in the difference.
   const auto flank = [&] {
     return degrees(flank_angle(surface_of(in_contact(site, site.solver().particles()), cell, 0),
                                Vec2::Zero(), round, cell));
@@ -68,19 +70,20 @@ Outcome stand(const Setup& setup, double angle, Report& report) {
   const auto end = site.solver().particles();
   for (std::size_t i = 0; i < end.size(); ++i)
     moved.push_back((site.position(end[i]) - site.position(soil[i])).norm());
-  // The last percent are grains that roll down the flank one by one.
+  // The last percent are particles that roll down the flank one by one.
   out.moved = percentile(std::move(moved), 0.99);
   site.finish(report);
   return out;
 }
 
-/// One heap that must stand and one that must slide, both judged by the change of their angle.
+/// Runs one heap that must stand and one that must slide; both are judged by the change of their
+/// angle.
 Report run(const Setup& setup) {
   Report report;
   const double phi = degrees(setup.soil.friction_angle);
   const Outcome low = stand(setup, phi + setup["stands"], report),
                 high = stand(setup, phi + setup["slides"], report);
-  // What was built is read like what is left: the lattice makes steps of the flank.
+  // The built heap is read like the remaining one: the lattice makes steps in the flank.
   report.note("lower heap, angle built", low.before, "deg");
   report
       .add("lower heap, angle lost", low.before - low.after, "deg", 0, kNone, 1,
@@ -106,12 +109,10 @@ Rig cone_rig() {
   rig.summary = "heaps built at an angle: one must stand, a steeper one must slide";
   rig.drawing =
       "A heap of half width `base` is built on rough level ground with straight flanks and the "
-      "vertical stress of the "
-      "soil above each point, once at phi + `stands` and once at phi + `slides` degrees. It is "
-      "watched for `time`. It "
-      "stands when its flank loses at most 1 degree, it slides when it loses at least 1.5. `shape` "
-      "plane: between "
-      "smooth plates `gap` cells apart; cone: free (triaxial: weaker than phi says).";
+      "vertical stress of the soil above each point, once at phi + `stands` and once at phi + "
+      "`slides` degrees, and then observed for `time`. It stands if its flank loses at most 1 "
+      "degree, and slides if it loses at least 1.5. `shape` plane: between smooth plates `gap` "
+      "cells apart; cone: free (triaxial, with a lower strength than phi gives).";
   rig.parameters = {
       choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
       {"base", 2, "m", "half width", above(0)},

@@ -3,9 +3,9 @@
 // kernels themselves strain.
 //
 // The law by itself is tested without a grid (tests/soil/particles). Here the same strains come
-// through transfers, contact and steps, as in any dig, and the stress is read from the particles in
-// the middle, so that rims, lids and plates only have to strain the sample and are not what is
-// measured. There is no gravity: the sample is the same everywhere.
+// through transfers, contact and steps, as in any dig. Stress is read from the particles in the
+// middle, so that rims, lids and plates only strain the sample and are not measured. There is no
+// gravity: the sample is uniform.
 #include <algorithm>
 #include <cmath>
 
@@ -36,12 +36,12 @@ Stress stress_in(const Site& site, const SiteBox& box) {
     sum.zz += pressure - static_cast<double>(p.s[2]);
     count += 1;
   }
-  // No particle in the middle: not a stress of nothing.
+  // No particle in the middle: not a zero stress.
   count = count > 0 ? count : kNone;
   return {sum.xx / count, sum.yy / count, sum.zz / count};
 }
 
-/// Particles under the pressure `p` on all sides, from the start.
+/// Returns particles under the pressure `p` on all sides, from the start.
 std::vector<soil::Particle> pressed(const Site& site, const SiteBox& box, double p) {
   auto out = site.fill(box);
   const double bulk = site.soil().young_modulus / (3 * (1 - 2 * site.soil().poisson));
@@ -49,7 +49,8 @@ std::vector<soil::Particle> pressed(const Site& site, const SiteBox& box, double
   return out;
 }
 
-/// Site without gravity, its ground a pit of the sample's size whose floor and walls rest.
+/// Returns a site without gravity, its ground a pit of the sample's size whose floor and walls
+/// rest.
 SiteOptions weightless(const SiteBox& sample, double floor, double cell) {
   SiteOptions out;
   const double reach = std::max(sample.high.x(), sample.high.y());
@@ -63,7 +64,8 @@ SiteOptions weightless(const SiteBox& sample, double floor, double cell) {
 /// Six smooth plates around the sample.
 struct Press {
   std::vector<int> tools;
-  std::vector<Vec3> outward;  ///< by tool, its plate's direction
+  /// Direction of a tool's plate, by tool.
+  std::vector<Vec3> outward;
 
   Press(Site& site, double half, double thickness) {
     for (int axis = 0; axis < 3; ++axis)
@@ -72,7 +74,7 @@ struct Press {
         scene::Shell shell = plate(3 * half, 3 * half);
         shell.half_thickness = thickness;
         Pose X = Pose::Identity();
-        // The plate's front looks along its z, at the sample.
+        // The plate's front faces the sample along its z.
         X.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), -n).toRotationMatrix();
         X.translation() = (half + thickness) * n;
         tools.push_back(site.add_tool(shell, X));
@@ -80,27 +82,29 @@ struct Press {
       }
   }
 
-  /// Plates move at the speed that their place has in the even strain.
+  /// Plates move at the speed of their place in the uniform strain.
   void strain(Site& site, double half, const Vec3& rate) const {
     for (std::size_t i = 0; i < tools.size(); ++i)
       site.tool(tools[i]).motion.v_WT = half * rate.cwiseProduct(outward[i]);
   }
 };
 
-/// Sine of the angle that the largest and the least of three stresses mobilise: tau / sigma of the
-/// plane that shears.
+/// Returns the sine of the angle that the largest and the least of three stresses mobilise: tau /
+/// sigma of the shearing plane.
 double mobilised(const Stress& s) {
   const double most = std::max({s.xx, s.yy, s.zz}), least = std::min({s.xx, s.yy, s.zz});
   return std::clamp((most - least) / (most + least), -1.0, 1.0);
 }
 
-/// What one straining gave.
+/// Results of one straining.
 struct Strained {
-  double sine = 0;  ///< mobilised, mean of the last quarter
-  Stress last;      ///< at the end
+  /// Mobilised, mean of the last quarter.
+  double sine = 0;
+  /// At the end.
+  Stress last;
 };
 
-/// Strains a cube evenly by `rate` [1/s], without change of volume, until the largest strain is
+/// Strains a cube uniformly by `rate` [1/s], without change of volume, until the largest strain is
 /// `strain`.
 Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   const double cell = setup.cell, half = 0.5 * setup["edge"] * cell, p = setup["pressure-pa"];
@@ -110,7 +114,7 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   // In the air: a pit twice as wide and as deep as the sample.
   Site site(smooth, weightless(SiteBox{2 * sample.low, 2 * sample.high}, -half - 8 * cell, cell));
   auto soil = pressed(site, sample, p);
-  // The sample moves evenly from the start, plates and all: no wave runs through it.
+  // The sample and its plates move uniformly from the start: no wave runs through it.
   for (soil::Particle& grain : soil)
     for (int a = 0; a < 3; ++a) {
       grain.v[a] = static_cast<float>(rate[a] * site.position(grain)[a]);
@@ -138,14 +142,14 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   return out;
 }
 
-/// Whether the theory of both rigs speaks of this setup.
+/// Returns true if the theory of both rigs applies to this setup.
 bool plain(const Setup& setup) {
   return !(setup.soil.cohesion > 0) && !(setup.soil.dilatancy_angle > 0) &&
          setup["strain"] > 0.0399;
 }
 
 Report run_shear(const Setup& setup) {
-  // Pressed along x, let go along z, y kept: the planes between shear.
+  // Compression along x, extension along z, y fixed: the planes between them shear.
   const double speed = setup["speed"], rate = speed / (0.5 * setup["edge"] * setup.cell);
   Report report;
   const Strained got = strain_cube(setup, Vec3(-rate, 0, rate), report);
@@ -191,15 +195,11 @@ Rig shear_rig() {
   rig.summary =
       "shear of a sample in plane strain: tau over sigma in its middle is sin phi, at any speed";
   rig.drawing =
-      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six "
-      "smooth plates: one pair "
-      "closes at `speed` each, one opens as fast, the third stays, until the strain is `strain`. "
-      "tau over sigma is "
-      "that "
-      "of the planes that shear, (s1 - s3) / (s1 + s3) of the mean stress of the particles in the "
-      "middle, over the "
-      "last "
-      "quarter; what plates feel is not used.";
+      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, lies between six "
+      "smooth plates. One pair closes at `speed` each, one opens at the same speed, and the third "
+      "stays, until the strain is `strain`. tau over sigma is that of the shearing planes, (s1 - "
+      "s3) / (s1 + s3) of the mean stress of the particles in the middle, over the last quarter. "
+      "Forces on plates are not used.";
   rig.examples = {{"As slow as a machine ever moves", "--speed 0.005"}};
   rig.parameters = {{"edge", 8, "cells", "of the cube", above(0)},
                     {"pressure-pa", 10000, "Pa", "at the start", above(0)},
@@ -215,18 +215,15 @@ Rig triaxial_rig() {
   rig.name = "triaxial";
   rig.summary = "triaxial compression and extension: the mobilised friction angle";
   rig.drawing =
-      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, between six "
-      "smooth plates: its axis "
-      "is "
-      "strained by `strain` at `rate`, its sides by half of it the other way, so that its volume "
-      "stays. The angle is "
-      "that of the largest and least mean stress of the particles in the middle, over the last "
-      "quarter. Sand stands 2 "
-      "to 4 degrees below its plane-strain angle here, in compression as in extension.";
+      "A cube of `edge` cells under `pressure-pa` on all sides, without gravity, lies between six "
+      "smooth plates. Its axis is strained by `strain` at `rate`, its sides by half of it in the "
+      "opposite direction, so that its volume is constant. The angle is that of the largest and "
+      "least mean stress of the particles in the middle, over the last quarter. Sand has 2 to 4 "
+      "degrees less than its plane-strain angle here, in compression and in extension.";
   rig.examples = {{"Extension", "--path extension"}};
   rig.parameters = {choice("path", "compression", "",
-                           {{"compression", 0, "the axis is pressed, the sides give way"},
-                            {"extension", 1, "the axis gives way, the sides are pressed"}}),
+                           {{"compression", 0, "the axis is compressed, the sides extend"},
+                            {"extension", 1, "the axis extends, the sides are compressed"}}),
                     {"edge", 12, "cells", "of the cube", above(0)},
                     {"pressure-pa", 10000, "Pa", "at the start", above(0)},
                     {"rate", 0.1, "1/s", "of the axial strain", above(0)},

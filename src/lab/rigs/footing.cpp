@@ -3,11 +3,11 @@
 // plate).
 //
 // A strip pressed into weightless soil has an exact limit load: 5.14 c for clay, and Nq times a
-// surcharge that lies beside it. Weightless is what makes it exact, so gravity is off or turned far
-// down. Zero dilatancy lowers Nq of a frictional soil below its associated value, to about that of
-// Davis's angle; the gates hold both ends. The shell feels soil up to a cell away: it is made
-// narrower by an offset. The plate on real ground gives the pressure-sinkage curve that wheel
-// formulas are made of; the law of the particles was not fitted to it.
+// surcharge beside it. Only weightless soil makes it exact, so gravity is off or very small. Zero
+// dilatancy reduces Nq of a frictional soil below its associated value, to about that of Davis's
+// angle; the tolerances cover both ends. The shell acts on soil up to a cell away, so it is made
+// narrower by an offset. The plate on real ground gives the pressure-sinkage curve of wheel
+// formulas; the law of the particles was not fitted to it.
 #include <algorithm>
 #include <cmath>
 
@@ -26,8 +26,8 @@ namespace {
 const char* const kSource = "[docs/validation.md, Footings and plates]";
 
 /// The surcharge layer: thickness [cells] and density, and the density of the soil under it
-/// [kg/m3]. Gravity is scaled so that the layer weighs the wanted surcharge; the soil's own weight
-/// is then small beside it.
+/// [kg/m3]. Gravity is scaled so that the layer has the wanted weight; the soil's own weight is
+/// then small beside it.
 constexpr double kLayerCells = 2, kLayerDensity = 19000, kSoilDensity = 190;
 
 /// Lengths of the experiment, soil in whole cells [m].
@@ -41,32 +41,33 @@ Strip strip_of(const Setup& setup) {
           whole_cells(setup["below"] * breadth, cell), setup["settlement"] * breadth};
 }
 
-/// Smooth soil below, a strengthless layer above it; the layer is left out without surcharge.
+/// Returns smooth soil and a strengthless layer above it; without surcharge there is no layer.
 std::vector<scene::Soil> strip_soils(const Setup& setup) {
   scene::Soil soil = chute_soils(setup.soil)[1];
   // Nearly weightless beside its surcharge, as the factor Nq is defined.
   if (setup["surcharge-pa"] > 0) soil.bank_density = kSoilDensity;
-  // The layer only weighs: strength in it would add to what is measured.
+  // The layer only weighs: its strength would add to the result.
   scene::Soil layer = soil;
   layer.name = "surcharge";
   layer.bank_density = kLayerDensity;
-  layer.friction_angle = radians(0.5);  // practically a liquid
+  // Practically a liquid.
+  layer.friction_angle = radians(0.5);
   layer.cohesion = layer.residual_cohesion = 0;
   return {soil, layer};
 }
 
-/// Soil at rest under its surcharge, and the layer beside the place of the footing, at rest under
-/// its own weight.
+/// Adds soil at rest under its surcharge, and the layer beside the place of the footing, at rest
+/// under its own weight.
 void place_footing(Site& site, const Strip& strip, double surcharge) {
   const double cell = site.cell(), y = chute_offset(cell), low = -strip.ahead - strip.breadth / 2,
                high = -low;
-  // In the chute only, not in the pit's margin outside the plates.
+  // Only in the chute, not in the pit's margin outside the plates.
   auto bed = site.fill({Vec3(low, y, -strip.below), Vec3(high, y + strip.gap, 0)});
   site.rest(bed, 0.0, surcharge);
   site.solver().insert(bed);
   if (!(surcharge > 0)) return;
   const double top = kLayerCells * cell;
-  // A tenth of a cell off the stem, or the first row would start inside its reach.
+  // A tenth of a cell off the stem; otherwise the first row would start inside its reach.
   const auto beside = [&](const Vec3& p) {
     return std::abs(p.x()) > strip.breadth / 2 + 0.1 * cell;
   };
@@ -77,7 +78,7 @@ void place_footing(Site& site, const Strip& strip, double surcharge) {
   site.solver().insert(layer);
 }
 
-/// The pit, and the gravity that makes the factor one of strength alone.
+/// Returns the pit, and the gravity that makes the factor one of strength alone.
 SiteOptions strip_site(const Setup& setup, const Strip& strip) {
   const double cell = setup.cell, half = strip.ahead + strip.breadth / 2, q = setup["surcharge-pa"];
   // No wider than the soil needs: the ground around it is at rest and costs nothing.
@@ -93,8 +94,8 @@ SiteOptions strip_site(const Setup& setup, const Strip& strip) {
   return out;
 }
 
-/// Reads the one factor that the load case leaves: Nq under a surcharge, Nc without. Gates hold for
-/// the angles whose bounds by associated flow and by zero dilatancy are known.
+/// Reads the factor of the load case: Nq under a surcharge, Nc without. Tolerances apply to the
+/// angles whose bounds by associated flow and by zero dilatancy are known.
 void judge(const Setup& setup, double pressure, Report& report) {
   const double phi = setup.soil.friction_angle, c = setup.soil.cohesion, q = setup["surcharge-pa"];
   if (q > 0) {
@@ -110,7 +111,7 @@ void judge(const Setup& setup, double pressure, Report& report) {
                "[Davis 1968], zero dilatancy");
     return;
   }
-  // Only this case has a solution without assumptions; with friction weight or flow rule come in.
+  // Only this case has a solution without assumptions; with friction, weight or flow rule matter.
   const bool exact = phi < 1e-6 && setup.is("weightless", "yes");
   const double nc = bearing_nc(phi);
   report
@@ -123,7 +124,7 @@ void judge(const Setup& setup, double pressure, Report& report) {
 /// Presses the strip in at constant speed; the factor is read where the load no longer grows.
 Report run_footing(const Setup& setup) {
   const double cell = setup.cell, q = setup["surcharge-pa"];
-  // Neither cohesion nor surcharge: the limit load would be nothing, and the factor 0 / 0.
+  // With neither cohesion nor surcharge the limit load would be zero, and the factor 0 / 0.
   if (!(q > 0) && !(setup.soil.cohesion > 0))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "lab footing --surcharge-pa", "0",
                            "above 0 for soil without cohesion",
@@ -135,21 +136,19 @@ Report run_footing(const Setup& setup) {
   shape.half = chute_half(cell), shape.gap = strip.gap,
   shape.top = (kLayerCells + 6) * cell + strip.settlement;
   shape.ahead = strip.ahead + strip.breadth / 2 + 3 * cell, shape.bottom = -strip.below - 3 * cell;
-  // Faces of the stem stand half a plate outside the breadth's lines, the sole's face at the
-  // ground.
+  // Faces of the stem lie half a plate outside the breadth's lines, the sole's face at the ground.
   const double inset = shape.half + setup["offset"] * cell;
-  // A stem as broad as the sole: soil that rises beside the footing presses on nothing but its
-  // flanks.
+  // A stem as wide as the sole: soil that rises beside the footing presses only on its flanks.
   ToolDriver driver(site, footing_chute(shape, strip.breadth - 2 * inset),
                     make_pose(0, chute_offset(cell), shape.half));
-  // Slow against the speed of sound; the force of inertia is small beside c.
+  // Slow against the speed of sound; the inertial force is small beside c.
   const double speed = setup["speed"], seconds = strip.settlement / speed;
   site.expect(seconds);
   driver.advance(strip.settlement, Vec3(0, 0, -speed));
-  // Pressure is over the nominal breadth, not over the shell that was narrowed.
+  // Pressure refers to the nominal breadth, not to the narrowed shell.
   const double area = strip.breadth * strip.gap;
   const Trace& trace = driver.trace();
-  // The whole curve goes into the file: a limit that is not reached shows there.
+  // The whole curve goes into the file: it shows a limit that is not reached.
   Series travel{"settlement over breadth", "", {}}, pressure{"pressure", "Pa", {}};
   for (int i = 0; i < 20; ++i) {
     const double from = i * strip.settlement / 20, to = (i + 1) * strip.settlement / 20;
@@ -157,7 +156,7 @@ Report run_footing(const Setup& setup) {
     pressure.values.push_back(mean_force(trace, from, to).z() / area);
   }
   Report report;
-  // A plateau shows in the last fifth being no more than the middle one.
+  // At a plateau the last fifth is no more than the middle one.
   const double last = mean_force(trace, 0.8 * strip.settlement, strip.settlement).z() / area;
   judge(setup, last, report);
   const double middle =
@@ -170,7 +169,7 @@ Report run_footing(const Setup& setup) {
   return report;
 }
 
-/// Presses the plate in and fits p = k z^n through the curve, by least squares of the logarithms.
+/// Presses the plate in and fits p = k z^n to the curve, by least squares of the logarithms.
 Report run_plate(const Setup& setup) {
   const double cell = setup.cell, b = setup["breadth"], l = setup["length"],
                deep = setup["sinkage"];
@@ -188,7 +187,7 @@ Report run_plate(const Setup& setup) {
   scene::Shell shell = plate(l, b);
   ToolDriver driver(site, shell, make_pose(0.03 * cell, 0.07 * cell, shell.half_thickness));
   const double speed = setup["speed"];
-  // The bed is five breadths wide and two deeper than the sinkage: its walls are not felt.
+  // The bed is five breadths wide and two deeper than the sinkage: its walls have no effect.
   site.expect(deep / speed);
   driver.advance(deep, Vec3(0, 0, -speed));
   Series depth{"sinkage", "m", {}}, pressure{"pressure", "Pa", {}};
@@ -197,7 +196,7 @@ Report run_plate(const Setup& setup) {
     const double from = i * deep / 20, to = (i + 1) * deep / 20;
     depth.values.push_back(0.5 * (from + to));
     pressure.values.push_back(mean_force(driver.trace(), from, to).z() / (b * l));
-    // The first tenth is the plate finding its contact.
+    // In the first tenth the plate finds its contact.
     if (i < 2 || !(pressure.values.back() > 0)) continue;
     log_z.push_back(std::log(depth.values.back())),
         log_p.push_back(std::log(pressure.values.back()));
@@ -227,29 +226,26 @@ Rig footing_rig() {
   rig.summary = "strip footing on weightless soil: bearing capacity factors Nc and Nq";
   rig.drawing =
       "A smooth strip of `breadth` with an upright stem is pressed into level soil at `speed`, in "
-      "plane strain "
-      "between smooth plates. Without surcharge gravity is off (`weightless` yes) and the factor "
-      "is the pressure over "
-      "c at the last fifth of `settlement`. With `surcharge-pa` a layer of two cells lies on the "
-      "soil beside the "
-      "footing: strengthless, a hundred times denser, and gravity is turned down until the layer "
-      "weighs the "
-      "surcharge, so that the soil's own weight is a hundredth of it per layer. The layer is "
-      "inert: faster or softer "
-      "runs than the example's weigh its inertia or end before the strength is mobilised.";
+      "plane strain between smooth plates. Without surcharge, gravity is off (`weightless` yes) "
+      "and the factor is the pressure over c at the last fifth of `settlement`. With "
+      "`surcharge-pa` a layer of two cells lies on the soil beside the footing. It has no "
+      "strength and is a hundred times denser, and gravity is reduced until the layer has the "
+      "weight of the surcharge, so that the soil's own weight is a hundredth of it per layer. The "
+      "layer has inertia: runs that are faster or softer than the example measure that inertia, "
+      "or end before the strength is mobilised.";
   rig.examples = {{"Nc of clay", "--phi-deg 0 --cohesion-pa 5000"},
-                  {"Nq, gated at phi 20 and 30",
+                  {"Nq, with tolerances at phi 20 and 30",
                    "--cohesion-pa 0 --phi-deg 20 --surcharge-pa 2000 --young-pa 4e6 --settlement "
                    "0.08 --speed 0.02 --cell 0.1"}};
   rig.parameters = {
-      {"breadth", 1, "m", "of the strip, 20 cells or more for the gates", above(0)},
+      {"breadth", 1, "m", "of the strip, 20 cells or more for the tolerances", above(0)},
       {"settlement", 0.12, "breadths", "at the end", above(0)},
       {"speed", 0.2, "m/s", "downwards", above(0)},
       {"beside", 2, "breadths", "of soil on either side", at_least(0)},
       {"below", 1.2, "breadths", "of soil", at_least(0)},
-      {"offset", 0.4, "cells", "by which the shell is narrower at either edge", at_least(0)},
+      {"offset", 0.4, "cells", "by which the shell is narrower at each edge", at_least(0)},
       {"surcharge-pa", 0, "Pa", "on the ground beside the footing", at_least(0)},
-      yes_no("weightless", true, "gravity off when there is no surcharge", "gravity as it is")};
+      yes_no("weightless", true, "gravity off when there is no surcharge", "full gravity")};
   rig.default_soil = cohesive(0, 5000);
   rig.default_cell = 0.05;
   rig.experiment = run_footing;
@@ -261,11 +257,10 @@ Rig plate_rig() {
   rig.name = "plate";
   rig.summary = "plate pressed into the ground: pressure against sinkage";
   rig.drawing =
-      "A flat plate of `length` by `breadth` is pressed into level ground at `speed` to `sinkage`. "
-      "The curve is "
-      "fitted with p = k z^n. The expected value is Bekker's law with the soil's own parameters: "
-      "what tyres feel on "
-      "resting ground, not a property of the particle law.";
+      "A flat plate of `length` by `breadth` is pressed into level ground at `speed` to "
+      "`sinkage`. The curve is fitted with p = k z^n. The expected value is Bekker's law with the "
+      "soil's own parameters, which tyres use on resting ground; it is not a property of the "
+      "particle law.";
   rig.parameters = {{"length", 0.6, "m", "of the plate", above(0)},
                     {"breadth", 0.3, "m", "of the plate", above(0)},
                     {"sinkage", 0.1, "m", "at the end", above(0)},

@@ -9,7 +9,7 @@
 namespace navvy::lab {
 namespace {
 
-/// Of a grid of its own, anchored at W's origin.
+/// Cell of a separate grid, anchored at W's origin.
 using Cell = std::array<int, 3>;
 
 Cell cell_of(const Vec3& p, double cell) {
@@ -19,11 +19,12 @@ Cell cell_of(const Vec3& p, double cell) {
   return out;
 }
 
-/// Heights of a ball over its middle, on the surface's grid.
+/// Heights of a ball over its centre, on the surface's grid.
 struct Ball {
-  // In columns, from the ball's middle.
+  // In columns, from the ball's centre.
   int reach = 0;
-  std::vector<double> height;  ///< (2 reach + 1)^2; negative outside the ball
+  /// (2 reach + 1)^2; negative outside the ball.
+  std::vector<double> height;
   Ball(double radius, double spacing) : reach(static_cast<int>(std::ceil(radius / spacing))) {
     for (int j = -reach; j <= reach; ++j)
       for (int i = -reach; i <= reach; ++i) {
@@ -41,7 +42,7 @@ struct Ball {
   }
 };
 
-/// Particles as the dilation sees them: the top of a ball around each.
+/// Dilates: the top of a ball around each particle.
 void dilate(HeapSurface& s, const std::vector<Vec3>& positions, double radius) {
   const int reach = static_cast<int>(std::ceil(radius / s.spacing));
   for (const Vec3& p : positions) {
@@ -49,7 +50,7 @@ void dilate(HeapSurface& s, const std::vector<Vec3>& positions, double radius) {
               cy = static_cast<int>(std::lround((p.y() - s.origin.y()) / s.spacing));
     for (int iy = std::max(0, cy - reach); iy <= std::min(s.ny - 1, cy + reach); ++iy)
       for (int ix = std::max(0, cx - reach); ix <= std::min(s.nx - 1, cx + reach); ++ix) {
-        // Exact distance from the column's middle: grains between two columns count for both.
+        // Exact distance from the column's centre: particles between two columns count for both.
         const double rest = radius * radius - (s.middle(ix, iy) - p.head<2>()).squaredNorm();
         if (rest < 0) continue;
         double& top = s.top[static_cast<std::size_t>(ix + s.nx * iy)];
@@ -58,8 +59,8 @@ void dilate(HeapSurface& s, const std::vector<Vec3>& positions, double radius) {
   }
 }
 
-/// The lowest place a ball can be pushed down to under the surface: fills what no ball of this
-/// radius can enter.
+/// Erodes: the lowest position to which a ball can be pushed down under the surface. Fills what no
+/// ball of this radius can enter.
 void erode(HeapSurface& s, double radius) {
   const Ball ball(radius, s.spacing);
   std::vector<double> out(s.top.size());
@@ -88,10 +89,12 @@ std::vector<Vec3> in_contact(const Site& site, const std::vector<soil::Particle>
     positions.push_back(site.position(p));
     ++count[cell_of(positions.back(), site.cell())];
   }
-  // By cell, not by pairs: linear in the particles and good enough to tell a heap from a spray.
+  // By cell, not by pairs: linear in the particles, and good enough to separate a heap from a
+  // spray.
   std::map<Cell, bool> touching;
   for (const auto& [cell, here] : count) {
-    int around = -1;  // not oneself
+    // Without the particle itself.
+    int around = -1;
     for (int k = -1; k <= 1; ++k)
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -115,7 +118,7 @@ double HeapSurface::over(const Vec3& p) const {
 double HeapSurface::volume() const {
   double sum = 0;
   for (const double z : top) sum += z - floor;
-  // Columns are all alike: a sum is the integral.
+  // Columns have equal areas: a sum is the integral.
   return sum * spacing * spacing;
 }
 
@@ -136,14 +139,14 @@ HeapSurface surface_of(const std::vector<Vec3>& positions, double cell, double f
   // Wide enough for both balls.
   low -= Vec2::Constant(1.5 * cell);
   high += Vec2::Constant(1.5 * cell);
-  // Columns on a fixed lattice: the same pile gives the same surface wherever its outermost grain
-  // lies.
+  // Columns on a fixed lattice: the same pile gives the same surface wherever its outermost
+  // particle lies.
   s.origin = s.spacing * (low / s.spacing).array().floor().matrix();
   s.nx = static_cast<int>((high.x() - s.origin.x()) / s.spacing) + 1;
   s.ny = static_cast<int>((high.y() - s.origin.y()) / s.spacing) + 1;
   s.top.assign(static_cast<std::size_t>(s.nx) * static_cast<std::size_t>(s.ny), floor);
-  // A larger ball out than in: the difference is the quarter of a cell by which a pile stands above
-  // its topmost grains.
+  // The larger ball dilates: the difference is the quarter of a cell by which a pile extends above
+  // its topmost particles.
   dilate(s, positions, 0.75 * cell);
   erode(s, 0.5 * cell);
   return s;
@@ -156,7 +159,7 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& z) {
     sx += x[i], sz += z[i];
     sxx += x[i] * x[i], sxz += x[i] * z[i];
   }
-  // Normal equations; the values are a few tens of metres or seconds at most, so that nothing
+  // Normal equations; the values are at most a few tens of metres or seconds, so that nothing
   // cancels.
   Line out;
   out.b = (n * sxz - sx * sz) / (n * sxx - sx * sx);
@@ -172,7 +175,7 @@ std::vector<std::pair<double, double>> flank_profile(const HeapSurface& surface,
   const double across = surface.spacing * surface.ny / 6;
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {
-      // Both flanks of a plane heap fall into the same strips and average out a lean.
+      // Both flanks of a plane heap fall into the same strips, which averages out a tilt.
       const Vec2 d = surface.middle(ix, iy) - axis;
       if (!axisymmetric && std::abs(d.y()) > across) continue;
       const double r = axisymmetric ? d.norm() : std::abs(d.x());
@@ -198,7 +201,7 @@ double flank_angle(const HeapSurface& surface, const Vec2& axis, bool axisymmetr
     if (height > 0.8 * highest) shoulder = r;
   std::vector<double> x, z;
   for (const auto& [r, height] : profile) {
-    // Below a fifth lie single grains that have run out.
+    // Below a fifth there are single particles that have run out.
     if (r <= shoulder || height < 0.2 * highest) continue;
     x.push_back(r);
     z.push_back(height);
@@ -209,7 +212,7 @@ double flank_angle(const HeapSurface& surface, const Vec2& axis, bool axisymmetr
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return kNone;
   const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  // Order of the others does not matter: linear time.
+  // The order of the others does not matter: linear time.
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
   return values[at];
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `pour`: angle of repose of a heap poured from above, and whether it keeps it.
+// Rig `pour`: angle of repose of a heap poured from above, and its creep.
 //
-// Pouring builds a heap from grains that arrive loose and fast, the way every spoil heap is made.
-// Its flank must come to rest between the angle at which flow stops and the friction angle, and
-// must then stay: a heap that goes on creeping loses degrees in ten seconds. That holds of a heap
-// poured gently. A fast stream spreads by its momentum, and a static angle says nothing of it.
-// Known errors: the plane heap settles by some degrees at the coarse cell, the free cone stands
-// lower since near triaxial states the law is weaker than phi says.
+// Pouring builds a heap from loose fast particles, as every spoil heap is made. Its flank must come
+// to rest between the angle at which flow stops and the friction angle, and must then stay: a heap
+// that creeps loses degrees in ten seconds. This holds for a heap poured gently. A fast stream
+// spreads by its momentum, and a static angle does not describe it. Known deviations: the plane
+// heap settles by some degrees at the coarse cell; the free cone is flatter, since the law is
+// weaker than phi in states close to triaxial ones.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,7 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Swell, pouring and heaps]";
 
-/// What is poured has been dug: soil that swells or softens comes loose and remoulded, down to a
+/// Poured soil has been dug: soil that swells or softens starts loose and remoulded, with a
 /// hundredth of its bonds.
 void loosen(const scene::Soil& soil, soil::Particle& p) {
   if (soil.swell > 1) {
@@ -35,13 +35,13 @@ void loosen(const scene::Soil& soil, soil::Particle& p) {
   if (softens(soil)) p.shear = scene::remoulded_shear(soil);
 }
 
-/// A stream of loose grains, `speed` fast at its mouth, that follows the heap's top at a height of
-/// `drop`.
+/// A stream of loose particles with `speed` at its mouth, which follows the heap's top at a height
+/// of `drop`.
 struct Stream {
   bool axisymmetric;
   double half, gap, speed, drop;
 
-  /// One layer, half a cell thick. Grains are shaken off their lattice: no stream is a crystal.
+  /// Emits one layer, half a cell thick. Particles are displaced randomly from their lattice.
   void emit(Site& site, double top, Random& random) const {
     const double z = top + drop, h = site.cell() / 2;
     const double y = axisymmetric ? half : gap / 2 - 0.25 * site.cell();
@@ -57,14 +57,14 @@ struct Stream {
   }
 };
 
-/// Flank angle [deg] of what lies in contact; the stream still falling is left out.
+/// Returns the flank angle [deg] of the particles in contact, without those still falling.
 double angle_of(const Site& site, bool axisymmetric) {
   const HeapSurface surface =
       surface_of(in_contact(site, site.solver().particles()), site.cell(), 0);
   return degrees(flank_angle(surface, Vec2::Zero(), axisymmetric, site.cell()));
 }
 
-/// Of all particles, [m/s]: a heap that creeps shows here before its angle does.
+/// Returns the rms speed of all particles [m/s]: it shows creep earlier than the angle does.
 double rms_speed(const Site& site) {
   double sum = 0, count = 0;
   for (const soil::Particle& p : site.solver().particles()) {
@@ -76,7 +76,7 @@ double rms_speed(const Site& site) {
 
 /// Pours until the heap has `volume`; the mouth follows the top.
 void pour_out(Site& site, const Stream& stream, double volume) {
-  // A fixed seed: two runs pour the same grains.
+  // A fixed seed: two runs pour the same particles.
   Random random(1);
   const double poured = site.soil().bank_density * volume;
   double top = 0;
@@ -91,11 +91,11 @@ void pour_out(Site& site, const Stream& stream, double volume) {
   }
 }
 
-/// Holds the heap against its friction where the pour was gentle enough to say something.
+/// Compares the heap with its friction if the pour was gentle enough.
 void read_angles(const Setup& setup, double at_first, double at_last, Report& report) {
   const bool round = setup.is("shape", "cone");
   const double phi = setup.soil.friction_angle, flow = degrees(flow_angle(phi));
-  // A cone is nearer to triaxial states: its angle is that of sand in a triaxial test, 2 to 4
+  // A cone is close to triaxial states: its angle is that of sand in a triaxial test, 2 to 4
   // degrees below phi.
   const double cone = degrees(flow_angle(matsuoka_nakai_triaxial(phi)));
   const char* const range =
@@ -108,7 +108,7 @@ void read_angles(const Setup& setup, double at_first, double at_last, Report& re
            std::round(10 * ((round ? cone : flow) - 1.5)) / 10, round ? kNone : degrees(phi) - 2,
            kSource)
       .holds_for(range, here);
-  // Of the cone the law is known to be too weak; what it loses shows in its angle.
+  // The law is known to be too weak for a cone; its loss shows in the angle.
   report
       .add("angle lost at rest", at_first - at_last, "deg", 0, kNone, round ? kNone : 1.0,
            std::string("no creep ") + kSource)
@@ -122,31 +122,33 @@ Report run(const Setup& setup) {
                gap = setup["gap"] * setup.cell;
   const Stream stream{round, setup["stream"] * setup.cell, gap, setup["speed"],
                       setup["drop"] * setup.cell};
-  // Of a cone, or a wedge, whose flank stands at atan(sin phi): the base is then the one asked for.
+  // Volume of a cone, or a wedge, whose flank stands at atan(sin phi): the base is then the
+  // requested one.
   const double volume = round ? kPi / 3 * base * base * base * slope : base * base * slope * gap;
   SiteOptions options;
   // A heap flatter than expected still ends on the site.
   options.size = 8 * base;
   options.depth = 8 * setup.cell;
   Setup smooth = setup;
-  if (!round) smooth.soil = without_tool_friction(setup.soil);  // the side plates
+  // The side plates.
+  if (!round) smooth.soil = without_tool_friction(setup.soil);
   Site site(smooth, options);
   if (!round) {
     scene::Shell walls = channel(6 * base, gap, -6 * setup.cell, 2 * base, false);
     walls.half_thickness = 0.2 * setup.cell;
     site.add_tool(walls, make_pose(-3 * base, -gap / 2, 0));
   }
-  // How long the pouring takes is only told to the progress line: pour_out stops by mass.
+  // The duration of pouring serves only the progress line: pour_out stops by mass.
   const double area = round ? kPi * stream.half * stream.half : 2 * stream.half * gap;
   const double pouring = volume / area / stream.speed, resting = setup["rest"];
   site.expect(pouring + resting + 2);
   pour_out(site, stream, volume);
   site.run(2);
 
-  // Two seconds for the last grains to fall and roll.
+  // Two seconds for the last particles to fall and roll.
   const double at_first = angle_of(site, round);
   Series time{"rest time", "s", {0}}, angle{"flank angle", "deg", {at_first}};
-  // Five readings on the way: creep goes on, settling ends.
+  // Five readings in between: creep continues, settling ends.
   for (int i = 1; i <= 5; ++i) {
     site.run(resting / 5);
     time.values.push_back(resting * i / 5);
@@ -172,28 +174,26 @@ Report run(const Setup& setup) {
 Rig pour_rig() {
   Rig rig;
   rig.name = "pour";
-  rig.summary = "angle of repose of a poured heap, and whether it creeps";
+  rig.summary = "angle of repose of a poured heap, and its creep";
   rig.drawing =
-      "A stream of grains, `stream` cells in half width, falls from `drop` cells above the top of "
-      "the heap it makes "
-      "on rough level ground, until the heap would have a base of half width `base` at the angle "
-      "atan(sin phi). Two "
-      "seconds later, and again after `rest`, a line is fitted to the mean flank between 20 and 80 "
-      "% of the height. "
-      "`shape` plane: a heap between smooth plates `gap` cells apart; cone: a free heap. phi is "
-      "the plane-strain "
-      "angle: a cone, being closer to triaxial states, is held against the triaxial angle of "
-      "[Matsuoka 1974]. Gated "
-      "when poured gently, as by default; a faster stream spreads by its momentum.";
+      "A stream of particles, `stream` cells in half width, falls from `drop` cells above the top "
+      "of its heap on rough level ground, until the heap would have a base of half width `base` "
+      "at the angle atan(sin phi). Two seconds later, and again after `rest`, a line is fitted to "
+      "the mean flank between 20 and 80 % of the height. `shape` plane: a heap between smooth "
+      "plates `gap` cells apart; cone: a free heap. phi is the plane-strain angle. A cone is "
+      "closer to triaxial states and is compared with the triaxial angle of [Matsuoka 1974]. "
+      "Tolerances apply to gentle pouring, as by default; a faster stream spreads by its "
+      "momentum.";
   rig.parameters = {
       choice("shape", "plane", "", {{"plane", 0, "between plates"}, {"cone", 1, "free"}}),
-      {"base", 1.5, "m", "half width of the heap aimed at", above(0)},
+      {"base", 1.5, "m", "intended half width of the heap", above(0)},
       {"gap", 5, "cells", "between the side plates", above(0)},
       {"stream", 3, "cells", "half width of the stream", above(0)},
       {"drop", 2, "cells", "height of the mouth above the heap's top", at_least(0)},
-      {"speed", 0.2, "m/s", "of the grains at the mouth", above(0)},
+      {"speed", 0.2, "m/s", "of the particles at the mouth", above(0)},
       {"rest", 10, "s", "time at rest", at_least(0)}};
-  rig.examples = {{"A stream that spreads by its momentum, not gated", "--speed 0.8 --drop 4"}};
+  rig.examples = {
+      {"A stream that spreads by its momentum, without tolerance", "--speed 0.8 --drop 4"}};
   rig.default_soil = clean_sand(35);
   rig.experiment = run;
   return rig;

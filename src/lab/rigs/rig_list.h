@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function per rig. A new rig is a file in this folder, a line here and a line in rigs.cpp; the
-// program's command, its help and the checks of its parameters follow from what the function
-// returns.
+// One function per rig. A new rig is a file in this folder, a line here and a line in rigs.cpp. The
+// command, its help and the checks of its parameters follow from the returned description.
 #pragma once
 
 #include "lab/rig.h"

@@ -4,7 +4,7 @@
 namespace navvy::lab {
 namespace {
 
-/// What every rig has: a result that depends on the step has no value.
+/// Adds the parameters of every rig: a result that depends on the step is not a result.
 std::vector<Rig> with_common_parameters(std::vector<Rig> list) {
   for (Rig& rig : list)
     rig.parameters.push_back({"courant", 0.5, "",
@@ -16,9 +16,9 @@ std::vector<Rig> with_common_parameters(std::vector<Rig> list) {
 }  // namespace
 
 const std::vector<Rig>& rigs() {
-  // Made on first use and never changed: setups keep pointers to its entries.
+  // Created on first use and never changed: setups keep pointers to its entries.
   static const std::vector<Rig> list = with_common_parameters({
-      // Soil by itself, from what hardly moves to what flies.
+      // Soil by itself, from slow to flying.
       rest_rig(),
       column_rig(),
       pour_rig(),
@@ -30,7 +30,7 @@ const std::vector<Rig>& rigs() {
       // One element of it.
       shear_rig(),
       triaxial_rig(),
-      // Soil and tools, from a plate of one direction to a bucket on a path.
+      // Soil and tools, from a plate in one direction to a bucket on a path.
       blade_rig(),
       wall_rig(),
       footing_rig(),

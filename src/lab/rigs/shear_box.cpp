@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rig `box`: direct shear.
 //
-// The classical test for friction: two halves of a sample are moved against each other under a
-// load. At large strain and without dilatancy the ratio of shear to normal stress is sin phi. Known
-// error: the soil lifts the smooth lid, which passes no shear, so that part of the sample shears
-// inside the ring and the ratio reads low by a tenth to a fifth: the figure has no gate. Rig
-// `shear` reads the stress in the soil itself and has no such rim.
+// The classical test for friction: two halves of a sample move against each other under a load. At
+// large strain and without dilatancy the ratio of shear to normal stress is sin phi. Known
+// deviation: the soil lifts the smooth lid, which passes no shear, so that part of the sample
+// shears inside the ring and the ratio is low by a tenth to a fifth. The value has no tolerance.
+// Rig `shear` reads the stress in the soil itself and has no such rim.
 #include <cmath>
 
 #include "lab/rig_shapes.h"
@@ -16,27 +16,28 @@
 namespace navvy::lab {
 namespace {
 
-/// Lid and ring in one: a box open at the bottom, lid at z = `height`.
+/// Returns lid and ring in one: a box open at the bottom, lid at z = `height`.
 scene::Shell inverted_box(double length, double width, double height) {
   scene::Shell s = open_box(length, width, height);
   for (Vec3& v : s.vertices) v.z() = height - v.z();
-  for (auto& t : s.triangles) std::swap(t[1], t[2]);  // inside stays front
+  // Inside remains the front.
+  for (auto& t : s.triangles) std::swap(t[1], t[2]);
   return s;
 }
 
-/// Largest shear over `normal` [N] in the first half of the travel, over windows of a fiftieth of
-/// it: a single step would be noise.
+/// Returns the largest shear over `normal` [N] in the first half of the travel, averaged over
+/// windows of a fiftieth of it: a single step would be noise.
 double peak_ratio(const Trace& trace, double travel, double normal) {
   double peak = 0;
   for (double from = 0; from < 0.5 * travel; from += 0.02 * travel) {
     const Vec3 force = mean_force(trace, from, from + 0.02 * travel);
-    // No step in the window: NaN
+    // Without a step in the window: NaN.
     if (std::isfinite(force.x())) peak = std::max(peak, -force.x() / normal);
   }
   return peak;
 }
 
-/// Lays both halves in one, sets the ring over the upper one and drives it along x.
+/// Fills both halves in one, sets the ring over the upper one and drives it along x.
 Report run(const Setup& setup) {
   const double cell = setup.cell, length = setup["length"] * cell, width = setup["width"] * cell,
                height = setup["height"] * cell, half = 0.25 * cell;
@@ -45,8 +46,7 @@ Report run(const Setup& setup) {
   options.size = 2 * (length + 8 * cell);
   options.depth = height + 8 * cell;
   options.surface = pit(lower);
-  // A smooth ring: what it passes along x comes from its back wall, not from the skin of the
-  // others.
+  // A smooth ring: it passes force along x by its back wall, not by the skin of the others.
   Setup smooth = setup;
   smooth.soil = without_tool_friction(setup.soil);
   Site site(smooth, options);
@@ -59,7 +59,8 @@ Report run(const Setup& setup) {
   shell.half_thickness = half;
   ToolDriver driver(site, shell, make_pose(0, 0, 0));
   Tool& ring = site.tool(driver.tool());
-  // Its weight is the normal load; free to sink, it keeps it whatever the soil does below.
+  // Its weight is the normal load; free to sink, it keeps that load for any motion of the soil
+  // below.
   ring.mass = sigma * area / kGravity;
   ring.lock_rotation = true;
   // The stable step is that of the ring's own speed.
@@ -68,7 +69,7 @@ Report run(const Setup& setup) {
   const int steps = static_cast<int>(std::ceil(travel / speed / dt));
   site.expect(steps * dt);
   for (int i = 0; i < steps; ++i) {
-    // The carriage sets the way; only z is the soil's and the weight's.
+    // The carriage prescribes x and y; only z follows soil and weight.
     ring.motion.v_WT.x() = speed, ring.motion.v_WT.y() = 0;
     driver.step(dt);
   }
@@ -80,14 +81,14 @@ Report run(const Setup& setup) {
   const double weight = setup.soil.bank_density * area * height * kGravity;
   const double normal = force.z() + weight, ratio = -force.x() / normal;
   Report report;
-  // Without a gate: what the rim and the lid do is in the figure.
+  // Without a tolerance: the value includes the effects of rim and lid.
   report.add("tau over sigma, large strain", ratio, "", std::sin(setup.soil.friction_angle), kNone,
              kNone, "sin phi, zero dilatancy; rig `shear` has the gate");
   const double peak = peak_ratio(trace, travel, normal);
   report.add("tau over sigma, peak", peak, "", std::tan(setup.soil.friction_angle), kNone, kNone,
              "the peak may approach tan phi");
   report.add("normal stress", force.z() / area, "Pa", sigma, kNone, kNone, "what the lid feels");
-  // What leaks under the rim, and how far the lid rides up: the known errors of this rig.
+  // Leakage under the rim and the rise of the lid, the known deviations of this rig.
   report.note("lid sank by", -1000 * driver.pose().translation().z(), "mm");
   report.note("soil left in the ring", site.solver().payload(driver.tool(), driver.pose()), "kg");
   report.note("particles through the shell",
@@ -104,15 +105,12 @@ Rig shear_box_rig() {
   rig.name = "box";
   rig.summary = "direct shear: tau over sigma at large strain is sin phi";
   rig.drawing =
-      "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls are "
-      "resting ground, "
-      "the upper half in a smooth ring with a lid of the same size that rests on it with the "
-      "weight sigma-pa x area, "
-      "free to sink. The ring is moved along x at `speed` by `travel` lengths. tau over sigma is "
-      "the mean horizontal "
-      "force over the weight on the plane between the halves, in the second half of the travel. "
-      "Soil that leaks under "
-      "the ring's rim shows in the sinking of the lid.";
+      "The lower half of the sample lies in a pit of `length` x `width` x `height` whose walls "
+      "are resting ground. The upper half lies in a smooth ring of the same size with a lid, "
+      "which rests on it with the weight sigma-pa x area and is free to sink. The ring moves "
+      "along x at `speed` by `travel` lengths. tau over sigma is the mean horizontal force over "
+      "the weight on the plane between the halves, in the second half of the travel. Soil that "
+      "leaks under the ring's rim shows as sinking of the lid.";
   rig.parameters = {{"length", 24, "cells", "of the sample", above(0)},
                     {"width", 8, "cells", "of the sample", above(0)},
                     {"height", 4, "cells", "of each half", above(0)},

@@ -2,11 +2,11 @@
 // Rig `slope`: the angle at which a long bed starts to flow, and the one at which a flowing bed
 // stops.
 //
-// An infinite slope is the one flow whose stress is known everywhere: both normal stresses equal,
-// shear weight x sin. Soil that neither swells nor shrinks as it shears then slips at atan(sin
-// phi), not at phi, which is why poured heaps of phi 35 stand at 30 degrees. Two angles are looked
-// for since they could differ: starting needs the law to yield, stopping needs it to dissipate.
-// Both are found by trial at a fixed angle, which has no rate of tilting in it.
+// An infinite slope is the one flow with a known stress everywhere: both normal stresses are equal,
+// and shear is weight x sin. Soil that neither swells nor shrinks as it shears slips at atan(sin
+// phi), not at phi, which is why poured heaps of phi 35 stand at 30 degrees. The rig finds two
+// angles since they could differ: starting needs the law to yield, stopping needs it to dissipate.
+// Both are found by trials at fixed angles, so no rate of tilting matters.
 #include <cmath>
 
 #include "lab/lab_site.h"
@@ -18,7 +18,7 @@
 namespace navvy::lab {
 namespace {
 
-/// Mean speed above which a bed flows [m/s]. After 1.25 s a bed 2 degrees too flat reads 0.002 (its
+/// Mean speed above which a bed flows [m/s]. After 1.25 s a bed 2 degrees too flat has 0.002 (its
 /// ends collapse), one 0.5 degrees too steep would have 0.1.
 constexpr double kFlows = 0.03;
 
@@ -39,9 +39,9 @@ class Bed {
     site_.solver().insert(soil);
   }
 
-  // The bed itself takes no part in timing: the caller runs it.
+  // The caller runs the site.
   Site& site() { return site_; }
-  /// Mean velocity down the slope of the middle third [m/s].
+  /// Returns the mean velocity of the middle third down the slope [m/s].
   double speed() const {
     double sum = 0, count = 0;
     for (const soil::Particle& p : site_.solver().particles()) {
@@ -53,14 +53,15 @@ class Bed {
   }
 
  private:
-  /// The plates must not hold the bed back. Progress is the search's, not that of one bed.
+  /// The plates must not hold the bed back. The progress report is that of the search, not of one
+  /// bed.
   static Setup smooth(Setup setup) {
     setup.soil = without_tool_friction(setup.soil);
     setup.progress = {};
     return setup;
   }
-  /// Gravity is tilted, not the bed: its surface stays level with the grid, so that no step of
-  /// cells roughens it.
+  /// Gravity is tilted, not the bed: its surface is level with the grid, so that no steps of cells
+  /// roughen it.
   static SiteOptions options(const Setup& setup, double angle) {
     SiteOptions out;
     out.size = 2 * setup["length"];
@@ -68,15 +69,15 @@ class Bed {
     out.gravity = kGravity * Vec3(std::sin(angle), 0, -std::cos(angle));
     return out;
   }
-  /// The stress of an infinite slope with equal normal stresses, the state in which coaxial soil
-  /// flows.
+  /// Sets the stress of an infinite slope with equal normal stresses, the state in which coaxial
+  /// soil flows.
   void stress(soil::Particle& p, double top) const {
     const double depth = top - site_.position(p).z();
     const scene::Soil& soil = site_.soil();
     const double weight = soil.bank_density * depth;
     const double bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
     p.j = static_cast<float>(1 + weight * site_.world().gravity.z() / bulk);
-    // Shear of an infinite slope: all of the weight's part along the slope, carried at every depth.
+    // Shear of an infinite slope: the weight's whole component along the slope, at every depth.
     p.s[5] = static_cast<float>(weight * site_.world().gravity.x());
   }
 
@@ -84,7 +85,7 @@ class Bed {
   Site site_;
 };
 
-/// Whether a bed at rest at this angle [rad] flows.
+/// Returns true if a bed at rest at this angle [rad] starts to flow.
 bool starts(const Setup& setup, double angle, Report& report) {
   Bed bed(setup, angle);
   bed.site().run(setup["time"]);
@@ -92,7 +93,8 @@ bool starts(const Setup& setup, double angle, Report& report) {
   return bed.speed() > kFlows;
 }
 
-/// Whether a bed that a steeper slope has set in motion goes on at this angle without slowing down.
+/// Returns true if a bed that a steeper slope has set in motion continues at this angle without
+/// slowing down.
 bool goes_on(const Setup& setup, double angle, double steep, Report& report) {
   Bed bed(setup, steep);
   bed.site().run(0.25 * setup["time"]);
@@ -104,8 +106,8 @@ bool goes_on(const Setup& setup, double angle, double steep, Report& report) {
   return bed.speed() > before;
 }
 
-/// The angle where `flows` changes from false to true, by halving; [rad]. Eight trials of 1.25 s
-/// cost less than one slow tilt, and each starts from the same state.
+/// Returns the angle where `flows` changes from false to true, by bisection [rad]. Eight trials of
+/// 1.25 s cost less than one slow tilt, and each starts from the same state.
 template <class F>
 double critical(const F& flows, double low, double high, int halvings,
                 const std::function<void(int)>& tick) {
@@ -117,7 +119,7 @@ double critical(const F& flows, double low, double high, int halvings,
   return 0.5 * (low + high);
 }
 
-/// Two searches one after the other, each trial on a fresh bed.
+/// Two searches in sequence, each trial on a fresh bed.
 Report run(const Setup& setup) {
   Report report;
   const double flow = flow_angle(setup.soil.friction_angle), width = radians(setup["search"]);
@@ -125,8 +127,7 @@ Report run(const Setup& setup) {
   const auto tick = [&](int done, int offset) {
     if (setup.progress) setup.progress((offset + done + 1.0) / (2 * halvings));
   };
-  // Both searches begin around the angle expected; an end that is found at the border of the search
-  // shows in the result.
+  // Both searches start around the expected angle; a result at the limit of the search is visible.
   const double start = critical([&](double angle) { return starts(setup, angle, report); },
                                 flow - width, flow + width, halvings, [&](int i) { tick(i, 0); });
   const double stop =
@@ -157,22 +158,19 @@ Report run(const Setup& setup) {
 Rig slope_rig() {
   Rig rig;
   rig.name = "slope";
-  rig.summary = "long slope of sand: the angle at which it starts to flow, and at which it stops";
+  rig.summary =
+      "long slope of sand: the angle at which it starts to flow, and the one at which it stops";
   rig.drawing =
-      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` cells "
-      "apart, both ends "
-      "free, so that nothing pushes it along but its weight; gravity is tilted. It starts with the "
-      "stress of an "
-      "infinite slope. The mean velocity of the middle third of its length is read after `time`: "
-      "above 0.03 m/s it "
-      "flows. For stopping, 12 degrees more set the bed in motion for a quarter of `time`; then it "
-      "flows on at the "
-      "angle under test when it does not slow down. Both angles are found by `halvings` halvings "
-      "of +-`search` "
-      "degrees around atan(sin phi).";
+      "A bed `length` long and `depth` deep lies on rough ground between smooth plates `gap` "
+      "cells apart. Both ends are free, so that only its weight drives it; gravity is tilted. It "
+      "starts with the stress of an infinite slope. The mean velocity of the middle third of its "
+      "length is read after `time`: the bed flows if it is above 0.03 m/s. For stopping, 12 "
+      "degrees more set the bed in motion for a quarter of `time`; it continues to flow at the "
+      "tested angle if it does not slow down. Both angles are found by `halvings` bisections of "
+      "+-`search` degrees around atan(sin phi).";
   rig.parameters = {
-      {"length", 16, "m", "of the bed; 30 depths keep the collapse of its ends out of the middle",
-       above(0)},
+      {"length", 16, "m",
+       "of the bed; with 30 depths the collapse of its ends does not reach the middle", above(0)},
       {"depth", 0.5, "m", "of the bed", above(0)},
       {"gap", 3, "cells", "between the side plates", above(0)},
       {"time", 1.25, "s", "of each trial", above(0)},

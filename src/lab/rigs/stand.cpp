@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `stand`: a body put on the ground and left alone stands.
+// Rig `stand`: a body placed on the ground and left alone must stand.
 //
-// What machines lay down, stones and steel plates, must not sink for ever: the ground fails or it
-// bears. A body that rests on particles feels whatever they still do, so creep of a contact shows
-// here and nowhere else: at a blade it is nothing beside the blade's speed.
+// Stones, steel plates and tools of machines on the ground must not sink for ever: the ground fails
+// or carries them. A body that rests on particles follows their motion, so only this rig shows
+// creep of a contact; at a blade it is negligible beside the blade's speed.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Buckets and carried loads]";
 
-/// A body about its middle.
+/// Returns a body about its centre.
 scene::Shell body(double length, double width, double height) {
   scene::Shell out = closed_box(length, width, height);
   for (Vec3& v : out.vertices) v.z() -= height / 2;
@@ -28,7 +28,7 @@ Report run(const Setup& setup) {
   const double cell = setup.cell, length = setup["length"], width = setup["width"],
                height = setup["height"];
   SiteOptions options;
-  // The zone that a tool at rest wakes is one dig depth about it; farther out nothing happens.
+  // A tool at rest activates a zone of one dig depth around it; nothing happens farther out.
   options.size = 2 * (whole_cells(std::max(length, width) / 2, cell) + 12 * cell);
   options.depth = whole_cells(2 * std::max(length, width), cell);
   // Between the planes of the grid, where most ground lies.
@@ -95,16 +95,12 @@ Report run(const Setup& setup) {
 Rig stand_rig() {
   Rig rig;
   rig.name = "stand";
-  rig.summary =
-      "a body put on the ground stands: how far it sinks, and that it does not go on sinking";
+  rig.summary = "a body on the ground stands: how far it sinks, and that it then stops";
   rig.drawing =
-      "A closed box of `length`, `width`, `height` and `mass`, tilted by `tilt-deg`, is let go "
-      "`gap` cells above level "
-      "ground, which wakes and goes back to columns by itself. After `settle` it must stand: over "
-      "`time` it neither "
-      "sinks nor drifts by a millimetre. `below-plane` moves the surface from a plane of the grid "
-      "down by a share of "
-      "a cell.";
+      "A closed box of `length`, `width`, `height` and `mass`, tilted by `tilt-deg`, is released "
+      "`gap` cells above level ground, which becomes particles and returns to columns by itself. "
+      "After `settle` it must stand: over `time` it neither sinks nor drifts by a millimetre. "
+      "`below-plane` lowers the surface from a plane of the grid by a share of a cell.";
   rig.parameters = {
       {"length", 0.6, "m", "of the box", above(0)},
       {"width", 0.6, "m", "of the box", above(0)},
@@ -113,8 +109,8 @@ Rig stand_rig() {
       {"gap", 0.5, "cells", "over the ground at the start", at_least(0)},
       {"tilt-deg", 0, "deg", "about its width, at the start", at_least(0)},
       {"below-plane", 0, "cells", "the surface under a plane of the grid", at_least(0)},
-      {"settle", 10, "s", "before it is watched", at_least(0)},
-      {"time", 60, "s", "watched", above(0)}};
+      {"settle", 10, "s", "before the observation", at_least(0)},
+      {"time", 60, "s", "of observation", above(0)}};
   rig.default_soil = cohesive(28, 5000);
   rig.experiment = run;
   return rig;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `swell`: a bucket of bank soil is tipped out; the heap's volume against the bank's.
+// Rig `swell`: a bucket of bank soil is dumped; the heap's volume is compared with the bank's.
 //
-// Bank soil dug and let lie takes more room, by a quarter for loam. That factor belongs to the soil
-// and is an input; the rig asks whether a load that is tipped in one piece, sheared only by its own
-// fall, reaches it. Known error: where the load falls as a block it does not shear and so does not
-// swell; the surface of the heap hides that by the stand-off of its lowest layer.
+// Excavated bank soil takes more volume, by a quarter for loam. That factor is an input of the
+// soil. The rig tests whether a load that is dumped in one piece, sheared only by its own fall,
+// reaches it. Known deviation: a load that falls as a block does not shear and so does not swell;
+// the surface of the heap hides that by the stand-off of its lowest layer.
 #include <cmath>
 
 #include "lab/lab_site.h"
@@ -18,19 +18,22 @@ namespace {
 const char* const kSource = "[docs/validation.md, Swell, pouring and heaps]";
 
 struct HeapVolume {
-  double by_surface = 0, by_state = 0;  ///< volume over bank volume
-  double loose_share = 0;               ///< of the particles that lie about singly and are left out
-  double crowding = 0;                  ///< particles a cell in the heap's middle, 8 in the bank
-  double angle = 0;                     ///< of the flank [deg]
+  /// Volume over bank volume.
+  double by_surface = 0, by_state = 0;
+  /// Share of the single particles that are left out.
+  double loose_share = 0;
+  /// Particles per cell in the heap's middle, 8 in the bank.
+  double crowding = 0;
+  /// Of the flank [deg].
+  double angle = 0;
 };
 
-/// Reads the heap twice, by what can be seen and by what the law believes: they fail in different
-/// ways.
+/// Reads the heap twice, by its surface and by the law's state: the two have different errors.
 HeapVolume measure(const Site& site) {
   HeapVolume out;
   const auto particles = site.solver().particles();
   const std::vector<Vec3> heap = in_contact(site, particles);
-  // Eight particles a cell in the bank: what one of them stands for.
+  // Eight particles per cell in the bank: the volume of one of them.
   const double cell = site.cell(), each = cell * cell * cell / 8;
   const HeapSurface surface = surface_of(heap, cell, 0);
   out.by_surface = surface.volume() / (each * static_cast<double>(heap.size()));
@@ -42,7 +45,7 @@ HeapVolume measure(const Site& site) {
     swollen += p.mass * static_cast<double>(p.j);
   }
   out.by_state = swollen / mass;
-  // Crowding: particles below the surface by more than a cell, over the volume there.
+  // Crowding: particles more than a cell below the surface, over the volume there.
   double inner = 0, volume = 0;
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix)
@@ -53,8 +56,8 @@ HeapVolume measure(const Site& site) {
   return out;
 }
 
-/// Particles a cell in layers one cell thick from the ground up, where the heap reaches a cell
-/// above the layer.
+/// Returns particles per cell in layers one cell thick from the ground up, where the heap reaches a
+/// cell above the layer.
 Series profile(const Site& site) {
   const std::vector<Vec3> heap = in_contact(site, site.solver().particles());
   const double cell = site.cell();
@@ -74,15 +77,15 @@ Series profile(const Site& site) {
   return out;
 }
 
-/// Tips the load, draws the box away, lets the heap rest and measures it.
+/// Dumps the load, removes the box, lets the heap rest and measures it.
 Report run(const Setup& setup) {
   const double cell = setup.cell, volume = setup["volume"];
-  // A box whose load is 1.2 : 1 : 0.8; its walls stand 0.3 cells off the load.
+  // A box whose load is 1.2 : 1 : 0.8; its walls are 0.3 cells off the load.
   const double edge = std::cbrt(volume / 0.96), length = 1.2 * edge, width = edge,
                depth = 0.8 * edge;
   const double gap = 0.3 * cell;
   SiteOptions options;
-  // A heap of wet soil is low and wide, single grains roll farther.
+  // A heap of wet soil is low and wide, and single particles roll farther.
   options.size = 24 * edge;
   options.depth = 8 * cell;
   Site site(setup, options);
@@ -95,7 +98,7 @@ Report run(const Setup& setup) {
   site.rest(load, z + depth);
   site.solver().insert(load);
 
-  // 140 degrees: the floor then stands steeper than any soil lies.
+  // 140 degrees: the floor is then steeper than any slope of soil.
   const double turn = setup["turn"], tipping = radians(140) / turn;
   site.expect(0.3 + tipping + 1.2 + setup["rest"]);
   site.run(0.3);
@@ -104,10 +107,11 @@ Report run(const Setup& setup) {
   site.run(tipping);
   site.tool(tool).motion.w_WT = Vec3::Zero();
   site.run(0.6);
-  site.tool(tool).motion.v_WT = Vec3(-2 * edge, 0, 2 * edge);  // out of the way
+  // Out of the heap's range.
+  site.tool(tool).motion.v_WT = Vec3(-2 * edge, 0, 2 * edge);
   site.run(0.6);
   site.tool(tool).motion.v_WT = Vec3::Zero();
-  // What clings to the box is no part of the heap.
+  // Soil that clings to the box is no part of the heap.
   const double left = site.solver().payload(tool, site.tool(tool).motion.X_WT);
   site.run(setup["rest"]);
 
@@ -119,7 +123,7 @@ Report run(const Setup& setup) {
              kSource);
   report.add("heap over bank by mass and state", got.by_state, "", swell, 0.95 * swell,
              1.05 * swell, kSource);
-  // Averaged over the layers above the lowest, where the heap reaches well over each.
+  // Averaged over the layers above the lowest, where the heap reaches well above each.
   const Series layers = profile(site);
   double above = 0, count = 0;
   for (std::size_t k = 1; k < layers.values.size(); ++k)
@@ -147,22 +151,19 @@ Rig swell_rig() {
   Rig rig;
   rig.name = "swell";
   rig.summary =
-      "bank soil tipped from a bucket and left to rest: volume of the heap over its bank volume";
+      "bank soil dumped from a bucket and left to rest: volume of the heap over its bank volume";
   rig.drawing =
       "An open box holds a block of undisturbed soil of `volume`, its floor `height` above rough "
-      "level ground. It is "
-      "turned upside down at `turn`, drawn away, and the heap rests for `rest`. Its volume is read "
-      "twice: under the "
-      "surface a ball rolls on over the particles, and as mass times the tracked volume ratio. "
-      "Both are given over "
-      "the bank volume of the particles counted. The number of particles in a cell inside the heap "
-      "says how crowded "
-      "they are.";
+      "level ground. The box is turned upside down at `turn` and removed, and the heap rests for "
+      "`rest`. Its volume is read twice: under the surface on which a ball rolls over the "
+      "particles, and as mass x tracked volume ratio. Both are given over the bank volume of the "
+      "particles counted. The number of particles per cell inside the heap shows how crowded they "
+      "are.";
   rig.examples = {{"Soil without swell must keep its volume", "--swell 1 --cohesion-pa 0"}};
   rig.parameters = {{"volume", 1, "m3", "bank soil in the box", above(0)},
                     {"height", 1.2, "m", "of the box's floor", at_least(0)},
-                    {"turn", 2, "rad/s", "tipping", above(0)},
-                    {"rest", 2, "s", "after the box is gone", at_least(0)}};
+                    {"turn", 2, "rad/s", "of the box when it is dumped", above(0)},
+                    {"rest", 2, "s", "after the box is removed", at_least(0)}};
   rig.default_soil = scene::Soil();
   rig.default_soil.name = "loam";
   rig.experiment = run;

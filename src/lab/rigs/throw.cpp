@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `throw`: soil without swell thrown apart in a bin; it must land in the volume it left.
+// Rig `throw`: soil without swell is thrown apart in a bin and must land in its former volume.
 //
-// Soil that flies apart opens; its particles' volume ratio grows without stress. When it lands it
-// must close again to the volume it left, or to its swell, neither as a foam that keeps the voids
-// of its flight nor pressed into itself. Two readings that fail differently: the surface over the
-// bin sees what is there, mass times tracked ratio tells what the law believes.
+// Soil that flies apart opens: the volume ratio of its particles grows without stress. When it
+// lands it must close again to its former volume, or to its swell. It must neither keep the voids
+// of its flight nor be compressed. Two readings with different errors: the surface over the bin
+// shows the real volume; mass times tracked ratio shows that of the law.
 #include <algorithm>
 #include <cmath>
 
@@ -22,13 +22,17 @@ const char* const kSource = "[docs/validation.md, Swell, pouring and heaps]";
 
 /// Volumes over bank volume, by two independent measures.
 struct Volume {
-  double by_surface = 0;  ///< under the surface, over the whole bin
-  double in_middle = 0;   ///< the same two cells clear of the walls: mean height over bank height
-  double by_state = 0;    ///< sum of mass x tracked volume ratio
-  double rms = 0;         ///< speed [m/s]
+  /// Under the surface, over the whole bin.
+  double by_surface = 0;
+  /// The same, two cells clear of the walls: mean height over bank height.
+  double in_middle = 0;
+  /// Sum of mass x tracked volume ratio.
+  double by_state = 0;
+  /// Speed [m/s].
+  double rms = 0;
 };
 
-/// `bank_height` is the depth of the soil before: volumes are ratios to it.
+/// Measures the soil. `bank_height` is its former depth: volumes are ratios to it.
 Volume measure(const Site& site, double edge, double floor, double bank_height) {
   Volume out;
   const auto particles = site.solver().particles();
@@ -37,17 +41,17 @@ Volume measure(const Site& site, double edge, double floor, double bank_height) 
   for (int iy = 0; iy < surface.ny; ++iy)
     for (int ix = 0; ix < surface.nx; ++ix) {
       const double off_middle = surface.middle(ix, iy).cwiseAbs().maxCoeff();
-      // Next to a wall the ball of the surface finds no grains beyond it and falls.
+      // Next to a wall the ball of the surface finds no particles beyond it and falls.
       if (off_middle > edge / 2 - 0.5 * site.cell()) continue;
       whole += surface.at(ix, iy) - floor;
       whole_count += 1;
-      // Two cells off the walls the grains lie as in an open bed.
+      // Two cells off the walls, particles lie as in an open bed.
       if (off_middle > edge / 2 - 2 * site.cell()) continue;
       sum += surface.at(ix, iy) - floor;
       count += 1;
     }
   for (const soil::Particle& p : particles) {
-    // The law's own volume ratio, weighted with mass: what it believes, beside what can be seen.
+    // The law's own volume ratio, weighted with mass.
     mass += p.mass;
     swollen += p.mass * static_cast<double>(p.j);
     speed += static_cast<double>(p.v[0] * p.v[0] + p.v[1] * p.v[1] + p.v[2] * p.v[2]);
@@ -59,10 +63,11 @@ Volume measure(const Site& site, double edge, double floor, double bank_height) 
   return out;
 }
 
-/// Particles a cell in layers one cell thick from the floor up, `margin` cells clear of the walls.
+/// Returns particles per cell in layers one cell thick from the floor up, `margin` cells clear of
+/// the walls.
 Series profile(const Site& site, double edge, double margin, const std::string& name) {
   Series out{name, "", {}};
-  // The bin stands on edge in its own frame; seen from the world it is a square about the axis.
+  // The bin stands on edge in its own frame; in W it is a square about the axis.
   const double half = edge / 2 - margin * site.cell();
   for (const soil::Particle& p : site.solver().particles()) {
     const Vec3 at = site.position(p);
@@ -74,10 +79,10 @@ Series profile(const Site& site, double edge, double margin, const std::string& 
   return out;
 }
 
-/// What lies there now on its way up: the upper half faster than the lower, each grain a little
-/// aside.
+/// Returns the particles with an upward velocity: the upper half faster than the lower, each with a
+/// small sideways component.
 std::vector<soil::Particle> thrown(const Site& site, double speed, double height) {
-  // A fixed seed: two runs throw the same grains alike.
+  // A fixed seed: two runs throw the particles alike.
   Random random(1);
   auto out = site.solver().particles();
   for (soil::Particle& p : out) {
@@ -89,13 +94,13 @@ std::vector<soil::Particle> thrown(const Site& site, double speed, double height
   return out;
 }
 
-/// The results by name.
+/// Adds the results to the report.
 void judge(Report& report, const Volume& before, const Volume& after, const Series& by_state,
            double swell) {
   const double most = by_state.values.empty()
                           ? kNone
                           : *std::max_element(by_state.values.begin(), by_state.values.end());
-  // Swell 1 lands where it lay; a law that keeps what opened would not.
+  // With swell 1 it lands in its former volume; a law that keeps openings would not.
   report.note("opened in flight to, V/V0", most, "");
   report.add("V/V0 by the surface", after.by_surface / before.by_surface, "", swell, 0.95 * swell,
              1.05 * swell, kSource);
@@ -117,31 +122,33 @@ Report run(const Setup& setup) {
   options.size = 4 * edge;
   options.depth = 8 * cell;
   Site site(smooth, options);
-  // Walls higher than the fastest grain flies.
+  // Walls higher than the fastest particle flies.
   const double lift = setup["speed"] * setup["speed"] / kGravity;
   scene::Shell bin = tube(edge / std::sqrt(2.0), -6 * cell, height + 2 * lift + 10 * cell, 4);
   bin.half_thickness = 0.2 * cell;
-  const Vec3 off(0.13 * cell, 0.07 * cell, 0);  // walls off the grid's planes
+  // Walls off the grid's planes.
+  const Vec3 off(0.13 * cell, 0.07 * cell, 0);
   site.add_tool(bin, make_pose(off.x(), off.y(), 0, 0, 0, radians(45)));
   const double half = edge / 2 - 0.25 * cell;
   auto soil = site.fill({off + Vec3(-half, -half, 0), off + Vec3(half, half, height)});
   site.rest(soil, height);
   site.solver().insert(soil);
-  // Up and down again for the grains of the upper half, one and a half times as fast, and some.
+  // Up and down again for the particles of the upper half, one and a half times as fast, plus a
+  // margin.
   const double flight = 4 * setup["speed"] / kGravity;
   site.expect(0.3 + flight + setup["rest"]);
   site.run(0.3);
-  // At rest first: the ratio leaves the bias of the surface out.
+  // At rest first: the ratio removes the bias of the surface.
   const Volume before = measure(site, edge, 0, height);
 
-  // The books see soil that comes in; what lay there is left out of them by starting a second site.
+  // The ledger records soil that comes in; a second site leaves the former soil out of it.
   Site flying(smooth, options);
   flying.add_tool(bin, make_pose(off.x(), off.y(), 0, 0, 0, radians(45)));
   flying.solver().insert(thrown(site, setup["speed"], height));
   Series time{"time", "s", {}}, by_surface{"volume by surface", "", {}},
       by_state{"volume by state", "", {}};
   const double seconds = flight + setup["rest"];
-  // Enough samples to see how far it opens at the top of its flight.
+  // Enough samples to show the opening at the top of the flight.
   for (int i = 1; i <= 20; ++i) {
     flying.run(seconds / 20);
     const Volume now = measure(flying, edge, 0, height);
@@ -166,16 +173,13 @@ Report run(const Setup& setup) {
 Rig throw_rig() {
   Rig rig;
   rig.name = "throw";
-  rig.summary = "soil thrown apart in a bin lands in the volume it left";
+  rig.summary = "soil thrown apart in a bin lands in its former volume";
   rig.drawing =
-      "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at rest "
-      "every grain gets a "
-      "velocity upwards, half of `speed` at the bottom and one and a half of it at the top, and up "
-      "to 0.5 m/s aside: "
-      "the soil opens, flies and lands. After the flight and `rest` the volume is read twice: "
-      "under the surface a "
-      "ball rolls on over the particles, and as mass times the tracked volume ratio. Soils with "
-      "swell must land at it.";
+      "A smooth square bin of `edge` on level ground holds soil `height` deep. After 0.3 s at "
+      "rest every particle gets an upward velocity, half of `speed` at the bottom and one and a "
+      "half of it at the top, and up to 0.5 m/s sideways: the soil opens, flies and lands. After "
+      "the flight and `rest` the volume is read twice: under the surface on which a ball rolls "
+      "over the particles, and as mass x tracked volume ratio. Soils with swell must land at it.";
   rig.parameters = {{"edge", 1.2, "m", "of the bin", above(0)},
                     {"height", 0.6, "m", "depth of the soil", above(0)},
                     {"speed", 3, "m/s", "mean velocity of the throw", above(0)},

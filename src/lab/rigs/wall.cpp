@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `wall`: a plate as high as the soil it holds, moved little.
+// Rig `wall`: a plate as high as the retained soil, moved a little.
 //
-// Drawn away it feels the active pressure, pushed in the passive one. A wall that moves off at once
-// sends a wave of rho c_p v through the soil, 2.3 kPa at 0.05 m/s and 4 MPa against an active
-// pressure of 4.3 kPa at the toe: it comes up to speed slowly, and an active wall is slow
-// altogether. Its toe is cut short by the contact's reach, so that an active force wants twenty
-// cells of height. Smooth it is held against Rankine, rough against the bounds of
-// theory/earth_pressure.h; planar wedges stand beside them.
+// Moved away from the soil it measures the active pressure, pushed in the passive one. A wall that
+// starts at once sends a wave of rho c_p v through the soil, 2.3 kPa at 0.05 m/s and 4 MPa, against
+// an active pressure of 4.3 kPa at the toe. It therefore accelerates slowly, and an active wall is
+// slow altogether. The contact's reach cuts its toe short, so an active force needs twenty cells of
+// height. A smooth wall is compared with Rankine, a rough one with the bounds of
+// theory/earth_pressure.h; planar wedges are listed beside them.
 #include <algorithm>
 #include <cmath>
 
@@ -21,18 +21,18 @@ namespace {
 
 const char* const kSource = "[docs/validation.md, Slopes, walls and cuts]";
 
-/// Speeds for which nothing is given: a passive wall pushes with some ten kPa, an active one with
-/// one or two.
-constexpr double kPassiveSpeed = 0.1, kActiveSpeed = 0.01;  // [m/s]
+/// Default speeds: a passive wall pushes with some ten kPa, an active one with one or two.
+// [m/s].
+constexpr double kPassiveSpeed = 0.1, kActiveSpeed = 0.01;
 
-/// Of the wall, always positive [m/s].
+/// Returns the speed of the wall, always positive [m/s].
 double speed_of(const Setup& setup) {
   const double given = setup["speed"];
   return given > 0 ? given : setup["travel"] > 0 ? kPassiveSpeed : kActiveSpeed;
 }
 
-/// What the force per metre of wall is held against. By widths: over `share` of the chute the wall
-/// is rough, beside it lies soil without tool friction.
+/// Returns the reference of the force per metre of wall. By widths: the wall is rough over `share`
+/// of the chute, and soil without tool friction lies beside it.
 Reference wall_reference(const Setup& setup, bool passive, double share) {
   BladeCase rough = blade_case(setup, kPi / 2, setup["height"], 1), smooth = rough;
   smooth.delta = smooth.adhesion = 0;
@@ -52,7 +52,7 @@ Reference wall_reference(const Setup& setup, bool passive, double share) {
   return out;
 }
 
-/// The wall's force against theory, gated where theory speaks of this setup.
+/// Compares the wall's force with theory, with a tolerance where theory applies to this setup.
 void read_wall(const Setup& setup, const Vec3& force, double share, Report& report) {
   const scene::Soil& s = setup.soil;
   const double height = setup["height"], weight = s.bank_density * kGravity,
@@ -73,11 +73,11 @@ void read_wall(const Setup& setup, const Vec3& force, double share, Report& repo
           "by "
           "0.03 H at 0.01 m/s or less",
           s.young_modulus > 3.99e6 && moved > (passive ? 0.1999 : 0.0299) && slow && !softens(s));
-  // Ka or Kp as a textbook tabulates them.
+  // Ka or Kp as in textbooks.
   if (!rough)
     report.note("coefficient", force.x() / (0.5 * weight * height * height), "", "of 0.5 gamma H2");
   if (rough && passive) {
-    // Coulomb's and Reece's wedge, by widths as well: what a rough wall is not held against.
+    // Coulomb's and Reece's wedge, by widths as well; they are not the reference of a rough wall.
     BladeCase c = blade_case(setup, kPi / 2, height, 1), smooth = c;
     smooth.delta = smooth.adhesion = 0;
     const double wedge =
@@ -90,8 +90,8 @@ void read_wall(const Setup& setup, const Vec3& force, double share, Report& repo
              "tan delta times the rough share");
 }
 
-/// Force per metre at three stages: before it moves, at its least (active) or over the last fifth
-/// (passive).
+/// Measures the force per metre at three stages: before it moves, at its minimum (active) or over
+/// the last fifth (passive).
 Report run_wall(const Setup& setup) {
   const double cell = setup.cell, height = setup["height"], speed = speed_of(setup),
                travel = setup["travel"] * height;
@@ -99,8 +99,8 @@ Report run_wall(const Setup& setup) {
   double share = 0;
   const double gap = chute_gap(setup, share);
   const double below = whole_cells(height * (1 + setup["below"]), cell);
-  // Older than the chute of blades and kept for its numbers: a rough wall is rough over the middle
-  // of the chute only, with smooth soil against the plates.
+  // Older than the chute of blades and kept for its recorded numbers: a rough wall is rough over
+  // the middle of the chute only, with smooth soil against the plates.
   const ChuteBed bed{6 * cell,
                      cell * std::ceil((std::abs(travel) + setup["ahead"] * height) / cell), below};
   Site site(setup, chute_soils(setup.soil), chute_site(setup, bed, gap));
@@ -112,17 +112,17 @@ Report run_wall(const Setup& setup) {
       site, bed, gap, share > 0,
       [&](const Vec3& p) { return ahead_of_blade(p, height, kPi / 2, cell); }, trench(height)));
   ToolDriver driver(site, blade_chute(shape), make_pose(0, chute_offset(cell), -height));
-  // The wall's way either way; half of it at most is spent on coming up to speed.
-  const double way = std::abs(travel), ramp = std::min(setup["ramp"], 0.5 * way);
-  site.expect(setup["wait"] + (way + ramp) / speed + setup["hold"]);
+  // Length of the travel; at most half of it serves the acceleration.
+  const double length = std::abs(travel), ramp = std::min(setup["ramp"], 0.5 * length);
+  site.expect(setup["wait"] + (length + ramp) / speed + setup["hold"]);
   driver.run(0.7 * setup["wait"]);
-  // The last third of the wait, after the start has rung out.
+  // The last third of the wait, after the ringing of the start.
   const double at_rest = -driver.run(0.3 * setup["wait"]).x() / gap;
   const Vec3 twist(passive ? speed : -speed, 0, 0);
-  driver.start(0.8 * way, twist, ramp);
-  // The last fifth: the pressure has reached its limit there, when the soil is stiff enough.
-  const Vec3 last = -driver.advance(0.2 * way, twist) / gap;
-  // Stopped at once; the last tenth, long after that has rung out.
+  driver.start(0.8 * length, twist, ramp);
+  // The last fifth: the pressure has reached its limit there if the soil is stiff enough.
+  const Vec3 last = -driver.advance(0.2 * length, twist) / gap;
+  // Stopped at once; the last tenth, long after the ringing.
   const double hold = setup["hold"];
   driver.set_twist(Vec3::Zero());
   if (hold > 0) driver.run(0.9 * hold);
@@ -136,7 +136,7 @@ Report run_wall(const Setup& setup) {
              "K0 = nu / (1 - nu), elastic rest");
   read_wall(setup, last, share, report);
   if (hold > 0)
-    report.note("force it is held by / force before it stopped", held / last.x(), "",
+    report.note("force after the stop / force before it", held / last.x(), "",
                 "over the last tenth of the hold");
   return finish_blade(site, driver, report);
 }
@@ -146,42 +146,37 @@ Report run_wall(const Setup& setup) {
 Rig wall_rig() {
   Rig rig;
   rig.name = "wall";
-  rig.summary = "retaining wall: active and passive earth pressure against Rankine";
+  rig.summary = "retaining wall: active and passive earth pressure compared with Rankine";
   rig.drawing =
-      "An upright wall of `height` holds level soil; the soil goes on under its toe. After `wait` "
-      "it moves `travel` "
-      "heights: towards the soil when positive (passive), away when negative (active). Plane "
-      "strain: the wall spans a "
-      "chute of smooth side plates; it comes up to speed over `ramp`. The force at rest is the "
-      "mean of the last third "
-      "of the wait, the other the mean over the last fifth of the travel. With tool friction "
-      "(--delta-deg) the wall is "
-      "rough over its middle two thirds and held against the lower bound of Lancellotta and the "
-      "log spiral of Caquot "
-      "and Kerisel; planar wedges are upper bounds and stand beside them. With --hold it then "
-      "stands, and what the "
-      "soil "
-      "keeps of its force is told.";
+      "An upright wall of `height` retains level soil, which continues under its toe. After "
+      "`wait` it moves by `travel` heights: towards the soil if positive (passive), away if "
+      "negative (active). Plane strain: the wall spans a chute of smooth side plates; it "
+      "accelerates over `ramp`. The force at rest is the mean of the last third of the wait, the "
+      "other the mean over the last fifth of the travel. With tool friction (--delta-deg) the "
+      "wall is rough over its middle two thirds and compared with the lower bound of Lancellotta "
+      "and the log spiral of Caquot and Kerisel; planar wedges are upper bounds and listed for "
+      "comparison. With --hold the wall then stands still, and the report gives the remaining "
+      "force.";
   rig.examples = {{"Active pressure", "--travel -0.03"},
                   {"Passive pressure at two speeds", "--speed 0.05,0.2"},
-                  {"What soil keeps of it when the wall stops", "--hold 0.5,1,2"}};
+                  {"Remaining force after the wall stops", "--hold 0.5,1,2"}};
   rig.parameters = {
       {"height", 1, "m", "of the wall", above(0)},
       {"travel", 0.2, "heights", "positive: passive, negative: active", any()},
-      {"speed", 0, "m/s", "of the wall; 0: 0.1 in, 0.01 out", at_least(0)},
-      {"ramp", 0.015, "m", "of travel over which it comes up to speed; 0: at once", at_least(0)},
+      {"speed", 0, "m/s", "of the wall; 0: 0.1 passive, 0.01 active", at_least(0)},
+      {"ramp", 0.015, "m", "of travel over which it accelerates; 0: at once", at_least(0)},
       {"wait", 0.3, "s", "at rest before it moves", at_least(0)},
-      {"hold", 0, "s", "that it stands after the travel; the force at its end is told",
+      {"hold", 0, "s", "standing still after the travel; the force at its end is reported",
        at_least(0)},
       {"ahead", 3, "heights", "of soil in front", at_least(0)},
       {"below", 0.5, "heights", "of soil under the toe", at_least(0)}};
   rig.default_cell = 0.05;
   rig.default_soil = clean_sand(35);
   rig.default_soil.tool_friction_angle = 0;
-  // At 1 MPa a passive wall needs more than a fifth of its height of travel
+  // At 1 MPa a passive wall needs a travel of more than a fifth of its height.
   rig.default_soil.young_modulus = 4e6;
   rig.headline = {"passive force", "active force", "coefficient", "force at rest",
-                  "force it is held by / force before it stopped"};
+                  "force after the stop / force before it"};
   rig.experiment = run_wall;
   return rig;
 }

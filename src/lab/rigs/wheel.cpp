@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a slip
-// that is kept.
+// Rig `wheel`: one wheel rolls, spins or is dragged over a bed of particles under a load, at a
+// prescribed slip; or the wheel law alone, without particles (`law`).
 //
-// Or the law alone, without particles (`law`).
-//
-// The single-wheel test of terramechanics: slip is kept, the wheel sinks as it likes, and pull,
-// torque and sinkage are read. The formulas beside the results integrate a measured plate curve
-// over the rim; the particles know nothing of that curve, so a gap between both is no error of
-// either. What must hold whatever the soil: the load is carried, no particle passes the drum, more
-// slip pulls more, and power goes into the soil and never comes out.
+// This is the single-wheel test of terramechanics: slip is prescribed, the wheel sinks freely, and
+// pull, torque and sinkage are measured. The formulas beside the results integrate a measured plate
+// curve over the rim. The particles do not use that curve, so a difference between both is no error
+// of either. For any soil, the wheel must carry its load, no particle may pass the drum, more slip
+// must pull more, and power must go into the soil and never come out.
 #include <algorithm>
 #include <cmath>
 
@@ -31,9 +29,9 @@ constexpr const char* kLawSource =
     "[Bekker 1969] [Janosi 1961] [Lyasko 2010] over the arc, the soil's own parameters "
     "[docs/validation.md, Wheels]";
 constexpr const char* kNotCarried = "none: by Bekker's law the soil does not carry this load";
-// Seconds in which the load comes on, at standstill, and half as many to start
+// Seconds over which the load increases, at standstill; the start takes half as long.
 constexpr double kLoading = 0.3;
-// Sinking speed at which the carriage's damper bears a tenth of the load [m/s]
+// Sinking speed at which the carriage's damper carries a tenth of the load [m/s].
 constexpr double kDashpot = 0.05;
 
 WheelCase wheel_of(const Setup& setup) {
@@ -44,19 +42,19 @@ WheelCase wheel_of(const Setup& setup) {
   return wheel;
 }
 
-/// Dry sand of a single-wheel test bed [docs/validation.md, Wheels]: its plate curve is 1734 kPa
-/// (z / m)^1.34, 20 degrees of friction on the rim are an estimate.
+/// Returns dry sand of a single-wheel test bed [docs/validation.md, Wheels]: its plate curve is
+/// 1734 kPa (z / m)^1.34; 20 degrees of friction on the rim are an estimate.
 scene::Soil wheel_bed_sand() {
   scene::Soil soil = clean_sand(29);
   soil.bank_density = 13000 / kGravity;
   soil.tool_friction_angle = radians(20);
-  // Of the plate curve: read by the formula beside the rig, not by the particles.
+  // For the plate curve: used by the formula beside the rig, not by the particles.
   soil.bekker_kc = 0, soil.bekker_kphi = 1734000, soil.bekker_n = 1.34;
   soil.janosi_k = 0.021;
   return soil;
 }
 
-/// What ties parameters to each other or to the cell; their own ranges are checked already.
+/// Checks relations between parameters, and to the cell; their own ranges are checked already.
 void check_wheel(const Setup& setup) {
   std::vector<Fault> faults;
   const auto refuse = [&faults](const char* name, double value, const char* rule,
@@ -65,7 +63,8 @@ void check_wheel(const Setup& setup) {
                            short_text(value), rule, remedy});
   };
   const double radius = setup["radius"];
-  if (setup.is("law", "yes")) return;  // no cells, no way
+  // Without cells there is no travel.
+  if (setup.is("law", "yes")) return;
   if (setup["slip-angle-deg"] != 0)
     refuse("slip-angle-deg", setup["slip-angle-deg"], "0 on particles", "--law yes");
   if (setup["grouser"] > 0)
@@ -79,7 +78,7 @@ void check_wheel(const Setup& setup) {
   if (!faults.empty()) throw InputError(faults);
 }
 
-/// What the law gives by itself.
+/// Reports the wheel law by itself.
 Report law_alone(const Setup& setup) {
   const WheelCase wheel = wheel_of(setup);
   const WheelForce law = rigid_wheel(wheel, setup.soil);
@@ -100,7 +99,7 @@ Report law_alone(const Setup& setup) {
   return report;
 }
 
-/// A bed long and wide enough that its ends are not felt; the wheel starts over x = 0.
+/// Returns a bed so long and wide that its ends have no effect; the wheel starts over x = 0.
 SiteBox bed_of(const Setup& setup) {
   const double cell = setup.cell, r = setup["radius"];
   // A wheel pushes soil aside by less than its radius.
@@ -109,11 +108,11 @@ SiteBox bed_of(const Setup& setup) {
           Vec3(whole_cells(setup["travel"] + 2.5 * r, cell), side, 0)};
 }
 
-/// Loads the wheel slowly, then lets it go at its slip for the travel. Height of the axle over time
-/// in `height`.
+/// Loads the wheel slowly, then moves it at its slip over the travel. Records the height of the
+/// axle over time in `height`.
 class Carriage {
  public:
-  // The wheel's mass is its load over g: what sinks, sinks with the inertia of what it carries.
+  // The wheel's mass is its load over g, so that it sinks with the inertia of that load.
   Carriage(const Setup& setup, ToolDriver& driver)
       : setup_(setup), driver_(driver), wheel_(wheel_of(setup)) {
     Tool& tool = driver.site().tool(driver.tool());
@@ -122,7 +121,7 @@ class Carriage {
   }
 
   void run() {
-    // A load that drops on the soil digs a hole that the wheel must then climb out of.
+    // A load applied at once would dig a hole that the wheel must then climb out of.
     load_up(kLoading);
     const double speed = setup_["speed"];
     run_for(kLoading / 2, [&](double share) { roll(share * speed); });
@@ -135,13 +134,13 @@ class Carriage {
  private:
   Tool& tool() { return driver_.site().tool(driver_.tool()); }
 
-  /// Sinking is left to the soil: only the twist along the way and about the axle is set.
+  /// Sinking is free: only the twist along the path and about the axle is set.
   void roll(double speed) {
     const double rim = rim_speed(speed, wheel_.slip);
     driver_.set_twist(Vec3(speed, 0, tool().motion.v_WT.z()), Vec3(0, rim / wheel_.radius, 0));
   }
 
-  /// The carriage bears less and less of the load, linearly.
+  /// The carriage carries less and less of the load, linearly.
   void load_up(double seconds) {
     run_for(seconds, [&](double share) { bearing_ = 1 - share; });
     bearing_ = 0;
@@ -149,15 +148,15 @@ class Carriage {
 
   template <class Each>
   void run_for(double seconds, const Each& each) {
-    // One step for the whole run, and so for the speed to come: the wheel stands still when it is
-    // asked for.
+    // One step for the whole run, and so for the later speed: the wheel stands still when it is
+    // computed.
     const double dt =
         driver_.site().step_limit(rim_speed(setup_["speed"], std::max(0.0, wheel_.slip)) * 1.5);
     const int steps = std::max(1, static_cast<int>(std::ceil(seconds / dt)));
     for (int i = 0; i < steps; ++i) {
       each((i + 1.0) / steps);
       const double damper = -0.1 * wheel_.load * tool().motion.v_WT.z() / kDashpot;
-      // The carriage carries what it still bears; its damper takes the bounce.
+      // The carriage carries its share of the load; its damper absorbs the bounce.
       tool().force_W = Vec3(0, 0, bearing_ * wheel_.load + damper);
       driver_.step(seconds / steps);
       height_.push_back(driver_.pose().translation().z());
@@ -170,23 +169,25 @@ class Carriage {
   const Setup& setup_;
   ToolDriver& driver_;
   WheelCase wheel_;
-  double bearing_ = 1;  ///< share of the load that the carriage still bears
+  /// Share of the load that the carriage carries.
+  double bearing_ = 1;
   double touched_ = kNone;
   std::vector<double> height_;
 };
 
 /// Means over the steps from a time on.
 struct Steady {
-  /// Soil on wheel, moment about the axle [N], [N m].
+  /// Force of the soil on the wheel, moment about the axle [N], [N m].
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  double height = 0;  ///< of the axle over the level ground [m]
+  /// Of the axle over the level ground [m].
+  double height = 0;
 };
 
 Steady steady_part(const Trace& trace, const std::vector<double>& height, double from_time) {
   Steady out;
   int count = 0;
   for (std::size_t i = 0; i < trace.time.size(); ++i) {
-    // By time and not by travel: the travel of the driver counts the sinking too.
+    // By time and not by travel: the travel of the driver includes the sinking.
     if (trace.time[i] < from_time) continue;
     out.force += trace.force[i];
     out.moment += trace.moment[i];
@@ -197,7 +198,7 @@ Steady steady_part(const Trace& trace, const std::vector<double>& height, double
   return out;
 }
 
-/// Lays the bed, loads the wheel, rolls, and averages the last part of the way.
+/// Fills the bed, loads the wheel, rolls, and averages the last part of the path.
 Report run(const Setup& setup) {
   check_wheel(setup);
   if (setup.is("law", "yes")) return law_alone(setup);
@@ -216,7 +217,8 @@ Report run(const Setup& setup) {
   // air.
   const double half = 0.25 * setup.cell, inset = half + setup["offset"] * setup.cell;
   scene::Shell shell = drum(wheel.radius - inset, wheel.width - 2 * inset);
-  shell.half_thickness = half;  // faces stand at radius and width, less the offset
+  // Faces lie at radius and width, less the offset.
+  shell.half_thickness = half;
   ToolDriver driver(
       site, shell,
       make_pose(0, 0.07 * setup.cell, wheel.radius + (1.5 - setup["offset"]) * setup.cell));
@@ -225,12 +227,12 @@ Report run(const Setup& setup) {
   site.expect(start + travel_time);
   carriage.run();
 
-  // The bed's first half digests the start; a wheel needs about a diameter of way to find its
+  // The bed's first half absorbs the start; a wheel needs about a diameter of path to reach its
   // sinkage.
   const Trace& trace = driver.trace();
   const Steady mean =
       steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
-  // A soil too soft for the law has no expected values, which is said instead.
+  // A soil too soft for the law has no expected values; the report says so.
   const WheelForce law = rigid_wheel(wheel, setup.soil);
   const std::string source = law.carried ? kLawSource : kNotCarried;
   const auto expected = [&law](double value) { return law.carried ? value : kNone; };
@@ -244,8 +246,8 @@ Report run(const Setup& setup) {
   report.note(
       "torque over radius x load", -mean.moment.y() / (wheel.radius * wheel.load), "",
       "tan delta = " + std::to_string(std::tan(setup.soil.tool_friction_angle)).substr(0, 5) +
-          " bears at most about this");
-  // Soil takes energy and gives none: a negative figure means the contact makes some.
+          " carries at most about this");
+  // Soil dissipates energy: a negative value means that the contact creates some.
   report.note("power in: torque x turning less pull x speed",
               -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius -
                   mean.force.x() * setup["speed"],
@@ -271,29 +273,24 @@ Report run(const Setup& setup) {
 Rig wheel_rig() {
   Rig rig;
   rig.name = "wheel";
-  rig.summary = "one wheel at a kept slip: drawbar pull, sinkage, torque";
+  rig.summary = "one wheel at a prescribed slip: drawbar pull, sinkage, torque";
   rig.drawing =
-      "A smooth closed wheel of `radius` and `width` is let down on level soil until it bears "
-      "`load-n`, then goes "
-      "ahead at `speed` and turns so that its slip is kept: 0 rolls, 0.2 turns a quarter faster "
-      "than it goes, -0.2 is "
-      "braked, -1 locked. It is free to sink, its way and its turning are driven, as in a "
-      "single-wheel test bed; a "
-      "damper bears a tenth of the load where it sinks at 0.05 m/s. Pull, sinkage and torque are "
-      "means from `from` to "
-      "`travel`; sinkage is that of the rim's lowest point below the level ground. Beside them "
-      "stands what Bekker's "
-      "and Janosi's laws give over the arc with the soil's own numbers, which the particles do not "
-      "follow; those of "
-      "the default soil were measured on its sand. Contact begins up to a cell before the shell; "
-      "`offset` makes up "
-      "for it. With `law` those formulas are all that is measured, in no time, at a slip angle and "
-      "with grousers too.";
+      "A smooth closed wheel of `radius` and `width` is lowered on level soil until the soil "
+      "carries `load-n`. It then moves ahead at `speed` and turns at a prescribed slip: 0 rolls, "
+      "0.2 turns a quarter faster than it moves, -0.2 brakes, -1 is locked. It is free to sink; "
+      "its path and rotation are driven, as in a single-wheel test bed, and a damper carries a "
+      "tenth of the load at a sinking speed of 0.05 m/s. Pull, sinkage and torque are means from "
+      "`from` to `travel`; sinkage is that of the rim's lowest point below the level ground. For "
+      "comparison the report lists the laws of Bekker and Janosi over the arc with the soil's own "
+      "parameters, which the particles do not use; those of the default soil were measured on its "
+      "sand. Contact begins up to a cell before the shell; `offset` compensates for it. With "
+      "`law` only those formulas are evaluated, without simulated time, also at a slip angle and "
+      "with grousers.";
   rig.parameters = {
       {"radius", 0.0625, "m", "of the wheel, 4 cells or more", above(0)},
       {"width", 0.06, "m", "of the wheel, 2 cells or more", above(0)},
       {"load-n", 24.6, "N", "on the axle, the wheel's own weight included", above(0)},
-      {"slip", 0.2, "", "that is kept: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked",
+      {"slip", 0.2, "", "prescribed: 0 rolls, 0.2 pulls, -0.2 brakes, -1 is locked",
        between(-1, 0.95)},
       {"speed", 0.2, "m/s", "of the axle", above(0)},
       {"travel", 0.25, "m", "of the axle", above(0)},
@@ -303,16 +300,16 @@ Rig wheel_rig() {
        at_least(0)},
       {"beside", 1.6, "radii", "of soil on either side", at_least(0)},
       {"below", 2.2, "radii", "of soil", at_least(0)},
-      {"slip-angle-deg", 0, "deg", "between way and wheel, by the law only", between(0, 80)},
-      {"grouser", 0, "m", "height of bars on the rim, by the law only; 0 is smooth", at_least(0)},
+      {"slip-angle-deg", 0, "deg", "between path and wheel, for the law only", between(0, 80)},
+      {"grouser", 0, "m", "height of bars on the rim, for the law only; 0 is smooth", at_least(0)},
       {"slip-sinkage", 1, "",
-       "coefficient of the law's sinkage by slip: 1 as [Lyasko 2010] has it, 0 none",
-       between(0, 3)},
-      yes_no("law", false, "the law alone, without particles", "particles, the law beside them")};
+       "coefficient of the law's sinkage by slip: 1 as in [Lyasko 2010], 0 none", between(0, 3)},
+      yes_no("law", false, "the law alone, without particles",
+             "particles, with the law for comparison")};
   rig.examples = {{"A wheel on a soil whose plate curve is known",
                    "--slip 0.2 --set bekker_kphi_n_per_m_n2=1734000 --set bekker_n=1.34 --set "
                    "janosi_k_m=0.021"}};
-  rig.examples.push_back({"Pull against slip by the law, a wheel with grousers that goes askew",
+  rig.examples.push_back({"Pull against slip by the law, a wheel with grousers at a slip angle",
                           "--law yes --slip 0,0.1,0.2,0.4,0.6 --grouser 0.005 --slip-angle-deg 5"});
   rig.default_soil = wheel_bed_sand();
   rig.default_cell = 0.01;

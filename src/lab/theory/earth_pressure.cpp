@@ -10,27 +10,28 @@
 namespace navvy::lab {
 namespace {
 
-/// c cot phi, from which pressures count; no soil is quite without friction here, so that clay has
-/// a limit too.
+/// Smallest phi in c cot phi, from which pressures count, so that clay has a limit, too.
 constexpr double kLeastPhi = 1e-5;
 
-/// The stress that the field turned by t puts on the wall.
+/// Returns the stress on the wall when the field turns by t.
 WallStress turned_by(double t, double phi, double cohesion, double surcharge) {
   const double sine = std::sin(phi), tension = cohesion / std::tan(phi);
   const double p = (surcharge + tension) / (1 - sine) * std::exp(2 * t * std::tan(phi));
   return {p * (1 + sine * std::cos(2 * t)) - tension, p * sine * std::sin(2 * t)};
 }
 
-/// Force per gamma H^2 / 2 along delta for a wall of height 1, the pole `away` from the wall's head
-/// on the line of Rankine's boundary. Moments of the body between wall, spiral and the upright
-/// section at the spiral's end.
+/// Returns force / (gamma H^2 / 2) along delta for a wall of height 1, with the pole at `away` from
+/// the wall's head on Rankine's boundary. Uses moments of the body between wall, spiral and the
+/// vertical section at the spiral's end.
 double spiral_coefficient(double phi, double delta, double away) {
   // x ahead of the wall's head, z up.
   const double rise = kPi / 4 - phi / 2, px = -away * std::cos(rise), pz = away * std::sin(rise);
   const double radius = std::hypot(px, 1 + pz), toe = std::atan2(-1 - pz, -px), end = -rise;
   constexpr int kCorners = 800;
-  double area = 0, moment = 0;  // of the body; first moment about the wall
-  double ax = 0, az = -1;       // the edge's beginning
+  // Of the body; first moment about the wall.
+  double area = 0, moment = 0;
+  // Start of the edge.
+  double ax = 0, az = -1;
   const auto edge = [&](double bx, double bz) {
     const double cross = ax * bz - bx * az;
     area += 0.5 * cross, moment += cross * (ax + bx) / 6;
@@ -42,13 +43,15 @@ double spiral_coefficient(double phi, double delta, double away) {
     edge(px + r * std::cos(angle), pz + r * std::sin(angle));
   }
   const double depth = -az;
-  edge(ax, 0);  // Rankine's zone begins at this section
-  // Along the ground to the wall's head; the wall itself passes through the origin: no area
+  // Rankine's zone begins at this section.
+  edge(ax, 0);
+  // Along the ground to the wall's head. The wall itself passes through the origin and adds no
+  // area.
   edge(0, 0);
   const double rankine = 0.5 * rankine_passive(phi) * depth * depth;
   // Reactions along the spiral point at the pole and have no moment about it.
   const double resisting = moment - px * area + rankine * (pz + 2.0 / 3 * depth);
-  // The wall pushes at its lower third, ahead and down.
+  // The wall pushes at its lower third, forwards and down.
   const double arm = (pz + 2.0 / 3) * std::cos(delta) + px * std::sin(delta);
   return arm > 0 && resisting > 0 ? 2 * resisting / arm : std::numeric_limits<double>::infinity();
 }
@@ -82,8 +85,8 @@ double passive_lancellotta(double phi, double delta) {
 }
 
 double passive_log_spiral(double phi, double delta) {
-  // Far away the spiral is a plane: a smooth wall's pole lies at infinity. One minimum; powers of
-  // ten find it.
+  // Far away the spiral is a plane: a smooth wall's pole lies at infinity. There is one minimum; a
+  // search by powers of ten brackets it.
   double best = std::numeric_limits<double>::infinity(), at = 0;
   for (double power = -3; power <= 3; power += 0.1) {
     const double value = spiral_coefficient(phi, delta, std::pow(10, power));

@@ -12,8 +12,8 @@
 namespace navvy::soil {
 namespace {
 
-/// Pressure never closes a particle below this share of its volume: far beyond any column, keeps j
-/// positive.
+/// Pressure never compresses a particle below this share of its volume, far beyond any column;
+/// keeps j positive.
 constexpr double kMostCompression = 0.5;
 /// Particles of a layer: 2 x 2 in plan.
 constexpr int kInPlan = 2, kPerLayer = kInPlan * kInPlan;
@@ -43,18 +43,18 @@ int Activator::particle_bound(double thickness) const {
   return kPerLayer * (static_cast<int>(std::ceil(2 * std::max(thickness, 0.0) / cell_)) + 2);
 }
 
-// Divides the taken layers [first, last), one soil, into equal slices; `bottom` is where they start
-// above the cut.
+// Divides the taken layers [first, last), of one soil, into equal slices; `bottom` is where they
+// start above the cut.
 void Activator::slice(std::size_t first, std::size_t last, double bottom) {
   const std::uint16_t soil = taken_[first].soil;
   const double density = ground_.setup().soils[soil].bank_density;
   double thickness = 0;
-  // The whole thickness first: slices are equal, so that no thin rest becomes a particle of its
-  // own.
+  // The whole thickness first: slices are equal, so that no thin remainder becomes a particle of
+  // its own.
   for (std::size_t i = first; i < last; ++i) thickness += thickness_of(taken_[i], density, cell_);
   const int count = std::max(1, static_cast<int>(std::lround(2 * thickness / cell_)));
 
-  // Walk up layers and slices together; `below` is the run's mass under the walk's height.
+  // Iterate over layers and slices together; `below` is the mass below the current height.
   std::size_t layer = first;
   double layer_bottom = 0, below = 0, shear_below = 0;
   std::int64_t given = 0;
@@ -90,8 +90,7 @@ void Activator::slice(std::size_t first, std::size_t last, double bottom) {
     Slice out{soil, upto - given, bottom + thickness * k / count, thickness / count, 1, 0};
     if (out.mass > 0) {
       const double volume = out.thickness * cell_ * cell_ * density / kilograms(out.mass);
-      // Rounding of the mass must not make soil denser or looser than any layer that the slice came
-      // from.
+      // Rounding of the mass must not make soil denser or looser than any layer of the slice.
       out.specific_volume = std::clamp(static_cast<float>(volume), least, most);
       out.shear = static_cast<float>(
           std::max(0.0, (shear_at - last_shear) / std::max(at - last_below, 1e-300)));
@@ -103,12 +102,12 @@ void Activator::slice(std::size_t first, std::size_t last, double bottom) {
   }
 }
 
-// Stress of soil at rest under `weight` [N/m2], and the volume that goes with its pressure.
+// Sets the stress of soil at rest under `weight` [N/m2], and the volume that belongs to its
+// pressure.
 void Activator::stress(const Slice& slice, double weight, Particle& particle) const {
   const LawConstants& law = law_[slice.soil];
   const double nu = ground_.setup().soils[slice.soil].poisson;
-  // What is left in this density state and after remoulding, as in the law
-  // [docs/soil.md, cohesion].
+  // Strength in this density state and after remoulding, as in the law [docs/soil.md, cohesion].
   const double dense = std::clamp(
       law.dense_offset - static_cast<double>(slice.specific_volume) * law.inv_range, 0.0, 1.0);
   const double soft = 1 + static_cast<double>(slice.shear) * law.inv_remould;
@@ -121,17 +120,18 @@ void Activator::stress(const Slice& slice, double weight, Particle& particle) co
                                   : 0;
   const double k0 = std::clamp(std::max(nu / (1 - nu), bound), 0.0, 1.0);
   const double pressure = weight * (1 + 2 * k0) / 3;
-  // Deviatoric stress, tension positive: the pressure is kept apart, in the volume.
+  // Deviatoric stress, positive in tension; the pressure is stored in the volume.
   particle.s[0] = particle.s[1] = static_cast<float>(pressure - k0 * weight);
   particle.s[2] = static_cast<float>(pressure - weight);
   particle.j = static_cast<float>(static_cast<double>(slice.specific_volume) *
                                   (1 - std::min(pressure / law.bulk, kMostCompression)));
 }
 
-void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<Particle>& born) {
+void Activator::activate(int ix, int iy, double z_bottom, double load,
+                         std::vector<Particle>& born) {
   taken_.clear();
   slices_.clear();
-  // `take_above` cuts a layer in two where needed, to the quantum.
+  // `take_above` cuts a layer in two where needed, exact to the quantum.
   ground_.take_above(ix, iy, std::max(z_bottom, ground_.datum()), taken_);
   const double cut = ground_.height(ix, iy);
 
@@ -148,8 +148,7 @@ void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<P
     first = last;
   }
 
-  // Weight from above a slice: what rests on the column, then every slice over it, and half of its
-  // own.
+  // Weight above a slice: the load on the column, every slice over it, and half of its own.
   double above = load;
   for (const Slice& s : slices_) above += kilograms(s.mass);
   const double to_pressure = gravity_ / (cell_ * cell_);
@@ -160,7 +159,7 @@ void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<P
     p.j0 = s.specific_volume;
     p.shear = s.shear;
     stress(s, (above + 0.5 * kilograms(s.mass)) * to_pressure, p);
-    // Heights are counted from where the column ends now, which is within a quantum of the height
+    // Heights count from the present end of the column, which is within a quantum of the height
     // asked for.
     const double z = (cut - ground_.datum() + s.bottom + 0.5 * s.thickness) / cell_;
     const int cells[3] = {ix - grid_.x, iy - grid_.y, static_cast<int>(std::floor(z))};
@@ -171,8 +170,8 @@ void Activator::wake(int ix, int iy, double z_bottom, double load, std::vector<P
       if (p.mass == 0) continue;
       const double plan[3] = {(k % kInPlan + 0.5) / kInPlan, (k / kInPlan + 0.5) / kInPlan, 0};
       for (int a = 0; a < 3; ++a) {
-        // Rounded down also for cells below zero, as blocks are counted from the grid's corner,
-        // which may lie within the site.
+        // Rounded down also for cells below zero, as blocks count from the grid's corner, which may
+        // lie within the site.
         p.block[a] =
             cells[a] >= 0 ? cells[a] / kBlockCells : -((kBlockCells - 1 - cells[a]) / kBlockCells);
         p.x[a] = static_cast<float>(cells[a] - kBlockCells * p.block[a] + plan[a] + offset[a]);

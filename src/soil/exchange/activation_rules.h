@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which columns must wake because of a tool (rule A) or because soil moves beside them (rule B).
-// [docs/exchange.md, wake]
+// Rules for columns that become active because of a tool (rule A) or because soil moves beside them
+// (rule B) [docs/exchange.md, activation].
 #pragma once
 
 #include <map>
@@ -12,69 +12,80 @@
 
 namespace navvy::soil {
 
-/// A tool as columns see it. Rectangles lie inside the site and may be empty. It is made anew at
-/// each check from the shell's box, so a tool that turned has another one. Cells are counted from
-/// the datum, columns from the site's corner.
+/// A tool as columns see it. Rectangles lie inside the site and may be empty. It is computed at
+/// each check from the shell's box, so it changes when the tool turns. Heights are in cells above
+/// the datum, columns are counted from the site's corner.
 struct ToolZone {
-  heightfield::CellRect box;   ///< columns under the tool's box
-  heightfield::CellRect near;  ///< and those within kToolGuard of it
-  heightfield::CellRect
-      /// Columns to wake: two dig depths ahead, one to the sides, times the scene's awake zone.
-      zone;
-  double low = 0, high = 0;  ///< of the box [cells above datum]
-  double scale = 1;          ///< the scene's awake zone
-  double speed = 0;          ///< [m/s]
-  int tool = -1;             ///< from add_tool
-  bool supported = false;    ///< it stands: no soil wakes or stays awake because of it
-  bool engaged = false;      ///< some column of the zone, with the soil on it, reaches up to it
+  /// Columns under the tool's box.
+  heightfield::CellRect box;
+  /// Columns within kToolGuard of it.
+  heightfield::CellRect near;
+  /// Columns to activate: two dig depths ahead and one to the sides, times the scene's factor.
+  heightfield::CellRect zone;
+  /// Heights of the box [cells above datum].
+  double low = 0, high = 0;
+  /// Factor of the scene on the size of zones.
+  double scale = 1;
+  /// [m/s].
+  double speed = 0;
+  /// Index from add_tool.
+  int tool = -1;
+  /// The tool stands: no soil becomes or stays active because of it.
+  bool supported = false;
+  /// Some column of the zone, with the soil on it, reaches up to it.
+  bool engaged = false;
 
-  /// Under the box in plan; says nothing about heights.
+  /// Returns true for a column under the box in plan, at any height.
   bool touches(int ix, int iy) const { return contains(box, ix, iy); }
+  /// Returns true for a column inside a rectangle.
   static bool contains(const heightfield::CellRect& r, int ix, int iy) {
     return ix >= r.x0 && ix < r.x1 && iy >= r.y0 && iy < r.y1;
   }
 };
 
-/// Height [cells above datum] each column shall wake down to. A column that is not in it stays. It
-/// is ordered, as new particles come in its order.
+/// Height [cells above datum] above which each column becomes active. Columns that are not listed
+/// stay. It is ordered, as new particles come in its order.
 using ActivationPlan = std::map<PlanKey, double>;
 
-/// Where every tool is, its zone `scale` times as large as usual. Costs the columns of the zones.
-/// In the order of `tools`; no rule depends on that order.
+/// Returns the zones of all tools, `scale` times as large as by default, in the order of `tools`;
+/// no rule depends on that order. Cost is linear in the columns of the zones.
 std::vector<ToolZone> tool_zones(const heightfield::Ground& ground, const ColumnIndex& index,
                                  std::span<const ToolRegion> tools, double scale);
 
-/// Rule A: columns of the zone that reach within a cell (times the scale) of the tool's lowest
-/// point wake to one or two cells below it. That a whole zone wakes, not what a tool touches alone,
-/// is because soil fails ahead of a blade in a wedge as long as it digs deep or longer
-/// [docs/exchange.md, wake].
+/// Rule A: activates columns of the zone that reach within a cell (times the scale) of the tool's
+/// lowest point, down to one or two cells below it.
+///
+/// The whole zone becomes active, not only what a tool touches, because soil fails ahead of a blade
+/// in a wedge at least as long as its depth [docs/exchange.md, activation].
 void activate_ahead_of_tools(const heightfield::Ground& ground, std::span<const ToolZone> zones,
                              ActivationPlan& plan);
 
-/// Speed above which soil counts as moving: 5 % of the slowest working tool's [m/s]. At least 0.05
-/// m/s, also without a working tool: below, the elastic ringing of soil that has just woken would
-/// wake the site.
+/// Returns the speed above which soil counts as moving [m/s]: 5 % of that of the slowest working
+/// tool, at least 0.05 m/s, also without a working tool. Below, the elastic ringing of new
+/// particles would activate the whole site.
 double motion_threshold(std::span<const ToolZone> zones);
 
-/// Rule B: a particle that has failed (plastic shear) and is faster than `threshold` wakes the 3 x
-/// 3 columns around it that reach up to its cell. `may_activate` answers for a column whether this
-/// rule applies to it now. In a working tool's zone it goes three cells below the tool and no
-/// deeper. Costs the particles and nine columns for each column that moves.
+/// Rule B: a particle that has failed (plastic shear) and is faster than `threshold` [m/s]
+/// activates the 3 x 3 columns around it that reach up to its cell. `may_activate` returns true for
+/// a column to which this rule applies now. In the zone of a working tool it goes no deeper than
+/// three cells below the tool. Cost is linear in the particles, and nine columns for each column
+/// that moves.
 template <class MayActivate>
 void activate_around_motion(const heightfield::Ground& ground, const ColumnIndex& index,
                             double threshold, std::span<const ToolZone> zones,
                             const MayActivate& may_activate, ActivationPlan& plan);
 
-/// Adds a request; of two for one column the deeper one stays.
+/// Adds a request. Of two for one column the deeper one remains.
 void plan_activation(ActivationPlan& plan, int ix, int iy, double bottom);
 
 // ---- implementation of the template
 
-/// Lowest cell that holds a particle of the column that flows: faster than the threshold, and
-/// sheared; false when there is none.
+/// Finds the lowest cell with a flowing particle of the column: faster than the threshold, and
+/// sheared. Returns false when there is none.
 bool lowest_motion(const ColumnIndex& index, std::span<const std::uint32_t> column,
                    double threshold, int& cell);
-/// Height the column must wake to because soil moves in `cell` next to it; false when it need not.
+/// Finds the height down to which the column becomes active because soil moves in `cell` beside it.
+/// Returns false when it stays.
 bool activates_beside(const heightfield::Ground& ground, std::span<const ToolZone> zones, int ix,
                       int iy, int cell, double& bottom);
 

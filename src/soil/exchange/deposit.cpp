@@ -7,24 +7,25 @@
 namespace navvy::soil {
 namespace {
 
-// At rest: mass-weighted rms and fastest particle [m/s], for so long [s] [docs/exchange.md, rest].
+// A block is at rest below this mass-weighted rms speed and this speed of the fastest particle
+// [m/s], for this long [s] [docs/exchange.md, rest].
 constexpr double kRestRms = 0.010, kRestMost = 0.060, kRestTime = 0.8;
-/// Undercut walls and clods over a void stand for good; without an end to the wait they stay awake
-/// for good too [s].
+/// Undercut walls and clods over a void would stand, and stay active, for ever. The wait for them
+/// ends after this time [s].
 constexpr double kHollowRest = 5;
-/// A tool this far above the soil leaves it free to settle [cells] [docs/exchange.md, deposit].
+/// A tool this far above the soil does not hinder its deposit [cells] [docs/exchange.md, deposit].
 constexpr double kToolAbove = 2;
-/// Volume of a block too thin to tell [cells]: a quarter cell over all its columns.
+/// Volume of a block that is too small to judge [cells]: a quarter cell over all its columns.
 constexpr double kLeastCapacity = 4;
-/// Two columns that differ by this much stand at a cliff [cells]: slopes of loose soil stay below
-/// 0.8 a column, and the number of particles over a column scatters by 0.65.
+/// Two columns that differ by this much form a cliff [cells]. Slopes of loose soil stay below 0.8
+/// per column, and the number of particles over a column scatters by 0.65.
 constexpr double kCliff = 1.5;
-/// Of the four neighbours so many at least are level with a column that belongs to a wall.
+/// Number of the four neighbours that are at least level with a column of a wall.
 constexpr int kInLine = 2;
 /// Soil sheared less than this is ground that stands as it was cut; dug and dumped soil has 1 and
-/// more [-]. A wall may carry spoil: this share of a column is enough.
+/// more [-]. A wall may carry spoil, so this share of a column is enough.
 constexpr double kBonded = 0.5, kBondedShare = 0.25;
-/// Columns' shares of a block's volume are counted in this fraction of a cell.
+/// Unit of the columns' shares of a block's volume [cells].
 constexpr double kShareUnit = 1.0 / (1 << 20);
 
 double square_speed(const Particle& p) {
@@ -36,7 +37,7 @@ double square_speed(const Particle& p) {
 bool at_rest(const ColumnIndex& index, int block) {
   double mass = 0, sum = 0, most = 0;
   for (const std::uint32_t i : index.block(block)) {
-    // Squares are compared, so no root is taken for a particle; sums run in the index's order,
+    // Squares are compared, so no root is computed per particle. Sums run in the index's order,
     // which does not depend on the input's.
     const double square = square_speed(index[i]);
     mass += index[i].mass;
@@ -47,8 +48,8 @@ bool at_rest(const ColumnIndex& index, int block) {
   return sum < kRestRms * kRestRms * mass && most < kRestMost * kRestMost;
 }
 
-// A tool keeps a block awake when it is near, when its zone would wake the block again, or when it
-// touches a particle of it.
+// Returns true if a tool keeps a block active: it is near, its zone would activate the block again,
+// or it touches one of its particles.
 bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, const PlanKey& key,
                     double top) {
   const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
@@ -57,7 +58,7 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
   };
   for (const ToolZone& tool : zones) {
     if (tool.supported || top + kToolAbove < tool.low) continue;
-    // What rule A would wake again at once is not booked back either.
+    // Soil that rule A would activate at once is not deposited.
     if (meets(tool.near) || (tool.engaged && meets(tool.zone) && top > tool.low - 1)) return true;
   }
   const auto stands = [&](int number) {
@@ -66,7 +67,7 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
   };
   const int b = index.find(key);
   for (const std::uint32_t i : index.block(b))
-    // A particle that is on a side of a shell is near enough to touch it [docs/tools.md, sides].
+    // A particle on a side of a shell is near enough to touch it [docs/tools.md, sides].
     if (index[i].side != 0 && !stands((index[i].side - 1) / 2)) return true;
   return false;
 }
@@ -74,7 +75,7 @@ bool tool_holds_off(const ColumnIndex& index, std::span<const ToolZone> zones, c
 }  // namespace
 
 void update_rest(const ColumnIndex& index, double elapsed, RestTimes& rest) {
-  // The new list holds only blocks that rest now, so that one that was moved or has left starts
+  // The new list holds only blocks that rest now, so that a block that was moved or left starts
   // from zero.
   RestTimes now;
   for (std::size_t b = 0; b < index.blocks().size(); ++b) {
@@ -92,13 +93,13 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
   const auto found = rest.find(key);
   if (found == rest.end() || found->second < kRestTime) return false;
   const int x0 = index.grid().column_x(key, 0), y0 = index.grid().column_y(key, 0);
-  // Lowest surface a block can have is the datum, so 0 is below all of them.
+  // The lowest possible surface is the datum, so 0 is below all of them.
   double top = 0;
   for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
     const int ix = index.grid().column_x(key, c), iy = index.grid().column_y(key, c);
     const auto column = index.column(ix, iy);
     if (column.empty()) continue;
-    // Soil beyond the edge has no column to go to; the solver books it as left.
+    // Soil beyond the edge has no column; the solver records it as left.
     if (!ground.contains(ix, iy)) return false;
     top = std::max(top, height_in_cells(index[column.back()]));
   }
@@ -111,12 +112,12 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
   return true;
 }
 
-/// Where a column's surface is with what lies on it [cells above datum].
+/// Returns the surface of a column with the soil on it [cells above datum].
 double Depositor::surface(int ix, int iy) const {
   return (ground_.height(ix, iy) - ground_.datum()) / ground_.cell() + index_.pile_height(ix, iy);
 }
 
-/// Whether a good part of the soil over a column was hardly sheared.
+/// Returns true if a good part of the soil over a column was hardly sheared.
 bool Depositor::bonded(int ix, int iy) const {
   std::int64_t mass = 0, firm = 0;
   for (const std::uint32_t i : index_.column(ix, iy)) {
@@ -133,8 +134,7 @@ std::array<bool, 16> Depositor::cliffs(int block) const {
     const int ix = index_.grid().column_x(key, c), iy = index_.grid().column_y(key, c);
     if (!ground_.contains(ix, iy)) continue;
     const double here = surface(ix, iy);
-    // Beyond the site's edge nothing is known, so such neighbours count neither as drops nor as
-    // level.
+    // Nothing is known beyond the site's edge: such neighbours count neither as drops nor as level.
     int drops = 0, level = 0;
     for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (!ground_.contains(ix + dx, iy + dy)) continue;
@@ -145,8 +145,8 @@ std::array<bool, 16> Depositor::cliffs(int block) const {
   return out;
 }
 
-// Integer shares of the block's columns that stand at no cliff; at least one is positive when soil
-// lies over them.
+// Returns integer shares of the block's columns that do not stand at a cliff. At least one is
+// positive when there is soil over them.
 std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) const {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   std::array<std::int64_t, 16> out{};
@@ -156,12 +156,12 @@ std::array<std::int64_t, 16> Depositor::weights(const Plan& plan, int block) con
     const int place = static_cast<int>(c);
     if (plan.cliff[c] || !ground_.contains(grid.column_x(key, place), grid.column_y(key, place)))
       continue;
-    // Whole numbers, so that shares of mass add up exactly whatever their order.
+    // Integers, so that shares of mass add up exactly in any order.
     out[c] = std::llround((plan.shape.surface[c] - plan.shape.ground[c]) / kShareUnit);
     sum += out[c];
   }
   if (sum > 0) return out;
-  // A few grains that do not show in the surface stay in their columns.
+  // A few particles that the surface does not show stay in their columns.
   for (std::size_t c = 0; c < 16; ++c) {
     if (plan.cliff[c]) continue;
     const int place = static_cast<int>(c);
@@ -178,47 +178,48 @@ std::vector<int> Depositor::deposit(std::span<const int> blocks, const RestTimes
   std::vector<Plan> plans;
   for (const int block : blocks) {
     const PlanKey& key = index_.blocks()[static_cast<std::size_t>(block)];
-    // Shapes of all blocks are read from the ground as it is before the first of them is booked.
+    // Shapes of all blocks are computed from the ground before the first of them is deposited.
     const BlockShape shape = finder.find(key);
     if (shape.hollow && rest.at(key) < kHollowRest) continue;
     taken.push_back(block);
     plans.push_back({shape, cliffs(block)});
   }
-  for (std::size_t i = 0; i < taken.size(); ++i) book(plans[i], taken[i]);
+  for (std::size_t i = 0; i < taken.size(); ++i) deposit_block(plans[i], taken[i]);
   return taken;
 }
 
-// Volume of the soils' density states over that under the surface, cliffs left out.
+// Returns the volume of the soils' density states over the volume under the surface, without
+// cliffs.
 double Depositor::crowding(const std::vector<SoilShare>& shares, const Plan& plan) const {
   const double cell = ground_.cell();
-  double state = 0, room = 0;
-  // In cells: kMassQuantum turns quanta into kilograms, the bank density into volume, and the
-  // cell's cube into cells.
+  double state = 0, available = 0;
+  // In cells: kMassQuantum converts quanta to kilograms, the bank density converts to volume, and
+  // the cube of the cell to cells.
   for (const SoilShare& share : shares)
     state += kMassQuantum * share.volume /
              (ground_.setup().soils[share.soil].bank_density * cell * cell * cell);
   for (std::size_t c = 0; c < 16; ++c)
-    if (!plan.cliff[c]) room += plan.shape.surface[c] - plan.shape.ground[c];
-  // A few crumbs that the surface does not show are not crowded.
-  return room > kLeastCapacity ? state / room : 1.0;
+    if (!plan.cliff[c]) available += plan.shape.surface[c] - plan.shape.ground[c];
+  // A few particles that the surface does not show are not crowded.
+  return available > kLeastCapacity ? state / available : 1.0;
 }
 
-// At a cliff each column keeps what lay over it, and in its own order of soils; nothing is shared
-// out.
+// At a cliff each column keeps the soil above it, in its own order of soils; nothing is shared.
 void Depositor::deposit_column(int ix, int iy) {
   for (const SoilShare& share : soil_shares(index_, index_.column(ix, iy))) {
-    heightfield::SoilLayer layer = layer_of(share, ground_.setup().soils[share.soil].swell);
+    heightfield::SoilLayer layer =
+        layer_of(share, ground_.setup().soils[share.soil].swell, densest_);
     layer.mass = share.mass;
     ground_.put(ix, iy, layer);
   }
 }
 
-void Depositor::book(const Plan& plan, int block) {
+void Depositor::deposit_block(const Plan& plan, int block) {
   const PlanKey key = index_.blocks()[static_cast<std::size_t>(block)];
   const PlanGrid& grid = index_.grid();
   const std::array<std::int64_t, 16> weight = weights(plan, block);
 
-  // Soil of columns at no cliff is mixed in one pool, as the iso-surface says where it goes.
+  // Soil of the other columns is mixed in one pool; the iso-surface decides where it goes.
   std::vector<std::uint32_t> pooled;
   std::vector<SharedColumn> columns;
   for (std::size_t c = 0; c < 16; ++c) {
@@ -234,8 +235,8 @@ void Depositor::book(const Plan& plan, int block) {
   const std::vector<SoilShare> found = soil_shares(index_, pooled);
   const double rise = crowding(found, plan);
   for (const SoilShare& share : found)
-    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, rise), share.mass,
-              columns);
+    share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_, rise),
+              share.mass, columns);
 }
 
 }  // namespace navvy::soil

@@ -9,18 +9,18 @@
 namespace navvy::soil {
 namespace {
 
-// At a flat surface half of the spline's weight lies in soil, so it is found where it is.
+// At a flat surface half of the spline's weight lies in soil, so this value finds it in place.
 constexpr double kIso = 0.5;
 /// Samples per cell in height.
 constexpr int kSamples = 2;
-/// Smoothed fraction in the middle of a gap 1.3 cells high; crumbly soil with narrower gaps is not
-/// hollow. tuned: loam dropped from 0.3 m, whose loose crust reads 0.3.
+/// Smoothed fraction in the middle of a gap 1.3 cells high. Crumbly soil with narrower gaps is not
+/// hollow. Tuned with loam dropped from 0.3 m, whose loose crust reads 0.3.
 constexpr double kHollow = 0.2;
 /// Centres this far apart have an empty cell and half a particle each between them [cells].
 constexpr double kHanging = 1.5;
 
-// How much of the spline's weight lies below t: what a column that is full up to there adds to a
-// sample. Its integral from -infinity to t.
+// Returns the weight of the spline below t, its integral from -infinity: what a column that is full
+// up to there adds to a sample.
 double spline_sum(double t) {
   if (t <= -1.5) return 0;
   if (t >= 1.5) return 1;
@@ -34,7 +34,7 @@ double spline_sum(double t) {
 BlockShape ShapeFinder::find(const PlanKey& block) {
   x0_ = index_.grid().column_x(block, 0);
   y0_ = index_.grid().column_y(block, 0);
-  // The block's columns with a margin of one, as the spline reaches a column to each side.
+  // Columns of the block with a margin of one, as the spline reaches one column to each side.
   std::vector<float> heights;
   ground_.copy_heights({x0_ - 1, y0_ - 1, x0_ + 5, y0_ + 5}, heights);
   double lowest = 0, highest = 0;
@@ -43,15 +43,15 @@ BlockShape ShapeFinder::find(const PlanKey& block) {
     lowest = i == 0 ? around_[i] : std::min(lowest, around_[i]);
     highest = i == 0 ? around_[i] : std::max(highest, around_[i]);
   }
-  // Particles up to two columns away touch the samples. Only the highest of each column matters
-  // here.
+  // Particles up to two columns away contribute to the samples. Only the highest of each column
+  // matters here.
   for (int iy = y0_ - 2; iy < y0_ + 6; ++iy)
     for (int ix = x0_ - 2; ix < x0_ + 6; ++ix) {
       const auto column = index_.column(ix, iy);
       if (!column.empty()) highest = std::max(highest, height_in_cells(index_[column.back()]));
     }
-  // Two cells below the lowest column and above the highest grain, so that the spline is whole
-  // everywhere.
+  // From two cells below the lowest column to two above the highest particle, so that the spline is
+  // complete everywhere.
   bottom_ = std::floor(lowest) - 2;
   const auto samples = static_cast<std::size_t>(std::ceil((highest + 2 - bottom_) * kSamples)) + 1;
 
@@ -67,13 +67,12 @@ BlockShape ShapeFinder::find(const PlanKey& block) {
   return shape;
 }
 
-// Whether the particles over a column have an empty gap below them, in it and in the columns around
-// it.
+// Particles over the column have a gap below them, in it and in the columns around it.
 bool ShapeFinder::hangs(int ix, int iy) {
   const auto column = index_.column(ix, iy);
   if (column.empty()) return false;
-  // What is known to carry soil: the highest surface around, then each grain that lies on what is
-  // below it.
+  // Top of what is known to be supported: the highest surface around, then each particle that lies
+  // on it.
   double floor = bottom_;
   heights_.clear();
   for (int dy = -1; dy <= 1; ++dy)
@@ -85,7 +84,7 @@ bool ShapeFinder::hangs(int ix, int iy) {
     }
   std::sort(heights_.begin(), heights_.end());
   const double top = height_in_cells(index_[column.back()]);
-  // From the lowest up. One gap is enough, whatever lies above it.
+  // From the lowest up. One gap is enough.
   for (const double z : heights_) {
     if (z > top) break;
     if (z - floor > kHanging) return true;
@@ -97,8 +96,8 @@ bool ShapeFinder::hangs(int ix, int iy) {
 void ShapeFinder::sample_columns(int ix, int iy) {
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      // A column weighs as the 2 x 2 particles it would wake to, so that seams between the two do
-      // not show.
+      // A column weighs as the 2 x 2 particles that it would become, so that seams between the two
+      // do not show.
       const double weight = column_weight(dx) * column_weight(dy);
       const double h =
           around_[static_cast<std::size_t>((iy + dy - y0_ + 1) * 6 + ix + dx - x0_ + 1)];
@@ -146,7 +145,7 @@ void ShapeFinder::read(BlockShape& shape, std::size_t c) const {
   // linear in between.
   const double within = (fraction_[k] - kIso) / (fraction_[k] - fraction_[k + 1]);
   shape.surface[c] = std::max(h, bottom_ + (static_cast<double>(k) + within) / kSamples);
-  // Down to the column's own surface. A sample of little soil is a gap, as the ground below it
+  // Down to the column's own surface. A sample with little soil is a gap, as the ground below it
   // counts as full.
   for (; k > 0 && bottom_ + static_cast<double>(k) / kSamples > h; --k)
     if (fraction_[k] < kHollow) shape.hollow = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the surface of awake soil is: the 0.5 iso-surface of its smoothed volume fraction.
+// Surface of active soil: the 0.5 iso-surface of its smoothed volume fraction.
 #pragma once
 
 #include <array>
@@ -10,31 +10,33 @@
 namespace navvy::soil {
 
 /// Surface over the 16 columns of a block, x fastest. Heights are in cells above the datum, as
-/// everywhere in the exchange, so that rules in cells read without a scale.
+/// everywhere in the exchange.
 struct BlockShape {
-  std::array<double, 16> ground;   ///< surface of the columns [cells above datum]
-  std::array<double, 16> surface;  ///< iso-surface, at least `ground` [cells above datum]
-  /// An empty gap a cell high or more lies below the surface, or soil hangs above it.
+  /// Surface of the columns [cells above datum].
+  std::array<double, 16> ground;
+  /// Iso-surface, at least `ground` [cells above datum].
+  std::array<double, 16> surface;
+  /// A gap of a cell or more lies below the surface, or soil hangs above it.
   bool hollow = false;
 };
 
 /// Samples the volume fraction of columns and particles, smoothed with a quadratic B-spline of the
-/// cell, at column centres every half cell. Costs the particles of the block and its neighbourhood.
-/// Half a cell is as fine as the particles lie; a finer grid would follow their noise.
+/// cell, at column centres every half cell. Half a cell is the spacing of particles; a finer grid
+/// would follow their noise. Cost is linear in the particles of the block and its neighbourhood.
 class ShapeFinder {
  public:
-  /// Both must outlive it. One finder serves many blocks, one after the other: its arrays are
-  /// reused.
+  /// Reads ground and index, which must outlive it. One finder serves many blocks, one after the
+  /// other, and reuses its arrays.
   ShapeFinder(const heightfield::Ground& ground, const ColumnIndex& index)
       : ground_(ground), index_(index) {}
-  /// The shape of one block. The ground must not change between the blocks of one check, or their
-  /// order would show.
+  /// Returns the shape of one block. The ground must not change between the blocks of one check, or
+  /// their order would matter.
   BlockShape find(const PlanKey& block);
 
-  // Whether particles over the column have an empty gap below them.
+  // Returns true if particles over the column have a gap below them.
  private:
   bool hangs(int ix, int iy);
-  // Adds what each kind of soil contributes to the samples over a column; both add to `fraction_`.
+  // Add the contribution of each kind of soil to the samples over a column, in `fraction_`.
   void sample_columns(int ix, int iy);
   void sample_particles(int ix, int iy);
   // Finds the surface of column c of the block in the samples, and gaps below it.
@@ -42,8 +44,8 @@ class ShapeFinder {
 
   const heightfield::Ground& ground_;
   const ColumnIndex& index_;
-  // Of the block at hand: columns with a margin of one, and the samples of one column from
-  // `bottom_` up.
+  // Current block: its columns with a margin of one, and the samples of one column from `bottom_`
+  // up.
   std::array<double, 36> around_{};
   int x0_ = 0, y0_ = 0;
   double bottom_ = 0;

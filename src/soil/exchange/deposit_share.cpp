@@ -3,15 +3,13 @@
 
 #include <algorithm>
 
-#include "soil/layout.h"
-
 namespace navvy::soil {
 namespace {
 
-/// Where particles crowd into less room than their state asks for (beside plates the tracked volume
-/// misses up to half of it), a block may rise this much above its surface; the rest is stored as
-/// density, down to the limit below. tuned: a blade drawn 2 m through sand leaves every block but
-/// the three it stood in within 0.85 .. 1.15.
+/// Where particles crowd into less volume than their state needs (beside plates the tracked volume
+/// misses up to half of it), a block may rise above its surface by the first factor. The rest is
+/// stored as density, down to the second value. Tuned: a blade drawn 2 m through sand leaves every
+/// block but the three it stood in within 0.85 .. 1.15.
 constexpr double kMostRise = 1.15, kCrowded = 0.8;
 
 }  // namespace
@@ -33,7 +31,7 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index,
     share->shear += static_cast<double>(p.mass) * static_cast<double>(p.shear);
     share->height += static_cast<double>(p.mass) * height_in_cells(p);
   }
-  // What lay lower on average stays below; equal heights are told apart by the soil's number, so
+  // Soil that was lower on average stays below. Equal heights are ordered by the soil's number, so
   // that the order is the same in every run.
   std::sort(out.begin(), out.end(), [](const SoilShare& a, const SoilShare& b) {
     const double za = a.height / static_cast<double>(a.mass),
@@ -43,13 +41,13 @@ std::vector<SoilShare> soil_shares(const ColumnIndex& index,
   return out;
 }
 
-heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double rise) {
+heightfield::SoilLayer layer_of(const SoilShare& share, double swell, double densest, double rise) {
   const double mass = static_cast<double>(share.mass);
   heightfield::SoilLayer layer;
   layer.soil = share.soil;
-  // The clamp is wide on purpose: a tighter one turns noise into volume
+  // The limits are wide on purpose: tighter ones turn noise into volume
   // [docs/exchange.md, decisions].
-  double state = std::clamp(share.volume / mass, DENSEST_STATE, swell);
+  double state = std::clamp(share.volume / mass, densest, swell);
   if (rise > kMostRise) state = std::max(state * kMostRise / rise, kCrowded);
   layer.specific_volume = static_cast<float>(state);
   layer.plastic_shear = static_cast<float>(share.shear / mass);
@@ -63,7 +61,7 @@ void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::i
       [](const SharedColumn& a, const SharedColumn& b) { return a.weight < b.weight; });
   std::int64_t sum = 0;
   for (const SharedColumn& column : columns) sum += column.weight;
-  // The product may need more than 64 bits; in doubles it would lose quanta.
+  // The product may need more than 64 bits; doubles would lose quanta.
   __extension__ using Wide = __int128;
   const auto part = [&](const SharedColumn& column) {
     return static_cast<std::int64_t>(static_cast<Wide>(mass) * column.weight / sum);
@@ -72,7 +70,7 @@ void share_out(heightfield::Ground& ground, heightfield::SoilLayer layer, std::i
   for (const SharedColumn& column : columns) left -= part(column);
   for (const SharedColumn& column : columns) {
     layer.mass = part(column) + (&column == &*largest ? left : 0);
-    // So that no empty layer is made.
+    // Avoids empty layers.
     if (layer.mass > 0) ground.put(column.ix, column.iy, layer);
   }
 }

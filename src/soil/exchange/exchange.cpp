@@ -18,19 +18,19 @@
 namespace navvy::soil {
 namespace {
 
-/// Deposited columns are left alone by the motion rule for this long [s], so that waking and
-/// booking back do not chase each other. tuned:
-/// ExchangeDeposit.WakingAndBookingBackAgainAndAgainChangesNothing
+/// The motion rule leaves deposited columns alone for this long [s], so that activation and
+/// deposition do not alternate. Tuned by
+/// ExchangeDeposit.WakingAndBookingBackAgainAndAgainChangesNothing.
 constexpr double kRestAfterDeposit = 1.0;
-/// Tiles of changed ground looked at per check; the others wait, so that one check stays cheap.
-/// tuned: 48 tiles of flat ground cost about a millisecond.
+/// Tiles of changed ground that one check examines; the others wait, so that a check remains cheap.
+/// Tuned: 48 tiles of flat ground take about a millisecond.
 constexpr std::size_t kTilesPerCheck = 48;
-/// No site has tiles beyond: it has at most 2^30 columns a side. Zones of tools may lie a little
-/// off the site.
+/// No site has tiles beyond this: a side has at most 2^30 columns. Zones of tools may extend a
+/// little beyond the site.
 constexpr int kFarthestTile = (1 << 30) / SlumpScan::kTile;
 
-// Squared distance in plan from a column to a tool's box [columns^2]. Squares order distances as
-// well as the roots do, and stay exact.
+// Returns the squared distance in plan from a column to a tool's box [columns^2]. Squares have the
+// order of the roots, and stay exact.
 double distance_to(const heightfield::CellRect& box, int ix, int iy) {
   const double dx = std::max({box.x0 - ix, ix - (box.x1 - 1), 0}),
                dy = std::max({box.y0 - iy, iy - (box.y1 - 1), 0});
@@ -42,10 +42,10 @@ PlanKey tile_of(int ix, int iy) { return {iy / SlumpScan::kTile, ix / SlumpScan:
 
 }  // namespace
 
-// Everything that lasts, and the parts that work on it. The order of the members is that of
-// construction: the waker and the table need the grid and the ground.
+// Persistent state, and the parts that work on it. The order of the members is that of
+// construction: the parts need grid and ground.
 struct Exchange::State {
-  State(const scene::Scene& world, heightfield::Ground& ground_in)
+  State(const scene::Scene& world, heightfield::Ground& ground_in, const SchemeConstants& scheme)
       : ground(ground_in),
         grid(plan_grid(world, ground_in)),
         activator(ground_in, grid, -world.gravity.z()),
@@ -55,10 +55,11 @@ struct Exchange::State {
         slump(ground_in, table),
         max_particles(static_cast<std::size_t>(std::max(world.solver.max_particles, 0))),
         active_zone(world.solver.active_zone),
+        densest(scheme.min_density_state),
         seen(ground_in.sequence()) {}
 
-  // Whether the motion rule must leave a column alone, because its block was booked back within the
-  // last second. Where a tool stands it may wake at once.
+  // Returns true if the motion rule must leave a column alone, because its block was deposited
+  // within the last second. Where a tool stands it may become active at once.
   bool rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones, double time) const;
   std::set<PlanKey> tiles_to_scan(const ColumnIndex& index, std::span<const ToolZone> zones);
   void plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones, ActivationPlan& plan);
@@ -69,10 +70,10 @@ struct Exchange::State {
   void activate_planned(const ColumnIndex& index, const ActivationPlan& plan, Result& result);
   void deposit(const ColumnIndex& index, std::span<const ToolZone> zones,
                const ActivationPlan& plan, double time, Result& result);
-  /// Books what lies under footings and marks it; false when nothing does.
+  /// Deposits and marks the soil under support areas. Returns false when there is none.
   bool deposit_under(const ColumnIndex& index, std::span<const ToolZone> zones,
                      std::span<const SupportPlacement> support_areas, double time, Result& result);
-  /// All other rules, for the particles of the index.
+  /// Applies all other rules to the particles of the index.
   void decide(const ColumnIndex& index, std::span<const ToolZone> zones,
               std::span<const SupportPlacement> support_areas, double time, double elapsed,
               Result& result);
@@ -89,19 +90,27 @@ struct Exchange::State {
   Slump slump;
   std::size_t max_particles;
   double active_zone;
+  // Lowest density state of a layer.
+  double densest;
 
-  // What lasts from check to check. It is saved and hashed, together with `standing` and `slump`;
-  // the rest follows from the scene.
-  std::uint64_t seen;                   // ground sequence up to which changes were noticed
-  std::set<PlanKey> pending;            // changed tiles not looked at yet
-  PlanKey next_pending{0, 0};           // where the walk through them goes on
-  RestTimes rest;                       // [s] per block
-  std::map<PlanKey, double> deposited;  // time [s] of the last deposit, per block
+  // State between checks. It is saved and hashed, together with `standing` and `slump`; the rest
+  // follows from the scene.
+  // Ground sequence up to which changes were noticed.
+  std::uint64_t seen;
+  // Changed tiles that are still to be examined.
+  std::set<PlanKey> pending;
+  // Position of the cyclic walk through them.
+  PlanKey next_pending{0, 0};
+  // [s] per block.
+  RestTimes rest;
+  // Time of the last deposit, per block [s].
+  std::map<PlanKey, double> deposited;
   bool over_budget = false;
 };
 
-Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground)
-    : state_(std::make_unique<State>(world, ground)) {}
+Exchange::Exchange(const scene::Scene& world, heightfield::Ground& ground,
+                   const SchemeConstants& scheme)
+    : state_(std::make_unique<State>(world, ground, scheme)) {}
 Exchange::~Exchange() = default;
 
 bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZone> zones,
@@ -113,8 +122,8 @@ bool Exchange::State::rests_since_deposit(int ix, int iy, std::span<const ToolZo
   });
 }
 
-// Tiles whose slopes may have changed: those with particles, and changed ones as far as one check
-// can carry.
+// Returns tiles whose slopes may have changed: those with particles, and as many changed ones as
+// one check can handle.
 std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index,
                                                  std::span<const ToolZone> zones) {
   const auto insert_tiles = [&](const heightfield::CellRect& rect) {
@@ -123,23 +132,23 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index,
     for (int ty = first.first; ty <= last.first; ++ty)
       for (int tx = first.second; tx <= last.second; ++tx) pending.insert({ty, tx});
   };
-  // A rectangle round all changes since the last check: it may be larger than they are, which costs
-  // looking, never correctness.
+  // A rectangle around all changes since the last check. It may be larger than they are, which
+  // costs time but not correctness.
   insert_tiles(ground.changed_since(seen));
   seen = ground.sequence();
   std::set<PlanKey> out;
   for (const PlanKey& block : index.blocks()) {
-    // A block lies across tiles at most at its corners, as a tile is eight blocks wide; the grid
-    // may be shifted against it.
+    // A tile is eight blocks wide, so a block extends over several tiles only at its corners; the
+    // grid may be shifted against them.
     for (const int c :
          {0, kBlockCells - 1, kBlockCells * (kBlockCells - 1), kBlockCells * kBlockCells - 1}) {
       const int ix = grid.column_x(block, c), iy = grid.column_y(block, c);
       if (ground.contains(ix, iy)) out.insert(tile_of(ix, iy));
     }
   }
-  // What is looked at anyway need not wait.
+  // These tiles need not wait.
   for (const PlanKey& tile : out) pending.erase(tile);
-  // The rest in turns, from where the last check stopped: every changed tile is looked at within a
+  // The rest in turns, from where the last check stopped. Every changed tile is examined within a
   // bounded number of checks, in an order that depends on the tiles alone.
   for (std::size_t n = 0; n < kTilesPerCheck && !pending.empty(); ++n) {
     auto next = pending.lower_bound(next_pending);
@@ -148,14 +157,14 @@ std::set<PlanKey> Exchange::State::tiles_to_scan(const ColumnIndex& index,
     out.insert(*next);
     pending.erase(next);
   }
-  // What a tool holds back now is looked at again when it has left.
+  // What a tool holds back now is examined again when it has left.
   for (const ToolZone& tool : zones)
     if (tool.engaged) insert_tiles(tool.near);
   return out;
 }
 
-// Rule C: over-steep columns wake where soil is awake or a tool works, and slide as columns
-// elsewhere.
+// Rule C: over-steep columns become active where soil is active or a tool works, and slide as
+// columns elsewhere.
 void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const ToolZone> zones,
                                   ActivationPlan& plan) {
   std::vector<OverSteep> found;
@@ -166,8 +175,8 @@ void Exchange::State::plan_slopes(const ColumnIndex& index, std::span<const Tool
 
 void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& index,
                                  std::span<const ToolZone> zones, ActivationPlan& plan) {
-  // Awake soil in the block of any column on the way, or in a block beside it, counts as near:
-  // there particles carry on what starts to slide.
+  // Active soil in the block of any column along the drop, or in a block beside it, counts as near:
+  // its particles take over what starts to slide.
   bool near = false;
   for (int l = 0; l <= found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
@@ -178,7 +187,7 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
     for (const ToolZone& tool : zones)
       near = near || (tool.engaged && ToolZone::contains(tool.zone, ix, iy));
   }
-  // Over budget, as the last check left it, nothing more may wake: the slope slides as columns,
+  // If the last check was over budget, nothing more may become active: the slope slides as columns,
   // which needs no particles.
   if (!near || over_budget) {
     slump.fail(found);
@@ -187,17 +196,16 @@ void Exchange::State::plan_slope(const OverSteep& found, const ColumnIndex& inde
   const double bottom = std::floor(found.low) - 1;
   for (int l = 0; l < found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
-    // Columns on the way that are lower already stay where they are.
+    // Lower columns in between stay.
     if ((ground.height(ix, iy) - ground.datum()) / ground.cell() > found.low)
       plan_activation(plan, ix, iy, bottom);
   }
 }
 
-// Drops the requests farthest from tools until the particles to come fit the budget.
+// Drops the requests farthest from tools until the new particles fit the budget.
 void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t active, double time,
                                  ActivationPlan& plan) {
-  // An upper bound but for columns of many thin soils, so that the budget is rather missed from
-  // below.
+  // An upper bound except for columns of many thin soils, so that the budget is missed from below.
   const auto bound = [&](const ActivationPlan::value_type& entry) {
     const double bottom = ground.datum() + entry.second * ground.cell();
     return static_cast<std::size_t>(
@@ -213,8 +221,8 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t ac
     double distance;
     PlanKey column;
   };
-  // Farthest from every tool goes first; the soil at a tool is what a run is about. Without tools
-  // all are equally far and the order of the columns decides.
+  // The farthest from every tool goes first: the soil at a tool is what a run is about. Without
+  // tools all are equally far, and the order of the columns decides.
   std::vector<Ranked> ranked;
   for (const auto& entry : plan) {
     double nearest = 0;
@@ -224,7 +232,7 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t ac
     }
     ranked.push_back({nearest, entry.first});
   }
-  // Ties by the column's key, so that the same columns are dropped in every run.
+  // Ties are broken by the column's key, so that the same columns are dropped in every run.
   std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.column < b.column;
   });
@@ -235,7 +243,7 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t ac
     plan.erase(entry);
     ranked.pop_back();
   }
-  // Once, not at every check while it lasts.
+  // Log once, not at every check while it lasts.
   if (!over_budget)
     log_warning("soil: at " + std::to_string(time) + " s the wake zone shrinks from " +
                 std::to_string(wanted) + " to " + std::to_string(plan.size()) +
@@ -244,34 +252,32 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t ac
   over_budget = true;
 }
 
-// Columns wake in the order of the map, so new particles come in the same order in every run.
+// Columns become active in the order of the map, so new particles have the same order in every run.
 void Exchange::State::activate_planned(const ColumnIndex& index, const ActivationPlan& plan,
                                        Result& result) {
   for (const auto& [column, bottom] : plan) {
     const std::size_t before = result.born.size();
-    // What lies on a column as particles weighs on it, too; without that, woken soil would settle
-    // under them.
-    activator.wake(column.second, column.first, ground.datum() + bottom * ground.cell(),
-                   kilograms(index.pile(column.second, column.first).mass), result.born);
+    // Particles on a column load it, too. Without that, new particles would settle under them.
+    activator.activate(column.second, column.first, ground.datum() + bottom * ground.cell(),
+                       kilograms(index.pile(column.second, column.first).mass), result.born);
     result.activated_columns += result.born.size() > before ? 1 : 0;
   }
 }
 
 void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone> zones,
                               const ActivationPlan& plan, double time, Result& result) {
-  // New particles lie between the ground and those at rest in blocks that have just woken, or
-  // beside them.
+  // New particles lie between the ground and resting particles of the same blocks, or beside them.
   for (const auto& [column, bottom] : plan)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
         rest.erase(grid.block_of(column.second + dx, column.first + dy));
-  // All blocks are judged before any is booked: a deposit must not make its neighbour ready in the
-  // same check.
+  // All blocks are judged before any is deposited: a deposit must not make its neighbour ready in
+  // the same check.
   std::vector<int> ready;
   for (int b = 0; b < static_cast<int>(index.blocks().size()); ++b)
     if (may_deposit(ground, index, zones, rest, b)) ready.push_back(b);
   std::set<PlanKey> done;
-  for (const int b : Depositor(ground, index).deposit(ready, rest)) {
+  for (const int b : Depositor(ground, index, densest).deposit(ready, rest)) {
     const PlanKey key = index.blocks()[static_cast<std::size_t>(b)];
     // Flagged, not erased: the solver compacts its arrays itself.
     for (const std::uint32_t i : index.block(b)) result.removed[i] = 1;
@@ -281,17 +287,16 @@ void Exchange::State::deposit(const ColumnIndex& index, std::span<const ToolZone
     ++result.deposited_blocks;
   }
   standing.remember(ground, index, done);
-  // Older entries forbid nothing any more; forgetting them keeps the list as short as a second of
-  // digging.
+  // Older entries have no effect; dropping them keeps the list as short as a second of digging.
   std::erase_if(deposited,
                 [&](const auto& entry) { return time - entry.second >= kRestAfterDeposit; });
 }
 
 int Exchange::State::run_slump(const ColumnIndex& index, std::span<const ToolZone> zones,
                                const ActivationPlan& plan, double elapsed) {
-  // A column moves only while nothing rests on it, nothing is to wake in it and no tool stands in
-  // it: particles and shells would not notice that the ground under them went. Nor does one that
-  // bears a tyre: what slid under it would be pressed again, for ever.
+  // A column slides only while nothing rests on it, nothing is to become active in it, and no tool
+  // stands in it: particles and shells would not notice that the ground below them is gone. Nor
+  // does a column under a tyre slide: the tyre would press the soil again, for ever.
   const auto blocked = [&](int ix, int iy) {
     if (ground.held(ix, iy)) return true;
     if (!index.column(ix, iy).empty() || plan.count({iy, ix}) != 0) return true;
@@ -309,8 +314,8 @@ bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const To
   if (support_areas.empty() || index.particles().empty()) return false;
   std::set<PlanKey> blocks;
   result.support_columns =
-      SupportDeposit(ground, index, zones).deposit(support_areas, result.removed, blocks);
-  // What moves beside a wheel does not wake at once what was booked under it.
+      SupportDeposit(ground, index, zones, densest).deposit(support_areas, result.removed, blocks);
+  // Motion beside a wheel does not activate at once what was deposited under it.
   for (const PlanKey& block : blocks) deposited[block] = time;
   return result.support_columns > 0;
 }
@@ -318,15 +323,15 @@ bool Exchange::State::deposit_under(const ColumnIndex& index, std::span<const To
 void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone> zones,
                              std::span<const SupportPlacement> support_areas, double time,
                              double elapsed, Result& result) {
-  // The plan collects all three rules before anything changes. One column may be asked for by
-  // several; the deepest counts.
+  // The plan collects all three rules before anything changes. Several may ask for one column; the
+  // deepest request counts.
   ActivationPlan plan;
   activate_ahead_of_tools(ground, zones, plan);
   activate_around_motion(
       ground, index, motion_threshold(zones), zones,
       [&](int ix, int iy) { return !rests_since_deposit(ix, iy, zones, time); }, plan);
   plan_slopes(index, zones, plan);
-  // What bears a wheel would be booked back at the next check, and the wheel would have fallen
+  // Soil under a wheel would be deposited again at the next check, and the wheel would have fallen
   // meanwhile.
   std::erase_if(plan, [&](const ActivationPlan::value_type& entry) {
     return supports_machine(ground, index, zones, support_areas, entry.first.second,
@@ -335,7 +340,7 @@ void Exchange::State::decide(const ColumnIndex& index, std::span<const ToolZone>
   fit_budget(zones, index.particles().size(), time, plan);
 
   update_rest(index, elapsed, rest);
-  // Deposit comes before waking, because it speaks of the particles given: what wakes now is not
+  // Deposition comes before activation, because it refers to the given particles: new ones are not
   // among them. Columns slide last, on ground that has both.
   deposit(index, zones, plan, time, result);
   activate_planned(index, plan, result);
@@ -356,7 +361,7 @@ Exchange::Result Exchange::check(std::span<const Particle> particles,
     s.decide(index, zones, support_areas, time, elapsed, result);
     return result;
   }
-  // The other rules see the ground with what was booked, and the particles without.
+  // The other rules see the ground with the deposited soil, and the particles without it.
   std::vector<Particle> left;
   std::vector<std::size_t> place;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -375,15 +380,15 @@ Exchange::Result Exchange::check(std::span<const Particle> particles,
   return others;
 }
 
-std::vector<Particle> Exchange::wake(const heightfield::CellRect& rect, double z_bottom,
-                                     std::span<const Particle> resting) {
+std::vector<Particle> Exchange::activate(const heightfield::CellRect& rect, double z_bottom,
+                                         std::span<const Particle> resting) {
   State& s = *state_;
   std::vector<Particle> born;
   const ColumnIndex index(resting, s.ground, s.grid);
-  // Rows of the ground's own order, so that new particles come alike in every run.
+  // In the ground's own order of rows, so that new particles come in the same order in every run.
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, s.ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, s.ground.nx()); ++ix)
-      s.activator.wake(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
+      s.activator.activate(ix, iy, z_bottom, kilograms(index.pile(ix, iy).mass), born);
   return born;
 }
 
@@ -396,7 +401,7 @@ void Exchange::State::visit(Archive& a) {
   a("over_budget", over_budget);
   a("standing", standing);
   a("slump", slump);
-  // Times that are no numbers would keep blocks awake or at rest for ever.
+  // Times that are not numbers would keep blocks active or at rest for ever.
   for (const auto& [block, time] : rest) a.require(std::isfinite(time), "rest", "must be finite");
   for (const auto& [block, time] : deposited)
     a.require(std::isfinite(time), "deposited", "must be finite");

@@ -10,14 +10,15 @@
 namespace navvy::soil {
 namespace {
 
-/// Between centres, past which soil does not rest on what is below: one empty cell and half a
+/// Distance of centres beyond which soil does not rest on the soil below: one empty cell and half a
 /// particle above and below it [docs/exchange.md, deposit].
 constexpr double kMostGap = 1.5;
-constexpr double kHalfParticle = 0.25;  // [cells]
+// Half of a particle's spacing [cells].
+constexpr double kHalfParticle = 0.25;
 constexpr std::size_t kColumnsPerBlock = kBlockCells * kBlockCells;
 
-// Both numbers may be negative; as 32 bits each they still tell blocks apart. The order of the
-// packed key means nothing.
+// Both numbers may be negative; as 32 bits each they still distinguish blocks. The order of the
+// packed key has no meaning.
 std::uint64_t packed(const PlanKey& key) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.first)) << 32 |
          static_cast<std::uint32_t>(key.second);
@@ -34,16 +35,16 @@ ColumnIndex::ColumnIndex(std::span<const Particle> particles, const heightfield:
 }
 
 void ColumnIndex::group() {
-  // Blocks in order of first sight, then renumbered in rising order, so that the input's order
-  // leaves no trace.
-  std::vector<std::uint32_t> home(particles_.size());
+  // Blocks in order of first occurrence, then renumbered in ascending order, so that the input's
+  // order has no effect.
+  std::vector<std::uint32_t> slots(particles_.size());
   std::vector<PlanKey> seen;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const auto [ix, iy] = grid_.column_of(particles_[i]);
     const PlanKey key = grid_.block_of(ix, iy);
     const auto [found, is_new] = place_.emplace(packed(key), static_cast<int>(seen.size()));
     if (is_new) seen.push_back(key);
-    home[i] =
+    slots[i] =
         static_cast<std::uint32_t>(found->second) * static_cast<std::uint32_t>(kColumnsPerBlock) +
         static_cast<std::uint32_t>(grid_.place(ix, iy));
   }
@@ -57,27 +58,27 @@ void ColumnIndex::group() {
   }
   // Counting sort by column.
   begin_.assign(keys_.size() * kColumnsPerBlock + 1, 0);
-  for (std::uint32_t& h : home) {
+  for (std::uint32_t& h : slots) {
     h = static_cast<std::uint32_t>(rank[h / kColumnsPerBlock] * kColumnsPerBlock +
                                    h % kColumnsPerBlock);
     ++begin_[h + 1];
   }
   for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-  // Each column's particles stand together now, in the order of the input until sort_columns.
+  // Particles of one column are contiguous now, in the order of the input until sort_columns.
   order_.resize(particles_.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end());
-  for (std::size_t i = 0; i < home.size(); ++i)
-    order_[next[home[i]]++] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    order_[next[slots[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 void ColumnIndex::sort_columns() {
-  // Two particles at one height are told apart by what they are, never by their place in the input.
-  // Ids tell a solver's particles apart; what follows only matters to callers that give none.
+  // Particles at one height are ordered by their properties, never by their place in the input. Ids
+  // distinguish a solver's particles; the rest only matters to callers that give none.
   const auto rank = [&](std::uint32_t i) {
     const Particle& p = particles_[i];
     return std::tuple(p.id, p.x[0], p.x[1], p.mass, p.soil, p.j0, p.shear);
   };
-  // Of one column, so that most comparisons stay in the cache
+  // Heights of one column, so that most comparisons stay in the cache.
   std::vector<std::pair<double, std::uint32_t>> heights;
   for (std::size_t c = 0; c + 1 < begin_.size(); ++c) {
     heights.clear();
@@ -101,7 +102,7 @@ void ColumnIndex::build_piles() {
     Pile& pile = piles_[c];
     const double surface = (ground_.height(ix, iy) - ground_.datum()) / cell;
     pile.top = surface;
-    // From the lowest up, until a gap: what hangs in the air above it is not part of the pile.
+    // From the lowest up to the first gap: particles in the air above it are not part of the pile.
     for (std::uint32_t o = begin_[c]; o < begin_[c + 1]; ++o) {
       const Particle& p = particles_[order_[o]];
       const double z = height_in_cells(p);
@@ -110,8 +111,7 @@ void ColumnIndex::build_piles() {
       pile.mass += p.mass;
       pile.height += kilograms(p.mass) * p.j0 / (soils[p.soil].bank_density * cell * cell * cell);
     }
-    // Particles may stand looser than their state says, and the surface is then where the highest
-    // ends.
+    // Particles may be looser than their state; the surface is then at the top of the highest one.
     if (pile.mass > 0) pile.height = std::max(pile.height, pile.top + kHalfParticle - surface);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Awake particles grouped by the column they are over: what every rule of the exchange asks for.
+// Particles grouped by the column below them, for all rules of the exchange.
 #pragma once
 
 #include <cstdint>
@@ -14,73 +14,75 @@
 
 namespace navvy::soil {
 
-/// Height of a particle above the datum [cells].
+/// Returns the height of a particle above the datum [cells].
 inline double height_in_cells(const Particle& p) {
   return static_cast<double>(kBlockCells) * p.block[2] + static_cast<double>(p.x[2]);
 }
 
-/// The particles that rest one on another on a column, without an empty gap below them. A pile
-/// stands for the loose soil over a column wherever a rule asks how high the ground is with what
-/// lies on it.
+/// Particles that rest on one another on a column, without a gap below them. A pile is the loose
+/// soil over a column wherever a rule needs the height of the ground with everything on it.
 struct Pile {
-  /// Above the column [cells]: the larger of their volume in their density state and of where the
-  /// highest one ends. The number of particles over one column scatters by 6 cm and would show
-  /// slopes that are none [docs/exchange.md, deposit].
+  /// Height above the column [cells]: the larger of their volume in their density state and of the
+  /// top of the highest one. The number of particles over one column scatters by 6 cm and would
+  /// show slopes that do not exist [docs/exchange.md, deposit].
   double height = 0;
-  std::int64_t mass = 0;  ///< [kMassQuantum]
-  /// Centre of the highest one, the column's surface when there is none [cells above datum].
+  /// [kMassQuantum].
+  std::int64_t mass = 0;
+  /// Centre of the highest one, or the column's surface without any [cells above datum].
   double top = 0;
 };
 
-/// Particles sorted by block, column and height. The order of the particles given does not matter.
-/// Costs time and memory in proportion to the particles. It is made anew for each check and refers
-/// to the particles and the ground it was made from, which must outlive it. Columns change under it
-/// while a check books soil back; piles then still speak of the ground before.
+/// Particles sorted by block, column and height, whatever their order. Time and memory are linear
+/// in the particles. An index is made for each check and refers to the particles and the ground,
+/// which must outlive it. Columns change while a check deposits soil; piles then still refer to the
+/// ground before.
 class ColumnIndex {
  public:
-  /// Sorts. A particle outside the site is kept under the column it would be over, though there is
-  /// none. `grid` says where blocks begin; tests that do not care leave it out.
+  /// Sorts the particles. A particle outside the site is listed under the column that would be
+  /// below it. `grid`: position of blocks; tests that do not care leave it out.
   ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
               PlanGrid grid = {});
 
+  /// Returns the position of blocks among the columns.
   const PlanGrid& grid() const { return grid_; }
 
-  /// Blocks with particles, in rising order.
+  /// Returns the blocks with particles, ascending.
   const std::vector<PlanKey>& blocks() const { return keys_; }
-  /// Position in `blocks`, -1 when no particle is over it. Costs one lookup in a hash table.
+  /// Returns the position in `blocks`, or -1 without particles. Costs one hash lookup.
   int find(const PlanKey& block) const;
 
-  /// Indices of the particles over a column or block, a column's from the lowest up. The spans live
-  /// as long as the index. Both are empty where no particle is.
+  /// Return the indices of the particles over a column (from the lowest up) or a block. The spans
+  /// live as long as the index. They are empty where there are no particles.
   std::span<const std::uint32_t> column(int ix, int iy) const;
   std::span<const std::uint32_t> block(int b) const;
-  /// What rests on the column; its top is the column's surface when nothing does. (ix, iy) is a
-  /// column of the site.
+  /// Returns the pile on a column of the site. Without one, its top is the column's surface.
   Pile pile(int ix, int iy) const;
-  /// Height of the pile alone [cells], 0 without particles.
+  /// Returns the height of the pile [cells], 0 without particles.
   double pile_height(int ix, int iy) const;
 
-  /// The particle of an index that `column` or `block` gave.
+  /// Returns the particle of an index from `column` or `block`.
   const Particle& operator[](std::uint32_t i) const { return particles_[i]; }
   std::span<const Particle> particles() const { return particles_; }
 
  private:
-  // The three steps of the constructor: particles into columns, each column by height, the pile of
-  // each.
+  // Steps of the constructor: particles into columns, columns by height, and piles.
   void group();
   void sort_columns();
   void build_piles();
-  // Number of a column in `begin_` and `piles_`; -1 when its block holds no particle.
+  // Returns the index of a column in `begin_` and `piles_`, or -1 when its block holds no particle.
   int slot(int ix, int iy) const;
 
   std::span<const Particle> particles_;
   const heightfield::Ground& ground_;
   PlanGrid grid_;
   std::vector<PlanKey> keys_;
-  std::unordered_map<std::uint64_t, int> place_;  // looked up only, never walked
-  std::vector<std::uint32_t> begin_;              // 16 per block and one end
+  // Looked up only, never iterated.
+  std::unordered_map<std::uint64_t, int> place_;
+  // 16 per block and one end.
+  std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> order_;
-  std::vector<Pile> piles_;  // 16 per block
+  // 16 per block.
+  std::vector<Pile> piles_;
 };
 
 }  // namespace navvy::soil

@@ -10,12 +10,12 @@
 namespace navvy::soil {
 namespace {
 
-// A circle in the limit, where the formulas are 0 / 0
+// Smallest friction angle. A spiral becomes a circle in the limit, where the formulas are 0 / 0.
 constexpr double kLeastFriction = radians(0.25);
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// gamma H / c of the spiral r = r0 exp((theta - from) tan phi) through the toe, from the crest's
-/// ray at `from` to the toe's at `to`: what cohesion dissipates over the work of the block's
+/// Returns gamma H / c of the spiral r = r0 exp((theta - from) tan phi) through the toe, from the
+/// crest's ray at `from` to the toe's at `to`: dissipation of cohesion over the work of the block's
 /// weight. Lengths in r0 [Chen 1975].
 double number_of(double tan_phi, double face, double from, double to) {
   const double grown = std::exp((to - from) * tan_phi);
@@ -23,8 +23,8 @@ double number_of(double tan_phi, double face, double from, double to) {
   const double crest = std::sin(to - from) / std::sin(to) -
                        std::sin(to + face) / (std::sin(to) * std::sin(face)) * height;
   if (!(height > 0) || !(crest > 0)) return kNone;
-  // Moments of the spiral's sector, less the triangles between the pole and the crest, and the pole
-  // and the face.
+  // Moments of the spiral's sector, minus the triangles between the pole and the crest, and the
+  // pole and the face.
   const double t = 3 * tan_phi;
   const double sector = ((t * std::cos(to) + std::sin(to)) * grown * grown * grown -
                          t * std::cos(from) - std::sin(from)) /
@@ -42,7 +42,7 @@ double stability_number(double friction_angle, double face) {
   if (face <= friction_angle) return kNone;
   const double tan_phi = std::tan(std::max(friction_angle, kLeastFriction));
   // All spirals on a coarse lattice, then finer ones around the best: the number is flat around its
-  // least.
+  // minimum.
   double least = kNone, best_from = 0.25 * kPi, best_to = 0.5 * kPi;
   double step = 0.1, from0 = 0.02, to0 = 0.04, from1 = 0.5 * kPi, to1 = kPi - 0.02;
   for (int level = 0; level < 5; ++level) {
@@ -60,7 +60,7 @@ double stability_number(double friction_angle, double face) {
 
 FaceHeights::FaceHeights(double friction_angle)
     : friction_angle_(friction_angle), inverse_(kFaces + 1) {
-  // Its inverse goes to 0 at the friction angle, so that it can be read between the entries.
+  // The inverse goes to 0 at the friction angle, so that it can be interpolated.
   for (int i = 0; i <= kFaces; ++i)
     inverse_[static_cast<std::size_t>(i)] =
         1 / stability_number(friction_angle,
@@ -78,7 +78,7 @@ double FaceHeights::height(double strength, double setback, double highest) cons
   if (!(strength > 0)) return 0;
   const auto stands = [&](double h) { return h * inverse(std::atan2(h, setback)) <= strength; };
   if (stands(highest)) return highest;
-  // The allowed height falls as the face steepens, so there is one crossing; 40 halvings of 100 m
+  // The allowed height falls as the face steepens, so there is one crossing; 40 bisections of 100 m
   // are below a nanometre.
   double low = 0, high = highest;
   for (int i = 0; i < 40; ++i) (stands(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);

@@ -10,12 +10,12 @@
 namespace navvy::soil {
 namespace {
 
-/// Sweeps per simulated second: a 1 m cliff needs about 90 and real soil about a second
+/// Sweeps per simulated second: a 1 m cliff needs about 90, and real soil about a second
 /// [docs/exchange.md, slump].
 constexpr double kSweepRate = 100;
-/// Drops are evened out to this [m] [docs/exchange.md, slump].
+/// Drops are levelled to within this height [m] [docs/exchange.md, slump].
 constexpr double kEnough = 0.001;
-/// Sweeps without motion after which a column rests again. tuned:
+/// Sweeps without motion after which a column is at rest again. Tuned by
 /// ExchangeSlump.ACliffOfSandStopsNearItsFrictionAngle.
 constexpr int kMostStill = 8;
 
@@ -26,21 +26,21 @@ void Slump::fail(const OverSteep& found) {
   // The low column itself is not among them: it only receives.
   for (int l = 0; l < found.steps; ++l) {
     const int ix = found.ix + l * found.dx, iy = found.iy + l * found.dy;
-    // Columns on the way that do not reach above it have nothing to shed.
+    // Columns in between that do not reach above it have nothing to shed.
     if (ground_.height(ix, iy) <= base + kEnough) continue;
     const auto [place, is_new] = sliding_.emplace(PlanKey{iy, ix}, Sliding{base, 0});
-    // A column that slides already goes down to the lower of the two, and its count of still sweeps
-    // starts again.
+    // A column that slides already goes down to the lower of the two heights, and its count of
+    // still sweeps restarts.
     if (!is_new && place->second.base > base) place->second = {base, 0};
   }
 }
 
 int Slump::due(double elapsed) {
-  // Time in which nothing slid is not made up for.
+  // Time without sliding is not made up for.
   if (idle()) debt_ = 0;
   debt_ += elapsed * kSweepRate;
-  // The rest is carried on, so the number of sweeps follows simulated time and not the length of a
-  // step.
+  // The remainder is carried over, so that the number of sweeps follows simulated time and not the
+  // length of a step.
   const double whole = std::floor(debt_);
   debt_ -= whole;
   return static_cast<int>(whole);
@@ -51,32 +51,32 @@ bool Slump::exchange(const PlanKey& a, const PlanKey& b) {
   const PlanKey& high = ha >= hb ? a : b;
   const PlanKey& low = ha >= hb ? b : a;
   const double top = std::max(ha, hb), drop = std::abs(ha - hb);
-  // Only a column that failed, or on which something fell, gives soil away: resting ground of the
-  // same slope stands, as its drop was found not to be too steep.
+  // Only a column that failed, or that something fell on, sheds soil. Resting ground of the same
+  // slope stands, as its drop was not too steep.
   const auto found = sliding_.find(high);
   if (found == sliding_.end()) return false;
-  // The soil on top decides, for that is what moves.
+  // The soil on top decides, as that is what moves.
   const double stop = table_.stop(ground_.surface_soil(high.second, high.first));
   if (drop <= stop + kEnough) return false;
 
-  // Loosening on the way, soil raises the low column by more than it lowers the high one.
+  // Soil that loosens on the way raises the low column by more than it lowers the high one.
   const auto& soils = ground_.setup().soils;
   const auto loose = [&](const heightfield::SoilLayer& layer) {
     return std::max(layer.specific_volume, static_cast<float>(soils[layer.soil].swell));
   };
   ground_.column(high.second, high.first, taken_);
   if (taken_.empty()) return false;
-  // How much thicker a layer lies after it has loosened. It is what the uppermost layer would do;
-  // deeper ones that move in the same sweep differ a little, which the next sweep evens out.
+  // Factor by which a layer thickens as it loosens. It is that of the uppermost layer; deeper ones
+  // that move in the same sweep differ a little, which the next sweep evens out.
   const double ratio = static_cast<double>(loose(taken_.back())) /
                        static_cast<double>(taken_.back().specific_volume);
-  // The two then stand apart by just the drop at which soil rests: the high one sinks by the depth,
-  // the low one rises by it times the ratio. Never below what the column failed over.
+  // The two then differ by just the drop at which soil rests: the high one sinks by the depth, the
+  // low one rises by it times the ratio. Never below the height that the column failed over.
   const double depth = std::min((drop - stop) / (1 + ratio), top - found->second.base);
   if (depth < 0.5 * kEnough) return false;
 
   taken_.clear();
-  // In integers, so that no mass is lost whatever the heights round to.
+  // In integers, so that no mass is lost to rounding of heights.
   ground_.take_above(high.second, high.first, top - depth, taken_);
   for (heightfield::SoilLayer& layer : taken_) {
     layer.specific_volume = loose(layer);
@@ -84,7 +84,7 @@ bool Slump::exchange(const PlanKey& a, const PlanKey& b) {
     ground_.put(low.second, low.first, layer);
   }
   found->second.still = 0;
-  // Only what fell onto a resting column slides on.
+  // Only the soil that fell onto a resting column slides on.
   sliding_.emplace(low, Sliding{std::min(ha, hb), 0}).first->second.still = 0;
   return true;
 }

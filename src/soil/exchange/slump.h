@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets over-steep resting columns slide without particles: exact exchange between neighbours.
+// Slumping of over-steep resting columns without particles: exact exchange between neighbours.
 #pragma once
 
 #include <map>
@@ -13,67 +13,72 @@ namespace navvy::soil {
 
 /// Columns that slide, and the sweeps that move them.
 ///
-/// A column that failed slides down to the height of what it failed over; what it sheds lies loose
-/// and remoulded on its neighbours and slides on. Pairs of neighbours exchange soil in four
-/// colours, in integers, until no pair that slides is steeper than phi - 1 deg
-/// [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing jumps. Costs the
-/// sliding columns only.
+/// A column that failed slides down to the height of the column it failed over. The soil that it
+/// sheds lies loose and remoulded on its neighbours and slides on. Pairs of neighbours exchange
+/// soil in four colours, in integers, until no sliding pair is steeper than phi - 1 deg
+/// [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing jumps. Cost is linear
+/// in the sliding columns.
 class Slump {
  public:
-  /// Both must outlive it.
+  /// Moves soil of `ground`; ground and table must outlive it.
   Slump(heightfield::Ground& ground, const SlumpTable& table) : ground_(ground), table_(table) {}
 
-  /// Lets the columns from the high to the low one slide. They start at the next `run`. What slides
-  /// already goes on, down to the lower of the two heights.
+  /// Starts the sliding of the columns from the high to the low one, with the next `run`. Columns
+  /// that slide already continue, down to the lower of the two heights.
   void fail(const OverSteep& found);
-  /// Runs the sweeps of `elapsed` seconds. `blocked` answers for a column whether it must stay as
-  /// it is now. Returns the number of columns that changed. Blocked columns neither give nor take,
-  /// and wait: the soil of the ones above stays until they are free or at rest.
+  /// Runs the sweeps of `elapsed` seconds. `blocked` returns true for a column that must stay as it
+  /// is now: it neither gives nor takes soil. Soil above it waits until it is free or at rest.
+  /// Returns the number of columns that changed.
   template <class Blocked>
   int run(double elapsed, const Blocked& blocked);
 
-  /// True when nothing slides: then `run` costs nothing.
+  /// Returns true when nothing slides; `run` then costs nothing.
   bool idle() const { return sliding_.empty(); }
 
-  /// What slides and how far, in the order of the columns. The owner opens the section that these
-  /// are part of.
+  /// Visits the sliding columns in their order. The owner opens the section.
   /// @throws InputError for columns outside the site.
   void visit(Archive& a);
 
  private:
-  // A column that gives soil away while it is steep. A few sweeps without motion end it.
+  // A column that sheds soil while it is steep. A few sweeps without motion end it.
   struct Sliding {
-    double base = 0;         ///< soil above this W height slides [m]
-    std::int32_t still = 0;  ///< sweeps since it last moved
+    /// Soil above this height in W slides [m].
+    double base = 0;
+    /// Sweeps since it last moved.
+    std::int32_t still = 0;
     void visit(Archive& a);
   };
-  /// Whole sweeps that are due. Carries the rest of a sweep on; drops it while nothing slides.
+  /// Returns the number of whole sweeps that are due. Carries the remainder over; drops it while
+  /// nothing slides.
   int due(double elapsed);
-  /// Soil from the higher of two neighbours to the lower; false when nothing had to move.
+  /// Moves soil from the higher of two neighbours to the lower. Returns false when none had to
+  /// move.
   bool exchange(const PlanKey& a, const PlanKey& b);
+  /// Drops columns that have not moved for some sweeps.
   void forget_still();
 
   heightfield::Ground& ground_;
   const SlumpTable& table_;
-  // Ordered by column, so that hash and save do not depend on when columns failed.
+  // Ordered by column, so that hash and snapshot do not depend on when columns failed.
   std::map<PlanKey, Sliding> sliding_;
-  double debt_ = 0;  ///< share of a sweep carried to the next check
-  // Scratch, kept for its memory.
+  /// Share of a sweep that is carried to the next check.
+  double debt_ = 0;
+  // Scratch memory.
   std::vector<heightfield::SoilLayer> taken_;
 };
 
-// The four colours keep the pairs of one colour apart, so a sweep does not depend on the order
-// within a colour; their own order is fixed. A column that begins to slide during a sweep joins at
-// the next one, as `keys` are those at its start.
+// The four colours separate the pairs of one colour, so a sweep does not depend on the order within
+// a colour; the order of colours is fixed. A column that starts to slide during a sweep joins the
+// next one, as `keys` are those at the start.
 template <class Blocked>
 int Slump::run(double elapsed, const Blocked& blocked) {
   std::set<PlanKey> changed;
   for (int sweeps = due(elapsed); sweeps > 0 && !idle(); --sweeps) {
-    // Copied, as exchange() adds columns while the sweep runs.
+    // A copy, as exchange() adds columns while the sweep runs.
     std::vector<PlanKey> keys;
     for (const auto& [key, sliding] : sliding_) keys.push_back(key);
     for (auto& [key, sliding] : sliding_) ++sliding.still;
-    // Colours: pairs along x that start on even, odd columns, then along y.
+    // Colours: pairs along x that start on even, then odd columns; then along y.
     for (int colour = 0; colour < 4; ++colour) {
       const int step_x = colour < 2 ? 1 : 0, step_y = 1 - step_x;
       for (const PlanKey& key : keys) {
@@ -81,7 +86,8 @@ int Slump::run(double elapsed, const Blocked& blocked) {
         PlanKey a = key;
         if ((along & 1) != (colour & 1)) {
           a = {key.first - step_y, key.second - step_x};
-          if (sliding_.count(a) != 0) continue;  // that one brings the pair
+          // Its own turn moves this pair.
+          if (sliding_.count(a) != 0) continue;
         }
         const PlanKey b{a.first + step_y, a.second + step_x};
         if (!ground_.contains(a.second, a.first) || !ground_.contains(b.second, b.first)) continue;

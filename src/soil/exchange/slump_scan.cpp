@@ -9,12 +9,13 @@
 namespace navvy::soil {
 namespace {
 
-/// A drop must have grown by this since the start to count on ground that holds [cells]. tuned:
-/// above the mass quantum's and the float heights' rounding, below the shallowest rut that matters.
+/// A drop must have grown by this since the start to count on ground that holds [cells]. Tuned:
+/// above the rounding of mass quanta and float heights, below the shallowest rut that matters.
 constexpr double kGrown = 0.01;
-/// The same where the low side is awake: where its highest particle lies jumps by half a cell.
+/// The same where the low side is active: the position of its highest particle jumps by half a
+/// cell.
 constexpr double kGrownActive = 0.5;
-// Both ways along axes and diagonals: the directions in which columns lie at whole steps.
+// Both directions along axes and diagonals, in which columns lie at whole steps.
 constexpr int kDirections[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                    {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
 
@@ -22,7 +23,7 @@ constexpr int kDirections[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
 
 void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIndex& index,
                                const std::set<PlanKey>& deposited) {
-  // With the blocks around, as a drop has two ends and the other end may lie there.
+  // Including the blocks around, as the other end of a drop may lie there.
   std::set<PlanKey> seen;
   for (const PlanKey& block : deposited)
     for (int dy = -1; dy <= 1; ++dy)
@@ -32,8 +33,8 @@ void StandingHeights::remember(const heightfield::Ground& ground, const ColumnIn
     const bool active = deposited.count(key) == 0;
     for (int c = 0; c < kBlockCells * kBlockCells; ++c) {
       const int ix = grid_.column_x(key, c), iy = grid_.column_y(key, c);
-      // What still lies on the ground as particles counts where it is awake. Deposited blocks have
-      // none any more; the index is older than the deposit and would count them twice.
+      // Particles on the ground count where it is active. Deposited blocks have none; the index is
+      // older than the deposit and would count them twice.
       const double rest = (ground.height(ix, iy) - ground.datum()) / ground.cell();
       block[static_cast<std::size_t>(c)] =
           static_cast<float>(rest + (active ? index.pile_height(ix, iy) : 0.0));
@@ -53,8 +54,8 @@ void StandingHeights::visit(Archive& a) { a("blocks", blocks_); }
 bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const {
   double high = 0, low = 0;
   const bool high_known = standing_.find(ix, iy, high), low_known = standing_.find(lx, ly, low);
-  // On ground that may fall (no hold) both ends must be known; on ground that holds the start
-  // heights stand in for what was never moved.
+  // On ground that may fall (no hold) both ends must be known; on ground that holds, the heights at
+  // the start replace what was never moved.
   if (!hold_ && !(high_known && low_known)) return false;
   if (!high_known) high = (ground_.start_height(ix, iy) - ground_.datum()) / ground_.cell();
   if (!low_known) low = (ground_.start_height(lx, ly) - ground_.datum()) / ground_.cell();
@@ -63,7 +64,7 @@ bool SlumpScan::stood_before(int ix, int iy, int lx, int ly, double drop) const 
 }
 
 void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
-  // The margin is what a drop may reach over, so that each drop with one end in the tile is seen.
+  // The margin is the reach of drops, so that each drop with one end in the tile is found.
   x0_ = tx * kTile - SlumpTable::kReach;
   y0_ = ty * kTile - SlumpTable::kReach;
   ground_.copy_heights({x0_, y0_, x0_ + kSide, y0_ + kSide}, rest_);
@@ -72,7 +73,7 @@ void SlumpScan::read_window(int tx, int ty, const ColumnIndex& index) {
     h = static_cast<float>((static_cast<double>(h) - ground_.datum()) / ground_.cell());
   top_ = rest_;
   const PlanGrid& grid = index.grid();
-  // Whole blocks are asked for, as most of a window holds no particles.
+  // Whole blocks are looked up, as most of a window holds no particles.
   const PlanKey first = grid.block_of(x0_, y0_),
                 last = grid.block_of(x0_ + kSide - 1, y0_ + kSide - 1);
   for (int by = first.first; by <= last.first; ++by)
@@ -97,18 +98,18 @@ bool SlumpScan::held_by_tool(const OverSteep& found, std::span<const ToolZone> z
   return false;
 }
 
-// Whether the resting column (ix, iy) stands too high above the one `steps` away.
+// Finds out if the resting column (ix, iy) stands too high above the one `steps` away.
 bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
                      std::vector<OverSteep>& out) {
   const int lx = ix + dx * steps, ly = iy + dy * steps;
   const bool diagonal = dx != 0 && dy != 0;
   const double high = static_cast<double>(rest_[at(ix, iy)]),
                low = static_cast<double>(top_[at(lx, ly)]);
-  // The quickest question first: most pairs stand far below the weakest drop.
+  // The cheapest test first: most pairs are far below the smallest drop.
   if (high - low <= limit_[diagonal][steps]) return false;
   if (!ground_.contains(ix, iy) || !ground_.contains(lx, ly)) return false;
   const double cell = ground_.cell();
-  // Before the layers are read, as that costs most.
+  // Before the layers are read, which costs most.
   if (stood_before(ix, iy, lx, ly, high - low)) return false;
   ground_.column(ix, iy, layers_);
   if ((high - low) * cell <= table_.start(layers_, low * cell, high * cell, steps, diagonal))
@@ -122,8 +123,7 @@ bool SlumpScan::look(int ix, int iy, int dx, int dy, int steps, std::span<const 
 void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
                      std::vector<OverSteep>& out) {
   read_window(tx, ty, index);
-  // The largest drop that the window can hold. Nothing is looked at beyond the distance where it
-  // could matter.
+  // Largest drop that the window can hold; limits the distance to examine.
   const auto [least, unused] = std::minmax_element(top_.begin(), top_.end());
   const double range = static_cast<double>(*std::max_element(rest_.begin(), rest_.end()) - *least);
   int reach = 0;
@@ -142,10 +142,10 @@ void SlumpScan::scan(int tx, int ty, const ColumnIndex& index, std::span<const T
     for (int ix = tile_x; ix < tile_x + kTile; ++ix)
       for (const auto& direction : kDirections) {
         const int dx = direction[0], dy = direction[1];
-        // The nearest drop of a direction is enough: the columns on the way slide with it.
+        // The nearest drop of a direction is enough: the columns in between slide with it.
         for (int l = 1; l <= reach; ++l)
           if (look(ix, iy, dx, dy, l, zones, out)) break;
-        // From outside, this column being the low one.
+        // From outside, with this column as the low one.
         for (int l = 1; l <= reach; ++l)
           if (!inside(ix - l * dx, iy - l * dy) &&
               look(ix - l * dx, iy - l * dy, dx, dy, l, zones, out))

@@ -12,18 +12,18 @@ namespace {
 
 // Hysteresis about the friction angle [docs/exchange.md, slump].
 constexpr double kStartAbove = radians(2.0), kStopBelow = radians(1.0);
-/// A heap booked back from particles is this rough without being steep [cells].
-/// tuned: ExchangeDeposit.AHeapComesBackWithItsMassVolumeAndShape.
+/// Roughness of a heap deposited from particles, which does not make it steep [cells]. Tuned by
+/// ExchangeDeposit.AHeapComesBackWithItsMassVolumeAndShape.
 constexpr double kRoughness = 0.2;
-/// Cohesion times specific volume, from loose and remoulded to intact, is tabulated in this many
-/// levels, the lower ones closer together, and rounded down.
+/// Levels of cohesion times specific volume, from loose and remoulded to intact, the lower ones
+/// closer together. Values are rounded down.
 constexpr int kLevels = 16;
-/// Higher faces than this are not asked for [m].
+/// Largest height of a face [m].
 constexpr double kHighest = 100;
 
 }  // namespace
 
-// Soil by soil, then level, distance and direction; `weakest_` is as long as one level.
+// Soil by soil, then level, distance and direction; `weakest_` has the length of one level.
 std::size_t SlumpTable::place(std::size_t soil, int level, int steps, bool diagonal) {
   return ((soil * kLevels + static_cast<std::size_t>(level)) * kReach +
           static_cast<std::size_t>(steps - 1)) *
@@ -40,7 +40,7 @@ double SlumpTable::cohesion(const Strength& of, double shear, double specific_vo
 
 SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, double gravity)
     : soils_(soils), cell_(cell) {
-  // Filled once for a scene: 512 entries a soil, each with a search.
+  // Filled once per scene: 512 entries per soil, each with a search.
   start_.resize(soils.size() * kLevels * kReach * 2);
   weakest_.assign(kReach * 2, kHighest);
   for (std::size_t s = 0; s < soils.size(); ++s) {
@@ -69,7 +69,7 @@ SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, doubl
           const double distance = steps * cell * (diagonal ? std::sqrt(2.0) : 1.0);
           const double dry =
               distance * std::tan(soil.friction_angle + kStartAbove) + kRoughness * cell;
-          // The face falls back by half a cell less than the columns' centres lie apart
+          // The face falls back by half a cell less than the distance of the columns' centres
           // [docs/exchange.md, slump].
           const double drop =
               std::max(dry, faces.height(strength, distance - 0.5 * cell, kHighest));
@@ -84,9 +84,9 @@ SlumpTable::SlumpTable(const std::vector<scene::Soil>& soils, double cell, doubl
 double SlumpTable::start(std::uint16_t soil, float shear, float specific_volume, int steps,
                          bool diagonal) const {
   const Strength& of = strengths_[soil];
-  // Loose soil weighs less: what counts is cohesion over unit weight, and bank density x gravity /
-  // specific volume is the latter. Cohesion grows towards the bank state, so nothing is below the
-  // level of loose soil by more than rounding.
+  // Loose soil weighs less. What counts is cohesion over unit weight, which is bank density x
+  // gravity / specific volume. Cohesion grows towards the bank state, so only rounding goes below
+  // the level of loose soil.
   const double volume = std::max(0.0, static_cast<double>(specific_volume));
   const double product = cohesion(of, static_cast<double>(shear), volume) * volume;
   const double share = of.range > 0 ? std::clamp((product - of.low) / of.range, 0.0, 1.0) : 0.0;
@@ -102,7 +102,7 @@ double SlumpTable::start(std::span<const heightfield::SoilLayer> layers, double 
   for (const heightfield::SoilLayer& layer : layers) {
     const double top = bottom + kilograms(layer.mass) * static_cast<double>(layer.specific_volume) /
                                     (soils_[layer.soil].bank_density * cell_ * cell_);
-    // Only layers that the drop lays bare: what lies below the low column is held from the sides.
+    // Only layers that the drop exposes: soil below the low column is held from the sides.
     if (top > low && bottom < high)
       least = std::min(
           least, start(layer.soil, layer.plastic_shear, layer.specific_volume, steps, diagonal));

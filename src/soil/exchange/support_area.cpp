@@ -9,10 +9,11 @@ namespace navvy::soil {
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-/// Columns around the rim that count with it [cells]: the ground between two of them is what a tyre
-/// feels, and an edge that stands may not run under it.
+/// Columns around the rim that count with it [cells]: a tyre stands on the ground between two of
+/// them, and no standing edge may reach under it.
 constexpr double kAround = 1;
-/// Ground so near below the rim is met [cells]: more than a rut sinks between two checks.
+/// Distance below the rim at which ground counts as met [cells]: more than a rut sinks between two
+/// checks.
 constexpr double kNear = 0.25;
 
 double slope(const Vec3& direction) {
@@ -22,22 +23,22 @@ double slope(const Vec3& direction) {
 
 }  // namespace
 
-SupportPlacement::SupportPlacement(const SupportArea& footing, const heightfield::Ground& ground,
+SupportPlacement::SupportPlacement(const SupportArea& area, const heightfield::Ground& ground,
                                    double interval)
-    : footing_(footing), origin_(ground.origin()), cell_(ground.cell()) {
-  ahead_ = footing.ahead_W.head<2>().normalized();
+    : area_(area), origin_(ground.origin()), cell_(ground.cell()) {
+  ahead_ = area.ahead_W.head<2>().normalized();
   left_ = Vec2(-ahead_.y(), ahead_.x());
-  // As ruts do: a narrow tyre feels the ground between the columns to either side of it.
-  footing_.half_width = std::max(footing.half_width, cell_);
-  const double time = interval + footing.ready;
-  way_ = time * footing.v_W.head<2>().dot(ahead_);
-  fall_ = time * std::max(0.0, -footing.v_W.z()) + kNear * cell_;
-  const double along = footing.half_run + footing.radius + kAround * cell_;
-  const double across = footing_.half_width + kAround * cell_;
+  // As ruts do: a narrow tyre stands on the ground between the columns to either side of it.
+  area_.half_width = std::max(area.half_width, cell_);
+  const double time = interval + area.ready;
+  travel_ = time * area.v_W.head<2>().dot(ahead_);
+  fall_ = time * std::max(0.0, -area.v_W.z()) + kNear * cell_;
+  const double along = area.half_run + area.radius + kAround * cell_;
+  const double across = area_.half_width + kAround * cell_;
   Vec2 low = Vec2::Constant(kNowhere), high = -low;
-  for (const double x : {std::min(way_, 0.0) - along, std::max(way_, 0.0) + along})
+  for (const double x : {std::min(travel_, 0.0) - along, std::max(travel_, 0.0) + along})
     for (const double y : {-across, across}) {
-      const Vec2 corner = footing.p_W.head<2>() + x * ahead_ + y * left_;
+      const Vec2 corner = area.p_W.head<2>() + x * ahead_ + y * left_;
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
@@ -48,30 +49,29 @@ SupportPlacement::SupportPlacement(const SupportArea& footing, const heightfield
 }
 
 Vec2 SupportPlacement::along_across(int ix, int iy) const {
-  const Vec2 d = origin_ + cell_ * Vec2(ix + 0.5, iy + 0.5) - footing_.p_W.head<2>();
+  const Vec2 d = origin_ + cell_ * Vec2(ix + 0.5, iy + 0.5) - area_.p_W.head<2>();
   return {d.dot(ahead_), d.dot(left_)};
 }
 
 double SupportPlacement::underside(double along, double across, double widened) const {
   const double aside = std::max(0.0, std::abs(across) - widened);
-  const double out = std::max(0.0, std::abs(along) - footing_.half_run - widened);
-  if (aside > footing_.half_width || out >= footing_.radius) return kNowhere;
-  return footing_.p_W.z() +
-         slope(footing_.ahead_W) * std::clamp(along, -footing_.half_run, footing_.half_run) +
-         slope(footing_.left_W) * std::clamp(across, -footing_.half_width, footing_.half_width) -
-         std::sqrt(footing_.radius * footing_.radius - out * out);
+  const double out = std::max(0.0, std::abs(along) - area_.half_run - widened);
+  if (aside > area_.half_width || out >= area_.radius) return kNowhere;
+  return area_.p_W.z() + slope(area_.ahead_W) * std::clamp(along, -area_.half_run, area_.half_run) +
+         slope(area_.left_W) * std::clamp(across, -area_.half_width, area_.half_width) -
+         std::sqrt(area_.radius * area_.radius - out * out);
 }
 
 bool SupportPlacement::meets(int ix, int iy, double height) const {
   const Vec2 at = along_across(ix, iy);
-  // The nearest that the middle comes on its way.
-  const double along = at.x() - std::clamp(at.x(), std::min(way_, 0.0), std::max(way_, 0.0));
+  // The closest position of the middle during its travel.
+  const double along = at.x() - std::clamp(at.x(), std::min(travel_, 0.0), std::max(travel_, 0.0));
   return height > underside(along, at.y(), kAround * cell_) - fall_;
 }
 
-double SupportPlacement::room(int ix, int iy) const {
+double SupportPlacement::height_limit(int ix, int iy) const {
   const Vec2 at = along_across(ix, iy);
-  return underside(at.x(), at.y(), 0) + footing_.give;
+  return underside(at.x(), at.y(), 0) + area_.flattening;
 }
 
 std::vector<SupportPlacement> support_placements(std::span<const SupportArea> support_areas,
@@ -79,7 +79,7 @@ std::vector<SupportPlacement> support_placements(std::span<const SupportArea> su
                                                  double interval) {
   std::vector<SupportPlacement> out;
   out.reserve(support_areas.size());
-  for (const SupportArea& footing : support_areas) out.emplace_back(footing, ground, interval);
+  for (const SupportArea& area : support_areas) out.emplace_back(area, ground, interval);
   return out;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a machine stands or rolls on the ground with, as columns see it
-// [docs/exchange.md, footings].
+// Support areas of machines, as columns see them [docs/exchange.md, support areas].
 #pragma once
 
 #include <span>
@@ -11,47 +10,55 @@
 
 namespace navvy::soil {
 
-/// A wheel, or part of a belt: a rim that is round in the plane of its way and as wide as its axle
-/// is long. A belt runs straight between its rollers, so its rim's middle is a line instead of a
-/// point.
+/// A wheel, or part of a track: a rim that is round in its plane of motion and as wide as its axle
+/// is long. A track runs straight between its rollers, so the middle of its rim is a line instead
+/// of a point.
 struct SupportArea {
-  Vec3 p_W = Vec3::Zero();       ///< middle of the axle, or of the line of axles [m]
-  Vec3 ahead_W = Vec3::UnitX();  ///< unit, along the line of axles; of a wheel level
-  Vec3 left_W = Vec3::UnitY();   ///< unit, along the axle
-  double radius = 0;             ///< [m]
-  double half_width = 0;         ///< [m]
-  double half_run = 0;           ///< from the middle to the outermost axle, 0 of a wheel [m]
-  Vec3 v_W = Vec3::Zero();       ///< of the middle [m/s]
-  /// How far its load presses it flat: it bears on ground so high above its rim [m].
-  double give = 0;
-  double ready = 0;  ///< the ground must be there so long before the rim comes [s]
+  /// Middle of the axle, or of the line of axles [m].
+  Vec3 p_W = Vec3::Zero();
+  /// Unit vector along the line of axles; level for a wheel.
+  Vec3 ahead_W = Vec3::UnitX();
+  /// Unit vector along the axle.
+  Vec3 left_W = Vec3::UnitY();
+  /// Radius of the rim [m].
+  double radius = 0;
+  /// Half of its width [m].
+  double half_width = 0;
+  /// Distance from the middle to the outermost axle, 0 for a wheel [m].
+  double half_run = 0;
+  /// Velocity of the middle [m/s].
+  Vec3 v_W = Vec3::Zero();
+  /// Flattening under load: it stands on ground this high above its rim [m].
+  double flattening = 0;
+  /// Time before the rim arrives at which the ground must be ready [s].
+  double ready = 0;
 };
 
-/// A footing over the columns of a ground, for one check of the exchange.
+/// A support area over the columns of a ground, for one check of the exchange.
 class SupportPlacement {
  public:
-  /// `interval` [s]: until the next check.
-  SupportPlacement(const SupportArea& footing, const heightfield::Ground& ground, double interval);
+  /// Places it over the columns. `interval`: time until the next check [s].
+  SupportPlacement(const SupportArea& area, const heightfield::Ground& ground, double interval);
 
-  /// Columns that it may concern; may reach beyond the site.
+  /// Returns the columns that it may concern; they may lie outside the site.
   const heightfield::CellRect& rect() const { return rect_; }
-  /// Whether the rim stands on ground of this `height` [m] in the column, or comes to within a
-  /// quarter of a cell of it before the ground can be looked at again. The columns around count
-  /// with it.
+  /// Returns true if the rim stands on ground of this `height` [m] in the column, or comes within a
+  /// quarter of a cell of it before the next check. Neighbouring columns count, too.
   bool meets(int ix, int iy, double height) const;
-  /// Height [m] to which the ground under the rim may be raised as it stands now; infinite beside
-  /// it.
-  double room(int ix, int iy) const;
+  /// Returns the height [m] to which the ground under the rim may rise in its present position;
+  /// infinite beside it.
+  double height_limit(int ix, int iy) const;
 
  private:
+  /// Returns the position of a column relative to the middle, along and across [m].
   Vec2 along_across(int ix, int iy) const;
-  /// Height of the rim's underside [m] over a place `along` and `across` of its middle, widened by
-  /// so much all around; infinite beside it.
+  /// Returns the height of the rim's underside [m] at a position `along` and `across` from its
+  /// middle, widened by `widened` on all sides; infinite beside it.
   double underside(double along, double across, double widened) const;
 
-  SupportArea footing_;
+  SupportArea area_;
   Vec2 origin_, ahead_, left_;
-  double cell_, way_, fall_;
+  double cell_, travel_, fall_;
   heightfield::CellRect rect_;
 };
 

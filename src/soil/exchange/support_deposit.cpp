@@ -11,11 +11,12 @@
 namespace navvy::soil {
 namespace {
 
-/// Columns beside a tool's box are the tool's as well: between two checks it goes 0.3 of a column.
+/// Columns beside a tool's box belong to the tool, too: between two checks it moves by 0.3 of a
+/// column.
 constexpr int kBesideTool = 1;
-/// Soil this far below a tool is not touched [cells], as in the rule that wakes before tools.
+/// Soil this far below a tool is not touched [cells], as in the rule that activates ahead of tools.
 constexpr double kUnderTool = 1;
-/// Shares of a footing's soil are counted in this height [m].
+/// Unit of height in which shares of a support area's soil are counted [m].
 constexpr double kShareUnit = 1e-7;
 
 }  // namespace
@@ -32,16 +33,16 @@ bool tool_touches(std::span<const ToolZone> zones, int ix, int iy, double top) {
 bool supports_machine(const heightfield::Ground& ground, const ColumnIndex& index,
                       std::span<const ToolZone> zones,
                       std::span<const SupportPlacement> support_areas, int ix, int iy) {
-  for (const SupportPlacement& footing : support_areas) {
-    if (!footing.rect().contains(ix, iy)) continue;
+  for (const SupportPlacement& area : support_areas) {
+    if (!area.rect().contains(ix, iy)) continue;
     const double top = ground.height(ix, iy) + index.pile_height(ix, iy) * ground.cell();
-    if (footing.meets(ix, iy, top))
+    if (area.meets(ix, iy, top))
       return !tool_touches(zones, ix, iy, (top - ground.datum()) / ground.cell());
   }
   return false;
 }
 
-// From the column's surface up, as heightfield::LooseSoil does it.
+// From the column's surface up, as in heightfield::LooseSoil.
 const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
   const auto [place, is_new] = stacks_.try_emplace(PlanKey{iy, ix});
   Stack& out = place->second;
@@ -61,7 +62,8 @@ const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
   return out;
 }
 
-// By the place of each particle: counted by column a level layer's height would scatter by 6 cm.
+// By the position of each particle: counted by column, the height of a level layer would scatter by
+// 6 cm.
 double SupportDeposit::smoothed(int ix, int iy) {
   double height = 0;
   for (int dy = -1; dy <= 1; ++dy)
@@ -84,32 +86,33 @@ double SupportDeposit::smoothed(int ix, int iy) {
   return height;
 }
 
-SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& footing,
+SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& area,
                                                     std::set<PlanKey>& claimed) {
   PendingDeposit out;
-  std::vector<std::int64_t> taken;  // mass over each column, for soil too thin to show in heights
+  // Mass over each column, for soil too thin to show in heights.
+  std::vector<std::int64_t> taken;
   bool shows = false;
-  const heightfield::CellRect& rect = footing.rect();
+  const heightfield::CellRect& rect = area.rect();
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       if (index_.column(ix, iy).empty()) continue;
-      const Stack& lying = stack(ix, iy);
-      if (lying.grains.empty() || lying.touched || !footing.meets(ix, iy, lying.top)) continue;
-      if (tool_touches(zones_, ix, iy, (lying.top - ground_.datum()) / ground_.cell())) continue;
+      const Stack& soil = stack(ix, iy);
+      if (soil.grains.empty() || soil.touched || !area.meets(ix, iy, soil.top)) continue;
+      if (tool_touches(zones_, ix, iy, (soil.top - ground_.datum()) / ground_.cell())) continue;
       if (!claimed.insert({iy, ix}).second) continue;
-      // What would stand in the wheel stays.
+      // Soil that would reach into the wheel stays active.
       const double ground = ground_.height(ix, iy),
-                   room = std::max(0.0, footing.room(ix, iy) - ground);
-      double stands = 0;
+                   clearance = std::max(0.0, area.height_limit(ix, iy) - ground);
+      double filled = 0;
       std::int64_t mass = 0;
-      for (std::size_t g = 0; g < lying.grains.size() && stands + 0.5 * lying.volumes[g] <= room;
+      for (std::size_t g = 0; g < soil.grains.size() && filled + 0.5 * soil.volumes[g] <= clearance;
            ++g) {
-        stands += lying.volumes[g];
-        mass += index_[lying.grains[g]].mass;
-        out.grains.push_back(lying.grains[g]);
+        filled += soil.volumes[g];
+        mass += index_[soil.grains[g]].mass;
+        out.grains.push_back(soil.grains[g]);
       }
       if (mass == 0) continue;
-      const double height = std::clamp(smoothed(ix, iy) - ground, 0.0, room);
+      const double height = std::clamp(smoothed(ix, iy) - ground, 0.0, clearance);
       out.columns.push_back({ix, iy, std::llround(height / kShareUnit)});
       taken.push_back(mass);
       shows = shows || out.columns.back().weight > 0;
@@ -121,15 +124,15 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& foot
 int SupportDeposit::deposit(std::span<const SupportPlacement> support_areas,
                             std::vector<std::uint8_t>& removed, std::set<PlanKey>& blocks) {
   std::set<PlanKey> claimed;
-  // All are planned before any is booked, as one footing's soil is another one's neighbour.
+  // All are planned before any is deposited, as the soil of one support area neighbours another.
   std::vector<PendingDeposit> pending_deposits;
-  for (const SupportPlacement& footing : support_areas)
-    pending_deposits.push_back(plan(footing, claimed));
+  for (const SupportPlacement& area : support_areas)
+    pending_deposits.push_back(plan(area, claimed));
   int count = 0;
   for (const PendingDeposit& pending_deposit : pending_deposits) {
     for (const SoilShare& share : soil_shares(index_, pending_deposit.grains))
-      share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell), share.mass,
-                pending_deposit.columns);
+      share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_),
+                share.mass, pending_deposit.columns);
     for (const std::uint32_t i : pending_deposit.grains) removed[i] = 1;
     for (const SharedColumn& column : pending_deposit.columns)
       blocks.insert(index_.grid().block_of(column.ix, column.iy));

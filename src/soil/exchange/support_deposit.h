@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Books awake soil that lies under wheels and belts into the columns, which bear them
-// [docs/exchange.md, footings].
+// Deposits active soil under wheels and tracks into the columns, which then carry the load
+// [docs/exchange.md, support areas].
 #pragma once
 
 #include <map>
@@ -14,57 +14,65 @@
 
 namespace navvy::soil {
 
-/// Whether a tool's box reaches to within a column of (ix, iy) and to less than a cell above the
-/// soil there, which ends at `top` [cells above datum]. Then that soil is the tool's; what a bucket
-/// or a bed holds always is.
+/// Returns true if a tool's box reaches to within a column of (ix, iy) and to less than a cell
+/// above the soil there, which ends at `top` [cells above datum]. Such soil belongs to the tool. So
+/// does everything in a bucket or a bed.
 bool tool_touches(std::span<const ToolZone> zones, int ix, int iy, double top);
 
-/// Whether the column, with the soil that lies on it, is to bear a footing and no tool touches it:
-/// such a column does not wake. Costs a look at each footing's rectangle.
+/// Returns true if the column, with the soil on it, is to carry a support area and no tool touches
+/// it. Such a column does not become active. Costs one test per support area.
 bool supports_machine(const heightfield::Ground& ground, const ColumnIndex& index,
                       std::span<const ToolZone> zones,
                       std::span<const SupportPlacement> support_areas, int ix, int iy);
 
-/// Takes what lies under footings, whatever its speed, and books it, mass-exact per soil.
+/// Deposits the soil under support areas, whatever its speed, mass-exact per soil.
 ///
-/// What lies is told by stacking, as maps do. All that one footing takes is one pool: density state
-/// and plastic shear are its means, and a column's share is the height of columns and lying soil
-/// there, smoothed by the spline, over the column. Soil that would stand in the wheel stays what it
-/// is: a wheel is not lifted by what slides under it. Costs the soil under footings, and the
-/// columns of their rectangles where any is near.
+/// Soil lies on a column by the stacking rule that maps use. All soil under one support area forms
+/// one pool: density state and plastic shear are its means. The share of a column is the height of
+/// columns and soil there, smoothed by the spline, minus the column. Soil that would reach into the
+/// wheel stays active: soil that slides under a wheel does not lift it. Cost is linear in the soil
+/// under support areas, and in the columns of their rectangles where there is any.
 class SupportDeposit {
  public:
-  /// All must outlive it. The index is of the particles before anything is deposited.
+  /// Deposits onto `ground`; ground, index and zones must outlive the object. The index is of the
+  /// particles before anything is deposited. `densest`: lowest density state that columns take.
   SupportDeposit(heightfield::Ground& ground, const ColumnIndex& index,
-                 std::span<const ToolZone> zones)
-      : ground_(ground), index_(index), zones_(zones) {}
+                 std::span<const ToolZone> zones, double densest)
+      : ground_(ground), index_(index), zones_(zones), densest_(densest) {}
 
-  /// Deposits, footing by footing in their order; a column is the first one's that meets it. What
-  /// is taken is marked in `removed`, its blocks are added to `blocks`.
-  /// @return how many columns got soil.
+  /// Deposits, one support area after the other; a column belongs to the first one that meets it.
+  /// Marks deposited particles in `removed` and adds their blocks to `blocks`. Returns the number
+  /// of columns that got soil.
   int deposit(std::span<const SupportPlacement> support_areas, std::vector<std::uint8_t>& removed,
               std::set<PlanKey>& blocks);
 
  private:
-  /// Particles that lie on a column, from below.
+  /// Particles on a column, from below.
   struct Stack {
     std::vector<std::uint32_t> grains;
-    std::vector<double> volumes;  ///< in their density state [columns' area x m]
-    double top = 0;               ///< W height of the surface that they make [m]
-    bool touched = false;         ///< one of them is on a side of a shell
+    /// Volumes in their density state [column area x m].
+    std::vector<double> volumes;
+    /// Height in W of the surface that they form [m].
+    double top = 0;
+    /// One of them is on a side of a shell.
+    bool touched = false;
   };
+  /// Soil under one support area, and the columns that will get it.
   struct PendingDeposit {
     std::vector<SharedColumn> columns;
     std::vector<std::uint32_t> grains;
   };
+  /// Returns the particles on a column; each column is computed once.
   const Stack& stack(int ix, int iy);
-  /// Height [m] of columns and lying soil, smoothed.
+  /// Returns the height of columns and soil on them, smoothed [m].
   double smoothed(int ix, int iy);
-  PendingDeposit plan(const SupportPlacement& footing, std::set<PlanKey>& claimed);
+  /// Collects the soil under one support area from columns that are not in `claimed` yet.
+  PendingDeposit plan(const SupportPlacement& area, std::set<PlanKey>& claimed);
 
   heightfield::Ground& ground_;
   const ColumnIndex& index_;
   std::span<const ToolZone> zones_;
+  double densest_;
   std::map<PlanKey, Stack> stacks_;
 };
 

@@ -6,7 +6,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Mixes the bits so that neighbouring blocks do not queue up behind one another.
+/// Mixes the bits so that neighbouring blocks do not form long probe sequences.
 std::size_t scatter_bits(const BlockKey& key) {
   std::uint64_t h = static_cast<std::uint32_t>(key.x) * 0x9e3779b97f4a7c15ULL;
   h ^= static_cast<std::uint32_t>(key.y) * 0xc2b2ae3d27d4eb4fULL;
@@ -42,9 +42,9 @@ void BlockTable::build(std::vector<BlockKey> sorted_keys) {
   particle_block_index.build(particle_blocks);
   active.clear();
   active.reserve(particle_blocks.size() * 4);
-  // All nodes that particles of the homes can reach before the next re-bin.
-  for (const BlockKey& home : particle_blocks)
-    for (int n = 0; n < 27; ++n) active.push_back(home + neighbour_offset(n));
+  // All nodes that particles of the blocks can reach before the next re-bin.
+  for (const BlockKey& particle_block : particle_blocks)
+    for (int n = 0; n < 27; ++n) active.push_back(particle_block + neighbour_offset(n));
   std::sort(active.begin(), active.end());
   active.erase(std::unique(active.begin(), active.end()), active.end());
   active_index.build(active);
@@ -54,7 +54,7 @@ void BlockTable::build(std::vector<BlockKey> sorted_keys) {
     for (int n = 0; n < 27; ++n)
       neighbours[27 * h + static_cast<std::size_t>(n)] =
           active_index.find(particle_blocks[h] + neighbour_offset(n));
-  // Neighbour n of a home sees that home as its neighbour 26 - n.
+  // Neighbour n of a particle block has that block as its neighbour 26 - n.
   around.assign(27 * active.size(), -1);
   for (std::size_t h = 0; h < particle_blocks.size(); ++h)
     for (std::size_t n = 0; n < 27; ++n)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sparse table of blocks: which ones hold particles, which ones hold nodes, who is whose
-// neighbour.
+// Sparse table of blocks: those that hold particles, those that hold nodes, and their neighbours.
 #pragma once
 
 #include <array>
@@ -14,20 +13,24 @@ namespace navvy::soil {
 struct BlockKey {
   std::int32_t x = 0, y = 0, z = 0;
   bool operator==(const BlockKey&) const = default;
+  /// Orders by z, then y, then x.
   bool operator<(const BlockKey& other) const {
     return z != other.z ? z < other.z : y != other.y ? y < other.y : x < other.x;
   }
   BlockKey operator+(const BlockKey& d) const { return {x + d.x, y + d.y, z + d.z}; }
 };
 
-/// Offset of neighbour n of 27 (x fastest, -1..1 each axis); same numbering as in the kernels.
+/// Returns the offset of neighbour n of 27 (x fastest, -1..1 on each axis), numbered as in the
+/// kernels.
 inline BlockKey neighbour_offset(int n) { return {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}; }
 
-/// Finds the index of a key in a list; open addressing, looked up only, never iterated.
+/// Finds the index of a key in a list, by open addressing. It is only looked up, never iterated.
 class BlockIndex {
  public:
+  /// Replaces the list of keys, which must be unique.
   void build(const std::vector<BlockKey>& keys);
-  int find(const BlockKey& key) const;  ///< -1 when absent
+  /// Returns -1 when absent.
+  int find(const BlockKey& key) const;
 
  private:
   std::vector<BlockKey> keys_;
@@ -35,16 +38,20 @@ class BlockIndex {
   std::size_t mask_ = 0;
 };
 
-/// Home blocks (with particles) and active blocks (homes and their 26 neighbours: all nodes
-/// particles can reach).
+/// Particle blocks (with particles) and active blocks (particle blocks and their 26 neighbours: all
+/// nodes that particles can reach).
 struct BlockTable {
-  std::vector<BlockKey> particle_blocks;  ///< sorted
-  std::vector<BlockKey> active;           ///< sorted
-  std::vector<int> neighbours;            ///< 27 per home: index of the neighbour among active
-  std::vector<int> around;  ///< 27 per active: index of the neighbour among homes or -1
+  /// Sorted.
+  std::vector<BlockKey> particle_blocks;
+  /// Sorted.
+  std::vector<BlockKey> active;
+  /// 27 per particle block: index of the neighbour among the active blocks.
+  std::vector<int> neighbours;
+  /// 27 per active block: index of the neighbour among the particle blocks, or -1.
+  std::vector<int> around;
   BlockIndex particle_block_index, active_index;
 
-  /// `homes` sorted and unique.
+  /// Builds the table from sorted, unique keys.
   void build(std::vector<BlockKey> sorted_keys);
 };
 

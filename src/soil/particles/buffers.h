@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device buffers that grow with what they hold.
+// Device buffers that grow with their contents.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace navvy::soil {
 
-/// Makes room for `size` values and keeps those that stand there; never shrinks.
+/// Grows a buffer to at least `size` values and keeps its contents; never shrinks it.
 template <class T>
 void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
   if (buffer.empty()) {
@@ -19,14 +19,15 @@ void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
   }
 }
 
-/// Makes room for `size` values, contents undefined: set kernel arguments again afterwards.
+/// Grows a buffer to at least `size` values with undefined contents. Kernel arguments must be set
+/// again afterwards.
 template <class T>
 void ensure(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
   if (buffer.size() < size || buffer.empty())
     buffer = device::Buffer<T>(device, size + size / 2 + 1);
 }
 
-/// The same, then writes the values; waits.
+/// Grows a buffer if needed and writes the values; waits.
 template <class T>
 void upload(device::Device& device, device::Buffer<T>& buffer, const std::vector<T>& values) {
   ensure(device, buffer, values.size());

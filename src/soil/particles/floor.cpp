@@ -24,19 +24,19 @@ BlockFloor Floor::make_patch(int bx, int by) const {
       const double around[] = {height(x, y), height(x + 1, y), height(x, y + 1),
                                height(x + 1, y + 1)};
       const int node = x + 4 * y;
-      patch.held[node] =
-          static_cast<float>(*std::max_element(std::begin(around), std::end(around)) + kHeldMargin);
+      patch.held[node] = static_cast<float>(
+          *std::max_element(std::begin(around), std::end(around)) + held_margin_);
       for (int i = 0; i < 4; ++i) patch.around[node][i] = static_cast<float>(around[i]);
     }
   return patch;
 }
 
-// Patches are kept by column of blocks: all blocks above one another share it, and the ground
-// changes in few places.
+// Patches are stored by column of blocks: all blocks above one another share a patch, and the
+// ground changes in few places.
 bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   const bool ground_changed = first_ || ground_->sequence() != sequence_;
   if (!ground_changed && !blocks_changed) return false;
-  // Forget the patches whose 5 x 5 columns the change touches.
+  // Drop the patches whose 5 x 5 columns the change touches.
   if (ground_changed && !first_) {
     const heightfield::CellRect rect = ground_->changed_since(sequence_);
     std::erase_if(patches_, [&](const auto& entry) {
@@ -48,7 +48,7 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
   sequence_ = ground_->sequence();
   first_ = false;
 
-  // Only what active blocks use is kept on; the rest is looked up again when soil comes back.
+  // Keep only the patches of active blocks. Others are computed again when soil returns.
   std::map<std::pair<int, int>, BlockFloor> used;
   blocks_.resize(active.size());
   for (std::size_t b = 0; b < active.size(); ++b) {
@@ -60,7 +60,7 @@ bool Floor::update(const std::vector<BlockKey>& active, bool blocks_changed) {
                                                         : make_patch(key.first, key.second))
                   .first;
     }
-    // Heights from the block's own corner keep a float's precision.
+    // Heights from the block's own corner preserve the precision of floats.
     const float corner = static_cast<float>(kBlockCells * active[b].z);
     blocks_[b] = found->second;
     for (float& height : blocks_[b].held) height -= corner;

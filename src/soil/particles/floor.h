@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes resting ground holds: nodes at or below the highest of the four columns around them
-// plus a quarter cell.
+// Nodes held by resting ground: those at or below the highest of the four columns around them, plus
+// a quarter of a cell.
 #pragma once
 
 #include <map>
@@ -14,27 +14,29 @@
 
 namespace navvy::soil {
 
-/// Nodes up to this far above the columns are held too [cells] [docs/soil.md, resting ground].
-inline constexpr double kHeldMargin = 0.25;
-
-/// Heights of held nodes per block, looked up from the ground only where the ground or the blocks
+/// Heights of held nodes per block. The ground is read only where it, or the set of blocks, has
 /// changed.
 class Floor {
  public:
-  Floor(const heightfield::Ground& ground, PlanGrid grid) : ground_(&ground), grid_(grid) {}
+  /// Starts without blocks. `held_margin` [cells]: nodes up to this far above the columns are held
+  /// [docs/soil.md, resting ground].
+  Floor(const heightfield::Ground& ground, PlanGrid grid, double held_margin = kScheme.held_margin)
+      : ground_(&ground), grid_(grid), held_margin_(held_margin) {}
 
-  /// Brings the list up to date for these active blocks; true when it changed since the last call.
+  /// Updates the list for these active blocks. Returns true when it changed since the last call.
   bool update(const std::vector<BlockKey>& active, bool blocks_changed);
-  /// One per active block, in its order; heights from the block's corner [cells].
+  /// Returns one entry per active block, in its order; heights from the block's corner [cells].
   const std::vector<BlockFloor>& blocks() const { return blocks_; }
 
  private:
-  /// Of one column of blocks, with heights from the datum.
+  /// Computes one column of blocks, with heights from the datum.
   BlockFloor make_patch(int bx, int by) const;
 
   const heightfield::Ground* ground_;
   PlanGrid grid_;
-  std::map<std::pair<int, int>, BlockFloor> patches_;  ///< by (bx, by)
+  double held_margin_;
+  /// Patches by (bx, by).
+  std::map<std::pair<int, int>, BlockFloor> patches_;
   std::uint64_t sequence_ = 0;
   bool first_ = true;
   std::vector<BlockFloor> blocks_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gather of node velocities to particles, and the way they go at a transfer's end.
+// Gather of node velocities to particles, and their displacement at the end of a transfer.
 #pragma once
 
 #include <cstdint>
@@ -11,28 +11,31 @@
 
 namespace navvy::soil {
 
-/// The kernel of kernels/soil/*/grid_to_particle.cl.
+/// Kernels of kernels/soil/*/grid_to_particle.cl.
 class GridToParticle {
  public:
-  explicit GridToParticle(device::Device& device);
+  /// Builds the kernels with these constants.
+  explicit GridToParticle(device::Device& device, const SchemeConstants& scheme = kScheme);
 
-  /// Takes over which active blocks lie around each home.
+  /// Uploads the active blocks around each particle block.
   void set_blocks(const BlockTable& table);
-  /// Queues gather of a step of dt [s], the share `part` of a transfer, whose way is booked.
-  /// `velocity`: GridUpdate::velocity; `used`: ParticleToGrid::used. Writes Report.speed of every
-  /// home.
+  /// Queues the gather of a step of dt [s], which is the share `part` of a transfer, and records
+  /// displacements. `velocity`: GridUpdate::velocity; `used`: ParticleToGrid::used. Writes
+  /// Report.speed of every block.
   void enqueue(ParticleStore& store, device::Buffer<float>& velocity, NearNodes& near,
                device::Buffer<std::int32_t>& used, device::Buffer<Report>& report, double dt,
                double part, double cell);
-  /// Queues that particles go the way that was booked: the transfer ends, and what was held may
+  /// Queues the end of a transfer: particles move by their recorded displacement, and lists may
   /// change.
   void enqueue_end(ParticleStore& store);
 
  private:
   device::Device& device_;
+  SchemeConstants scheme_;
   device::KernelProgram program_;
   device::Kernel kernel_, end_kernel_;
-  device::Buffer<std::int32_t> neighbours_;  ///< 27 active indices per home
+  /// 27 active-block indices per particle block.
+  device::Buffer<std::int32_t> neighbours_;
 };
 
 }  // namespace navvy::soil

@@ -3,17 +3,18 @@
 
 #include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
+#include "soil/scheme.h"
 
 namespace navvy::soil {
 
-GridUpdate::GridUpdate(device::Device& device)
+GridUpdate::GridUpdate(device::Device& device, const SchemeConstants& scheme)
     : device_(device),
-      program_(device, kernel_path(device, "grid_update")),
+      program_(device, kernel_path(device, "grid_update"), scheme_options(scheme)),
       far_kernel_(program_, "grid_update"),
       near_kernel_(program_, "grid_update_near") {}
 
 void GridUpdate::set_blocks(const BlockTable& table, const std::vector<int>& near_slot) {
-  // Near blocks have their own kernel with two fields; the others go the short way.
+  // Near blocks have their own kernel with two fields; all others take the short path.
   std::vector<std::int32_t> far;
   std::vector<std::array<std::int32_t, 4>> keys(table.active.size());
   for (std::size_t b = 0; b < table.active.size(); ++b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of tiles become node velocities after gravity, held by resting ground.
+// Update of nodes: sums of tiles become velocities after gravity, held by resting ground.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@
 
 namespace navvy::soil {
 
-/// The kernels of kernels/soil/*/grid_update.cl and what they write.
+/// Kernels of kernels/soil/*/grid_update.cl and their results.
 class GridUpdate {
  public:
-  explicit GridUpdate(device::Device& device);
+  /// Builds the kernels with these constants.
+  explicit GridUpdate(device::Device& device, const SchemeConstants& scheme = kScheme);
 
-  /// Takes over the active blocks. `near_slot`: index into the near arrays or -1, one entry per
-  /// active block.
+  /// Uploads the active blocks. `near_slot`: index into the near arrays or -1, one entry per active
+  /// block.
   void set_blocks(const BlockTable& table, const std::vector<int>& near_slot);
-  /// One per active block, see Floor.
+  /// Uploads one entry per active block, see Floor.
   void set_floor(const std::vector<BlockFloor>& floors);
   /// Queues velocities after `dv` [m/s] of gravity: final in far blocks, before contact and floor
-  /// in near ones. In a `hold` step nodes add what was scattered to the velocity of the step
-  /// before.
+  /// in near ones. In a `hold` step nodes add the scattered impulse to their velocity.
   void enqueue(ParticleStore& store, ParticleToGrid& scattered, NearNodes& near, const Vec3& dv,
                bool hold);
 
@@ -39,14 +39,17 @@ class GridUpdate {
   device::Device& device_;
   device::KernelProgram program_;
   device::Kernel far_kernel_, near_kernel_;
-  std::size_t far_ = 0;                    ///< active blocks that are not near
-  device::Buffer<std::int32_t> far_list_;  ///< their active indices
-  /// 27 home indices per active block, -1: none there.
+  /// Number of active blocks that are not near.
+  std::size_t far_ = 0;
+  /// Their active-block indices.
+  device::Buffer<std::int32_t> far_list_;
+  /// 27 particle-block indices per active block, -1: none there.
   device::Buffer<std::int32_t> around_;
   /// Block (x, y, z, 0) of each active block.
   device::Buffer<std::array<std::int32_t, 4>> active_keys_;
-  device::Buffer<BlockFloor> floors_;  ///< one per active block
-  /// BLOCK_NODES float4s per active block: v [m/s], mass per room [kg]; in near blocks
+  /// One per active block.
+  device::Buffer<BlockFloor> floors_;
+  /// BLOCK_NODES float4s per active block: v [m/s], mass per free volume [kg]. In near blocks
   /// contact_apply writes them.
   device::Buffer<float> velocity_;
 };

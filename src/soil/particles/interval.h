@@ -1,41 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a transfer lasts: its weights, masses, lists and sides are held over several steps
+// Length of a transfer, over which weights, masses, lists and sides are held
 // [docs/soil.md, transfer].
 #pragma once
 
 #include <cmath>
 
 #include "core/archive.h"
+#include "soil/scheme_constants.h"
 
 namespace navvy::soil {
 
-/// Cells that the fastest particle, or a tool, may go while a transfer holds; weights and near
-/// nodes are those of its start. tuned: `navvy lab throw`. Without it eight steps a transfer spoil
-/// thrown soil (volume 0.76 of its state).
-inline constexpr double kMostHeld = 0.2;
-/// Length of a transfer in units of cell / sound speed: four steps at a Courant number of 0.5. A
-/// transfer damps short waves; at a fixed length the damping is one per time, whatever the step.
-inline constexpr double kTransferLength = 2;
-
-/// The transfer that is under way. Solver and double twin ask the same questions of it.
+/// The current transfer. Solver and double twin share its rules.
 struct TransferInterval {
-  bool open = false;  ///< a step was done since the last transfer ended
-  double time = 0;    ///< since its start [s]
-  double motion = 0;  ///< most that a particle can have gone since then [cells]
-  double travel = 0;  ///< the same of a tool [cells]
-  double speed = 0;   ///< fastest component of a particle's velocity after the last step [m/s]
+  /// A step was done since the last transfer ended.
+  bool open = false;
+  /// Time since its start [s].
+  double time = 0;
+  /// Upper bound of a particle's displacement since then [cells].
+  double motion = 0;
+  /// Upper bound of a tool's displacement since then [cells].
+  double travel = 0;
+  /// Largest velocity component of any particle after the last step [m/s].
+  double speed = 0;
 
-  /// Whether one more step of dt [s] may be held; `length` in s, `tool_speed` in m/s, `gravity` in
-  /// m/s2.
-  bool holds(double dt, double length, double cell, double tool_speed, double gravity) const {
-    // Rounded to whole steps: half a step more would be nearer to the length than none.
+  /// Returns true if one more step of dt [s] fits. `length` in s, `tool_speed` in m/s, `gravity` in
+  /// m/s2, `most_motion`: longest displacement of a particle or a tool in a transfer [cells].
+  bool holds(double dt, double length, double cell, double tool_speed, double gravity,
+             double most_motion = kScheme.max_transfer_motion) const {
+    // Rounded to whole steps: half a step more would be closer to the length than none.
     if (!open || time + 0.5 * dt >= length) return false;
-    // Free fall is the least change of speed that has to be expected.
-    if (motion + dt * (speed + dt * gravity) / cell > kMostHeld) return false;
-    return travel + dt * tool_speed / cell <= kMostHeld;
+    // Free fall is the smallest change of speed to expect.
+    if (motion + dt * (speed + dt * gravity) / cell > most_motion) return false;
+    return travel + dt * tool_speed / cell <= most_motion;
   }
-  /// Books a step of dt [s] after which the fastest particle has this speed [m/s].
-  void book(double dt, double cell, double fastest, double tool_speed) {
+  /// Counts a step of dt [s] after which the fastest particle moves at `fastest` [m/s].
+  void count_step(double dt, double cell, double fastest, double tool_speed) {
     open = true;
     time += dt;
     motion += dt * fastest / cell;
@@ -43,6 +42,7 @@ struct TransferInterval {
     speed = fastest;
   }
 
+  /// Visits all of it: held steps depend on it.
   void visit(Archive& a) {
     a("open", open);
     a("time", time);

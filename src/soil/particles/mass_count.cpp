@@ -15,7 +15,7 @@ MassCount::MassCount(device::Device& device, std::size_t soils)
       kernel_(program_, "mass_count") {}
 
 void MassCount::reserve(std::size_t particle_blocks) {
-  // Unmapped before the kernel writes again, and before the buffer is replaced.
+  // Unmap before the kernel writes again, and before the buffer is replaced.
   sums_.reset();
   ensure(device_, masses_, particle_blocks * soils_);
 }

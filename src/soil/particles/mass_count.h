@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ledger's particle column, recounted from the device's arrays after every step.
+// Mass of all particles, counted on the device once per transfer for the ledger.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,22 @@
 
 namespace navvy::soil {
 
-/// Sums of particle masses per soil in kMassQuantum, exact. Unlike ParticleStore::masses it moves
-/// no particle to the host and does not look for values that are not finite (the step's report
+/// Exact sums of particle masses per soil in kMassQuantum. Unlike ParticleStore::masses it copies
+/// no particle to the host and does not look for values that are not finite (the report of a step
 /// does).
 class MassCount {
  public:
+  /// Builds the kernel. `soils`: number of soils.
   MassCount(device::Device& device, std::size_t soils);
 
-  /// Makes room for a count of so many homes: a step asks before it queues its first kernel, so
-  /// that a full device does not stop it half-way. @throws DeviceError when there is none.
+  /// Reserves memory for a count of this many blocks. A step does so before it queues its first
+  /// kernel, so that a full device does not stop it half-way.
+  /// @throws DeviceError when there is no memory.
   void reserve(std::size_t particle_blocks);
-  /// Queues the count of what is stored now and its way to the host.
+  /// Queues the count of the stored particles and its copy to the host.
   void queue(ParticleStore& store);
-  /// The sums of the last `queue`, once something queued after it was waited for; zeros when there
-  /// are none.
+  /// Returns the sums of the last `queue`, after a wait for something queued later; zeros when
+  /// there are none.
   std::vector<std::int64_t> take();
 
  private:

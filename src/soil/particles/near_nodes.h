@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of node data that exist only in active blocks near shells.
+// Node data that exists only in active blocks near shells.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,24 @@
 
 namespace navvy::soil {
 
-/// What transfer and contact hand each other, BLOCK_NODES per near active block unless said.
+/// Data shared by transfer and contact, BLOCK_NODES per near active block unless stated otherwise.
+/// Names in parentheses say what writes an array.
 struct NearNodes {
-  int count = 0;                      ///< near active blocks
-  device::Buffer<std::int32_t> list;  ///< their active indices, ascending (the host)
-  /// Per active block: index into the near arrays or -1 (the host).
+  /// Number of near active blocks.
+  int count = 0;
+  /// Their active-block indices, ascending (host).
+  device::Buffer<std::int32_t> list;
+  /// Index into the near arrays or -1, per active block (host).
   device::Buffer<std::int32_t> slot;
-  device::Buffer<std::int32_t> split;  ///< 0, 1 in front, 2 behind (shell_nodes)
+  /// 0 unsplit, 1 in front, 2 behind (shell_nodes).
+  device::Buffer<std::int32_t> split;
   /// float4 per node: v after gravity [m/s], m [kg] (grid_update_near).
   device::Buffer<float> before0, before1;
-  device::Buffer<ContactSoil> surface;  ///< mean by mass of the homes around (grid_update_near)
-  /// float4: what particles behind a shell feel (contact_apply).
+  /// Mean by mass of the particle blocks around (grid_update_near).
+  device::Buffer<ContactSoil> surface;
+  /// float4: velocity that particles behind a shell see (contact_apply).
   device::Buffer<float> velocity1;
-  /// Numbers of an array of float4s.
+  /// Returns the number of floats in an array of float4s.
   std::size_t values() const { return static_cast<std::size_t>(count) * 4 * BLOCK_NODES; }
 };
 

@@ -15,10 +15,10 @@
 namespace navvy::soil {
 namespace {
 
-/// Runs of homes begin at full packs, so that sixteen lanes never belong to two homes.
+/// Runs of blocks begin at full packs, so that sixteen lanes never belong to two blocks.
 int padded(int count) { return (count + NAVVY_LANES - 1) / NAVVY_LANES * NAVVY_LANES; }
 
-/// Moves a particle's block to that of its base node floor(x - 0.5).
+/// Sets a particle's block to that of its base node floor(x - 0.5).
 void find_particle_block(Particle& p) {
   for (int a = 0; a < 3; ++a) {
     const int base = static_cast<int>(std::floor(p.x[a] - 0.5f));
@@ -30,7 +30,7 @@ void find_particle_block(Particle& p) {
 
 BlockKey key_of(const Particle& p) { return {p.block[0], p.block[1], p.block[2]}; }
 
-/// Cell of the base node inside its home, x fastest.
+/// Returns the cell of the base node inside its block, x fastest.
 int cell_of(const Particle& p) {
   int cell = 0;
   for (int a = 2; a >= 0; --a)
@@ -38,7 +38,7 @@ int cell_of(const Particle& p) {
   return cell;
 }
 
-// Particle and store have the fields of one list: a field that one lacks does not compile.
+// Particle and store have the fields of one list: if one lacks a field, this does not compile.
 void put_record(const Particle& p, float* state, std::size_t capacity, std::size_t slot) {
   float* words = state + slot;
 #define PUT_ONE(NAME, member, rest) words[FIELD_##NAME * capacity] = p.member;
@@ -75,7 +75,7 @@ int slots_of(const std::vector<int>& counts) {
                          [](int sum, int count) { return sum + padded(count); });
 }
 
-/// What a lane without a particle holds: the values at rest of particle_fields.h.
+/// Returns the values of a lane without a particle, from particle_fields.h.
 Particle empty_lane() {
   Particle p;
 #define REST_ONE(NAME, member, rest) p.member = rest;
@@ -87,12 +87,11 @@ Particle empty_lane() {
   return p;
 }
 
-/// No site has blocks beyond: it has at most 2^30 columns a side.
+/// No site has blocks beyond this: a side has at most 2^30 columns.
 constexpr std::int32_t kFarthestBlock = (1 << 30) / kBlockCells;
 
-/// The particles of one home as they are hashed and saved: words as on the device, field after
-/// field, which are not copied: that alone would take a quarter of the time that hashing them
-/// takes.
+/// Particles of one block as they are hashed and saved: words as on the device, field after field.
+/// They are not copied, which alone would take a quarter of the hashing time.
 class BlockWords {
  public:
   void visit(Archive& a) {
@@ -101,14 +100,14 @@ class BlockWords {
       a.item(f, [&] { a.loading() ? a("words", loaded_[f]) : a("words", fields_[f]); });
   }
   BlockKey key() const { return {block[0], block[1], block[2]}; }
-  /// `count` particles whose fields lie `capacity` words apart from `first` on, which must outlive
-  /// the visit.
+  /// Refers to `count` particles whose fields lie `capacity` words apart from `first` on, which
+  /// must outlive the visit.
   void take(const float* first, std::size_t capacity, std::size_t count) {
     for (std::size_t f = 0; f < FIELD_COUNT; ++f) fields_[f] = {first + f * capacity, count};
   }
-  /// Particles of one home on the host.
+  /// Refers to particles of one block on the host.
   void take(std::span<const Particle> particles);
-  /// Appends the particles that were loaded, checked.
+  /// Appends the particles that were loaded, after checks.
   void give(Archive& a, std::vector<Particle>& particles, std::size_t soils);
 
   std::array<std::int32_t, 3> block{};
@@ -116,7 +115,8 @@ class BlockWords {
  private:
   std::array<std::span<const float>, FIELD_COUNT> fields_;
   std::array<std::vector<float>, FIELD_COUNT> loaded_;
-  std::vector<float> words_;  // of particles on the host
+  // Words of particles on the host.
+  std::vector<float> words_;
 };
 
 void BlockWords::take(std::span<const Particle> particles) {
@@ -127,7 +127,7 @@ void BlockWords::take(std::span<const Particle> particles) {
   take(words_.data(), particles.size(), particles.size());
 }
 
-// Numbers that are not finite are let in: the snapshot of a run that broke shows where it did.
+// Values that are not finite are accepted: the snapshot of a run that failed shows where it did.
 void BlockWords::give(Archive& a, std::vector<Particle>& particles, std::size_t soils) {
   const auto near = [](std::int32_t b) { return b >= -kFarthestBlock && b <= kFarthestBlock; };
   a.require(std::all_of(block.begin(), block.end(), near), "block", "lies off any site");
@@ -153,9 +153,9 @@ ParticleStore::ParticleStore(device::Device& device, const std::array<std::int32
   assign({});
 }
 
-// Home h begins where the one before it ends, padded; without tools every home has one tile, its
-// own number.
-void ParticleStore::lay_out(const std::vector<int>& counts) {
+// Block h begins where the previous one ends, padded. Without tools every block has one tile, of
+// its own index.
+void ParticleStore::assign_slots(const std::vector<int>& counts) {
   particle_blocks_.assign(table_.particle_blocks.size(), ParticleBlock{});
   int slot = 0;
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
@@ -176,7 +176,7 @@ void ParticleStore::upload_particle_blocks() {
   block_keys_.write(keys);
 }
 
-// Tiles are numbered anew: a home near a shell has three in a row.
+// Tiles are numbered anew: a block near a shell has three in a row.
 int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
   int tile = 0;
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
@@ -190,10 +190,10 @@ int ParticleStore::set_near(const std::vector<std::uint8_t>& near) {
 
 std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   for (Particle& p : particles) find_particle_block(p);
-  // By cell inside a home, as a re-bin does. Sorted are small keys: moving whole particles about
-  // takes three times as long.
+  // By cell inside a block, as a re-bin does. Small keys are sorted: moving whole particles takes
+  // three times as long.
   struct Place {
-    BlockKey home;
+    BlockKey particle_block;
     int cell;
     std::uint32_t from;
   };
@@ -201,7 +201,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     places[i] = {key_of(particles[i]), cell_of(particles[i]), static_cast<std::uint32_t>(i)};
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    if (!(a.home == b.home)) return a.home < b.home;
+    if (!(a.particle_block == b.particle_block)) return a.particle_block < b.particle_block;
     return a.cell != b.cell ? a.cell < b.cell : a.from < b.from;
   });
   std::vector<Particle> out;
@@ -210,7 +210,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   return out;
 }
 
-// Room is made with some to spare: soil wakes in small portions.
+// Some spare memory is allocated: soil becomes active in small portions.
 void ParticleStore::reserve(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
   const int capacity = padded(std::max(wanted, 1024));
@@ -228,26 +228,26 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
     }
     ++counts.back();
   }
-  // Room first, as in `rebin`: a store whose device is full holds what it held.
+  // Memory first, as in `rebin`: when the device is full, the store keeps its contents.
   const int slots = slots_of(counts);
   fit(device_, particle_blocks_buffer_, keys.size());
   fit(device_, block_keys_, keys.size());
   fit(device_, block_surface_, keys.size());
   reserve(now_, slots, slots + slots / 2);
-  // Sorted particles of one home stand together, so the keys are sorted and unique, too.
+  // Sorted particles of one block are contiguous, so the keys are sorted and unique, too.
   table_.build(std::move(keys));
-  lay_out(counts);
+  assign_slots(counts);
   {
-    // Every slot of the runs is written, padding as well: kernels read whole packs.
+    // Every slot of the runs is written, padding included: kernels read whole packs.
     const auto view = state_[now_].map_update();
     const auto capacity = static_cast<std::size_t>(capacity_[now_]);
     std::size_t next = 0;
-    for (const ParticleBlock& home : particle_blocks_) {
-      const auto start = static_cast<std::size_t>(home.start),
-                 n = static_cast<std::size_t>(home.count);
+    for (const ParticleBlock& particle_block : particle_blocks_) {
+      const auto start = static_cast<std::size_t>(particle_block.start),
+                 n = static_cast<std::size_t>(particle_block.count);
       for (std::size_t i = 0; i < n; ++i)
         put_record(sorted[next++], view.data(), capacity, start + i);
-      for (std::size_t i = n; i < static_cast<std::size_t>(padded(home.count)); ++i)
+      for (std::size_t i = n; i < static_cast<std::size_t>(padded(particle_block.count)); ++i)
         put_record(empty_lane(), view.data(), capacity, start + i);
     }
   }
@@ -295,7 +295,7 @@ std::vector<Particle> ParticleStore::records() const {
 }
 
 std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& high) const {
-  // From half a cell above its key on a home holds what re-bins found there; between them it drifts
+  // A block holds what re-bins found from half a cell above its key on; in between, particles drift
   // by less than a cell.
   constexpr double kFrom = -1, kTo = kBlockCells + 2;
   std::vector<PointMass> out;
@@ -335,11 +335,11 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
   std::vector<float> sums;
-  for (const ParticleBlock& home : particle_blocks_) {
-    const auto n = static_cast<std::size_t>(home.count);
-    const float* first = view.data() + home.start;
-    // Finite numbers sum up to a finite one here: none comes near the end of the range unless the
-    // run is lost anyway.
+  for (const ParticleBlock& particle_block : particle_blocks_) {
+    const auto n = static_cast<std::size_t>(particle_block.count);
+    const float* first = view.data() + particle_block.start;
+    // Finite numbers have a finite sum here: none is near the end of the range unless the run has
+    // failed.
     sums.assign(n, 0.0f);
     for (std::size_t f = 0; f < FIELD_MASS; ++f)
       for (std::size_t i = 0; i < n; ++i) sums[i] += first[f * capacity + i];
@@ -353,14 +353,14 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
 }
 
 std::vector<Particle> ParticleStore::drop_outside() {
-  // Rare: a few particles roll over the edge. The host sorts who stays.
+  // Rare: a few particles leave the site. The host selects those that stay.
   const std::vector<Particle> all = records();
   const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
   std::size_t next = 0;
-  for (const ParticleBlock& home : particle_blocks_)
-    for (int i = 0; i < home.count; ++i) {
-      const bool out = codes[static_cast<std::size_t>(home.start + i)] == kRebinCodes - 1;
+  for (const ParticleBlock& particle_block : particle_blocks_)
+    for (int i = 0; i < particle_block.count; ++i) {
+      const bool out = codes[static_cast<std::size_t>(particle_block.start + i)] == kRebinCodes - 1;
       (out ? left : stay).push_back(all[next++]);
     }
   assign(stay);
@@ -377,7 +377,7 @@ std::vector<Particle> ParticleStore::rebin() {
     if (counts[kRebinCodes * h + kRebinCodes - 1] > 0) return drop_outside();
 
   RebinPlan plan = plan_rebin(table_, counts);
-  // Room first: without it the old order still stands.
+  // Memory first: on failure the old order is still valid.
   const int other = 1 - now_;
   const int slots = slots_of(plan.counts);
   reserve(other, slots, std::max(slots + slots / 4, capacity_[now_]));
@@ -385,10 +385,10 @@ std::vector<Particle> ParticleStore::rebin() {
   fit(device_, block_keys_, plan.keys.size());
   fit(device_, block_surface_, plan.keys.size());
   rebin_.reserve(plan.keys.size(), static_cast<std::size_t>(slots));
-  // From here on nothing can fail but the device itself.
+  // After this point only the device itself can fail.
   std::swap(particle_blocks_buffer_, old_particle_blocks_buffer_);
   if (!(plan.keys == table_.particle_blocks)) table_.build(plan.keys);
-  lay_out(plan.counts);
+  assign_slots(plan.counts);
   upload_particle_blocks();
   rebin_.move({state_[now_], capacity_[now_], old_particle_blocks_buffer_},
               {state_[other], capacity_[other], particle_blocks_buffer_}, plan, soils_,
@@ -397,7 +397,7 @@ std::vector<Particle> ParticleStore::rebin() {
   return {};
 }
 
-// Read where they lie: particle by particle it would take twice as long.
+// Reads the words in place: particle by particle would take twice as long.
 void ParticleStore::visit(Archive& a) {
   if (a.loading()) {
     std::vector<Particle> records;
@@ -405,17 +405,17 @@ void ParticleStore::visit(Archive& a) {
     place(records);
     return;
   }
-  a.size("homes", particle_blocks_.size());
+  a.size("blocks", particle_blocks_.size());
   if (particle_blocks_.empty()) return;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
-  BlockWords home;
+  BlockWords particle_block;
   for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
-    home.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
-                  table_.particle_blocks[h].z};
-    home.take(view.data() + particle_blocks_[h].start, capacity,
-              static_cast<std::size_t>(particle_blocks_[h].count));
-    a.item(h, [&] { home.visit(a); });
+    particle_block.block = {table_.particle_blocks[h].x, table_.particle_blocks[h].y,
+                            table_.particle_blocks[h].z};
+    particle_block.take(view.data() + particle_blocks_[h].start, capacity,
+                        static_cast<std::size_t>(particle_blocks_[h].count));
+    a.item(h, [&] { particle_block.visit(a); });
   }
 }
 
@@ -427,23 +427,23 @@ void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_
   };
   std::uint64_t particle_blocks = 0;
   for (std::size_t from = 0; from < records.size(); from = end_of_block(from)) ++particle_blocks;
-  particle_blocks = a.size("homes", particle_blocks);
+  particle_blocks = a.size("blocks", particle_blocks);
   if (a.loading()) records.clear();
-  BlockWords home;
+  BlockWords particle_block;
   BlockKey before;
   std::size_t from = 0;
   for (std::uint64_t h = 0; h < particle_blocks; ++h) {
     if (!a.loading()) {
       const std::size_t to = end_of_block(from);
-      home.take(std::span(records).subspan(from, to - from));
+      particle_block.take(std::span(records).subspan(from, to - from));
       from = to;
     }
     a.item(h, [&] {
-      home.visit(a);
+      particle_block.visit(a);
       // Tables are built from keys that are sorted and unique.
-      a.require(h == 0 || before < home.key(), "block", "homes must ascend");
-      before = home.key();
-      if (a.loading()) home.give(a, records, soils);
+      a.require(h == 0 || before < particle_block.key(), "block", "blocks must ascend");
+      before = particle_block.key();
+      if (a.loading()) particle_block.give(a, records, soils);
     });
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of particles and scatter of their mass and momentum to the tiles of their homes.
+// Stress update of particles and scatter of their mass and momentum to the tiles of their blocks.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@
 
 namespace navvy::soil {
 
-/// The kernel of kernels/soil/*/particle_to_grid.cl and what it writes.
+/// Kernel of kernels/soil/*/particle_to_grid.cl and its results.
 class ParticleToGrid {
  public:
-  /// `extended_law`: see needs_extended_law.
-  ParticleToGrid(device::Device& device, bool extended_law);
+  /// Builds the kernel. `extended_law`: see needs_extended_law.
+  ParticleToGrid(device::Device& device, bool extended_law,
+                 const SchemeConstants& scheme = kScheme);
 
-  /// Makes room for this many homes and tiles.
+  /// Allocates memory for this many blocks and tiles.
   void set_blocks(std::size_t particle_blocks, int tiles);
-  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]; of a `hold` step only what
-  /// stress adds to the momentum of the nodes. Writes Report.broken of every home.
+  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]. In a `hold` step only
+  /// stress adds to the momentum of the nodes. Writes Report.broken of every block.
   void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
                bool hold);
 
@@ -28,10 +29,13 @@ class ParticleToGrid {
 
  private:
   device::Device& device_;
+  SchemeConstants scheme_;
   device::KernelProgram program_;
   device::Kernel kernel_;
-  device::Buffer<float> tiles_;        ///< TILE_NODES float4s a tile: p [kg m/s], m [kg]
-  device::Buffer<std::int32_t> used_;  ///< per home: bits of its tiles that were written
+  /// TILE_NODES float4s per tile: p [kg m/s], m [kg].
+  device::Buffer<float> tiles_;
+  /// Bits of the tiles that were written, per block.
+  device::Buffer<std::int32_t> used_;
 };
 
 }  // namespace navvy::soil

@@ -8,7 +8,7 @@
 
 namespace navvy::soil {
 
-// Homes are found from flows and not from particles: the host sees 28 numbers a home.
+// New blocks follow from flows, not from particles: the host reads 28 numbers per block.
 RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts) {
   RebinPlan plan;
   for (std::size_t h = 0; h < table.particle_blocks.size(); ++h)
@@ -18,13 +18,13 @@ RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts) {
   std::sort(plan.keys.begin(), plan.keys.end());
   plan.keys.erase(std::unique(plan.keys.begin(), plan.keys.end()), plan.keys.end());
 
-  // For each new home the old ones around it that send it something, in the fixed order of the
-  // codes: the order in which particles arrive does not depend on the device.
+  // For each new block, the old blocks around it that send particles, in the fixed order of the
+  // codes. The order of arrival does not depend on the device.
   plan.sources.assign(27 * plan.keys.size(), -1);
   plan.counts.assign(plan.keys.size(), 0);
   for (std::size_t k = 0; k < plan.keys.size(); ++k)
     for (std::size_t n = 0; n < 27; ++n) {
-      // What flows along n comes from the block on the other side.
+      // A flow along n comes from the block on the opposite side.
       const BlockKey d = neighbour_offset(static_cast<int>(n)), key = plan.keys[k];
       const int old = table.particle_block_index.find({key.x - d.x, key.y - d.y, key.z - d.z});
       const int flow = old < 0 ? 0 : counts[kRebinCodes * static_cast<std::size_t>(old) + n];

@@ -11,34 +11,14 @@
 namespace navvy::soil {
 namespace {
 
-/// Viscosity of soil that does not yield, as a share of density x sound speed x cell
-/// [docs/soil.md, viscosity].
-constexpr double kViscosityShare = 0.05;
-/// tuned: CohesiveBlade.FeelsTheWholeStrengthAtAnyCohesion and
-/// SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Clay of 150 kPa is felt by 0.85 of its strength with a
-/// strain of 0.025, by 0.83 with 0.1.
-constexpr double kMixingStrain = 0.025;
-/// tuned: SoilSwell.DugAndDumpedSoilEndsAtItsSwell. Without mixing a tipped load rests at 1.45 of
-/// bank instead of 1.23; 0.1 s gives 1.27, 0.02 s 1.24, 0.005 s 1.22 (by time alone).
-constexpr double kFastestMixing = 0.02;  // [s]
-/// J is integrated and cannot see particles crowd: a scooped and dumped loam lay at 0.97 of its
-/// bank volume while its J said 1.24. So particles are moved apart where the nodes hold this much
-/// more than min(J, J0) says [docs/soil.md, crowding]. One-sided: beside a free surface or a plate
-/// nodes hold less than the soil's density. tuned: the plane-strain laboratory. A shear of 0.02
-/// stirs heaps at rest, 0.2 leaves their core at 1.23 of its state.
-constexpr double kPacked = 1.05, kCrowdingShear = 0.1;
-constexpr double kFarthestApart = 0.05;  ///< a tenth of the particles' spacing [cells a transfer]
-/// Soil that noise has opened closes by this share a transfer, over some twelve cells' way of a
-/// wave. tuned: CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. A third lands thrown
-/// sand at 1.065 of its volume in cells of 0.05 m, the whole of it at 1.092 (1.5 if what is far
-/// open closes too); clay of 150 kPa is felt by 0.87 of its strength with a third, 0.86 with a
-/// sixth, 0.66 with none.
-constexpr double kClosingShare = 1.0 / 6;
-constexpr double kNeverCompacts = 1e30;  ///< [Pa]
-constexpr double kGrainDensity = 2650;   ///< of quartz, for the inertial number [kg/m3]
+/// Pressure that no soil reaches [Pa].
+constexpr double kNeverCompacts = 1e30;
+/// Density of quartz, for the inertial number [kg/m3].
+constexpr double kGrainDensity = 2650;
 
-/// Radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates by b: there
-/// s_zz = -2/3 b q, and the cone of law.h would be narrower by this [docs/soil.md, dilatancy].
+/// Returns the radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates
+/// by b. There s_zz = -2/3 b q, and the yield surface of law.h would be narrower by this factor
+/// [docs/soil.md, dilatancy].
 double radius_of_dilating(double sin_phi, double b) {
   const double a = 0.5 * sin_phi * (3 - sin_phi * sin_phi) * -(2 * b / 3) * (1 - 4 * b * b / 9);
   double r = 1;
@@ -49,15 +29,17 @@ double radius_of_dilating(double sin_phi, double b) {
 
 }  // namespace
 
-double mixing_strain() { return kMixingStrain; }
-double most_mixing(double dt) { return std::min(1.0, dt / kFastestMixing); }
-double packed_mass(double densest, double cell) { return kPacked * densest * cell * cell * cell; }
-double filled_mass(double densest, double cell) { return densest * cell * cell * cell / kPacked; }
-double closing_share() { return kClosingShare; }
-double crowding_shear() { return kCrowdingShear; }
-double farthest_apart() { return kFarthestApart; }
+double most_mixing(double dt, const SchemeConstants& scheme) {
+  return std::min(1.0, dt / scheme.min_mixing_time);
+}
+double packed_mass(double densest, double cell, const SchemeConstants& scheme) {
+  return scheme.crowding_threshold * densest * cell * cell * cell;
+}
+double filled_mass(double densest, double cell, const SchemeConstants& scheme) {
+  return densest * cell * cell * cell / scheme.crowding_threshold;
+}
 
-LawConstants law_constants(const scene::Soil& soil, double cell) {
+LawConstants law_constants(const scene::Soil& soil, double cell, const SchemeConstants& scheme) {
   LawConstants k;
   k.bulk = soil.young_modulus / (3 * (1 - 2 * soil.poisson));
   k.shear = soil.young_modulus / (2 * (1 + soil.poisson));
@@ -74,7 +56,7 @@ LawConstants law_constants(const scene::Soil& soil, double cell) {
   k.inv_remould = 1 / soil.remoulding_strain;
   k.inv_opening = 1 / soil.opening_strain;
   k.static_share = soil.static_friction_share;
-  k.viscosity = kViscosityShare * soil.bank_density * sound_speed(soil) * cell;
+  k.viscosity = scheme.shear_damping * soil.bank_density * sound_speed(soil) * cell;
   k.swell = soil.swell;
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
   // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and
@@ -106,14 +88,15 @@ bool needs_extended_law(const std::vector<scene::Soil>& soils) {
   });
 }
 
-std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell) {
+std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell,
+                                const SchemeConstants& scheme) {
   std::vector<Fault> faults;
   for (const scene::Soil& soil : soils)
     for (Fault& fault : scene::check_soil(soil)) faults.push_back(std::move(fault));
   if (!faults.empty()) throw InputError(faults);
   std::vector<SoilRow> table(soils.size());
   for (std::size_t i = 0; i < soils.size(); ++i) {
-    const LawConstants law = law_constants(soils[i], cell);
+    const LawConstants law = law_constants(soils[i], cell, scheme);
 #define ROW_CONSTANT(name) table[i].name = static_cast<float>(law.name);
     ALL_LAW_CONSTANTS(ROW_CONSTANT)
 #undef ROW_CONSTANT

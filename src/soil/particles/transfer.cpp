@@ -8,11 +8,11 @@
 
 namespace navvy::soil {
 
-Transfer::Transfer(device::Device& device, bool extended_law)
+Transfer::Transfer(device::Device& device, bool extended_law, const SchemeConstants& scheme)
     : device_(device),
-      particle_to_grid_(device, extended_law),
-      grid_(device),
-      grid_to_particle_(device) {}
+      particle_to_grid_(device, extended_law, scheme),
+      grid_(device, scheme),
+      grid_to_particle_(device, scheme) {}
 
 void Transfer::set_blocks(const ParticleStore& store, const std::vector<int>& near_slot,
                           int tiles) {
@@ -36,13 +36,13 @@ void Transfer::gather(ParticleStore& store, NearNodes& near, double dt, double p
 }
 
 Transfer::Largest Transfer::read_report(std::size_t particle_blocks) const {
-  // One small read a step; it waits for everything that was queued before.
+  // One small read per step; it waits for everything queued before.
   Largest out;
-  for (const Report& home : report_.map_read(0, particle_blocks)) {
-    out.speed = std::max(out.speed, static_cast<double>(home.speed));
-    if (home.broken != 0) out.speed = std::numeric_limits<double>::infinity();
-    out.push = std::max(out.push, static_cast<double>(home.push));
-    out.crossed += static_cast<std::uint64_t>(home.crossed);
+  for (const Report& particle_block : report_.map_read(0, particle_blocks)) {
+    out.speed = std::max(out.speed, static_cast<double>(particle_block.speed));
+    if (particle_block.broken != 0) out.speed = std::numeric_limits<double>::infinity();
+    out.push = std::max(out.push, static_cast<double>(particle_block.push));
+    out.crossed += static_cast<std::uint64_t>(particle_block.crossed);
   }
   return out;
 }

@@ -6,34 +6,40 @@
 #include <iterator>
 
 #include "soil/particles/schedule.h"
+#include "soil/scheme.h"
 
 namespace navvy::soil {
 namespace {
 
-/// Scripted tools do not: they have no mobility, and nothing to solve for.
+/// Newton iterations of the two-way solve; contact is piecewise linear, so few are enough.
+constexpr int kSweeps = 3;
+
+/// Returns false for scripted tools: they have no mobility, and nothing is to be solved for.
 bool yields(const ToolMotion& motion) { return motion.inverse_mass.cwiseAbs().maxCoeff() > 0; }
 
 }  // namespace
 
-Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity)
+Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity,
+                 const SchemeConstants& scheme)
     : device_(device),
       cell_(cell),
       origin_(origin_W),
       down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero())),
-      shells_(device),
-      contact_program_(device, kernel_path(device, "contact")),
+      scheme_(scheme),
+      shells_(device, scheme),
+      contact_program_(device, kernel_path(device, "contact"), scheme_options(scheme)),
       sums_kernel_(contact_program_, "contact_sums"),
       twist_kernel_(contact_program_, "contact_twist"),
       apply_kernel_(contact_program_, "contact_apply") {}
 
-// Triangles of all tools count on from one another, so that one number names triangle and tool.
+// Triangles are numbered over all tools, so that one number gives triangle and tool.
 int Contact::add_tool(const scene::Shell& shell) {
   Registered tool;
   tool.geometry = std::make_unique<ShellGeometry>(shell, cell_);
   if (!tools_.empty())
     tool.first_triangle =
         tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
-  tool.area_factor = plate_area_factor(*tool.geometry, settings_, cell_);
+  tool.area_factor = plate_area_factor(*tool.geometry, cell_, scheme_);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
 }
@@ -49,26 +55,26 @@ void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const
 
 void Contact::solve(Transfer& transfer, double dt) {
   if (nodes_.count == 0) return;
-  reach_ = {static_cast<float>(settings_.reach),
-            static_cast<float>(settings_.ramp),
-            static_cast<float>(settings_.edge),
-            static_cast<float>(settings_.edge_ramp),
+  reach_ = {static_cast<float>(scheme_.contact_reach),
+            static_cast<float>(scheme_.contact_ramp),
+            static_cast<float>(scheme_.contact_edge),
+            static_cast<float>(scheme_.contact_edge_ramp),
             static_cast<float>(dt * cell_ * cell_),
-            static_cast<float>(settings_.opening * std::sqrt(kGravity * cell_)),
-            static_cast<float>(settings_.settling * std::sqrt(kGravity * cell_)),
-            static_cast<float>(settings_.falling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.contact_opening * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.contact_settling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.contact_falling * std::sqrt(kGravity * cell_)),
             static_cast<float>(down_.x()),
             static_cast<float>(down_.y()),
             static_cast<float>(down_.z())};
-  // Newton on the twist of each tool that yields; contact is piecewise linear, so few sweeps do.
+  // Newton on the twist of each tool that yields.
   for (const ToolMotion& motion : motions_) {
     if (!yields(motion)) continue;
-    for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
       launch(sums_kernel_, transfer, motion.tool, sums_);
       twist_kernel_.args(shells_.tools(), motion.tool, sums_, nodes_.count).enqueue_groups(1);
     }
   }
-  // Then all tools at once, with their final twists.
+  // Apply all tools at once, with their final twists.
   launch(apply_kernel_, transfer, -1, transfer.floors(), touched_, records_, transfer.velocity(),
          nodes_.velocity1);
 }
@@ -81,7 +87,7 @@ struct Momentum {
        after_moment = Vec3::Zero();
 };
 
-/// Adds what one field of a node says; r = arm from the tool's origin [m].
+/// Adds one field of a node; r = lever arm from the tool's origin [m].
 void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Momentum& sum) {
   const Vec3 before(record.before[0], record.before[1], record.before[2]);
   const Vec3 after(record.after[0], record.after[1], record.after[2]);
@@ -102,7 +108,7 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
 }  // namespace
 
 // Mapped without waiting: the read of the report waits for all three.
-void Contact::read_later() {
+void Contact::queue_read() {
   if (nodes_.count == 0 || motions_.empty()) return;
   const auto blocks = static_cast<std::size_t>(nodes_.count);
   results_.emplace(Results{touched_.map_read_later(0, blocks),
@@ -110,9 +116,9 @@ void Contact::read_later() {
                            records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
 }
 
-void Contact::book(std::span<ToolImpulse> impulses) {
+void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
   if (!results_) return;
-  // The maps go with this copy: the next step may write the buffers.
+  // The maps end with this copy: the next step may write the buffers.
   const Results read = std::move(*results_);
   results_.reset();
   const auto blocks = static_cast<std::size_t>(nodes_.count);
@@ -135,7 +141,7 @@ void Contact::book(std::span<ToolImpulse> impulses) {
                        std::begin(record.after)))
           continue;
         const auto m = static_cast<std::size_t>(motion_of[static_cast<std::size_t>(tool_of[i])]);
-        // Where the node lies, in doubles: arms of moments are as exact as the impulses.
+        // Position of the node in doubles: lever arms are as exact as the impulses.
         const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
                         kBlockCells * key.y + static_cast<int>((n >> 2) & 3),
                         kBlockCells * key.z + static_cast<int>(n >> 4));
@@ -143,7 +149,7 @@ void Contact::book(std::span<ToolImpulse> impulses) {
       }
     }
   }
-  // What went into the tools against what the nodes lost: rounding only.
+  // Impulse on the tools plus momentum change of the nodes: only rounding remains.
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     impulses[m].residual = impulses[m].J_W + (momentum[m].after - momentum[m].before);
     impulses[m].residual_moment =
@@ -151,15 +157,15 @@ void Contact::book(std::span<ToolImpulse> impulses) {
   }
 }
 
-void Contact::feel(double dt, std::span<ToolImpulse> impulses) {
+void Contact::add_impulses(double dt, std::span<ToolImpulse> impulses) {
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     Registered& tool = tools_[static_cast<std::size_t>(motions_[m].tool)];
     tool.J_W += impulses[m].J_W;
     tool.L_W += impulses[m].L_W;
-    tool.felt_for += dt;
-    if (!tool.told) {
-      tool.force_W = tool.J_W / tool.felt_for;
-      tool.moment_W = tool.L_W / tool.felt_for;
+    tool.summed_time += dt;
+    if (!tool.has_mean) {
+      tool.force_W = tool.J_W / tool.summed_time;
+      tool.moment_W = tool.L_W / tool.summed_time;
     }
     impulses[m].force_W = tool.force_W;
     impulses[m].moment_W = tool.moment_W;
@@ -168,11 +174,11 @@ void Contact::feel(double dt, std::span<ToolImpulse> impulses) {
 
 void Contact::end_transfer() {
   for (Registered& tool : tools_) {
-    tool.told = tool.felt_for > 0;
-    tool.force_W = tool.told ? Vec3(tool.J_W / tool.felt_for) : Vec3(Vec3::Zero());
-    tool.moment_W = tool.told ? Vec3(tool.L_W / tool.felt_for) : Vec3(Vec3::Zero());
+    tool.has_mean = tool.summed_time > 0;
+    tool.force_W = tool.has_mean ? Vec3(tool.J_W / tool.summed_time) : Vec3(Vec3::Zero());
+    tool.moment_W = tool.has_mean ? Vec3(tool.L_W / tool.summed_time) : Vec3(Vec3::Zero());
     tool.J_W = tool.L_W = Vec3::Zero();
-    tool.felt_for = 0;
+    tool.summed_time = 0;
   }
 }
 

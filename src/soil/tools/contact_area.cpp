@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The area that the nodes around a plate stand for, against the plate's own.
+// Area that the nodes around a plate stand for, compared with the plate's own.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,8 +16,8 @@ double segment_distance(const Vec3& p, const std::array<Vec3, 2>& s) {
   return (p - s[0] - t * d).norm();
 }
 
-/// Calls visit(point, area) for the middles of equal parts of a triangle, sides at most `longest`
-/// (or 1/64 of it).
+/// Calls visit(point, area) for the centres of equal parts of a triangle, with sides of at most
+/// `longest` (or 1/64 of its own).
 template <class Visit>
 void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Visit& visit) {
   const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0];
@@ -31,15 +31,24 @@ void sample_triangle(const std::array<Vec3, 3>& corner, double longest, const Vi
     }
 }
 
-/// Plates a cell or two wide hardly touch soil at all: their area is not blown up for it.
+/// Plates a cell or two wide hardly touch soil at all; their area is not scaled up further.
 constexpr double kMostAreaFactor = 2;
 
 }  // namespace
 
-double plate_area_factor(const ShellGeometry& geometry, const ContactSettings& settings,
-                         double cell) {
-  const reference::Reach r{
-      settings.reach, settings.ramp, settings.edge, settings.edge_ramp, 0, 0, 0, 0, 0, 0, 0};
+double plate_area_factor(const ShellGeometry& geometry, double cell,
+                         const SchemeConstants& scheme) {
+  const reference::Reach r{scheme.contact_reach,
+                           scheme.contact_ramp,
+                           scheme.contact_edge,
+                           scheme.contact_edge_ramp,
+                           0,
+                           0,
+                           0,
+                           0,
+                           0,
+                           0,
+                           0};
   double whole = 0, stood_for = 0;
   for (const ShellGeometry::Triangle& triangle : geometry.triangles())
     sample_triangle(triangle.corner, 0.25 * cell, [&](const Vec3& p, double area) {

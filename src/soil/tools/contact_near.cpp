@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which blocks lie near which triangles, and the triangles in the kernels' frame.
+// Near lists: blocks near each triangle, and the triangles in the frame of the kernels.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Cells a particle may have drifted from its home's base range [0.5, 4.5) before a re-bin.
+/// Cells that a particle may have drifted from the range [0.5, 4.5) of its block before a re-bin.
 constexpr double kDrift = 1.0;
 
 void put(float (&out)[3], const Vec3& v) {
@@ -26,16 +26,17 @@ ShellFeature feature(const Vec3& normal, bool free) {
   return out;
 }
 
-/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m): finer than a
-/// float at the far end of a tool, coarser than what a double loses a kilometre from the origin, so
-/// that the same dig elsewhere is the same dig.
+/// Coordinates go to the device in steps of 2^-18 cell (0.4 micrometres at 0.1 m). That is finer
+/// than a float at the far end of a tool and coarser than the rounding of a double a kilometre from
+/// the origin, so that the same dig elsewhere is the same dig.
 constexpr double kSteps = 1 << 18;
 Vec3 snapped(const Vec3& cells) { return (cells * kSteps).array().round().matrix() / kSteps; }
 
-/// Block that holds the coordinate, which is snapped first: round figures lie on the edges of
-/// blocks. Where no ground reaches all coordinates share a block.
+/// Returns the block that holds the coordinate. It is snapped first: round numbers lie on the edges
+/// of blocks. All coordinates beyond any ground share a block.
 int floor_div(double cells) {
-  constexpr double kFarthestBlock = 1e8;  // its cells are an int, too
+  // Its cells are an int, too.
+  constexpr double kFarthestBlock = 1e8;
   return static_cast<int>(std::clamp(std::floor(std::round(cells * kSteps) / kSteps / kBlockCells),
                                      -kFarthestBlock, kFarthestBlock));
 }
@@ -59,13 +60,13 @@ void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, i
 
 }  // namespace
 
-// Lists reach farther than the contact by a margin; within it they hold.
+// Lists reach farther than the contact by a margin, within which they remain valid.
 bool Contact::moved_far() const {
   for (const Registered& tool : tools_) {
     if (tool.present != tool.listed) return true;
     if (!tool.present) continue;
     for (const Vec3& v : tool.geometry->shell().vertices)
-      if ((tool.X * v - tool.X_listed * v).norm() > settings_.margin * cell_) return true;
+      if ((tool.X * v - tool.X_listed * v).norm() > scheme_.contact_margin * cell_) return true;
   }
   return false;
 }
@@ -94,15 +95,16 @@ void Contact::set_twists(std::span<const ToolMotion> motions) {
   shells_.set_twists(std::move(now));
 }
 
-void Contact::go_on(Transfer& transfer) {
+void Contact::resume(Transfer& transfer) {
   for (Registered& tool : tools_) {
     tool.X_now = tool.X;
     set_window(tool);
   }
   if (nodes_.count == 0) return;
   upload_tools();
-  shells_.enqueue_nodes(transfer, nodes_, settings_.band);
-  device_.finish();  // what was uploaded may be replaced by the next step
+  shells_.enqueue_nodes(transfer, nodes_, scheme_.contact_band);
+  // The next step may replace the uploaded data.
+  device_.finish();
 }
 
 bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable& table,
@@ -115,7 +117,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
     tool.X = tool.X_now = motion.X_WT;
     set_window(tool);
   }
-  // New blocks have no lists yet; far tools have outrun theirs.
+  // New blocks have no lists yet, and tools that moved far have left theirs.
   const bool again = blocks_changed || moved_far();
   if (again) {
     for (Registered& tool : tools_) {
@@ -129,8 +131,8 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
 }
 
 void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const {
-  // Boxes of the pieces, each as wide as the band: pieces are short, so boxes waste little.
-  const double far = settings_.band + settings_.margin;
+  // Boxes of the pieces, extended by the band. Pieces are short, so boxes waste little.
+  const double far = scheme_.contact_band + scheme_.contact_margin;
   for (const Registered& tool : tools_) {
     if (!tool.listed) continue;
     for (const ShellGeometry::Piece& piece : tool.geometry->pieces()) {
@@ -143,7 +145,7 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& part
       low.array() -= far;
       high.array() += far;
       const int triangle = tool.first_triangle + piece.triangle;
-      // Nodes of a block lie on 0..3, particles of a home on [0.5, 4.5) and what they drift.
+      // Nodes of a block lie in 0..3, its particles in [0.5, 4.5) plus drift.
       offer(low, high, 0.0, 3.0, triangle, table.active_index, nodes);
       offer(low, high, 0.5 - kDrift, 4.5 + kDrift, triangle, table.particle_block_index,
             particle_blocks);
@@ -152,7 +154,8 @@ void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& part
 }
 
 void Contact::list_near(const BlockTable& table) {
-  std::size_t triangles = 0;  // of all tools, which count on from one another
+  // Over all tools.
+  std::size_t triangles = 0;
   for (const Registered& tool : tools_) triangles += tool.geometry->triangles().size();
   Marks node_marks(table.active.size(), triangles),
       particle_block_marks(table.particle_blocks.size(), triangles);
@@ -174,11 +177,12 @@ void Contact::list_near(const BlockTable& table) {
     });
   }
   node_candidates.first.push_back(static_cast<std::int32_t>(node_candidates.triangles.size()));
-  // Without near blocks no kernel of contact runs, and no buffer needs room.
+  // Without near blocks no contact kernel runs, and no buffer is needed.
   nodes_.count = static_cast<int>(near_list.size());
   if (nodes_.count == 0) return;
   for (std::size_t h = 0; h < table.particle_blocks.size(); ++h) {
-    // Near, too, when its tile reaches into a near block: split nodes ask for its three tiles.
+    // A block is also near when its tile reaches into a near block: split nodes need its three
+    // tiles.
     bool near = particle_block_marks.any(h);
     for (std::size_t n = 0; n < 27 && !near; ++n)
       near = near_slot_[static_cast<std::size_t>(table.neighbours[27 * h + n])] >= 0;
@@ -208,8 +212,8 @@ void Contact::list_near(const BlockTable& table) {
   ensure(device_, touched_, near_list.size());
 }
 
-// Floats count from the window's corner, a block's, so that they are as exact far from the site's
-// origin.
+// Floats are relative to the window's corner, a block's, so that they are as exact far from the
+// site's origin.
 Tool Contact::tool_now(std::size_t index) const {
   const Registered& tool = tools_[index];
   const scene::Shell& shell = tool.geometry->shell();
@@ -237,7 +241,7 @@ Tool Contact::tool_now(std::size_t index) const {
   return out;
 }
 
-// Directions turn with the tool; the kernels know W only.
+// Directions turn with the tool; the kernels use the axes of W only.
 void Contact::upload_tools() {
   ToolShells shells;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
@@ -274,10 +278,10 @@ void Contact::upload_tools() {
 
 void Contact::classify(ParticleStore& store, Transfer& transfer) {
   if (nodes_.count == 0) return;
-  shells_.enqueue(store, transfer, nodes_, settings_.band, settings_.longest_push);
+  shells_.enqueue(store, transfer, nodes_, scheme_.contact_band, scheme_.contact_max_push);
 }
 
-// A pose that is none would make boxes of candidates larger than any memory.
+// An invalid pose would make candidate boxes larger than any memory.
 void Contact::Registered::visit(Archive& a) {
   a("listed", listed);
   a("X_listed", X_listed);
@@ -285,11 +289,11 @@ void Contact::Registered::visit(Archive& a) {
   a("X", X);
   a("J_W", J_W);
   a("L_W", L_W);
-  a("felt_for", felt_for);
-  a("told", told);
+  a("felt_for", summed_time);
+  a("has_mean", has_mean);
   a("force_W", force_W);
   a("moment_W", moment_W);
-  a.require(std::isfinite(felt_for) && felt_for >= 0, "felt_for",
+  a.require(std::isfinite(summed_time) && summed_time >= 0, "felt_for",
             "must be finite and not negative");
   a.require(std::max(X_listed.translation().norm(), X.translation().norm()) < limits::kFarthest,
             "X_listed", "must be a place on the site, as must X");

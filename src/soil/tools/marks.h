@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table of bits: which columns are marked in which rows, read back in order.
+// Table of bits: which columns are marked in which rows.
 #pragma once
 
 #include <bit>
@@ -9,16 +9,18 @@
 
 namespace navvy::soil {
 
-/// Pairs (row, column) that arrive in any order and more than once, and leave sorted and once:
-/// cheaper than sorting them where columns are few.
+/// Set of pairs (row, column). They arrive in any order and more than once, and are read sorted and
+/// once. Cheaper than sorting them where columns are few.
 class Marks {
  public:
   Marks(std::size_t rows, std::size_t columns)
       : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
 
+  /// Marks a pair.
   void set(std::size_t row, std::size_t column) {
     bits_[row * words_ + column / 64] |= std::uint64_t{1} << (column % 64);
   }
+  /// Returns true if any column of the row is marked.
   bool any(std::size_t row) const {
     for (std::size_t w = 0; w < words_; ++w)
       if (bits_[row * words_ + w] != 0) return true;

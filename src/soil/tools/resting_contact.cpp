@@ -10,27 +10,35 @@
 namespace navvy::soil {
 namespace {
 
-/// A tool stands while no corner of its shell is faster [m/s], for so long [s].
+/// A tool stands while no corner of its shell is faster [m/s], for this long [s].
 constexpr double kStill = 1e-3, kStillTime = 0.8;
-/// Feet lie no higher than this over the lowest, along the ground's normal [cells]: what stands
-/// higher stands on other ground.
+/// Highest foot above the lowest, along the ground's normal [cells]. Higher vertices stand on other
+/// ground.
 constexpr double kLevel = 0.25;
-/// The same on a slope, where the lower edge bears more and sinks deeper; no more than contact
-/// reaches.
-constexpr double kSloping = 0.5;  // tuned: Seat.ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns
-/// A seat is left when a corner has moved by this share of a cell (columns that come back may lift
-/// a body that has collision shapes besides), and under this much more than what it bore: more is
-/// asked of the ground than it has shown.
+/// The same on a slope, where the lower edge carries more load and sinks deeper; no more than
+/// contact reaches.
+// Tuned by RestingContact.ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns.
+constexpr double kSloping = 0.5;
+/// The contact ends when a corner has moved by this share of a cell (columns that return may lift a
+/// body that has collision shapes, too), or when the load exceeds the initial one by this factor:
+/// the ground has not carried more.
 constexpr double kMoved = 0.25, kOverload = 1.25;
-constexpr double kLoadTime = 0.1;  ///< loads are means over about this time [s]
-constexpr double kPressOut = 0.1;  ///< share of a sinking that is pressed out in a step,
-constexpr double kSlowly = 0.01;   ///< no faster than [m/s]
-constexpr int kSweeps = 60;        ///< of the rows, eight feet at most
-constexpr double kUnborne = 0.01;  ///< share of the soil's wrench that feet need not give
+/// Loads are averaged over about this time [s].
+constexpr double kLoadTime = 0.1;
+/// Share of a penetration that is corrected in a step.
+constexpr double kPressOut = 0.1;
+/// Fastest correction [m/s].
+constexpr double kSlowly = 0.01;
+/// Iterations over the rows, eight feet at most.
+constexpr int kSweeps = 60;
+/// Share of the soil's wrench that the feet need not exert.
+constexpr double kUncarried = 0.01;
 
 struct Row {
-  Vec6 direction, change;  ///< of a unit impulse: its wrench, and the change of twist
-  double yields = 0;       ///< speed along it
+  /// Wrench of a unit impulse, and its change of twist.
+  Vec6 direction, change;
+  /// Speed along it per unit impulse.
+  double yields = 0;
   double impulse = 0;
 };
 
@@ -42,7 +50,7 @@ Row row_of(const Vec3& arm, const Vec3& along, const Mat6& inverse_mass) {
   return out;
 }
 
-/// Adds impulse so that the row's speed becomes `wanted`, within bounds.
+/// Changes the impulse so that the row's speed becomes `wanted`, within bounds.
 void solve(Row& row, Vec6& twist, double wanted, double low, double high) {
   if (!(row.yields > 0)) return;
   const double next =
@@ -51,8 +59,8 @@ void solve(Row& row, Vec6& twist, double wanted, double low, double high) {
   row.impulse = next;
 }
 
-/// Wrench impulse (moment about the tool's origin, impulse) of feet at `arms` [m] that come `up` by
-/// at least `rise` [m/s] each; `twist` is changed by it.
+/// Returns the impulse (moment about the tool's origin, impulse) of feet at `arms` [m] that rise
+/// along `up` by at least `rise` [m/s] each. Updates `twist`.
 Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const Vec3& up,
            const Mat6& inverse_mass, double friction, Vec6& twist) {
   const std::array<Vec3, 2> along = along_ground(up);
@@ -73,7 +81,7 @@ Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const
   return out;
 }
 
-/// Speed of the fastest corner under a twist.
+/// Returns the speed of the fastest corner under a twist.
 double fastest(const scene::Shell& shell, const Pose& X_WT, const Vec6& twist) {
   double out = 0;
   for (const Vec3& v : shell.vertices)
@@ -81,7 +89,7 @@ double fastest(const scene::Shell& shell, const Pose& X_WT, const Vec6& twist) {
   return out;
 }
 
-/// The farthest that a corner is from where it would be at another pose [m].
+/// Returns the largest distance of a corner from its place at another pose [m].
 double farthest(const scene::Shell& shell, const Pose& X, const Pose& other) {
   double out = 0;
   for (const Vec3& v : shell.vertices) out = std::max(out, (X * v - other * v).norm());
@@ -110,8 +118,8 @@ std::vector<Vec3> feet(const scene::Shell& shell, const Pose& X_WT, double cell,
   for (const Vec3& v : shell.vertices) lowest = std::min(lowest, up.dot(X_WT * v));
   const double highest = lowest + (up == Vec3::UnitZ() ? kLevel : kSloping) * cell;
   std::vector<Vec3> out;
-  for (int way = 0; way < 8; ++way) {
-    const Vec2 towards(std::cos(way * kPi / 4), std::sin(way * kPi / 4));
+  for (int direction = 0; direction < 8; ++direction) {
+    const Vec2 towards(std::cos(direction * kPi / 4), std::sin(direction * kPi / 4));
     const Vec3* farthest = nullptr;
     for (const Vec3& v : shell.vertices) {
       if (up.dot(X_WT * v) > highest) continue;
@@ -132,38 +140,40 @@ Vec3 normal_under(const Vec2& gradient, double across, double cell) {
   return Vec3(-gradient.x(), -gradient.y(), 1).normalized();
 }
 
-bool RestingContact::stands(const scene::Shell& shell, const ToolMotion& motion, double seconds,
-                            const Vec3& force) {
-  // By the way it went: its velocity is the one before the soil acts, with the weight of a step.
-  const bool stands = farthest(shell, motion.X_WT, X_WT) < kStill * seconds && force.z() > 0;
+bool RestingContact::has_settled(const scene::Shell& shell, const ToolMotion& motion,
+                                 double seconds, const Vec3& force) {
+  // Judged by the displacement: the velocity is that before the soil acts, which includes the
+  // weight of a step.
+  const bool is_still = farthest(shell, motion.X_WT, X_WT) < kStill * seconds && force.z() > 0;
   X_WT = motion.X_WT;
-  still = stands ? still + seconds : 0;
+  still = is_still ? still + seconds : 0;
   return still >= kStillTime;
 }
 
-void RestingContact::take(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
-                          const Vec3& moment, double tangent, double cell, const Vec3& normal) {
-  // The tool as it would go without the soil; its feet must stop that.
+void RestingContact::start(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
+                           const Vec3& moment, double tangent, double cell, const Vec3& normal) {
+  // Motion of the tool without the soil, which the feet must stop.
   Vec6 wrench;
   wrench << moment, force;
   const Vec6 free = -(motion.inverse_mass * wrench);
   Vec6 twist = free;
   const std::vector<Vec3> arms = arms_of(feet(shell, motion.X_WT, cell, normal), motion.X_WT);
   stand(arms, std::vector<double>(arms.size(), 0.0), normal, motion.inverse_mass, tangent, twist);
-  if (!(fastest(shell, motion.X_WT, twist) < kUnborne * fastest(shell, motion.X_WT, free))) return;
-  taken = true;
+  if (!(fastest(shell, motion.X_WT, twist) < kUncarried * fastest(shell, motion.X_WT, free)))
+    return;
+  engaged = true;
   X_WT = motion.X_WT;
   up = normal;
-  bears = load = up.dot(force);
+  initial_load = load = up.dot(force);
   friction = tangent;
 }
 
-bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, double dt,
-                          double cell, ToolImpulse& impulse) {
-  if (!taken) return false;
+bool RestingContact::apply(const scene::Shell& shell, const ToolMotion& motion, double dt,
+                           double cell, ToolImpulse& impulse) {
+  if (!engaged) return false;
   const double moved = farthest(shell, motion.X_WT, X_WT);
-  if (moved > kMoved * cell || load > kOverload * bears) {
-    let_go();
+  if (moved > kMoved * cell || load > kOverload * initial_load) {
+    release();
     return true;
   }
   Vec6 got, twist;
@@ -173,8 +183,8 @@ bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, d
   const std::vector<Vec3> standing = feet(shell, X_WT, cell, up);
   std::vector<double> rise;
   for (const Vec3& foot : standing) {
-    // A foot above its place may come down to it and no farther; one that sank by rounding is
-    // pressed out slowly.
+    // A foot above its place may come down to it, and no farther. One that sank by rounding is
+    // pushed out slowly.
     const double above = up.dot(motion.X_WT * foot) - up.dot(X_WT * foot);
     rise.push_back(above > 0 ? -above / dt : std::min(-kPressOut * above / dt, kSlowly));
   }
@@ -188,15 +198,15 @@ bool RestingContact::hold(const scene::Shell& shell, const ToolMotion& motion, d
 
 void RestingContact::visit(Archive& a) {
   a("still", still);
-  a("taken", taken);
+  a("engaged", engaged);
   a("X_WT", X_WT);
   a("up", up);
-  a("bears", bears);
+  a("initial_load", initial_load);
   a("load", load);
   a("friction", friction);
-  a.require(
-      std::isfinite(still + bears + load + friction) && still >= 0 && bears >= 0 && friction >= 0,
-      "still", "must be finite and not negative, as must the load that is borne and the friction");
+  a.require(std::isfinite(still + initial_load + load + friction) && still >= 0 &&
+                initial_load >= 0 && friction >= 0,
+            "still", "must be finite and not negative, as must the initial load and the friction");
   a.require(std::abs(up.norm() - 1) < 1e-9 && up.z() > 0, "up",
             "must be a direction that leads upward");
   a.require(std::isfinite(X_WT.matrix().sum()) && X_WT.translation().norm() < limits::kFarthest,

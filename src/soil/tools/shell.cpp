@@ -5,16 +5,18 @@
 
 #include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
+#include "soil/scheme.h"
 
 namespace navvy::soil {
 
-ShellQuery::ShellQuery(device::Device& device)
+ShellQuery::ShellQuery(device::Device& device, const SchemeConstants& scheme)
     : device_(device),
-      program_(device, kernel_path(device, "shell")),
+      program_(device, kernel_path(device, "shell"), scheme_options(scheme)),
       nodes_kernel_(program_, "shell_nodes"),
       particles_kernel_(program_, "shell_particles") {}
 
-// Rows are as many as near blocks and homes, and one more entry ends the last.
+// There are as many rows as near blocks and near particle blocks, and one more entry that ends the
+// last.
 void ShellQuery::set_near(const CandidateRows& node_candidates,
                           const CandidateRows& particle_candidates,
                           const std::vector<std::int32_t>& near_particle_blocks) {
@@ -30,7 +32,7 @@ void ShellQuery::set_near(const CandidateRows& node_candidates,
 }
 
 void ShellQuery::set_tools(ToolShells shells) {
-  // The step before has been waited for: nobody reads the old values any more.
+  // The previous step has been waited for: the old values are no longer read.
   now_ = std::move(shells);
   const auto send = [&](auto& buffer, const auto& values) {
     ensure(device_, buffer, values.size());
@@ -57,7 +59,7 @@ void ShellQuery::enqueue_nodes(Transfer& transfer, NearNodes& near, double band)
 
 void ShellQuery::enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band,
                          double longest_push) {
-  // Neither kernel reads what the other writes; both see the poses of this step.
+  // Neither kernel reads what the other writes; both use the poses of this step.
   enqueue_nodes(transfer, near, band);
   // Particles may be near a shell although no node of their own block is.
   particles_kernel_

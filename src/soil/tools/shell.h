@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where nodes and particles lie relative to the shells of tools, on the device.
+// Positions of nodes and particles relative to the shells of tools, on the device.
 #pragma once
 
 #include <cstdint>
@@ -14,39 +14,41 @@
 
 namespace navvy::soil {
 
-/// Tools as the kernels take them in one step. Triangles of all tools count on from one another.
+/// Tools as the kernels take them in one step. Triangles are numbered over all tools.
 struct ToolShells {
+  /// Triangles of all tools.
   std::vector<ShellTriangle> triangles;
+  /// Free edges of all tools.
   std::vector<ShellRim> rims;
+  /// One per tool.
   std::vector<Tool> tools;
 };
 
-/// Compressed rows: candidates of row r stand from first[r] up to first[r + 1].
+/// Compressed rows: the candidates of row r are first[r] .. first[r + 1] - 1.
 struct CandidateRows {
   std::vector<std::int32_t> first, triangles;
 };
 
-/// The kernels of kernels/soil/*/shell.cl, what they read of tools and what they write of near
-/// nodes.
+/// Kernels of kernels/soil/*/shell.cl, their data of tools, and their results for near nodes.
 class ShellQuery {
  public:
-  explicit ShellQuery(device::Device& device);
+  /// Builds the kernels with these constants.
+  explicit ShellQuery(device::Device& device, const SchemeConstants& scheme = kScheme);
 
-  /// Which triangles may be near the near active blocks and the near homes, whose indices among
-  /// homes are `near_particle_blocks`.
+  /// Uploads the triangles that may be near the near active blocks and the near particle blocks,
+  /// whose indices are `near_particle_blocks`.
   void set_near(const CandidateRows& node_candidates, const CandidateRows& particle_candidates,
                 const std::vector<std::int32_t>& near_particle_blocks);
-  /// Takes over the tools of the step without waiting; the two-way solve changes their twists on
-  /// the device.
+  /// Uploads the tools of the step without waiting. The two-way solve changes their twists on the
+  /// device.
   void set_tools(ToolShells shells);
-  /// Takes over new twists and places of the same tools without waiting; the plates stay where they
-  /// are.
+  /// Uploads new twists and positions of the same tools without waiting; the plates stay.
   void set_twists(std::vector<Tool> tools);
-  /// Queues split, tool and place of near nodes.
+  /// Queues split, tool and NodeShell of near nodes.
   void enqueue_nodes(Transfer& transfer, NearNodes& near, double band);
-  /// Queues both kernels: split, tool and place of near nodes, then side and position of particles,
-  /// with Report.push and Report.crossed of near homes. `band`, `longest_push` in cells, see
-  /// ContactSettings.
+  /// Queues both kernels: split, tool and NodeShell of near nodes, then side and position of
+  /// particles, with Report.push and Report.crossed of near blocks. `band`, `longest_push` [cells]:
+  /// contact_band and contact_max_push of the scheme.
   void enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band,
                double longest_push);
 
@@ -58,20 +60,25 @@ class ShellQuery {
   device::Device& device_;
   device::KernelProgram program_;
   device::Kernel nodes_kernel_, particles_kernel_;
-  ToolShells now_;  ///< what the device may still be reading
+  /// The device may still be reading it.
+  ToolShells now_;
   std::size_t near_particle_blocks_ = 0;
-  // The host writes these.
+  // Written by the host.
   device::Buffer<ShellTriangle> triangles_;
   device::Buffer<ShellRim> rims_;
-  device::Buffer<Tool> tools_;  ///< the twists: contact_twist, too
+  /// contact_twist writes the twists, too.
+  device::Buffer<Tool> tools_;
   /// CandidateRows of near active blocks.
   device::Buffer<std::int32_t> block_first_, block_triangles_;
-  device::Buffer<std::int32_t> particle_first_, particle_triangles_;  ///< of near homes
-  /// Near homes: index among homes.
+  /// CandidateRows of near particle blocks.
+  device::Buffer<std::int32_t> particle_first_, particle_triangles_;
+  /// Indices of the near particle blocks.
   device::Buffer<std::int32_t> particle_block_list_;
-  // shell_nodes writes these, BLOCK_NODES per near active block.
-  device::Buffer<std::int32_t> node_tool_;  ///< tool of the closest triangle, -1: none
-  device::Buffer<NodeShell> node_shell_;    ///< where there is one
+  // Written by shell_nodes, BLOCK_NODES per near active block.
+  /// Tool of the closest triangle, -1: none.
+  device::Buffer<std::int32_t> node_tool_;
+  /// Valid where there is a tool.
+  device::Buffer<NodeShell> node_shell_;
 };
 
 }  // namespace navvy::soil

@@ -27,7 +27,8 @@ constexpr double kSharp = 0.866;
 struct EdgeUse {
   int count = 0;
   Vec3 normal = Vec3::Zero();
-  bool sharp = false;  ///< folds away from the front
+  /// Folds away from the front.
+  bool sharp = false;
 };
 
 std::pair<int, int> edge_key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
@@ -72,7 +73,7 @@ void ShellGeometry::find_normals() {
       use.sharp = use.count == 1 && away && use.normal.dot(t.normal) < kSharp;
       ++use.count;
       use.normal += t.normal;
-      // A corner's pseudo-normal weighs each face by its angle there.
+      // The pseudo-normal of a corner weights each face by its angle there.
       const Vec3 u = (t.corner[(i + 1) % 3] - t.corner[i]).normalized();
       const Vec3 w = (t.corner[(i + 2) % 3] - t.corner[i]).normalized();
       const double angle = std::acos(std::clamp(u.dot(w), -1.0, 1.0));
@@ -80,9 +81,9 @@ void ShellGeometry::find_normals() {
     }
     triangles_.push_back(t);
   }
-  // A body without free edges: nodes reach round its sharp edges as far as round a plate's free
-  // ones, and count less near them likewise; else it would act a cell larger on every side. Its
-  // particles stay outside as of any fold.
+  // A body without free edges: nodes reach around its sharp edges as far as around free ones, and
+  // are weighted less near them in the same way. Otherwise it would act a cell larger on every
+  // side. Its particles stay outside as at any fold.
   const bool closed = std::none_of(edges.begin(), edges.end(),
                                    [](const auto& edge) { return edge.second.count == 1; });
   for (const auto& [key, use] : edges) {
@@ -105,8 +106,8 @@ void ShellGeometry::find_normals() {
 }
 
 void ShellGeometry::build_hull() {
-  // The mouth opens to where the faces look on the whole; a heap may stand a quarter of the shell's
-  // size over it.
+  // The mouth opens in the mean direction of the faces; a heap may rise above it by a quarter of
+  // the shell's size.
   Vec3 mouth = Vec3::Zero();
   for (const Triangle& t : triangles_)
     mouth += (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]);
@@ -140,8 +141,8 @@ ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const
   };
   const auto look = [&](int n) {
     const Triangle& t = triangles_[static_cast<std::size_t>(n)];
-    // A triangle whose plane or sphere is farther than what was found has nothing to offer; the
-    // margin covers rounding.
+    // A triangle whose plane or bounding sphere is farther than the best distance cannot be closer;
+    // the margin covers rounding.
     const double height = t.normal.dot(p - t.corner[0]);
     if (height * height > best * (1 + 1e-9)) return;
     const double reach = (std::sqrt(best) + t.radius) * (1 + 1e-9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shell prepared for the solver: pseudo-normals, free edges, small boxes for finding who is near,
-// its hull.
+// A shell prepared for the solver: pseudo-normals, free edges, small boxes for broad-phase search,
+// hull.
 #pragma once
 
 #include <array>
@@ -16,49 +16,57 @@ namespace navvy::soil {
 /// Geometry of one tool in its link frame T. Built once.
 class ShellGeometry {
  public:
+  /// Prepares a shell for cells of `cell` [m].
   /// @throws InputError when the shell has no triangles, one of no area, or an index out of range.
   ShellGeometry(const scene::Shell& shell, double cell);
 
   const scene::Shell& shell() const { return shell_; }
 
-  /// What the kernels need of triangle t, in T. Normals point to the front.
+  /// Data of one triangle for the kernels, in T. Normals point to the front.
   struct Triangle {
     std::array<Vec3, 3> corner;
     Vec3 normal;
     Vec3 centre;
-    double radius;  ///< of the farthest corner from the centre [m]
-    /// Pseudo-normals of edges ab bc ca and of corners.
+    /// Distance of the farthest corner from the centre [m].
+    double radius;
+    /// Pseudo-normals of the edges ab bc ca and of the corners.
     std::array<Vec3, 3> edge_normal, corner_normal;
     std::array<bool, 3> edge_free, corner_free;
   };
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const std::vector<std::array<Vec3, 2>>& rims() const { return rims_; }
 
-  /// Pieces of the triangles no longer than a few cells: corners in T and whose triangle they are.
+  /// Pieces of the triangles no longer than a few cells: corners in T and their triangle.
   using Piece = geometry::MeshPiece;
   const std::vector<Piece>& pieces() const { return pieces_; }
 
-  /// Signed distance of a point in T from the closest plate, positive in front [m]; the reference
-  /// of the kernels' query.
+  /// Returns the signed distance of a point in T from the closest plate, positive in front [m]; the
+  /// reference of the kernels' query.
   double distance(const Vec3& p) const;
-  /// The same, faster when `closest` names a triangle that is likely the closest; becomes the one
-  /// that is.
+  /// Returns the same, faster when `closest` names a triangle that is likely the closest; sets it
+  /// to the closest.
   double distance(const Vec3& p, int& closest) const { return nearest(p, closest).distance; }
-  /// The place of the plate that is closest to a point, in T.
+  /// Closest point of the plates, in T.
   struct Nearest {
-    double distance = 0;  ///< signed, as `distance` has it [m]
+    /// Signed distance [m].
+    double distance = 0;
     Vec3 place = Vec3::Zero();
-    Vec3 normal = Vec3::Zero();  ///< pseudo-normal there, to the front; no unit
+    /// Pseudo-normal there, towards the front; not of unit length.
+    Vec3 normal = Vec3::Zero();
   };
+  /// Returns the closest point; `closest` as in `distance`.
   Nearest nearest(const Vec3& p, int& closest) const;
-  /// Inside the hull (raised over the mouth to hold a heap) and in front.
+  /// Returns true for a point inside the hull (raised over the mouth to hold a heap) and in front.
   bool holds(const Vec3& p) const;
+  /// Returns the same, faster when `closest` names a triangle that is likely the closest.
   bool holds(const Vec3& p, int& closest) const;
-  /// The hull's corners, and points inside it.
+  /// Returns the hull's corners, and points inside it.
   const std::vector<Vec3>& hull_points() const { return hull_points_; }
 
  private:
+  /// Computes pseudo-normals and free edges.
   void find_normals();
+  /// Builds the hull, raised over the mouth.
   void build_hull();
 
   scene::Shell shell_;

@@ -8,22 +8,24 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kFree = kPi - 1e-6;  // [rad] 180 deg of a file, whatever they are rounded to
+// [rad] 180 deg in a file, however rounded.
+constexpr double kFree = kPi - 1e-6;
 
 }  // namespace
 
+// Splits the rotation into the lean of x and the twist about it.
 std::array<std::optional<BallStop>, 3> ball_stops(const Mat3& R, double cone, double twist) {
   std::array<std::optional<BallStop>, 3> out;
   const Vec3 a = Vec3::UnitX(), b = R.col(0), side = a.cross(b);
   const double lean = std::atan2(side.norm(), b.x());
-  // Upright it may lean to any side: no stop until it has begun to.
+  // An upright ball may lean to any side: no stop until it has begun to.
   if (cone < kFree && side.norm() > 1e-9) out[0] = {cone - lean, -side.normalized()};
   if (twist >= kFree || b.x() < -0.999) return out;
   const Eigen::Quaterniond q(R);
   double turn = 2 * std::atan2(q.x(), q.w());
   if (turn > kPi) turn -= 2 * kPi;
   if (turn < -kPi) turn += 2 * kPi;
-  // The twist grows by the turning about the middle between both axes.
+  // The twist grows with the rotation about the middle between both axes.
   const Vec3 middle = (a + b) / (1 + b.x());
   out[1] = {turn + twist, middle};
   out[2] = {twist - turn, -middle};
@@ -36,13 +38,14 @@ BallLimits::BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3
   finalizeMultiDof();
 }
 
+// Adds one row for each stop that exists at the present rotation.
 void BallLimits::createConstraintRows(btMultiBodyConstraintArray& rows,
                                       btMultiBodyJacobianData& data,
                                       const btContactSolverInfo& info) {
   for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);
   const Mat3 R_PC = to_eigen(btMatrix3x3(m_bodyA->getParentToLocalRot(m_linkA).inverse()));
-  // From the joint's frame at the start to that of now; directions of the former, seen in the
-  // child's frame.
+  // Rotation from the joint's frame at the start to the present one. Directions of the former, seen
+  // in the child's frame.
   const Mat3 R = R_PJ_.transpose() * R_PC * R_CJ_;
   const Mat3 to_child = R_CJ_ * R.transpose();
   const auto stops = ball_stops(R, cone_, twist_);

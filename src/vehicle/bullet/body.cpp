@@ -15,15 +15,17 @@ namespace {
 
 using JointType = scene::Joint::Type;
 
-/// What bears a body is expected as the mean over about this time [s]: soil gives impulses with a
-/// saw-tooth of some steps, and a blow once.
+/// The expected support of a body is the mean over about this time [s]: the soil's impulses vary
+/// over a few steps, and an impact acts once.
 constexpr double kBearingTime = 0.02;
 
-/// Frame at the centre of mass along the principal axes; `moments` gets the principal moments.
+/// Returns the frame at the centre of mass along the principal axes. `moments` receives the
+/// principal moments.
 Pose principal_frame(const scene::Link& link, Vec3& moments) {
   Pose X = Pose::Identity();
   X.translation() = link.p_LCom;
-  // Most links are given along their principal axes: no turn, and no rounding from an eigen solver.
+  // Most links are given along their principal axes: no rotation, and no rounding by an
+  // eigensolver.
   if (link.inertia.isDiagonal(1e-12)) {
     moments = link.inertia.diagonal();
     return X;
@@ -31,13 +33,13 @@ Pose principal_frame(const scene::Link& link, Vec3& moments) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(link.inertia);
   moments = solver.eigenvalues();
   Mat3 R = solver.eigenvectors();
-  // Eigenvectors have a free sign; a frame must be right-handed.
+  // Eigenvectors have an arbitrary sign; a frame must be right-handed.
   if (R.determinant() < 0) R.col(0) = -R.col(0);
   X.linear() = R;
   return X;
 }
 
-/// Switches off what Bullet adds for games: sleep, damping, caps.
+/// Disables Bullet's features for games: sleep, damping, velocity limits.
 void leave_to_physics(btMultiBody& body) {
   body.setHasSelfCollision(false);
   body.setCanSleep(false);
@@ -52,7 +54,7 @@ void leave_to_physics(btMultiBody& body) {
 
 TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
   if (machine.links.empty()) refuse("machine[" + machine.name + "]", "", "needs at least one link");
-  // Bullet's base is link 0 in its own inertial frame; the model's placement is carried over to it.
+  // Bullet's base is link 0 in its own inertial frame; convert the model's placement.
   build(machine);
   const Pose X_WI = X_WM * machine.links[0].X_ML * X_LI_[0];
   body_->setBasePos(to_bt(Vec3(X_WI.translation())));
@@ -61,9 +63,10 @@ TreeBody::TreeBody(const scene::Machine& machine, const Pose& X_WM) {
     set_position(static_cast<int>(j), machine.joints[j].initial);
 }
 
+// Orders the joints outward, checks that they form a tree, and passes them to Bullet.
 void TreeBody::build(const scene::Machine& machine) {
   const std::size_t links = machine.links.size();
-  // -2: not in the tree yet, -1: Bullet's base.
+  // >-2: not in the tree yet, -1: Bullet's base
   bullet_of_link_.assign(links, -2);
   bullet_of_joint_.assign(machine.joints.size(), -1);
   bullet_of_link_[0] = -1;
@@ -80,7 +83,7 @@ void TreeBody::build(const scene::Machine& machine) {
     inertia_[i] = link.inertia;
     if (!(link.mass > 0) || !(moments[i].minCoeff() > 0))
       refuse("link[" + link.name + "]", std::to_string(link.mass),
-             "a moving link needs mass and inertia above zero");
+             "a moving link needs positive mass and inertia");
   }
   // Outward from the base, in the order of the joints.
   std::vector<int> order;
@@ -112,18 +115,18 @@ void TreeBody::build(const scene::Machine& machine) {
     link_of_bullet_[k] = machine.joints[index(order[k])].child;
     add_joint(machine, order[k], static_cast<int>(k));
   }
-  // From here on Bullet's arrays of positions and velocities have their size.
+  // Bullet's arrays of positions and velocities now have their size.
   body_->finalizeMultiDof();
   leave_to_physics(*body_);
-  // For inertias about a joint: who hangs on it. Parents come before children, so one walk inward a
-  // link does.
+  // For inertias about a joint: the links beyond it. Parents come before children, so one walk
+  // inward per link is enough.
   outward_.resize(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     for (int up = static_cast<int>(k); up >= 0; up = body_->getParent(up))
       outward_[index(up)].push_back(link_of_bullet_[k]);
   frames_.resize(links);
   for (std::size_t i = 0; i < links; ++i)
-    // A fixed base is part of the world: it has no momentum and no drive has to move it.
+    // A fixed base is part of the world: it has no momentum, and no drive moves it.
     if (!fixed || i > 0) total_mass_ += mass_[i];
 }
 
@@ -131,7 +134,7 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
   const scene::Joint& joint = machine.joints[index(j)];
   const std::size_t child = index(joint.child), parent = index(joint.parent);
   const Pose X_PI = X_LI_[parent].inverse();
-  // All Bullet wants is told from inertial frame to inertial frame, at joint position 0.
+  // Bullet's data is from inertial frame to inertial frame, at joint position 0.
   // Child's frame in the parent's
   const Pose X_IpIc = X_PI * joint_pose(machine, joint, 0) * X_LI_[child];
   const Vec3 pivot_c = X_LI_[child].inverse() * Vec3(joint.X_LcJ.translation());
@@ -139,7 +142,7 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
       X_LI_[child].linear().transpose() * (joint.X_LcJ.linear() * joint.axis.normalized());
   pivot_I_[index(k)] = pivot_c;
   const Vec3 pivot_p = X_IpIc * pivot_c;
-  // Bullet turns from parent to child, a pose here places the child in its parent: the inverse.
+  // Bullet rotates from parent to child; a pose here places the child in its parent. Invert.
   const btQuaternion turn = to_bt(Mat3(X_IpIc.linear())).inverse();
   const int up = bullet_of_link_[parent];
   Vec3 moments;
@@ -163,7 +166,7 @@ void TreeBody::add_joint(const scene::Machine& machine, int j, int k) {
   }
 }
 
-// Fixed and ball joints have no single position: they answer 0.
+// Fixed and ball joints have no single position and return 0.
 double TreeBody::position(int joint) const {
   const int k = bullet_of_joint_[index(joint)];
   return k >= 0 && body_->getLink(k).m_dofCount == 1 ? body_->getJointPos(k) : 0;
@@ -181,8 +184,9 @@ void TreeBody::set_position(int joint, double q) {
   moved();
 }
 
+// Frames are those at the centres of mass; `link` converts them.
 void TreeBody::update_kinematics() const {
-  // Outward from the base, each link from its parent: Bullet keeps joint coordinates, not poses in
+  // Outward from the base, each link from its parent: Bullet stores joint coordinates, not poses in
   // W.
   if (kinematics_valid_) return;
   Frame& base = frames_[0];
@@ -194,7 +198,8 @@ void TreeBody::update_kinematics() const {
     const int up = body_->getParent(k);
     const Frame& p = frames_[up < 0 ? 0 : index(link_of_bullet_[index(up)])];
     Frame& c = frames_[index(link_of_bullet_[index(k)])];
-    // Rotation child in parent, and the way from the parent's centre to the child's, in the child.
+    // Rotation of the child in the parent, and the vector from the parent's centre to the child's,
+    // in the child.
     const Mat3 R_pc = to_eigen(btMatrix3x3(body_->getParentToLocalRot(k).inverse()));
     const Mat3 R = p.X_WI.linear() * R_pc;
     const Vec3 r = R * to_eigen(body_->getRVector(k));
@@ -202,8 +207,8 @@ void TreeBody::update_kinematics() const {
     c.X_WI.translation() = p.X_WI.translation() + r;
     c.w_W = p.w_W;
     c.v_W = p.v_W + p.w_W.cross(r);
-    // Each freedom adds its spatial axis: top is angular, bottom the velocity of the child's centre
-    // by it.
+    // Each degree of freedom adds its spatial axis: top is angular, bottom is the velocity of the
+    // child's centre.
     const btMultibodyLink& link = body_->getLink(k);
     for (int d = 0; d < link.m_dofCount; ++d) {
       const double qd = body_->getJointVelMultiDof(k)[d];
@@ -216,18 +221,18 @@ void TreeBody::update_kinematics() const {
 
 void TreeBody::update_factors() const {
   if (factors_valid_) return;
-  // A step of zero length refreshes the articulated inertias and moves nothing.
+  // A step of zero length updates the articulated inertias and moves nothing.
   body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, scratch_r_, scratch_v_, scratch_m_,
                                                               false, false, false);
   factors_valid_ = true;
 }
 
+// Moves the velocity from the centre of mass to the link's origin.
 LinkState TreeBody::link(int link) const {
   update_kinematics();
   const Frame& frame = frames_[index(link)];
   LinkState state;
-  // Back from the inertial frame to the frame of the model; the velocity goes along as of one rigid
-  // body.
+  // Convert from the inertial frame to the model's frame, with the velocity of a rigid body.
   state.X_WL = frame.X_WI * X_LI_[index(link)].inverse();
   state.w_WL = frame.w_W;
   state.v_WL = frame.v_W + frame.w_W.cross(state.X_WL.translation() - frame.X_WI.translation());
@@ -241,7 +246,7 @@ Vec3 TreeBody::center(int link) const {
 
 Vec3 TreeBody::momentum() const {
   update_kinematics();
-  // Linear only: spin of wheels and swing carry none.
+  // Linear momentum only: spinning wheels and the swing have none.
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < frames_.size(); ++i)
     if (i > 0 || !body_->hasFixedBase()) sum += mass_[i] * frames_[i].v_W;
@@ -254,7 +259,8 @@ Vec3 TreeBody::joint_origin(int joint) const {
   return frames_[index(link_of_bullet_[index(k)])].X_WI * pivot_I_[index(k)];
 }
 
-// Bullet keeps a revolute axis as angular, a prismatic one as linear part of the spatial axis.
+// Bullet stores a revolute axis in the angular part of the spatial axis, a prismatic one in the
+// linear part.
 Vec3 TreeBody::joint_axis(int joint) const {
   update_kinematics();
   const int k = bullet_of_joint_[index(joint)];
@@ -264,6 +270,7 @@ Vec3 TreeBody::joint_axis(int joint) const {
   return frames_[index(link_of_bullet_[index(k)])].X_WI.linear() * to_eigen(axis);
 }
 
+// Sums over all links that move with the joint.
 double TreeBody::outward_inertia(int joint) const {
   const int k = bullet_of_joint_[index(joint)];
   if (k < 0) return 0;
@@ -276,7 +283,8 @@ double TreeBody::outward_inertia(int joint) const {
       continue;
     }
     const Frame& frame = frames_[index(link)];
-    // Steiner: own inertia about the axis, and mass by the centre's distance from it.
+    // Parallel axis theorem: own inertia about the axis, and mass times the centre's distance
+    // squared.
     const Mat3 R = frame.X_WI.linear() * X_LI_[index(link)].linear().transpose();
     const Vec3 axis_L = R.transpose() * axis;
     sum += axis_L.dot(inertia_[index(link)] * axis_L) +
@@ -286,7 +294,7 @@ double TreeBody::outward_inertia(int joint) const {
 }
 
 void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3& p_W) {
-  // Bullet takes forces at centres of mass; the lever becomes a moment.
+  // Bullet applies forces at centres of mass; the lever arm adds a moment.
   const Vec3 moment = m_W + (p_W - center(link)).cross(f_W);
   const int k = bullet_of_link_[index(link)];
   if (k < 0) {
@@ -298,12 +306,13 @@ void TreeBody::add_force(int link, const Vec3& f_W, const Vec3& m_W, const Vec3&
   }
 }
 
+// Walks from the link to the base.
 void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                             double* work) const {
   update_kinematics();
-  // Only freedoms between the base and this link move its points: the others do no work.
+  // Only degrees of freedom between the base and this link move its points; the others do no work.
   std::fill_n(work, 6 + body_->getNumDofs(), 0.0);
-  // The base turns about its own centre.
+  // The base rotates about its own centre.
   const Vec3 base = L_W + (p_W - frames_[0].X_WI.translation()).cross(J_W);
   for (int a = 0; a < 3; ++a) {
     work[a] = base[a];
@@ -320,10 +329,11 @@ void TreeBody::virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Ve
   }
 }
 
+// Uses Bullet's factors of the articulated inertia.
 void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                        std::vector<double>& delta) const {
-  // Articulated response: the impulse's work on every freedom, divided by the tree's mass matrix
-  // without forming it.
+  // Articulated response: the impulse's work on every degree of freedom, divided by the tree's mass
+  // matrix without forming it.
   update_factors();
   const std::size_t size = 6 + index(body_->getNumDofs());
   std::vector<double> work(size);
@@ -332,28 +342,31 @@ void TreeBody::respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p
   body_->calcAccelerationDeltasMultiDof(work.data(), delta.data(), scratch_r_, scratch_v_);
 }
 
+// Records the impulse as expected support of a body without joints.
 bool TreeBody::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                              double dt) {
   std::vector<double> delta;
   respond(link, J_W, L_W, p_W, delta);
   body_->applyDeltaVeeMultiDof(delta.data(), 1);
-  // Joints are held by rows that act before the next step's places: what soil does to them must
-  // meet those rows first, or a ram gives way under its load in every step. A body by itself has
-  // none.
+  // Rows that act before the next step's positions hold the joints. The soil's effect on them must
+  // meet those rows first, or a cylinder would yield under its load in every step. A single body
+  // has no rows.
   const bool moves = dt > 0 && body_->getNumLinks() == 0;
   if (moves) {
-    borne_.head<3>() += L_W + (p_W - center(0)).cross(J_W);
-    borne_.tail<3>() += J_W;
+    support_.head<3>() += L_W + (p_W - center(0)).cross(J_W);
+    support_.tail<3>() += J_W;
     body_->stepPositionsMultiDof(dt, nullptr, delta.data());
     moved();
   }
-  kinematics_valid_ = false;  // velocities; the articulated inertia depends on the pose only
+  // Only velocities changed; the articulated inertia depends on the pose.
+  kinematics_valid_ = false;
   return moves;
 }
 
 Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
   const Frame& frame = frames_[index(link)];
-  // Sums what each freedom between base and link gives its origin, by the present pose.
+  // Sum the contribution of each degree of freedom between base and link to its origin, at the
+  // present pose.
   const Vec3 origin = (frame.X_WI * X_LI_[index(link)].inverse()).translation();
   const Vec3 w0(velocity[0], velocity[1], velocity[2]), v0(velocity[3], velocity[4], velocity[5]);
   Vec3 w = w0, v = v0 + w0.cross(origin - frames_[0].X_WI.translation());
@@ -373,6 +386,7 @@ Vec6 TreeBody::twist_of(int link, const std::vector<double>& velocity) const {
   return twist;
 }
 
+// Applies six unit impulses.
 Mat6 TreeBody::inverse_mass(int link) const {
   update_kinematics();
   // Column c is the twist by a unit impulse: about x, y, z, then along them, at the link's origin.
@@ -387,32 +401,34 @@ Mat6 TreeBody::inverse_mass(int link) const {
   return 0.5 * (result + result.transpose());  // symmetric up to rounding
 }
 
+// Adds gravity to every link, then the expected support.
 void TreeBody::step_velocities(const Vec3& gravity, double dt) {
-  // Gravity is a force here, so that it and all others go through one articulated step.
+  // Gravity is a force here, so that all forces take one articulated step.
   body_->addBaseForce(to_bt(Vec3(gravity * body_->getBaseMass())));
   for (int k = 0; k < body_->getNumLinks(); ++k)
     body_->addLinkForce(k, to_bt(Vec3(gravity * body_->getLinkMass(k))));
   body_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(dt, scratch_r_, scratch_v_,
                                                               scratch_m_, false, false, false);
   kinematics_valid_ = false;
-  // The solver is to see a body that is borne, or what rests on it falls with it until soil acts.
-  const Vec6 borne = borne_;
-  borne_.setZero();
-  if (borne.isZero(0)) {
+  // The solver must see a supported body; otherwise everything that rests on it would fall with it
+  // until the soil acts.
+  const Vec6 supported = support_;
+  support_.setZero();
+  if (supported.isZero(0)) {
     bearing_.setZero();
     return;
   }
-  bearing_ += std::min(1.0, dt / kBearingTime) * (borne / dt - bearing_);
+  bearing_ += std::min(1.0, dt / kBearingTime) * (supported / dt - bearing_);
   respond(0, dt * bearing_.tail<3>(), dt * bearing_.head<3>(), center(0), expected_);
   body_->applyDeltaVeeMultiDof(expected_.data(), 1);
   kinematics_valid_ = false;
 }
 
+// Removes the expected support before the positions move.
 void TreeBody::step_positions(double dt) {
-  // What the solver found is added to the velocities, and those move the positions: semi-implicit
-  // Euler.
+  // Add the solver's changes to the velocities, which then move the positions: semi-implicit Euler.
   body_->processDeltaVeeMultiDof2();
-  // Soil gives what it gives by itself: it is told a body that it does not bear yet.
+  // The soil adds its support itself: remove the expected one.
   if (!expected_.empty()) body_->applyDeltaVeeMultiDof(expected_.data(), -1);
   expected_.clear();
   body_->stepPositionsMultiDof(dt);
@@ -421,7 +437,7 @@ void TreeBody::step_positions(double dt) {
   moved();
 }
 
-// Collision objects do not follow by themselves; contacts are sought where this puts them.
+// Collision objects do not follow by themselves; contacts are detected at these poses.
 void TreeBody::place_colliders() {
   btAlignedObjectArray<btQuaternion> turns;
   btAlignedObjectArray<btVector3> places;
@@ -443,6 +459,7 @@ void TreeBody::stop() {
   kinematics_valid_ = false;
 }
 
+// The base as position and quaternion.
 std::vector<double> TreeBody::coordinates() const {
   const btVector3 p = body_->getBasePos();
   const btQuaternion q = body_->getWorldToBaseRot();
@@ -470,7 +487,8 @@ void TreeBody::place(const std::vector<double>& coordinates,
   q += 7;
   qd += 6;
   for (int k = 0; k < body_->getNumLinks(); ++k) {
-    // Arrays of Bullet's own sizes: what it copies depends on its version and kind of joint.
+    // Arrays of Bullet's own sizes: the number of values it copies depends on its version and the
+    // kind of joint.
     btScalar position[7] = {}, rate[6] = {};
     for (int i = 0; i < body_->getLink(k).m_posVarCount; ++i) position[i] = *q++;
     for (int d = 0; d < body_->getLink(k).m_dofCount; ++d) rate[d] = *qd++;
@@ -479,26 +497,26 @@ void TreeBody::place(const std::vector<double>& coordinates,
   }
 }
 
+// Checks what a damaged snapshot could break.
 void TreeBody::visit(Archive& a) {
-  // Coordinates and generalised velocities say all; poses in W follow from them.
+  // Coordinates and generalised velocities are complete; poses in W follow from them.
   std::vector<double> q = coordinates(), qd = velocities();
   a.fixed("coordinates", q);
   a.fixed("velocities", qd);
-  a("borne", borne_);
+  a("support", support_);
   a("bearing", bearing_);
-  a.require(borne_.allFinite() && bearing_.allFinite(), "bearing",
-            "nothing bears a machine that is not finite");
+  a.require(support_.allFinite() && bearing_.allFinite(), "bearing",
+            "the support of a body must be finite");
   if (!a.loading()) return;
   const auto finite = [](double v) { return std::isfinite(v); };
   const bool near =
       std::all_of(q.begin(), q.end(), finite) && Vec3(q[0], q[1], q[2]).norm() < limits::kFarthest;
-  a.require(near, "coordinates", "a machine has no finite place, or none near any site");
+  a.require(near, "coordinates", "the pose of a machine must be finite and near the site");
   a.require(std::abs(Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm() - 1) < 1e-6, "coordinates",
-            "a machine's turn has a scale");
-  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities",
-            "a machine has no finite velocity");
+            "a machine's rotation must be a unit quaternion");
+  a.require(std::all_of(qd.begin(), qd.end(), finite), "velocities", "velocities must be finite");
   place(q, qd);
-  // A snapshot lies between two steps: nothing is left of the last one's forces.
+  // A snapshot is between two steps: no force of the last one remains.
   expected_.clear();
   body_->clearForcesAndTorques();
   body_->clearConstraintForces();

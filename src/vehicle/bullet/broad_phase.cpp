@@ -11,6 +11,7 @@ bool SweepBroadphase::is_active(int handle) const {
   return static_cast<const btCollisionObject*>(m_pHandles[handle].m_clientObject)->isActive();
 }
 
+// Sweeps along x, then sorts the pairs by number.
 void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
   // The engine drops all pairs after every step, so there are none to keep or to remove here.
   order_.clear();
@@ -22,7 +23,7 @@ void SweepBroadphase::calculateOverlappingPairs(btDispatcher*) {
   active_.clear();
   pairs_.clear();
   for (const int i : order_) {
-    // What ends before this one begins meets nobody further on.
+    // A box that ends before this one begins overlaps no later one.
     std::erase_if(active_, [&](int j) { return m_pHandles[j].m_aabbMax.x() < low(i); });
     for (const int j : active_)
       if ((is_active(i) || is_active(j)) && aabbOverlap(&m_pHandles[i], &m_pHandles[j]))

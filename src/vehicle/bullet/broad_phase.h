@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pairs of bodies are near each other.
+// Broad phase: pairs of bodies whose boxes overlap.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
@@ -11,16 +11,18 @@ namespace navvy::vehicle {
 
 /// Bullet's plain list of boxes, searched by one sweep along x instead of pair by pair.
 ///
-/// The pairs come in the order in which the plain list finds them, by the bodies' numbers and
-/// nothing else: a tree's order would depend on where bodies have been, and with it the solver's
-/// result, so that a loaded snapshot would step on otherwise. Two of which neither is active
-/// (Bullet's word) are no pair. Costs n log n and the pairs that overlap along x.
+/// The pairs are sorted as the plain list would find them, by the bodies' numbers alone. The order
+/// of a tree would depend on earlier positions, and so would the solver's result: a loaded snapshot
+/// would continue differently. Two inactive bodies (Bullet's term) form no pair. Costs n log n plus
+/// the pairs that overlap along x.
 class SweepBroadphase final : public btSimpleBroadphase {
  public:
+  /// Allocates space for at most `most` bodies.
   explicit SweepBroadphase(int most) : btSimpleBroadphase(most) {}
   void calculateOverlappingPairs(btDispatcher* dispatcher) override;
 
  private:
+  /// Returns whether the body of a box is active.
   bool is_active(int handle) const;
 
   std::vector<int> order_, active_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines as Bullet multibodies in one collision world.
+// Bullet engine: machines as multibodies in one collision world.
 //
-// The step is put together here instead of in btMultiBodyDynamicsWorld: no islands are split, no
-// contact outlives its step, and who sleeps is state (rest.h), so a step depends on the saved state
+// The step is assembled here instead of in btMultiBodyDynamicsWorld: there are no islands, no
+// contact outlives its step, and sleep is state (rest.h), so a step depends on the saved state
 // alone.
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -26,23 +26,25 @@
 namespace navvy::vehicle {
 namespace {
 
-// What moves meets the ground, what stands, and each other; what stands meets nothing else.
+// Moving bodies collide with the ground, with fixed bodies and with each other; fixed bodies with
+// nothing else.
 constexpr int kGroundGroup = 1, kMachineGroup = 2, kStandingGroup = 4;
 constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueIsTheAnalyticOne
-constexpr double kResidual = 1e-8;  // [(N s)^2] solver may stop early below
-constexpr int kMostShapes = 16384;  // links with shapes of all machines together; 130 bytes each
-// A machine this far below the surface has fallen through it: no ground is as thick as that over a
-// body [m].
+constexpr double kResidual = 1e-8;  // [(N s)^2] the solver may stop early below
+// Links with shapes of all machines together; 130 bytes each.
+constexpr int kMostShapes = 16384;
+// Depth below the surface [m] at which a machine has fallen through: no ground is as thick above a
+// body.
 constexpr double kLost = 10;
 constexpr std::uint32_t kVersion = 7;
 
-/// A hitch with its two machines.
+/// Hitch with its two machines.
 struct Coupled {
   BulletMachine* parent;
   BulletMachine* child;
   std::unique_ptr<HitchRows> rows;
 
-  /// What hangs on another does not sleep: it would be held by nothing.
+  /// Wakes both machines: a sleeping towed machine would not be held.
   void keep_awake() const {
     if (!rows->closed()) return;
     parent->disturb();
@@ -50,8 +52,7 @@ struct Coupled {
   }
 };
 
-/// Who may meet whom: as their groups say, but for what is hitched, whose drawbars lie in each
-/// other.
+/// Filters pairs by their groups, and excludes coupled machines, whose drawbars overlap.
 class OverlapFilter final : public btOverlapFilterCallback {
  public:
   explicit OverlapFilter(const std::vector<Coupled>& hitches) : hitches_(hitches) {}
@@ -72,7 +73,13 @@ class OverlapFilter final : public btOverlapFilterCallback {
   const std::vector<Coupled>& hitches_;
 };
 
-class BulletEngine final : public PhysicsEngine {
+class BulletEngine final : public PhysicsEngine,
+                           private ObstacleCapability,
+                           private HitchCapability,
+                           private RockCapability,
+                           private TrackCapability,
+                           private PowerCapability,
+                           private AccountCapability {
  public:
   BulletEngine(const Vec3& gravity, const scene::Materials& materials)
       : gravity_(gravity),
@@ -80,15 +87,15 @@ class BulletEngine final : public PhysicsEngine {
         dispatcher_(&configuration_),
         broadphase_(kMostShapes),
         world_(&dispatcher_, &broadphase_, &configuration_) {
-    // A plate's flat face or a hull's bears on more than the one point that Bullet finds deepest.
+    // Faces of plates and hulls need more than the one deepest contact point that Bullet finds.
     configuration_.setConvexConvexMultipointIterations();
     ground_.setCollisionShape(&ground_shape_);
     ground_.setWorldTransform(btTransform::getIdentity());
     ground_.setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT);
-    // Bullet multiplies friction of both bodies: the machine's counts alone.
+    // Bullet multiplies the friction of both bodies: the machine's alone counts.
     ground_.setFriction(1);
     ground_.setRestitution(0);
-    // Two that do not stir do not meet: a body that sleeps asks nothing of the ground.
+    // Two inactive bodies do not collide: a sleeping body costs no ground queries.
     ground_.forceActivationState(ISLAND_SLEEPING);
     world_.addCollisionObject(&ground_, kGroundGroup, kMachineGroup);
     world_.setForceUpdateAllAabbs(false);
@@ -101,7 +108,7 @@ class BulletEngine final : public PhysicsEngine {
   }
 
   ~BulletEngine() override {
-    // The world keeps bare pointers: they leave it before their owners go.
+    // The world stores bare pointers: remove them before their owners are destroyed.
     for (const auto& machine : machines_)
       for (btMultiBodyLinkCollider* collider : machine->all_colliders())
         world_.removeCollisionObject(collider);
@@ -116,8 +123,8 @@ class BulletEngine final : public PhysicsEngine {
     require_capacity(machine);
     machines_.push_back(std::make_unique<BulletMachine>(machine, X_WM));
     add_shapes(*machines_.back());
-    // The order in which rows are given to the solver is part of the result: joints, balls,
-    // differentials, then rock, by machine.
+    // The order of rows in the solver affects the result: joints, balls, differentials, then rock,
+    // by machine.
     for (const auto& servo : machines_.back()->servos())
       if (servo) constraints_.push_back(servo.get());
     for (const auto& ball : machines_.back()->balls()) constraints_.push_back(ball.get());
@@ -131,16 +138,16 @@ class BulletEngine final : public PhysicsEngine {
   }
   int machine_count() const override { return static_cast<int>(machines_.size()); }
 
-  int add_mover(const scene::Machine& machine) override {
+  int add_obstacle(const scene::Machine& machine) override {
     require_capacity(machine);
     movers_.emplace_back(machine);
     for (const auto& body : movers_.back().bodies()) add_shapes(*body);
     return static_cast<int>(movers_.size()) - 1;
   }
-  void move(int mover, const std::vector<LinkState>& links) override {
+  void move_obstacle(int mover, const std::vector<LinkState>& links) override {
     Mover& one = movers_.at(static_cast<std::size_t>(mover));
     one.move(links);
-    // Where it has come to rest the world would not look again.
+    // The world does not update the box of a body at rest.
     for (const auto& body : one.bodies())
       for (btMultiBodyLinkCollider* collider : body->all_colliders())
         world_.updateSingleAabb(collider);
@@ -180,7 +187,7 @@ class BulletEngine final : public PhysicsEngine {
 
   void step(double dt, const GroundQuery& ground) override {
     if (!(dt > 0))
-      throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+      throw SimulationError("vehicle: the step must be positive, it is " + std::to_string(dt));
     for (const Coupled& hitch : hitches_) hitch.keep_awake();
     // Forces and rows first, then contacts at the poses of the step's start, one solve for all,
     // then positions.
@@ -190,8 +197,8 @@ class BulletEngine final : public PhysicsEngine {
     detect();
     turn_ground_contacts();
     ground_shape_.set_ground(nullptr);
-    // Detection looks at poses alone. Materials ask who rests, before forces give everything a
-    // speed.
+    // Detection uses poses alone. Materials need to know which bodies rest, before forces give all
+    // of them a velocity.
     materials_.apply(dispatcher_, ground_, gravity_);
     for (auto& machine : machines_) machine->accelerate(gravity_, dt);
     solve(dt);
@@ -199,16 +206,16 @@ class BulletEngine final : public PhysicsEngine {
     for (auto& machine : machines_) {
       if (machine->asleep()) continue;
       machine->end_step(ground, contact_impulse(*machine), dt);
-      // A broken run stops here, where step and machine are known, before its numbers spread.
+      // Stop a broken run here, where step and machine are known, before its numbers spread.
       const Vec3 p = machine->tree().center(0);
       if (!p.allFinite() || !machine->tree().momentum().allFinite())
         throw SimulationError("vehicle: machine '" + machine->scene().name +
-                              "' has no finite place any more");
+                              "' has no finite pose");
       if (!machine->tree().fixed_base() && p.z() < ground.height(p.x(), p.y()) - kLost)
         throw SimulationError(
             "vehicle: machine '" + machine->scene().name + "' has fallen through the ground at x " +
             std::to_string(p.x()) + " m, y " + std::to_string(p.y()) +
-            " m; it needs wheels or collision shapes that hold it, above the ground at the start");
+            " m; it needs wheels or collision shapes that start above the ground");
     }
     forget_contacts();
   }
@@ -238,16 +245,23 @@ class BulletEngine final : public PhysicsEngine {
   Vec3 ground_impulse(int machine) const override { return at(machine).ground_impulse(); }
   Vec3 external_impulse(int machine) const override { return at(machine).external_impulse(); }
 
+  ObstacleCapability* obstacles() override { return this; }
+  HitchCapability* hitches() override { return this; }
+  RockCapability* rock() override { return this; }
+  const TrackCapability* tracks() const override { return this; }
+  const PowerCapability* power() const override { return this; }
+  const AccountCapability* accounts() const override { return this; }
+
   void visit(Archive& a) override {
     a.section("bullet", kVersion, [&] {
       a.constant("machines", machines_.size(),
-                 "the snapshot holds another number of machines than the scene");
+                 "the snapshot has another number of machines than the scene");
       for (std::size_t m = 0; m < machines_.size(); ++m) a.item(m, [&] { machines_[m]->visit(a); });
       tyre_bodies_.visit(a, machines_, movers_);
       for (std::size_t h = 0; h < hitches_.size(); ++h)
         a.item(h, [&] { hitches_[h].rows->visit(a); });
     });
-    // What does not stir is not looked at in a step.
+    // A step does not update the boxes of inactive bodies.
     if (a.loading())
       for (const auto& machine : machines_)
         for (btMultiBodyLinkCollider* collider : machine->all_colliders())
@@ -267,7 +281,7 @@ class BulletEngine final : public PhysicsEngine {
       refuse("machine[" + machine.name + "]", std::to_string(machine.links.size()) + " links",
              "a world holds at most " + std::to_string(kMostShapes) + " links of all machines");
   }
-  /// Its links' shapes and its shells' plates to the world.
+  /// Adds the shapes of links and the plates of shells to the world.
   void add_shapes(BulletMachine& machine) {
     const auto& colliders = machine.colliders();
     for (std::size_t l = 0; l < colliders.size(); ++l) {
@@ -286,7 +300,7 @@ class BulletEngine final : public PhysicsEngine {
   }
 
   void solve(double dt) {
-    // One group for the whole world: no islands, so nobody's result depends on who is near.
+    // One group for the whole world: no islands, so results do not depend on neighbours.
     info_.m_timeStep = dt;
     for (auto& machine : machines_) machine->tree().multibody().setCompanionId(-1);
     for (const Mover& mover : movers_)
@@ -299,8 +313,8 @@ class BulletEngine final : public PhysicsEngine {
         constraints_.data(), static_cast<int>(constraints_.size()), info_, nullptr, &dispatcher_);
   }
 
-  /// All contacts of this step. Who is woken has neighbours and ground of its own to meet, so pairs
-  /// are looked for again.
+  /// Detects all contacts of this step. A body that wakes has neighbours and ground of its own, so
+  /// pairs are searched again.
   void detect() {
     world_.updateAabbs();
     do world_.computeOverlappingPairs();
@@ -308,8 +322,7 @@ class BulletEngine final : public PhysicsEngine {
     dispatcher_.dispatchAllCollisionPairs(broadphase_.getOverlappingPairCache(),
                                           world_.getDispatchInfo(), &dispatcher_);
   }
-  /// Wakes what lies still and has something that does not as near as its box: says whether there
-  /// was any.
+  /// Wakes sleeping bodies whose box overlaps an active one's. Returns whether there were any.
   bool wake_neighbours() {
     bool woken = false;
     const btBroadphasePairArray& pairs =
@@ -319,7 +332,7 @@ class BulletEngine final : public PhysicsEngine {
       const auto* other = static_cast<const btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
       if (one->isActive() == other->isActive()) continue;
       if (other->isActive()) std::swap(one, other);
-      // What stands does not wake, and the ground is no machine.
+      // Fixed bodies do not wake, and the ground is no machine.
       auto* machine = static_cast<BulletMachine*>(other->getUserPointer());
       if (machine == nullptr || !machine->asleep()) continue;
       machine->wake(static_cast<const BulletMachine*>(one->getUserPointer())->still());
@@ -328,7 +341,7 @@ class BulletEngine final : public PhysicsEngine {
     return woken;
   }
 
-  /// Gives each contact with the ground a normal that the ground has there.
+  /// Gives each contact with the ground a normal of the ground itself.
   void turn_ground_contacts() {
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
       btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
@@ -336,7 +349,7 @@ class BulletEngine final : public PhysicsEngine {
       if (!second && manifold->getBody0() != &ground_) continue;
       for (int p = 0; p < manifold->getNumContacts(); ++p) {
         btManifoldPoint& point = manifold->getContactPoint(p);
-        // Bullet's normal leads from its body 1 to its body 0.
+        // Bullet's normal points from its body 1 to its body 0.
         const double sign = second ? 1 : -1;
         const Vec3 p_W =
             to_eigen(second ? point.getPositionWorldOnB() : point.getPositionWorldOnA());
@@ -346,12 +359,12 @@ class BulletEngine final : public PhysicsEngine {
     }
   }
 
-  /// Impulse of the ground on a machine's shapes in this step [N s].
+  /// Returns the impulse of the ground on a machine's shapes in this step [N s].
   Vec3 contact_impulse(BulletMachine& machine) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
       const btPersistentManifold* manifold = dispatcher_.getManifoldByIndexInternal(i);
-      // Bullet's normal points towards its body 0; the sign follows from which of the two is the
+      // Bullet's normal points towards its body 0; the sign depends on which of the two is the
       // ground.
       const bool first = manifold->getBody1() == &ground_;
       if (!first && manifold->getBody0() != &ground_) continue;
@@ -371,7 +384,7 @@ class BulletEngine final : public PhysicsEngine {
 
   /// Drops every pair and manifold, so that the next step starts from the state alone.
   void forget_contacts() {
-    // Without a memory of contacts there is no warm start, and none is wanted: see the top.
+    // This also removes the warm start, which is disabled, see the top.
     btOverlappingPairCache* cache = broadphase_.getOverlappingPairCache();
     while (cache->getNumOverlappingPairs() > 0) {
       btBroadphasePair& pair =
@@ -382,7 +395,7 @@ class BulletEngine final : public PhysicsEngine {
 
   Vec3 gravity_;
   ContactMaterials materials_;
-  // In the order in which each needs the one before it.
+  // Each member needs the ones before it.
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   SweepBroadphase broadphase_;
@@ -397,7 +410,7 @@ class BulletEngine final : public PhysicsEngine {
   std::vector<Coupled> hitches_;
   OverlapFilter filter_{hitches_};
   std::vector<btMultiBodyConstraint*> constraints_;
-  double rock_height_ = -1e6;  // far below, until told
+  double rock_height_ = -1e6;  // far below, until set
 };
 
 }  // namespace

@@ -11,8 +11,7 @@ namespace {
 
 // [N/m] tuned: BulletContact.RaisedGroundDoesNotLaunchABody
 constexpr double kContactStiffness = 2e7;
-// [N s/m] with it: overlap is pressed out at 2 per second
-constexpr double kContactDamping = 1e7;
+constexpr double kContactDamping = 1e7;  // [N s/m] with it: overlap is resolved at 2 per second
 
 }  // namespace
 
@@ -26,15 +25,15 @@ BulletMachine::BulletMachine(const scene::Machine& machine, const Pose& X_WM)
   add_rock();
   add_steel();
   place_colliders();
-  // Wheels and shells are at work even where they stand.
+  // Wheels and shells work even at standstill, so such machines never sleep.
   if (!tree_.fixed_base() && machine_.links.size() == 1 && machine_.wheels.empty() &&
       machine_.shells.empty() && colliders_[0])
     rest_.emplace();
 }
 
+// One collider per link with shapes.
 void BulletMachine::add_colliders() {
-  // One compound a link, placed in Bullet's inertial frame; links without collision shapes have
-  // none.
+  // One compound per link in Bullet's inertial frame; links without collision shapes have none.
   shapes_.resize(machine_.links.size());
   colliders_.resize(machine_.links.size());
   for (std::size_t i = 0; i < machine_.links.size(); ++i) {
@@ -43,7 +42,7 @@ void BulletMachine::add_colliders() {
                                  i == 0 && tree_.fixed_base());
     if (!shapes_[i].compound) continue;
     auto collider = make_collider(shapes_[i], link);
-    // The tree and the world both point at it; it is owned here.
+    // The tree and the world both point to it; this object owns it.
     if (k < 0)
       tree_.multibody().setBaseCollider(collider.get());
     else
@@ -59,9 +58,9 @@ std::unique_ptr<btMultiBodyLinkCollider> BulletMachine::make_collider(const Link
   collider->setCollisionShape(shape.compound.get());
   collider->setFriction(shape.friction);
   collider->setRestitution(0);
-  // Firm but not rigid: ground that was raised under a body must not launch it.
+  // Stiff but not rigid: ground that was raised under a body must not launch it.
   collider->setContactStiffnessAndDamping(kContactStiffness, kContactDamping);
-  // What stands for ever meets only what stirs.
+  // A fixed body collides only with active ones.
   const bool stands = tree_.fixed_base() && link == 0;
   collider->forceActivationState(stands ? ISLAND_SLEEPING : DISABLE_DEACTIVATION);
   return collider;
@@ -82,7 +81,7 @@ std::vector<btMultiBodyLinkCollider*> BulletMachine::all_colliders() const {
   return out;
 }
 
-// The tree moves its links' own colliders; the plates of shells are beside them.
+// The tree moves its links' own colliders; move the plates of shells here.
 void BulletMachine::place_colliders() {
   tree_.place_colliders();
   for (const auto& plates : steel_)
@@ -93,7 +92,7 @@ void BulletMachine::add_rock() {
   for (const scene::Shell& shell : machine_.shells) {
     const int link = machine_.link_index(shell.link);
     if (link < 0) refuse("shell[" + shell.name + "]", shell.link, "no link of this name");
-    // Every corner of a shell is a point that may touch.
+    // Every corner of a shell may touch the rock.
     rock_.push_back(std::make_unique<RockContact>(tree_, link, shell.vertices));
   }
 }
@@ -117,7 +116,7 @@ void BulletMachine::apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, co
   external_impulse_ += J_W;
 }
 
-// Pairs of which neither is active are none of Bullet's business; what stands is not, either.
+// Bullet ignores pairs of two inactive bodies; fixed bodies are inactive, too.
 void BulletMachine::set_active(bool active) {
   colliders_[0]->forceActivationState(active ? DISABLE_DEACTIVATION : ISLAND_SLEEPING);
 }
@@ -137,7 +136,7 @@ void BulletMachine::disturb() {
 void BulletMachine::move_base(const LinkState& link) {
   const bool still = link.v_WL.isZero(0) && link.w_WL.isZero(0);
   tree_.set_base(link);
-  // Tyres push at it, which moves nothing.
+  // Tyre forces on it have no effect.
   tree_.multibody().clearForcesAndTorques();
   place_colliders();
   for (btMultiBodyLinkCollider* collider : all_colliders())
@@ -148,6 +147,7 @@ void BulletMachine::box(btVector3& low, btVector3& high) const {
   colliders_[0]->getCollisionShape()->getAabb(colliders_[0]->getWorldTransform(), low, high);
 }
 
+// Sleeping machines only check whether their ground has changed.
 void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
   if (asleep()) {
     btVector3 low, high;
@@ -157,8 +157,8 @@ void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
     set_active(true);
   }
   joints_.note_speeds();
-  // The drive commands joints, so it comes before them; forces are summed by the tree and may come
-  // in any order.
+  // The drive commands joints, so it comes first. The tree sums forces, which may come in any
+  // order.
   drive_.begin_step(dt);
   joints_.begin_step(dt);
   tyre_impulse_ = wheels_.push(ground, dt);
@@ -171,20 +171,21 @@ void BulletMachine::begin_step(const GroundQuery& ground, double dt) {
 
 void BulletMachine::accelerate(const Vec3& gravity, double dt) {
   if (asleep())
-    // What lies still is carried.
+    // The ground carries the weight of a sleeping body.
     ground_impulse_ = -dt * tree_.total_mass() * gravity;
   else
     tree_.step_velocities(gravity, dt);
 }
 
+// Reads the solver's impulses in the order in which the parts depend on each other.
 void BulletMachine::end_step(const GroundQuery& ground, const Vec3& contact, double dt) {
-  // All that ground and rock gave in this step, whatever way it came.
+  // Sum of all ground and rock impulses of this step.
   ground_impulse_ = tyre_impulse_ + contact;
   for (const auto& rock : rock_) {
     rock->settle();
     ground_impulse_ += rock->impulse();
   }
-  // Rows are read before positions change: their impulses belong to the poses of the step's start.
+  // Read rows before positions change: their impulses belong to the poses of the step's start.
   tree_.step_positions(dt);
   place_colliders();
   drive_.end_step(dt);
@@ -210,14 +211,14 @@ void BulletMachine::Push::visit(Archive& a) {
   a("p_W", p_W);
 }
 
-/// The tree first: parts that follow from its positions are worked out as they are loaded.
+/// Visits the tree first: other parts follow from its positions on loading.
 void BulletMachine::visit(Archive& a) {
   a("tree", tree_);
   a("joints", joints_);
   a.fixed("wheels", wheels_.all());
   a("drive", drive_);
   for (std::size_t r = 0; r < rock_.size(); ++r) a.item(r, [&] { a("rock", *rock_[r]); });
-  // Told between two steps, to act in the next.
+  // Set between two steps, to act in the next.
   a("pushes", pushes_);
   const auto links = static_cast<int>(machine_.links.size());
   a.require(std::all_of(pushes_.begin(), pushes_.end(),

@@ -11,8 +11,8 @@
 namespace navvy::vehicle {
 namespace {
 
-/// Gathers what one disc meets of one body: the places weighed by their depth squared, so that the
-/// deepest leads and the normal turns without jumps as the wheel rolls over an edge.
+/// Averages the contact points of one disc with one body, weighted by their depth squared, so that
+/// the deepest dominates and the normal changes continuously as the wheel rolls over an edge.
 struct Meeting final : btCollisionWorld::ContactResultCallback {
   explicit Meeting(const Vec3& middle) : center(middle) {}
 
@@ -39,7 +39,7 @@ struct Meeting final : btCollisionWorld::ContactResultCallback {
   double sum = 0, depth = 0;
 };
 
-/// How much a body gives way to an impulse of 1 along `n` at `p` [1/kg].
+/// Returns the inverse mass of a body for an impulse along `n` at `p` [1/kg].
 double inverse_mass(const TreeBody& tree, int link, const Vec3& n, const Vec3& p) {
   if (tree.fixed_base() && link == 0) return 0;
   Vec6 work;
@@ -87,6 +87,7 @@ void ContactCandidates::gather(BulletMachine& machine) {
   }
 }
 
+// Bullet finds the points, the callback averages them.
 std::optional<terramechanics::BodyTouch> ContactCandidates::touch(Disc& disc, const MetBody& body,
                                                                   double friction,
                                                                   btCollisionWorld& world) {

@@ -9,14 +9,14 @@
 namespace navvy::vehicle {
 namespace {
 
-/// What is slower rests: contacts are found afresh in every step, so a body at rest trembles.
+/// Slower bodies are at rest: contacts are detected anew in every step, so a body at rest trembles.
 /// tuned: BulletMaterials.*
 constexpr double kSliding = 0.05;  // [m/s]
-/// Slower blows do not rebound, or nothing would come to rest: Bullet's own threshold [m/s].
+/// Slower impacts do not rebound, or nothing would come to rest: Bullet's own threshold [m/s].
 constexpr double kBlow = 0.2;
-/// Time in which a soft contact gives way to a load [s]: it creeps there and does not swing.
+/// Time in which a compliant contact yields to a load [s]: it creeps and does not oscillate.
 constexpr double kYields = 0.05;
-/// A gap that no body closes in a step [m].
+/// Gap that no body closes in a step [m].
 constexpr double kFar = 1e3;
 
 Vec3 velocity_at(const BulletMachine* machine, int link, const Vec3& p_W) {
@@ -27,6 +27,7 @@ Vec3 velocity_at(const BulletMachine* machine, int link, const Vec3& p_W) {
 
 }  // namespace
 
+// Builds a square table, so that a pair is one look-up.
 ContactMaterials::ContactMaterials(scene::Materials table) : table_(std::move(table)) {
   for (const scene::MaterialPair& pair : table_.pairs)
     for (const std::string& name : pair.materials)
@@ -70,7 +71,7 @@ const scene::MaterialPair* ContactMaterials::pair(const Side& a, const Side& b) 
                 static_cast<std::size_t>(b.material)];
 }
 
-// Bullet's normal leads from body 1 to body 0.
+// Bullet's normal points from body 1 to body 0.
 void ContactMaterials::set(const scene::MaterialPair& pair, const Vec3& v, const Vec3& weight,
                            btManifoldPoint& point) const {
   const Vec3 n = to_eigen(point.m_normalWorldOnB);
@@ -78,15 +79,15 @@ void ContactMaterials::set(const scene::MaterialPair& pair, const Vec3& v, const
   point.m_combinedFriction =
       (v + meets * n).norm() > kSliding ? pair.kinetic_friction : pair.static_friction;
   if (!(pair.restitution > 0) || meets < kBlow) return;
-  // Bullet closes a gap and presses out an overlap within the same row, and both would change the
-  // rebound: a blow is struck in the first step that finds the bodies within each other, and then
-  // by nothing but their speed.
+  // Bullet closes a gap and resolves a penetration within the same row, and both would change the
+  // rebound. So the impact acts in the first step that finds the bodies overlapping, by their
+  // velocity alone.
   if (deep < 0) {
     point.setDistance(kFar);
     return;
   }
-  // The speed it had where the bodies met, and what it takes to be back there with its share of
-  // that.
+  // Velocity when the bodies met, and the velocity that returns them there with the restitution's
+  // share of it.
   const double fall = 2 * deep * std::max(0.0, -weight.dot(n)),
                met = std::max(0.0, meets * meets - fall);
   point.m_combinedRestitution = std::sqrt(pair.restitution * pair.restitution * met + fall) / meets;
@@ -95,6 +96,7 @@ void ContactMaterials::set(const scene::MaterialPair& pair, const Vec3& v, const
   point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP | BT_CONTACT_FLAG_HAS_CONTACT_CFM;
 }
 
+// Visits the points of every manifold whose sides have materials.
 void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& ground,
                              const Vec3& gravity) {
   if (names_.empty()) return;
@@ -103,7 +105,7 @@ void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& 
     const Side a = side(*manifold->getBody0(), ground), b = side(*manifold->getBody1(), ground);
     const scene::MaterialPair* together = pair(a, b);
     if (together == nullptr) continue;
-    // What falls freely falls alike.
+    // Two free bodies fall alike.
     const Vec3 weight = stands(b) ? gravity : stands(a) ? Vec3(-gravity) : Vec3(Vec3::Zero());
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       btManifoldPoint& point = manifold->getContactPoint(p);
@@ -115,8 +117,8 @@ void ContactMaterials::apply(btDispatcher& dispatcher, const btCollisionObject& 
   if (soft_) soften(dispatcher, ground);
 }
 
-/// The table's softness is that of two bodies together: every point between them that bears gets
-/// its share.
+/// Makes compliant contacts softer. The table's compliance is that of two bodies together, so every
+/// bearing point between them gets its share.
 void ContactMaterials::soften(btDispatcher& dispatcher, const btCollisionObject& ground) {
   bearing_.clear();
   const auto for_soft_points = [&](const auto& visit) {
@@ -134,7 +136,8 @@ void ContactMaterials::soften(btDispatcher& dispatcher, const btCollisionObject&
   for_soft_points([](const scene::MaterialPair&, int& bearing, btManifoldPoint&) { ++bearing; });
   for_soft_points(
       [](const scene::MaterialPair& together, const int& bearing, btManifoldPoint& point) {
-        if ((point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) return;  // a blow
+        if ((point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0)
+          return;  // an impact
         point.m_combinedContactStiffness1 = 1 / (together.softness * bearing);
         point.m_combinedContactDamping1 = kYields * point.m_combinedContactStiffness1;
         point.m_contactPointFlags |= BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of materials between detection and solve: Bullet knows one number a body, how two touch is
-// said contact by contact.
+// Contact properties by pairs of materials. Bullet stores one value per body; this sets them
+// contact by contact between detection and solve.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -15,34 +15,41 @@
 
 namespace navvy::vehicle {
 
-/// Sets friction, rebound and softness of every contact whose two sides have a material
+/// Sets friction, restitution and compliance of every contact whose two sides have a material
 /// [docs/machines.md, materials]. Costs nothing without a table.
 class ContactMaterials {
  public:
+  /// Takes the table of material pairs; an empty one disables this class.
   explicit ContactMaterials(scene::Materials table);
   ContactMaterials(const ContactMaterials&) = delete;  // pairs_ points into table_
   ContactMaterials& operator=(const ContactMaterials&) = delete;
 
-  /// Tells the colliders of a machine whose they are, before the first `apply`.
+  /// Links the colliders of a machine to it. Call it before the first `apply`.
   void mark(BulletMachine& machine) const;
-  /// After detection, while velocities are still those of the step before: what rests has none.
-  /// @param gravity [m/s2], W: what a body gained of it within the other is no part of its blow.
+  /// Sets the properties of all contacts. Call it after detection, while velocities are still those
+  /// of the last step: a resting body has none.
+  /// @param gravity [m/s2], W: the velocity that a body gained from it inside the other is no part
+  /// of the impact.
   void apply(btDispatcher& dispatcher, const btCollisionObject& ground, const Vec3& gravity);
 
  private:
   /// One side of a contact.
   struct Side {
     int material = -1;
-    const BulletMachine* machine = nullptr;  ///< null: the ground
+    /// Null for the ground.
+    const BulletMachine* machine = nullptr;
     int link = 0;
   };
+  /// Returns the index of a material, -1 if the table has none of this name.
   int index_of(const std::string& material) const;
+  /// Returns whether a side is the ground or a fixed body.
   static bool stands(const Side& side);
+  /// Returns the side of a contact that an object belongs to.
   Side side(const btCollisionObject& object, const btCollisionObject& ground) const;
-  /// The pair of a manifold; null where one of both has no material.
+  /// Returns the pair of a manifold; null if one side has no material.
   const scene::MaterialPair* pair(const Side& a, const Side& b) const;
-  /// `v`: of body 0 against body 1 there [m/s]; `weight`: acceleration of body 0 against body 1
-  /// [m/s2].
+  /// Sets the properties of one contact. `v` is the velocity of body 0 against body 1 there [m/s],
+  /// `weight` the acceleration of body 0 against body 1 [m/s2].
   void set(const scene::MaterialPair& pair, const Vec3& v, const Vec3& weight,
            btManifoldPoint& point) const;
   void soften(btDispatcher& dispatcher, const btCollisionObject& ground);
@@ -50,9 +57,9 @@ class ContactMaterials {
   scene::Materials table_;
   std::vector<std::string> names_;
   std::vector<const scene::MaterialPair*> pairs_;  ///< by material and material
-  bool soft_ = false;                              ///< some pair is
+  bool soft_ = false;                              ///< true if any pair is compliant
   int ground_ = -1;
-  /// Points that bear in this step, by the two bodies.
+  /// Number of contact points that carry load in this step, by the two bodies.
   std::map<std::pair<const btCollisionObject*, const btCollisionObject*>, int> bearing_;
 };
 

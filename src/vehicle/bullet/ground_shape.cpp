@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kEverywhere = 1e9;  // [m]
 constexpr double kRounding = 1e-6;   // of heights between columns [m]
-constexpr double kMostCells = 256;   // along a side of one query: beyond it nodes are left out
+// Cells along a side of one query; beyond it nodes are skipped.
+constexpr double kMostCells = 256;
 
 }  // namespace
 
@@ -18,6 +19,7 @@ void GroundShape::getAabb(const btTransform&, btVector3& low, btVector3& high) c
   high.setValue(kEverywhere, kEverywhere, kEverywhere);
 }
 
+// Reads the heights of all nodes once, then passes two triangles per cell.
 void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVector3& low,
                                       const btVector3& high) const {
   if (ground_ == nullptr) return;
@@ -31,8 +33,8 @@ void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVect
   const int x0 = cell_of(low.x(), lattice.node.x()), x1 = cell_of(high.x(), lattice.node.x()) + 1;
   const int y0 = cell_of(low.y(), lattice.node.y()), y1 = cell_of(high.y(), lattice.node.y()) + 1;
   const auto place = [&](int ix, int iy) { return Vec2(lattice.node + step * Vec2(ix, iy)); };
-  // Most of a machine is well above the ground: one question for all of a body's box. Rounding is
-  // far below the margin.
+  // Most of a machine is well above the ground: one query for the whole box of a body. The margin
+  // far exceeds rounding.
   if (ground_->highest(place(x0, y0), place(x1, y1)) < low.z() - kRounding) return;
   const int nx = x1 - x0 + 1;
   height_.clear();
@@ -45,10 +47,10 @@ void GroundShape::processAllTriangles(btTriangleCallback* callback, const btVect
     const Vec2 p = place(ix, iy);
     return btVector3(p.x(), p.y(), height_[static_cast<std::size_t>((iy - y0) * nx + ix - x0)]);
   };
-  // Both triangles of a cell share the diagonal from its +x to its +y corner; their fronts look up.
+  // Both triangles of a cell share the diagonal from its +x to its +y corner, and face up.
   for (int iy = y0; iy < y1; ++iy)
     for (int ix = x0; ix < x1; ++ix) {
-      // A cell below the box is not worth a call.
+      // Skip a cell below the box.
       const double* row = &height_[static_cast<std::size_t>((iy - y0) * nx + ix - x0)];
       if (std::max({row[0], row[1], row[nx], row[nx + 1]}) < low.z()) continue;
       btVector3 one[3] = {node(ix, iy), node(ix + 1, iy), node(ix, iy + 1)};
@@ -69,6 +71,7 @@ Vec3 GroundShape::steepness(int ix, int iy, bool lower) const {
   return {(left - height(1, 1)) / s, (right - height(1, 1)) / s, 1};
 }
 
+// Compares the triangle under the contact with its neighbour across the nearest side.
 Vec3 GroundShape::outward(const Vec3& p_W, const Vec3& normal_W) const {
   if (ground_ == nullptr) return normal_W;
   const terramechanics::GroundLattice lattice = ground_->lattice();
@@ -77,7 +80,7 @@ Vec3 GroundShape::outward(const Vec3& p_W, const Vec3& normal_W) const {
   double u = at.x() - ix, v = at.y() - iy;
   const bool lower = u + v < 1;
   if (!lower) u = 1 - u, v = 1 - v;
-  // The neighbour across the nearest side; which way it lies, seen from the lower triangle.
+  // The neighbour across the nearest side, and its direction, seen from the lower triangle.
   const double across = (1 - u - v) / std::sqrt(2.0);
   Vec3 neighbour;
   Vec2 way;
@@ -91,7 +94,7 @@ Vec3 GroundShape::outward(const Vec3& p_W, const Vec3& normal_W) const {
   if (!lower) way = -way;
   const Vec3 here = steepness(ix, iy, lower);
   const Vec3 n = here.normalized();
-  // A neighbour that falls away makes a ridge; one that rises leaves no room for any other way.
+  // A neighbour that slopes away makes a ridge; one that rises leaves no other direction.
   if (!((neighbour - here).head<2>().dot(way) > 1e-9)) return n;
   const Vec3 ridge = n.cross(neighbour.normalized()).normalized();
   const double most = std::acos(std::clamp(n.dot(neighbour.normalized()), -1.0, 1.0));

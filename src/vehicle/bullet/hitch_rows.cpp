@@ -10,8 +10,8 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kClosing = 0.2;  // share of what parts them that is closed in a step,
-constexpr double kSlowly = 0.5;   // no faster than [m/s]
+constexpr double kClosing = 0.2;  // share of the distance that is closed in a step,
+constexpr double kSlowly = 0.5;   // at most [m/s]
 constexpr int kBall = 3;          // first row of the ball's stops
 
 }  // namespace
@@ -32,8 +32,8 @@ void HitchRows::set(bool closed) {
     if (apart > kHitchReach)
       throw InputError(Fault{Fault::Severity::kError, "", 0, "hitch '" + hitch_.name + "'",
                              std::to_string(apart) + " m",
-                             "the eye is farther from the hook than the 0.1 m that it takes",
-                             "drive the hook there first"});
+                             "the hitch closes when the eye is within 0.1 m of the hook",
+                             "drive the hook to the eye first"});
   }
   closed_ = closed;
   if (!closed_) force_.setZero();
@@ -47,6 +47,7 @@ void HitchRows::aim(int row, const Vec3& J_W, const Vec3& L_W, const Vec3& on_pa
   child_.virtual_work(hitch_.child_link, -J_W, -L_W, on_child, jacobianB(row));
 }
 
+// Three rows hold the eye in the hook, further rows are the ball's stops.
 void HitchRows::createConstraintRows(btMultiBodyConstraintArray& rows,
                                      btMultiBodyJacobianData& data,
                                      const btContactSolverInfo& info) {
@@ -65,7 +66,7 @@ void HitchRows::createConstraintRows(btMultiBodyConstraintArray& rows,
   for (int s = 0; s < 3; ++s) {
     const auto& stop = stops[static_cast<std::size_t>(s)];
     if (!stop) continue;
-    // The stop opens as the child turns about its axis, so the parent about the other way.
+    // The stop opens as the child turns about its axis, so the parent turns the other way.
     const Vec3 axis = parent.X_WL.linear() * stop->axis;
     aim(kBall + s, Vec3::Zero(), -axis, at, from);
     add_stop(kBall + s, stop->gap, axis.dot(child.w_WL - parent.w_WL), rows, data, info);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hitch between two machines: hook and eye, which can be let go and taken up again.
+// Hitch between two machines: hook and eye, which open and close.
 #pragma once
 
 #include "core/archive.h"
@@ -10,32 +10,36 @@
 
 namespace navvy::vehicle {
 
-/// While it is closed, the eye on the child stays in the hook on the parent at any cost, and the
-/// ball keeps to its cone and twist. What parts them (a start, a hook that takes an eye) is closed
-/// slowly.
+/// Keeps the eye on the child in the hook on the parent with unlimited impulse while it is closed,
+/// and limits the ball to its cone and twist. Closes an initial distance slowly.
 class HitchRows final : public MultibodyRows {
  public:
-  /// Both trees must outlive it.
+  /// Adds the rows. Both trees must outlive this object.
   HitchRows(const scene::Hitch& hitch, TreeBody& parent, TreeBody& child);
 
-  /// @throws InputError for an eye that is out of the hook's reach.
+  /// Closes or opens the hitch. @throws InputError for an eye that is out of the hook's reach.
   void set(bool closed);
+  /// Returns whether the hitch is closed.
   bool closed() const { return closed_; }
+  /// Returns the state after the last step.
   HitchState state() const;
 
-  // Called by Bullet in every step.
+  // Bullet calls this in every step.
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
-  /// After the solver: takes the force out of the impulses of a step of dt [s].
+  /// Converts the impulses of a step of dt [s] to the force. Call it after the solver.
   void end_step(double dt);
 
+  /// Visits whether it is closed, and the force.
   void visit(Archive& a);
 
  private:
+  /// Returns the position of the hook in W [m].
   Vec3 hook() const { return parent_.link(hitch_.parent_link).X_WL * hitch_.hook; }
+  /// Returns the position of the eye in W [m].
   Vec3 eye() const { return child_.link(hitch_.child_link).X_WL * hitch_.eye; }
-  /// The Jacobians of a row: parent minus child, moved along `J_W` and turned about `L_W` at their
-  /// points.
+  /// Sets the Jacobians of a row: parent minus child, translated along `J_W` and rotated about
+  /// `L_W` at their points.
   void aim(int row, const Vec3& J_W, const Vec3& L_W, const Vec3& on_parent, const Vec3& on_child);
 
   scene::Hitch hitch_;

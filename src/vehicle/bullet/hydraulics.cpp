@@ -10,18 +10,19 @@ namespace navvy::vehicle {
 
 Hydraulics::Hydraulics(const scene::Machine& machine)
     : machine_(machine), of_joint_(machine.joints.size(), -1) {
-  // Cylinders in the order of the machine; a joint knows the one that acts on it.
+  // Cylinders in the order of the machine; a joint stores the index of its cylinder.
   for (const scene::Cylinder& cylinder : machine.cylinders) {
     cylinders_.push_back({CylinderMap(machine, cylinder), {}, {}});
     int& slot = of_joint_[static_cast<std::size_t>(cylinders_.back().map.joint())];
     if (slot >= 0)
-      refuse("cylinder[" + cylinder.name + "]", cylinder.joint, "one cylinder a joint: use count");
+      refuse("cylinder[" + cylinder.name + "]", cylinder.joint,
+             "only one cylinder per joint; for several side by side set count");
     slot = count() - 1;
   }
 }
 
 void Hydraulics::place(int cylinder, double q) {
-  // Length, lever and what follows from them, at once: nobody works a linkage out a second time.
+  // Compute length, lever and limits together: each linkage is evaluated once.
   Cylinder& c = cylinders_[static_cast<std::size_t>(cylinder)];
   c.geometry = c.map.geometry(q);
   c.limits = c.map.limits(c.geometry);
@@ -34,10 +35,11 @@ double Hydraulics::oil(int cylinder, double velocity) const {
   return std::abs(piston) * (piston > 0 ? head_area(about) : rod_area(about));
 }
 
+// Flow follows from the velocity that the valve allows.
 OilDemand Hydraulics::demand(int cylinder, double opened, double effort, bool flows) const {
   OilDemand demand{oil(cylinder, opened), 0};
-  // The load's pressure is that share of the relief pressure which its effort is of the largest
-  // one, the way it goes; a load that helps has none.
+  // The load's pressure is the relief pressure times the effort over the largest effort in that
+  // direction. A load that assists has no pressure.
   const CylinderLimits& limits = at(cylinder).limits;
   const double most = opened > 0 ? limits.torque_positive : -limits.torque_negative;
   if (flows && effort * most > 0)

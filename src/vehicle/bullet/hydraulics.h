@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cylinders and pump of one machine: what force and speed they allow at its present pose, and who
-// gets how much oil. Knows no engine.
+// Cylinders and pump of one machine: the force and speed they allow at its present pose, and the
+// distribution of oil. Independent of any engine.
 #pragma once
 
 #include <vector>
@@ -10,40 +10,45 @@
 
 namespace navvy::vehicle {
 
-/// The cylinders of a machine, each linkage worked out once a step: at the end of it, where place()
-/// is called, for the outputs and for the step that follows. Everything else reads that.
+/// Cylinders of a machine. Each linkage is evaluated once per step, by place() at the step's end,
+/// for the outputs and for the next step.
 class Hydraulics {
  public:
-  /// @throws InputError as CylinderMap does, and for two cylinders on one joint (they are one with
-  /// a count).
+  /// Resolves the cylinders.
+  /// @throws InputError as CylinderMap does, and for two cylinders on one joint (use one with a
+  /// count).
   explicit Hydraulics(const scene::Machine& machine);
 
-  /// Index of the cylinders that act on a joint, -1: none.
+  /// Returns the index of the cylinders on a joint, -1: none.
   int of_joint(int joint) const { return of_joint_[static_cast<std::size_t>(joint)]; }
-  /// The joint that a cylinder moves.
+  /// Returns the joint that a cylinder moves.
   int joint(int cylinder) const { return at(cylinder).map.joint(); }
+  /// Returns the number of cylinder entries of the machine.
   int count() const { return static_cast<int>(cylinders_.size()); }
 
-  /// Tells the joint position [rad|m] at which a cylinder stands from now on.
+  /// Sets the joint position [rad|m] of a cylinder.
   void place(int cylinder, double q);
+  /// Returns length, lever and pins at the present position.
   const CylinderGeometry& geometry(int cylinder) const { return at(cylinder).geometry; }
-  /// Of effort and speed of the joint, at that place.
+  /// Returns the limits of the joint's effort and speed at that position.
   const CylinderLimits& limits(int cylinder) const { return at(cylinder).limits; }
 
-  /// False: every cylinder has its own flow, nothing is shared.
+  /// Returns whether cylinders share a pump. Without one every cylinder has its own flow.
   bool has_pump() const { return machine_.has_pump; }
-  /// Oil [m3/s] that the cylinders take while the joint moves at `velocity` [rad/s|m/s].
+  /// Returns the oil [m3/s] that the cylinders take while the joint moves at `velocity`
+  /// [rad/s|m/s].
   double oil(int cylinder, double velocity) const;
-  /// What a function asks of the pump: its valve would let the joint reach `opened`, its effort in
-  /// the last step was `effort`; one whose valve is hardly open (`flows` false) sets no pressure.
+  /// Returns the demand of a function: with its valve the joint would reach `opened`, its effort in
+  /// the last step was `effort`. A function whose valve is nearly closed (`flows` false) sets no
+  /// pressure.
   OilDemand demand(int cylinder, double opened, double effort, bool flows) const;
 
-  /// Its memory is the machine's state; asked only when there is one.
+  /// Returns the pump, whose state is the machine's. Call it only for a machine with a pump.
   HydraulicPump& pump() { return pump_; }
   const HydraulicPump& pump() const { return pump_; }
 
  private:
-  // Map of the linkage (constant), and what it gives at the present place.
+  // Constant map of the linkage, and its values at the present position.
   struct Cylinder {
     CylinderMap map;
     CylinderGeometry geometry;

@@ -10,7 +10,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr double kBrakeGain = 10;  // [1/s] back to the place at which a brake took the joint
+constexpr double kBrakeGain = 10;  // [1/s] back to the position at which the brake was set
 // [rad/s|m/s] a braked joint that is faster slips through its brake
 constexpr double kSlips = 0.02;
 
@@ -21,6 +21,7 @@ bool moves(const scene::Joint& joint) {
 
 }  // namespace
 
+// Adds one row per joint with a servo, and the stops of ball joints.
 MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
     : machine_(machine),
       tree_(tree),
@@ -30,7 +31,7 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
       drive_rate_(std::numeric_limits<double>::infinity()) {
   for (std::size_t j = 0; j < machine.joints.size(); ++j) {
     const scene::Joint& joint = machine.joints[j];
-    // Whatever nobody commands stays where it is.
+    // A joint without a command stays where it is.
     actuators_[j].servo.set({JointMode::kPosition, joint.initial});
     actuators_[j].has_brake = joint.brake > 0 && moves(joint);
     // Fixed and ball joints have no servo, nor has a joint of the base to the world.
@@ -52,8 +53,7 @@ MachineJoints::MachineJoints(const scene::Machine& machine, TreeBody& tree)
   placed();
 }
 
-// Positions only change at the end of a step and by a snapshot, so this is all that linkages ever
-// cost.
+// Positions change only at the end of a step and by a snapshot, so linkages cost nothing else.
 void MachineJoints::placed() {
   for (int c = 0; c < hydraulics_.count(); ++c)
     hydraulics_.place(c, tree_.position(hydraulics_.joint(c)));
@@ -64,14 +64,14 @@ void MachineJoints::set_brake(int joint, bool on) {
   if (!a.has_brake || a.braked == on) return;
   a.braked = on;
   a.held = tree_.position(joint);
-  // Let go, it holds where it is until its valve opens.
+  // Once released, it holds its position until its valve opens.
   a.servo.rest();
 }
 
 JointServo::Demand MachineJoints::hold(int joint, double dt) {
   Actuator& a = (*this)[joint];
   const double q = tree_.position(joint);
-  // While it still turns, or is dragged on, the place goes along.
+  // While it still turns, or is dragged, the held position follows.
   if (std::abs(tree_.velocity(joint)) > kSlips) a.held = q;
   const double most = machine_.joints[static_cast<std::size_t>(joint)].brake;
   return {std::min(kBrakeGain, 0.2 / dt) * (a.held - q), -most, most, 0};
@@ -86,11 +86,10 @@ JointLimits MachineJoints::limits(int joint) const {
   const scene::Joint& about = machine_.joints[static_cast<std::size_t>(joint)];
   const Actuator& a = (*this)[joint];
   JointLimits limits;
-  // The joint's own limits hold in any case: of its bearing, or of a motor that the model has no
-  // more of.
+  // The joint's own limits always apply: those of its bearing, or of a motor that is not modelled.
   limits.effort_positive = limits.effort_negative = about.effort;
   limits.speed_positive = limits.speed_negative = about.velocity;
-  // A cylinder allows less, and not the same both ways: the rod takes its share of the bore.
+  // A cylinder allows less, and not the same both ways: the rod reduces the area.
   if (const int cylinder = hydraulics_.of_joint(joint); cylinder >= 0) {
     const CylinderLimits& hydraulic = hydraulics_.limits(cylinder);
     limits.effort_positive = std::min(about.effort, hydraulic.torque_positive);
@@ -98,18 +97,18 @@ JointLimits MachineJoints::limits(int joint) const {
     limits.speed_positive = std::min(about.velocity, hydraulic.speed_positive);
     limits.speed_negative = std::min(about.velocity, hydraulic.speed_negative);
   }
-  // Steering: as fast as the drive says, not as fast as the joint could.
+  // Steering moves at the drive's rate, not at the joint's.
   if (a.driven && a.servo.input().mode == JointMode::kPosition) {
     limits.speed_positive = std::min(limits.speed_positive, drive_rate_);
     limits.speed_negative = std::min(limits.speed_negative, drive_rate_);
   }
-  // At the present pose; what the servo needs to brake in time.
+  // At the present pose; the servo needs it to brake in time.
   limits.inertia = tree_.outward_inertia(joint);
   return limits;
 }
 
 double MachineJoints::share_oil(double dt) {
-  // Without a pump every cylinder has its own flow, which limits() already holds.
+  // Without a pump every cylinder has its own flow, which limits() includes.
   if (!hydraulics_.has_pump()) return 1;
   demands_.clear();
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
@@ -121,9 +120,9 @@ double MachineJoints::share_oil(double dt) {
   return hydraulics_.pump().share(machine_.pump, demands_, dt);
 }
 
+// Two passes, since the share of oil depends on all valves.
 void MachineJoints::begin_step(double dt) {
-  // All valves open first, so that the pump knows what is asked of it; then every function gets its
-  // share.
+  // Open all valves first to find the pump's demand; then every function gets its share.
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
     Actuator& a = actuators_[j];
     if (!constraints_[j] || is_drives(a)) continue;
@@ -140,7 +139,7 @@ void MachineJoints::begin_step(double dt) {
     const int joint = static_cast<int>(j);
     const scene::Joint& about = machine_.joints[j];
     Actuator& a = actuators_[j];
-    // The demand is a velocity within bounds of effort: one row of the solver, which finds the
+    // The demand is a velocity within limits of effort: one row of the solver, which finds the
     // effort.
     const double qd = tree_.velocity(joint);
     if (!is_drives(a)) {
@@ -151,7 +150,7 @@ void MachineJoints::begin_step(double dt) {
       constraints_[j]->command(a.demand.velocity, a.demand.effort_low * dt,
                                a.demand.effort_high * dt);
     }
-    // Viscous friction, no stronger than what stops the joint within the step.
+    // Viscous friction, at most what stops the joint within the step.
     const double damping =
         about.damping > 0 ? std::min(about.damping, 0.5 * tree_.outward_inertia(joint) / dt) : 0;
     tree_.multibody().addJointTorque(tree_.bullet_of_joint(joint),
@@ -159,9 +158,10 @@ void MachineJoints::begin_step(double dt) {
   }
 }
 
+// Reads efforts, and adds up the work and the oil taken.
 void MachineJoints::end_step(double dt) {
   placed();
-  // The effort is what the solver's row gave, over the step, and what was applied as it is.
+  // The effort is the row's impulse over the step, plus the part applied directly.
   double oil = 0;
   for (std::size_t j = 0; j < actuators_.size(); ++j) {
     if (!constraints_[j]) continue;
@@ -169,22 +169,23 @@ void MachineJoints::end_step(double dt) {
     const int joint = static_cast<int>(j);
     const double q = tree_.position(joint), qd = tree_.velocity(joint);
     a.effort = constraints_[j]->motor_impulse() / dt + a.demand.feed_forward;
-    // What a load gives back no pump recovers
+    // The pump recovers no energy from a load
     work_ += std::max(0.0, a.effort * 0.5 * (a.speed_before + qd) * dt);
-    // The servo hears the row alone: a feed-forward never saturates it.
+    // The servo sees the row alone: a feed-forward never saturates it.
     if (!a.braked)
       a.servo.settle(a.demand, a.limits, constraints_[j]->motor_impulse() / dt, q, qd, dt);
-    // What a load pushes back goes to the tank.
+    // Oil displaced by a load flows to the tank.
     const double driven =
         a.servo.input().mode == JointMode::kEffort ? a.demand.feed_forward : a.opened;
     const int cylinder = hydraulics_.of_joint(joint);
     if (hydraulics_.has_pump() && cylinder >= 0 && driven * qd > 0)
       oil += hydraulics_.oil(cylinder, qd);
   }
-  // What the valves let through may be less than what they asked for: told after the step.
+  // Valves may pass less than they asked for: record the flow after the step.
   hydraulics_.pump().settle(oil);
 }
 
+// Combines the tree's motion with the servo's result.
 JointState MachineJoints::state(int joint) const {
   const Actuator& a = (*this)[joint];
   const scene::Joint& about = machine_.joints[static_cast<std::size_t>(joint)];
@@ -197,14 +198,14 @@ JointState MachineJoints::state(int joint) const {
   if (const int cylinder = hydraulics_.of_joint(joint); cylinder >= 0) {
     const CylinderGeometry& geometry = hydraulics_.geometry(cylinder);
     const CylinderLimits& limits = hydraulics_.limits(cylinder);
-    // The limit the way it pushes and moves now.
+    // The limit in the direction of effort and motion.
     const bool up = state.effort >= 0;
     state.effort_limit =
         std::min(about.effort, up ? limits.torque_positive : limits.torque_negative);
     state.velocity_limit = std::min(
         about.velocity, state.velocity >= 0 ? limits.speed_positive : limits.speed_negative);
     state.cylinder_length = geometry.length;
-    // What a brake bears the cylinder does not.
+    // The cylinder does not carry what a brake carries.
     state.cylinder_force =
         !a.braked && std::abs(geometry.lever) > 1e-6 ? state.effort / geometry.lever : 0;
   }
@@ -218,12 +219,12 @@ void Actuator::visit(Archive& a) {
   a("driven", driven);
   a("effort", effort);
   if (has_brake) {
-    a.unhashed("hashed by the place it holds, while it is on", [&] { a("braked", braked); });
+    a.unhashed("hashed by the held position while it is set", [&] { a("braked", braked); });
     if (braked) a("held", held);
-    a.require(std::isfinite(held), "held", "a brake holds its joint at no place");
+    a.require(std::isfinite(held), "held", "the position that a brake holds must be finite");
   }
-  // The drive turns a wheel without its servo, which then goes by what it last had. Others get
-  // theirs in every step.
+  // The drive turns a wheel without its servo, whose limits then stay those of its last use. Other
+  // joints set theirs in every step.
   if (!spins_wheel) return;
   a("limits", limits);
   a("opened", opened);

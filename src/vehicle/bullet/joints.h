@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The joints of a machine in the Bullet engine: their servos, what limits them, and their rows in
-// the solver.
+// Joints of a machine in the Bullet engine: servos, limits and their rows in the solver.
 #pragma once
 
 #include <memory>
@@ -14,76 +13,86 @@
 
 namespace navvy::vehicle {
 
-/// A joint between two steps.
+/// State of a joint between two steps.
 struct Actuator {
   JointServo servo;
-  bool spins_wheel = false;  // never changes
-  bool driven = false;       // the drive commands it
-  JointLimits limits;        // of this step
+  bool spins_wheel = false;  // constant
+  // The drive commands it.
+  bool driven = false;
+  JointLimits limits;  // of this step
   JointServo::Demand demand;
-  double opened = 0;  // velocity that the valve lets through with oil enough
+  // Velocity that the valve passes with enough oil.
+  double opened = 0;
   double effort = 0;  // in the last step
   double speed_before = 0;
-  bool has_brake = false;  // never changes
-  bool braked = false;     // by command, whatever the servo is told
-  double held = 0;         // where the brake holds it [rad|m]
+  bool has_brake = false;  // constant
+  // Set by command, whatever the servo does.
+  bool braked = false;
+  // Position at which the brake holds it [rad|m].
+  double held = 0;
 
+  /// Visits servo, effort and brake.
   void visit(Archive& a);
 };
 
-/// Turns commands into rows of the solver and its answer into efforts, work and oil.
+/// Converts commands into rows of the solver, and its impulses into efforts, work and oil.
 ///
-/// Joints by their index in scene::Machine. A wheel's joint that the drive turns gets its row and
-/// torque from there (Actuator::demand); here it only gets its damping.
+/// Joints are addressed by their index in scene::Machine. The drive sets row and torque of a
+/// wheel's joint that it turns (Actuator::demand); this class only adds its damping.
 class MachineJoints {
  public:
-  /// Every joint holds its initial position. Machine and tree must outlive it.
+  /// Creates the rows. Every joint holds its initial position. Machine and tree must outlive this
+  /// object.
   MachineJoints(const scene::Machine& machine, TreeBody& tree);
 
+  /// Returns the state of a joint. @throws std::out_of_range.
   Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
   const Actuator& operator[](int joint) const {
     return actuators_.at(static_cast<std::size_t>(joint));
   }
-  /// By joint, null where it is fixed or a ball.
+  /// Returns the servos by joint; null for fixed and ball joints.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
-  /// Of those balls that have any.
+  /// Returns the limits of ball joints that have any.
   std::vector<std::unique_ptr<BallLimits>>& balls() { return balls_; }
-  /// Of a joint that moves.
+  /// Returns the servo of a joint that moves.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
-  /// The machine's, idle where it has none.
+  /// Returns the machine's pump, idle if it has none.
   const HydraulicPump& pump() const { return hydraulics_.pump(); }
-  /// Fastest turning of joints that the drive commands by position [rad/s].
+  /// Sets the largest rate of joints that the drive commands by position [rad/s].
   void set_drive_rate(double rate) { drive_rate_ = rate; }
 
-  /// Nothing to a joint without a brake.
+  /// Sets or releases a joint's brake. Has no effect on a joint without one.
   void set_brake(int joint, bool on);
 
-  /// Velocities before anything acts: work is counted from them.
+  /// Records the velocities before anything acts, from which work is computed.
   void note_speeds();
-  /// Before the solver: valves, oil, rows and damping.
+  /// Moves valves, shares oil, sets rows and damping. Call it before the solver.
   void begin_step(double dt);
-  /// After it, positions moved: efforts, work, oil taken, and the linkages at their new place.
+  /// Reads efforts, work and oil, and evaluates the linkages at the new positions. Call it after
+  /// the solver.
   void end_step(double dt);
 
-  /// As told by the last step; limits are those at the present place.
+  /// Returns the state after the last step. Limits are those at the present position.
   JointState state(int joint) const;
-  double work() const { return work_; }  ///< mechanical, done since the start [J]
+  double work() const { return work_; }  ///< mechanical, since the start [J]
 
-  /// Visit the tree before: linkages follow its positions.
+  /// Visits servos and pump. Visit the tree before: linkages follow its positions.
   void visit(Archive& a);
 
  private:
-  /// Puts the linkages to where the joints are.
+  /// Evaluates the linkages at the joints' positions.
   void placed();
-  /// What effort and speed are to be had in this step.
+  /// Returns the effort and speed available in this step.
   JointLimits limits(int joint) const;
-  /// What the brake of a joint asks of its row in this step.
+  /// Returns the demand of a set brake for the joint's row in this step.
   JointServo::Demand hold(int joint, double dt);
-  /// Share of its oil that every function gets.
+  /// Returns the share of its oil that every function gets.
   double share_oil(double dt);
+  /// Returns whether the drive turns this joint's wheel.
   bool is_drives(const Actuator& a) const { return a.driven && a.spins_wheel; }
 
-  // By joint, but for the cylinders inside `hydraulics_` and `demands_`, one for each that acts.
+  // All vectors are by joint, except the cylinders inside `hydraulics_` and `demands_`, which has
+  // one entry per active cylinder.
   const scene::Machine& machine_;
   TreeBody& tree_;
   Hydraulics hydraulics_;

@@ -29,7 +29,7 @@ namespace {
   throw InputError(fault);
 }
 
-/// Convex hull of the vertices of an OBJ file, whether faces use them or not.
+/// Returns the convex hull of the vertices of an OBJ file, whether faces use them or not.
 std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   const scene::Geometry& g = collision.geometry;
   auto hull = std::make_unique<btConvexHullShape>();
@@ -42,7 +42,7 @@ std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   return hull;
 }
 
-/// The triangles of a mesh that never moves, from both sides. The shape reads them from `keep`.
+/// Returns the triangles of a mesh that never moves, two-sided. The shape reads them from `keep`.
 std::unique_ptr<btCollisionShape> make_triangles(
     const scene::Collision& collision,
     std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
@@ -81,15 +81,16 @@ std::unique_ptr<btCollisionShape> make_shape(
       break;
   }
   refuse(collision, "plane",
-         "no body collides as a plane: in a scene it is the rock under the ground");
+         "a link cannot collide as a plane; a plane in a scene is the rock under the ground");
 }
 
-/// Steel of a shell against bodies without a material (U): about 0.5 on a stone that has the usual
-/// 0.8.
+/// Friction of a shell's steel against bodies without a material (U): about 0.5 on a stone with the
+/// usual 0.8.
 constexpr double kSteelFriction = 0.6;
 
 }  // namespace
 
+// One convex hull per triangle.
 LinkShape make_steel(const scene::Shell& shell) {
   LinkShape out;
   out.compound = std::make_unique<btCompoundShape>();
@@ -105,6 +106,7 @@ LinkShape make_steel(const scene::Shell& shell) {
   return out;
 }
 
+// The largest friction of the parts applies to the link.
 LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands) {
   LinkShape out;
   if (link.collisions.empty()) return out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collision shapes as Bullet wants them.
+// Collision shapes for Bullet.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
@@ -13,25 +13,27 @@
 
 namespace navvy::vehicle {
 
-/// All collision shapes of a link in one compound. Empty `compound` when the link has none.
+/// All collision shapes of a link in one compound. `compound` is null for a link without any.
 struct LinkShape {
-  /// That parts read their triangles from.
+  /// Triangles that parts refer to.
   std::vector<std::unique_ptr<btStridingMeshInterface>> meshes;
   std::vector<std::unique_ptr<btCollisionShape>> parts;
   std::unique_ptr<btCompoundShape> compound;
-  double friction = 0.8;  ///< largest of the parts
+  /// Largest friction of the parts.
+  double friction = 0.8;
 };
 
-/// A shell's plates as one compound in the link's own frame: each triangle swept by a ball of half
-/// the thickness.
+/// Returns a shell's plates as one compound in the link's own frame: each triangle swept by a ball
+/// of half the thickness.
 ///
-/// Bullet has no good answer for a moving mesh of triangles against another; of convex pieces it
-/// has, and a flat core with a round skin keeps the way out of a plate known as long as nothing
-/// reaches to its middle.
+/// Bullet cannot handle a moving triangle mesh against another one well, but it can handle convex
+/// pieces. A flat core with a round skin has a unique direction out of the plate as long as nothing
+/// reaches its middle.
 LinkShape make_steel(const scene::Shell& shell);
 
-/// @param X_IL the link in Bullet's frame. @param stands it never moves: meshes are their
-/// triangles, not their hull.
+/// Returns the collision shapes of a link.
+/// @param X_IL the link in Bullet's frame
+/// @param stands the link never moves: meshes keep their triangles instead of their hull
 /// @throws InputError for a plane or a mesh without vertices, FileError.
 LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands);
 

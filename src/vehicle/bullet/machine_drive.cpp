@@ -9,7 +9,7 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kBrakeGain = 10;  // [1/s] back to the angle at which the wheel was stopped
-constexpr double kHeld = 1e9;      // [N m] beyond all that a locked differential is asked for
+constexpr double kHeld = 1e9;      // [N m] beyond all torques of a locked differential
 constexpr double kDragged = 0.02;  // [rad/s] a braked wheel that turns faster has lost its hold
 
 }  // namespace
@@ -25,12 +25,11 @@ MachineDrive::MachineDrive(const scene::Machine& machine, TreeBody& tree, Machin
       turns_(wheels.size()),
       torque_(wheels.size()),
       shaft_(wheels.size()) {
-  // From here on joints know which of them wheels spin on: those get their torque here, not from a
-  // servo.
+  // Joints now know which of them spin wheels. Those get their torque here, not from a servo.
   joints.set_drive_rate(line_->steer_rate());
   for (const MachineWheel& wheel : wheels.all()) {
     joints[wheel.spin_joint].spins_wheel = true;
-    // A trailer's wheels; a joint command may still take them as motors.
+    // A trailer's wheels; a joint command may still drive them as motors.
     if (!machine.has_drive) joints[wheel.spin_joint].servo.set({JointMode::kFree, 0});
   }
   if (machine.has_drive) {
@@ -57,11 +56,12 @@ void MachineDrive::add_row(const std::vector<double>& weight) {
   rows_.push_back(std::make_unique<DifferentialRow>(&tree_.multibody(), weights));
 }
 
+// Follows the links from each wheel to the chassis.
 void MachineDrive::find_axles() {
   // Revolute joints inward of a wheel that neither spin nor steer let an axle oscillate, or a
   // caster swivel.
   for (const MachineWheel& wheel : wheels_.all())
-    // From the wheel's carrier inward, joint by joint, until the chassis.
+    // From the wheel's carrier inward, joint by joint, to the chassis.
     for (int link = wheel.carrier_link; link > 0;) {
       int up = -1;
       for (std::size_t j = 0; j < machine_.joints.size(); ++j)
@@ -85,6 +85,7 @@ void MachineDrive::set(const DriveInput& input) {
   for (const int joint : axles_) joints_[joint].driven = true;
 }
 
+// Steering and axle locks are joint commands; wheels get torques.
 void MachineDrive::begin_step(double dt) {
   if (!machine_.has_drive) return;
   steer();
@@ -95,17 +96,17 @@ void MachineDrive::begin_step(double dt) {
                  tree_.velocity(wheel.spin_joint), about_[w].radius - wheel.force.deflection,
                  wheel.spin_inertia, machine_.wheels[w].track.has_value()};
   }
-  // Present speeds go in, torques come out; the governors' memory moves on by one step.
+  // Compute torques from present speeds; the governors advance by one step.
   const HydraulicPump& pump = joints_.pump();
   line_->torques(input_, turns_, tree_.total_mass(), dt, torque_, pump.flow() * pump.pressure());
   couple(dt);
-  // Every wheel has a brake, driven or not; each holds its part.
+  // Every wheel has a brake, driven or not, and each holds its part.
   const double brake_force = scene::powertrain(machine_.drive).brake_force;
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     MachineWheel& wheel = wheels_[w];
     Actuator& a = joints_[wheel.spin_joint];
     if (!a.driven) continue;
-    // No servo acts on a wheel of the drive: free with a torque, or held by the brake's row.
+    // No servo acts on a wheel of the drive: it is free with a torque, or held by the brake's row.
     a.demand = {};
     if (input_.brake) {
       brake(wheel, brake_force * about_[w].radius / static_cast<double>(wheels_.size()), dt);
@@ -118,25 +119,26 @@ void MachineDrive::begin_step(double dt) {
   }
 }
 
+// Limited slip depends on the torque through the differential.
 void MachineDrive::couple(double dt) {
   for (std::size_t d = 0; d < coupled_.size(); ++d) {
     const scene::Differential& about = coupled_[d].about;
     double through = 0;
-    bool whole = !input_.brake;  // wheels are held each by its brake
+    bool whole = !input_.brake;  // each wheel has its own brake
     for (std::size_t w = 0; w < wheels_.size(); ++w) {
       if (coupled_[d].weight[w] == 0) continue;
-      // What a source of speed gives is known after the step alone.
+      // The torque of a speed source is known only after the step.
       through += std::abs(carrier_.empty() ? torque_[w] : shaft_[w]);
       whole = whole && turns_[w].on_line;
     }
-    // One side gets what the other loses, so they differ by twice the row's torque.
+    // One side gains what the other loses, so they differ by twice the row's torque.
     const double torque = about.kind == scene::Differential::Kind::kLocked
                               ? kHeld
                               : 0.5 * (about.preload + about.bias * through);
     rows_[d]->limit(whole ? torque * dt : 0);
   }
   if (carrier_.empty()) return;
-  // A wheel that an input has taken leaves the others without a differential between them.
+  // A wheel taken over by an input leaves the others without a differential.
   bool whole = line_->held().has_value();
   double loaded = 0, unloaded = 0;
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
@@ -144,13 +146,15 @@ void MachineDrive::couple(double dt) {
     loaded += carrier_[w] * turns_[w].radius;
     unloaded += carrier_[w] * about_[w].radius;
   }
-  // The motor turns as it is told whatever the tyres give way: a speed counts at the unloaded rims.
+  // The motor turns at its speed, however much the tyres deflect: the speed refers to the unloaded
+  // rims.
   if (whole)
     rows_.back()->limit(line_->held()->torque * dt, line_->held()->speed * loaded / unloaded);
   else
     rows_.back()->limit(0);
 }
 
+// Splits the rows' impulses into shaft torques.
 void MachineDrive::end_step(double dt) {
   if (!machine_.has_drive) return;
   shaft_ = torque_;
@@ -166,13 +170,13 @@ void MachineDrive::end_step(double dt) {
   for (std::size_t w = 0; w < shaft_.size(); ++w) {
     if (carrier_[w] == 0 || !turns_[w].on_line) continue;
     shaft_[w] += carrier_[w] * torque;
-    // As if it had been known before: the joint's effort and work are counted from it.
+    // As if it had been known before: the joint's effort and work are computed from it.
     joints_[wheels_[w].spin_joint].demand.feed_forward += carrier_[w] * torque;
   }
 }
 
 void MachineDrive::steer() {
-  // A position for the steering joint's servo, which gets there at the drive's rate.
+  // Set the position of the steering joint's servo, which moves at the drive's rate.
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     const int joint = wheels_[w].steer_joint;
     if (joint < 0 || !joints_[joint].driven) continue;
@@ -182,8 +186,7 @@ void MachineDrive::steer() {
 }
 
 void MachineDrive::lock_axles() {
-  // As the service brake of a wheeled excavator does: the axle is locked for work and free for
-  // travel.
+  // As the service brake of a wheeled excavator: the axle is locked for work and free for travel.
   for (const int joint : axles_)
     if (joints_[joint].driven)
       joints_[joint].servo.set({input_.brake ? JointMode::kVelocity : JointMode::kFree, 0});
@@ -191,28 +194,28 @@ void MachineDrive::lock_axles() {
 
 void MachineDrive::brake(MachineWheel& wheel, double torque, double dt) {
   const double q = tree_.position(wheel.spin_joint), qd = tree_.velocity(wheel.spin_joint);
-  // The wheel is held where it came to rest; while it is dragged or still turns, that place goes
-  // along.
+  // Hold the wheel where it came to rest. While it is dragged or still turns, that angle follows.
   const bool dragged = std::abs(qd) > kDragged;
   if (!wheel.braked || dragged) wheel.held_spin = q;
   wheel.braked = true;
-  // Back to it gently, with the brake's torque at most: on a slope the machine neither creeps nor
+  // Return gently, with at most the brake's torque: on a slope the machine neither creeps nor
   // trembles.
   const double back = std::min(kBrakeGain, 0.2 / dt) * (wheel.held_spin - q);
   joints_.servo(wheel.spin_joint).command(back, -torque * dt, torque * dt);
 }
 
+// Shaft torques are outputs, except that limited slip reads them with a speed source.
 void MachineDrive::visit(Archive& a) {
   a("line", *line_);
   a("input", input_);
   if (const scene::CombustionEngine* engine = scene::drive_engine(machine_.drive))
     a.ranged("gear", input_.gear, 0, static_cast<int>(engine->gears.size()));
-  // With a source of speed limited slip goes by it; otherwise it is only told, and without rows it
-  // is the joints' effort.
+  // With a speed source, limited slip depends on this torque. Otherwise it is only reported, and
+  // without rows it is the joints' effort.
   if (!carrier_.empty()) {
     a.fixed("shaft", shaft_);
   } else if (!rows_.empty()) {
-    a.unhashed("told only", [&] { a.fixed("shaft", shaft_); });
+    a.unhashed("output only", [&] { a.fixed("shaft", shaft_); });
   } else if (a.loading()) {
     for (std::size_t w = 0; w < shaft_.size(); ++w)
       shaft_[w] = about_[w].driven && joints_[wheels_[w].spin_joint].driven && !wheels_[w].braked

@@ -7,13 +7,14 @@
 
 namespace navvy::vehicle {
 
+// Builds a machine of one fixed link for each link with shapes.
 Mover::Mover(const scene::Machine& machine) {
   for (std::size_t l = 0; l < machine.links.size(); ++l) {
     scene::Machine body;
     body.name = machine.name;
     body.fixed_base = true;
     body.links = {machine.links[l]};
-    // What stands for ever needs neither, but its tree asks for both.
+    // A fixed body needs neither, but its tree requires both.
     body.links[0].mass = 1;
     body.links[0].p_LCom = Vec3::Zero();
     body.links[0].inertia = Mat3::Identity();

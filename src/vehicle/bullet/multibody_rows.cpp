@@ -6,7 +6,7 @@
 namespace navvy::vehicle {
 namespace {
 
-constexpr int kConstraintType = 100;  // beyond Bullet's own, which nobody asks for
+constexpr int kConstraintType = 100;  // beyond Bullet's own types
 
 }  // namespace
 
@@ -22,29 +22,30 @@ void MultibodyRows::finalizeMultiDof() {
   m_numDofsFinalized = m_jacSizeBoth;
 }
 
+// Fills Bullet's record of a row and lets Bullet compute its effective mass.
 void MultibodyRows::add_row(int row, double velocity, double low, double high,
                             btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) {
   btMultiBodySolverConstraint& c = rows.expandNonInitializing();
-  // By these the solver writes the row's impulse back to us.
+  // The solver writes the row's impulse back through these.
   c.m_orgConstraint = this;
   c.m_orgDofIndex = row;
   c.m_multiBodyA = m_bodyA;
-  // Where the other side is the world, the second half would be all zeros.
+  // If the other side is the world, the second half would be all zeros.
   c.m_multiBodyB = m_bodyB;
   c.m_solverBodyIdB = m_bodyB == nullptr ? data.m_fixedBodyId : -1;
   c.m_linkA = m_linkA;
   c.m_linkB = m_linkB;
-  // Fields of rigid bodies, which this row has none of.
+  // Fields of rigid bodies, which this row does not use.
   const btVector3 zero(0, 0, 0);
   c.m_contactNormal1 = c.m_contactNormal2 = zero;
   c.m_relpos1CrossNormal = c.m_relpos2CrossNormal = zero;
   c.m_angularComponentA = c.m_angularComponentB = zero;
-  // The Jacobian is given, so normals are zero; no error term: `velocity` already holds what a gap
-  // allows.
+  // The Jacobian is given, so normals are zero. There is no error term: `velocity` already includes
+  // the gap.
   fillMultiBodyConstraint(c, data, jacobianA(row), m_bodyB == nullptr ? nullptr : jacobianB(row),
                           zero, zero, zero, zero, 0, info, low, high, true, 1, false, velocity);
-  c.m_solverBodyIdB = -1;  // nothing to push there
+  c.m_solverBodyIdB = -1;  // no rigid body there
 }
 
 void MultibodyRows::add_stop(int row, double gap, double rate, btMultiBodyConstraintArray& rows,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How this engine says no to a machine it cannot build.
+// Errors for machines that this engine cannot build.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace navvy::vehicle {
 
-/// @throws InputError always: the element of the machine ("wheel", "link[name]"), the offending
-/// value (may be empty) and the rule it breaks.
+/// Throws InputError with the element of the machine ("wheel", "link[name]"), the offending value
+/// (may be empty) and the rule it breaks.
+/// @throws InputError always.
 [[noreturn]] inline void refuse(const std::string& element, const std::string& value,
                                 const std::string& rule) {
   Fault fault;

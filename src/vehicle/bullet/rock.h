@@ -11,32 +11,33 @@
 
 namespace navvy::vehicle {
 
-/// Keeps the corners of one shell out of the rock; they slide on it with the friction of steel on
+/// Keeps the corners of one shell out of the rock. They slide on it with the friction of steel on
 /// rock.
 ///
-/// Solved together with joints, tyres and contacts, so that a cylinder that presses on rock stalls
-/// and the machine lifts. Each corner's friction is bounded by its normal impulse of the step
-/// before: none in the first step of a touch, and after a blow too much for one.
+/// The rows are solved together with joints, tyres and contacts, so that a cylinder that presses on
+/// rock stalls and the machine lifts. Each corner's friction is limited by its normal impulse of
+/// the last step: zero in the first step of a contact, and too large for one step after an impact.
 class RockContact final : public MultibodyRows {
  public:
+  /// Adds the rows of a shell.
   /// @param corners in the link's frame [m]
   RockContact(TreeBody& tree, int link, std::vector<Vec3> corners);
 
-  /// Of the rock's surface in W [m].
+  /// Sets the height of the rock's surface in W [m].
   void set_height(double z) { height_ = z; }
   /// Reads the solver's impulses, before positions change.
   void settle();
-  /// On the shell in the last step [N s].
+  /// Returns the impulse on the shell in the last step [N s].
   const Vec3& impulse() const { return impulse_; }
 
-  /// The corners' normal impulses and the sum: state, as the next step's friction reads them.
+  /// Visits the corners' normal impulses, which the next step's friction reads, and their sum.
   void visit(Archive& a);
 
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
 
  private:
-  /// Row of the velocity of the point p_W of the link along a direction.
+  /// Sets a row to the velocity of the link's point p_W along a direction.
   void aim(int row, const Vec3& p_W, const Vec3& along);
 
   TreeBody& tree_;
@@ -44,7 +45,7 @@ class RockContact final : public MultibodyRows {
   std::vector<Vec3> corners_;
   double height_ = -1e6;
   std::vector<double> normal_;  // impulse of each corner in the last step [N s]
-  std::vector<Vec3> along_;     // directions of the present rows, three a corner
+  std::vector<Vec3> along_;     // directions of the present rows, three per corner
   Vec3 impulse_ = Vec3::Zero();
 };
 

@@ -11,16 +11,17 @@ ServoConstraint::ServoConstraint(btMultiBody* body, int link, bool has_limits, d
 void ServoConstraint::finalizeMultiDof() {
   MultibodyRows::finalizeMultiDof();
   const int offset = 6 + m_bodyA->getLink(m_linkA).m_dofOffset;
-  // Rows: the motor, the lower limit, the upper limit (its impulse pushes back).
+  // Rows: the motor, the lower stop, the upper stop (its impulse pushes back).
   jacobianA(0)[offset] = 1;
   jacobianA(1)[offset] = 1;
   jacobianA(2)[offset] = -1;
 }
 
+// The motor's row, then the stops that could be reached in this step.
 void ServoConstraint::createConstraintRows(btMultiBodyConstraintArray& rows,
                                            btMultiBodyJacobianData& data,
                                            const btContactSolverInfo& info) {
-  // A row that is not made in this step has no impulse to read afterwards.
+  // A row that is not added in this step has no impulse to read afterwards.
   for (int row = 0; row < 3; ++row) internalSetAppliedImpulse(row, 0);
   if (low_ < high_) add_row(0, velocity_, low_, high_, rows, data, info);
   if (!has_limits_) return;

@@ -10,16 +10,15 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kStill = 1e-3, kStillTurn = 2e-3, kStillFor = 0.5;  // [m], [rad], [s]
-// [s] in which what begins to fall comes far further than kStill
-constexpr double kStartled = 0.2;
+constexpr double kStartled = 0.2;   // [s] in which a falling body moves far more than kStill
 constexpr double kMostCells = 256;  // along a side
 
-/// Of the heights of every `of`-th node, from number `part` on, among those that carry a triangle
-/// under the box.
+/// Hashes the heights of every `of`-th node, starting at number `part`, among those that carry a
+/// triangle under the box.
 std::uint64_t hash_under(const terramechanics::GroundQuery& ground, const btVector3& low,
                          const btVector3& high, std::uint32_t part, std::uint32_t of) {
   const terramechanics::GroundLattice lattice = ground.lattice();
-  // Nodes are left out under a body of a hundred metres, as where it meets them.
+  // Nodes are skipped under a body of a hundred metres, as in its contacts.
   const double span = std::max(high.x() - low.x(), high.y() - low.y()) / lattice.spacing;
   const double step = lattice.spacing * std::max(1.0, std::ceil(span / kMostCells));
   const auto node = [&](double at, double first) { return std::floor((at - first) / step); };

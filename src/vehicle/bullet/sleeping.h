@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a loose body lies still: it then sleeps, and a step costs nothing for it.
+// Sleeping of loose bodies that are at rest: a step costs nothing for them.
 #pragma once
 
 #include <LinearMath/btVector3.h>
@@ -13,45 +13,47 @@
 
 namespace navvy::vehicle {
 
-/// Rest of one body: a machine of a single link that nothing holds.
+/// Sleep state of one body: a machine of a single link that nothing holds.
 ///
-/// It falls asleep when it has not come further than 1 mm (and 2 mrad) in half a second, and stays
-/// where it is, with no speed. (Its speed would not tell: contacts are found anew in every step, in
-/// which a body at rest trembles.) It wakes when something pushes it, when something that moves
-/// comes as near as its box, and when the ground under it has changed: it feels another 32nd of its
-/// nodes in every step. All of it is state: a loaded body sleeps on as the saved one.
+/// It falls asleep when it has moved less than 1 mm (and 2 mrad) in half a second, and keeps its
+/// pose at zero velocity. (Velocity is no criterion: contacts are detected anew in every step, and
+/// a body at rest trembles.) It wakes when something pushes it, when a moving box overlaps its box,
+/// and when the ground under it has changed: each step compares another 32nd of its nodes. All of
+/// this is state: a loaded body sleeps on as the saved one.
 class Rest {
  public:
+  /// Returns whether the body sleeps.
   bool asleep() const { return asleep_; }
-  /// Something pushes it.
+  /// Wakes the body because something pushes it.
   void disturb() { asleep_ = false, still_ = 0; }
-  /// For how long it has lain still, no longer than it takes to fall asleep [s].
+  /// Returns how long the body has been at rest, at most the time it takes to fall asleep [s].
   double still() const;
-  /// Something has come near that has been still for so long [s] (0 where it does not tire): it
-  /// wakes and lies down again when that does, but not sooner than it would begin to fall if that
-  /// went away.
+  /// Wakes the body because another one has come near that has been at rest for `still` [s] (0 for
+  /// one that never sleeps). It falls asleep again together with the other, but not before it would
+  /// begin to fall if the other left.
   void wake(double still);
 
-  /// After a step in which it was awake, which has brought it here. True when it falls asleep now.
+  /// Updates the rest time after a step that brought the awake body here. Returns true when it
+  /// falls asleep now.
   bool tire(const Pose& X_WB, double dt);
-  /// Notes the ground under its box `low`, `high` [m].
+  /// Records the ground under its box `low`, `high` [m].
   void lie_down(const terramechanics::GroundQuery& ground, const btVector3& low,
                 const btVector3& high);
-  /// Before a step in which it sleeps: wakes it where the ground under its box is another than it
-  /// lay down on.
+  /// Wakes the sleeping body before a step if the ground under its box differs from the recorded
+  /// one.
   void feel(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high);
 
+  /// Visits the rest time and the recorded ground.
   void visit(Archive& a);
 
  private:
   static constexpr std::uint32_t kParts = 32;
 
   bool asleep_ = false;
-  double still_ = 0;  // for how long it has been near `near_` [s]
+  double still_ = 0;  // [s] near near_
   Pose near_ = Pose::Identity();
-  // Of the ground, which it felt last
-  std::uint32_t part_ = 0;
-  // Hashes of the heights it lay down on
+  std::uint32_t part_ = 0;  // part of the ground compared last
+  // Hashes of the heights when it fell asleep
   std::vector<std::uint64_t> ground_ = std::vector<std::uint64_t>(kParts);
 };
 

@@ -23,6 +23,7 @@ TrackBodies::Track& TrackBodies::running_track(std::size_t machine, std::size_t 
   return out;
 }
 
+// One box around the whole track excludes most bodies.
 void TrackBodies::look_round(const BulletMachine& own, const Track& running_track, const Pose& X_WC,
                              const ContactCandidates& bodies) {
   near_.clear();
@@ -39,6 +40,7 @@ void TrackBodies::look_round(const BulletMachine& own, const Track& running_trac
       near_.push_back(&body);
 }
 
+// Tests every disc on both lines.
 void TrackBodies::touch(Track& running_track, const Pose& X_WC, const scene::Wheel& about,
                         btCollisionWorld& world) {
   touches_.clear();
@@ -56,6 +58,7 @@ void TrackBodies::touch(Track& running_track, const Pose& X_WC, const scene::Whe
   }
 }
 
+// Forces act on the carrier, the torque on the sprocket.
 void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t wheel,
                        const ContactCandidates& bodies, btCollisionWorld& world, double dt) {
   MachineWheel& at = own.wheels()[wheel];
@@ -74,7 +77,7 @@ void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t whee
       terramechanics::track_body_force(about, path.stations, motion, touches_, dt, at.body_shear);
   double pressed = 0;
   for (std::size_t t = 0; t < touches_.size(); ++t) {
-    // To both, at one place: nothing is lost between them.
+    // Apply to both at one point, so that no momentum is lost.
     const Vec3& p_W = touches_[t].at.p_W;
     own.tree().add_force(at.carrier_link, force.f_W[t], Vec3::Zero(), p_W);
     near_[touches_[t].body]->push(-force.f_W[t], p_W);

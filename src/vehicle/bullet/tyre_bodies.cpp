@@ -19,7 +19,7 @@ Disc& TyreBodies::disc(std::size_t machine, std::size_t wheel, const scene::Whee
   if (discs_.size() <= machine) discs_.resize(machine + 1);
   if (discs_[machine].size() <= wheel) discs_[machine].resize(wheel + 1);
   std::optional<Disc>& out = discs_[machine][wheel];
-  // As wide as the track and as large as the tyre.
+  // As wide as the contact strip and as large as the tyre.
   if (!out) {
     const double half = std::min(about.twin_spacing > 0 ? 0.5 * about.width : 0.25 * about.width,
                                  0.45 * about.radius);
@@ -38,6 +38,7 @@ void TyreBodies::touch(const BulletMachine& own, Disc& disc, double friction,
   }
 }
 
+// Only the deepest contact of a strip grips.
 void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t track, double dt) {
   MachineWheel& at = own.wheels()[wheel];
   if (touches_.empty()) {
@@ -52,13 +53,14 @@ void TyreBodies::push_track(BulletMachine& own, std::size_t wheel, std::size_t t
     Vec2* bristle = one == deepest ? &at.body_bristle[track] : nullptr;
     const Vec3 f =
         terramechanics::tyre_body_force(own.wheels().about(wheel), motion, one->at, dt, bristle);
-    // To both, at one place: nothing is lost between them.
+    // Apply to both at one point, so that no momentum is lost.
     own.tree().add_force(at.wheel_link, f, Vec3::Zero(), one->at.p_W);
     one->body->push(-f, one->at.p_W);
     at.body_W += f;
   }
 }
 
+// Both strips of the wheel, at their offsets along the axle.
 void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t wheel,
                            btCollisionWorld& world, double dt) {
   const scene::Wheel& about = own.wheels().about(wheel);
@@ -74,6 +76,7 @@ void TyreBodies::push_tyre(BulletMachine& own, std::size_t machine, std::size_t 
   }
 }
 
+// Collects all bodies once, then visits every wheel.
 void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world,
                       double dt) {
   if (meets_nobody(machines, movers)) return;
@@ -88,6 +91,7 @@ void TyreBodies::push(Machines& machines, const std::vector<Mover>& movers, btCo
     }
 }
 
+// A machine alone has no bodies to touch, and keeps its old hash.
 void TyreBodies::visit(Archive& a, Machines& machines, const std::vector<Mover>& movers) {
   if (meets_nobody(machines, movers)) return;
   for (std::size_t m = 0; m < machines.size(); ++m)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tyres against bodies: what a wheel meets beside the ground.
+// Contacts of tyres with bodies.
 #pragma once
 
 #include <optional>
@@ -10,41 +10,45 @@
 
 namespace navvy::vehicle {
 
-/// Finds where the tyres of each machine reach into the collision shapes of the others, standing or
-/// moving, and pushes both apart by the tyre's law; belts of crawlers likewise, by theirs
+/// Finds where the tyres of each machine penetrate the collision shapes of the others, fixed or
+/// moving, and pushes both apart by the tyre's law; tracks of crawlers likewise, by theirs
 /// (TrackBodies).
 ///
-/// A track is a disc with a round tread, as wide as the tyre (or half of a single one): the
+/// A contact strip is a disc with a round tread, as wide as the tyre (or half of a single one). The
 /// distance of the disc from a shape is exact up to half the width. Costs one search for each disc
-/// and body whose boxes meet.
+/// and body whose boxes overlap.
 class TyreBodies {
  public:
   using Machines = ContactCandidates::Machines;
 
-  /// Adds the forces [N] of this step to the trees of wheels and bodies: after the ground's, before
-  /// gravity. Bodies of `movers` take none.
+  /// Adds the forces [N] of this step to the trees of wheels and bodies. Call it after the ground's
+  /// forces and before gravity. Bodies of `movers` receive none.
   void push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world,
             double dt);
 
-  /// Stretch of the tread on bodies, and the forces of the last step. A machine alone meets nobody
-  /// and has none.
+  /// Visits the bristles on bodies and the forces of the last step. A machine alone has none.
   void visit(Archive& a, Machines& machines, const std::vector<Mover>& movers);
 
  private:
+  /// Contact of one strip and the body it belongs to.
   struct Touch {
     terramechanics::BodyTouch at;
     const MetBody* body = nullptr;
   };
 
+  /// Returns the disc of a wheel's strips and builds it on first use.
   Disc& disc(std::size_t machine, std::size_t wheel, const scene::Wheel& about);
+  /// Adds the forces of bodies on one tyre.
   void push_tyre(BulletMachine& own, std::size_t machine, std::size_t wheel,
                  btCollisionWorld& world, double dt);
+  /// Finds the contacts of a disc with the bodies of other machines.
   void touch(const BulletMachine& own, Disc& disc, double friction, btCollisionWorld& world);
+  /// Adds the forces of the contacts of one contact strip.
   void push_track(BulletMachine& own, std::size_t wheel, std::size_t track, double dt);
 
-  ContactCandidates bodies_;    // of this step
-  std::vector<Touch> touches_;  // of this track
-  /// Of a wheel's tracks: by machine and wheel.
+  ContactCandidates bodies_;    // bodies of this step
+  std::vector<Touch> touches_;  // contacts of the present strip
+  /// Discs of a wheel's contact strips, by machine and wheel.
   std::vector<std::vector<std::optional<Disc>>> discs_;
   TrackBodies tracks_;
 };

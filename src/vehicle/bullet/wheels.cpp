@@ -7,11 +7,12 @@
 namespace navvy::vehicle {
 namespace {
 
-/// Axes of a wheel that does not spin with it: y the axle, x level ahead as the carrier stands.
+/// Returns the axes of a wheel that do not spin with it: y along the axle, x level and ahead in the
+/// carrier.
 Pose wheel_pose(const Pose& X_WC, const Vec3& axis_C, const Vec3& center_C) {
   const Vec3 axis = X_WC.linear() * axis_C;
   Vec3 ahead = axis.cross(X_WC.linear().col(2));
-  // An axle along the carrier's z has no ahead of its own: any will do, it only has to be a frame.
+  // An axle along the carrier's z has no forward direction: any will do.
   if (ahead.norm() < 0.1) ahead = axis.unitOrthogonal();
   ahead.normalize();
   // Right-handed: ahead, axle, and up as their product.
@@ -25,6 +26,7 @@ Pose wheel_pose(const Pose& X_WC, const Vec3& axis_C, const Vec3& center_C) {
 
 }  // namespace
 
+// Resolves joints and links of every wheel once.
 MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
     : machine_(machine), tree_(tree) {
   for (const scene::Wheel& about : machine.wheels) {
@@ -37,10 +39,10 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
     wheel.wheel_link = joint.child;
     wheel.carrier_link = joint.parent;
     const scene::Link& link = machine.links[static_cast<std::size_t>(joint.child)];
-    // Its inertia about the axle bounds what an explicit step may do to the spin.
+    // Its inertia about the axle limits an explicit step of the spin.
     const Vec3 axis_L = joint.X_LcJ.linear() * joint.axis.normalized();
     wheel.spin_inertia = axis_L.dot(link.inertia * axis_L);
-    // Axle and centre stay where they are in the carrier, however the wheel has turned.
+    // Axle and centre are fixed in the carrier, however the wheel has turned.
     const Pose X_CL = joint_pose(machine, joint, 0);
     wheel.axis_C = X_CL.linear() * axis_L;
     wheel.center_C = X_CL * Vec3(joint.X_LcJ.translation());
@@ -59,9 +61,9 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
   }
 }
 
+// The carrier's motion, with the wheel's spin kept apart.
 terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
-  // By the carrier: the wheel's own link spins, and a pose that spins says nothing of where ahead
-  // is.
+  // From the carrier: the wheel's own link spins, and its pose has no forward direction.
   const LinkState carrier = tree_.link(wheel.carrier_link);
   terramechanics::TyreMotion motion;
   motion.X_WWheel = wheel_pose(carrier.X_WL, wheel.axis_C, wheel.center_C);
@@ -73,9 +75,10 @@ terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) cons
   return motion;
 }
 
+// Tracks and tyres follow different laws.
 Vec3 MachineWheels::push(const terramechanics::GroundQuery& ground, double dt) {
-  // On the wheel's link: through the axle the force reaches the carrier, the moment about the axle
-  // only the wheel.
+  // Apply to the wheel's link: the force reaches the carrier through the axle, the moment about the
+  // axle only the wheel.
   Vec3 impulse = Vec3::Zero();
   for (std::size_t w = 0; w < wheels_.size(); ++w) {
     MachineWheel& wheel = wheels_[w];
@@ -105,13 +108,14 @@ terramechanics::TrackMotion MachineWheels::track_motion(const MachineWheel& whee
   return motion;
 }
 
+// The spin of the sprocket is the track's speed.
 void MachineWheels::push_ground_track(std::size_t w, const terramechanics::GroundQuery& ground,
                                       double dt) {
   MachineWheel& wheel = wheels_[w];
   const terramechanics::TrackForce force = terramechanics::track_force(
       machine_.wheels[w], track_motion(wheel), ground, dt, wheel.running_track);
-  // The carrier bears what acts on the lower run; what that does along the belt goes to the
-  // sprocket as a torque.
+  // The carrier takes the forces on the lower run; their part along the track goes to the sprocket
+  // as a torque.
   for (const terramechanics::TrackForce::Push& push : force.pushes)
     tree_.add_force(wheel.carrier_link, push.f_W, Vec3::Zero(), push.p_W);
   tree_.multibody().addJointTorque(tree_.bullet_of_joint(wheel.spin_joint), force.torque);
@@ -129,7 +133,7 @@ std::vector<terramechanics::TrackPatch> MachineWheels::track_patches(int i) cons
 }
 
 WheelState MachineWheels::state(int i) const {
-  // Motion is of now, force and slip are of the last step.
+  // Motion is the present one, force and slip are those of the last step.
   const MachineWheel& wheel = wheels_.at(static_cast<std::size_t>(i));
   const terramechanics::TyreMotion now = motion(wheel);
   WheelState state;
@@ -152,7 +156,7 @@ void MachineWheel::visit(Archive& a) {
   a("force", force);
   a("held_spin", held_spin);
   a("braked", braked);
-  if (!running_track.contacts.empty()) a.fixed("belt", running_track.contacts);
+  if (!running_track.contacts.empty()) a.fixed("track", running_track.contacts);
 }
 
 }  // namespace navvy::vehicle

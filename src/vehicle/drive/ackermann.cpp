@@ -8,8 +8,8 @@
 namespace navvy::vehicle {
 namespace {
 
-// Wheels may be commanded across the machine, where no bicycle follows: bounds that no drive's own
-// angles reach.
+// Wheels may be commanded across the machine, where no bicycle follows. No drive's own angles reach
+// these bounds.
 constexpr double kLeastShare = 0.05;
 constexpr double kSharpest = 20;    // tangent of a bicycle angle
 constexpr double kSameAxle = 0.01;  // [m]
@@ -17,7 +17,7 @@ constexpr double kSameAxle = 0.01;  // [m]
 }  // namespace
 
 double max_bicycle_angle(const scene::AckermannDrive& drive) {
-  // A wheel across the machine would be an infinite tangent.
+  // A wheel across the machine would have an infinite tangent.
   const double inner = std::tan(std::min(drive.max_steer, radians(89)));
   return inner > 0 ? std::atan(drive.wheelbase / (drive.wheelbase / inner + 0.5 * drive.track)) : 0;
 }
@@ -32,7 +32,7 @@ SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle) {
 
 double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left) {
   const double t = std::tan(angle), half = 0.5 * drive.track / drive.wheelbase;
-  // The left wheel is the inner one of a turn to the left.
+  // In a turn to the left the left wheel is the inner one.
   return std::clamp(t / std::max(left ? 1 + half * t : 1 - half * t, kLeastShare), -kSharpest,
                     kSharpest);
 }
@@ -48,6 +48,7 @@ Roll AckermannLine::roll(const DriveInput& input) const {
   return {speed, speed * std::tan(std::clamp(input.steer, -most, most)) / drive_.wheelbase};
 }
 
+// Speed from the driven wheels, curvature from the steered ones.
 Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
   double speed = 0, tangent = 0;
   int driven = 0, steered = 0;
@@ -57,7 +58,7 @@ Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
       ++driven;
     }
     if (!motion[w].steer) continue;
-    // Angles that do not fit each other drag a wheel, and the machine follows their mean.
+    // Inconsistent angles drag a wheel, and the machine follows their mean.
     tangent += bicycle_tangent(drive_, *motion[w].steer, wheels_[w].left);
     ++steered;
   }
@@ -66,18 +67,19 @@ Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
 }
 
 double AckermannLine::rolling_spin(const Roll& roll, const DriveWheel& wheel) const {
-  // The differential's cage: in a turn the outer wheel is faster by what the inner one is slower,
-  // which nobody asks of an engine without forces.
+  // Use the carrier's speed. In a turn the outer wheel is faster and the inner one slower by the
+  // same amount, which matters only to engines with forces.
   return roll.speed / wheel.radius;
 }
 
 std::optional<double> AckermannLine::steer_angle(const DriveInput& input,
                                                  const DriveWheel& wheel) const {
-  // Under the brake too: a standing machine turns its wheels for the next start.
+  // Also under the brake: a standing machine turns its wheels for the next start.
   const SteerAngles steer = ackermann(drive_, input.steer);
   return wheel.left ? steer.left : steer.right;
 }
 
+// One between the wheels of each driven axle, one between the first axle and the others.
 std::vector<Coupled> AckermannLine::differentials() const {
   // Driven axles from front to rear; twin wheels of a side count as one shaft.
   std::vector<double> axles;
@@ -117,7 +119,7 @@ std::vector<Coupled> AckermannLine::differentials() const {
 }
 
 double AckermannLine::group_speed(const DriveInput& input, std::size_t group) const {
-  (void)group;  // all driven wheels are one; the governor knows the largest speed
+  (void)group;  // one group of all driven wheels; the governor limits the speed
   return input.speed;
 }
 

@@ -3,7 +3,8 @@
 //
 //   R = L / tan(bicycle),   tan(inner) = L / (R - W/2),   tan(outer) = L / (R + W/2)
 //
-// R radius of the rear axle's middle [m], L wheelbase [m], W track between king pins [m].
+// R is the radius of the rear axle's middle [m], L the wheelbase [m], W the distance between king
+// pins [m].
 #pragma once
 
 #include "vehicle/drive/drive_line.h"
@@ -14,19 +15,20 @@ namespace navvy::vehicle {
 struct SteerAngles {
   double left = 0, right = 0;
 };
-/// For a bicycle angle [rad] in the middle of the front axle, which is cut so that the inner wheel
-/// keeps within `drive.max_steer`. At one angle all wheels roll about one centre.
+/// Returns the wheel angles for a bicycle angle [rad] in the middle of the front axle, clamped so
+/// that the inner wheel does not exceed `drive.max_steer`. All wheels roll about one centre.
 SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle);
-/// The other way round: tangent of the bicycle's angle by one wheel alone, the left or the right
-/// one, at `angle` [rad]; bounded where the wheel stands across the machine and no bicycle follows.
+/// Returns the tangent of the bicycle angle from one wheel alone, the left or the right one, at
+/// `angle` [rad]. Bounded for a wheel across the machine, which no bicycle follows.
 double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left);
-/// Largest bicycle angle [rad]: the one at which the inner wheel is at `drive.max_steer`.
+/// Returns the largest bicycle angle [rad], at which the inner wheel is at `drive.max_steer`.
 double max_bicycle_angle(const scene::AckermannDrive& drive);
 
-/// One governor, or an engine, turns all driven wheels together; each gets the same torque.
+/// Turns all driven wheels together by one governor or engine; each wheel gets the same torque.
 class AckermannLine : public DriveLine {
  public:
-  /// @param wheels of the machine; the driven ones are one group.
+  /// Makes the line for `drive`.
+  /// @param wheels of the machine; the driven ones form one group.
   AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels);
   Roll roll(const DriveInput& input) const override;
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
@@ -37,14 +39,14 @@ class AckermannLine : public DriveLine {
   std::vector<Coupled> differentials() const override;
 
  private:
-  /// The speed asked for: the governor itself knows the largest.
+  /// Returns the speed asked for; the governor itself limits it.
   double group_speed(const DriveInput& input, std::size_t group) const override;
 
   scene::AckermannDrive drive_;
   std::vector<DriveWheel> wheels_;
 };
 
-/// What drive_line.h asks of every kind, see there.
+/// Overloads for drive_line.h, see there.
 scene::AckermannDrive bicycle_of(const scene::AckermannDrive& drive);
 double command_of(const scene::AckermannDrive& drive, double bicycle, double speed);
 

@@ -13,10 +13,10 @@ constexpr std::size_t kLeft = 0;  // group of the line; the other is the right s
 }  // namespace
 
 SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& input) {
-  // Rim speed that the yaw rate adds on the right and takes on the left.
+  // Rim speed that the yaw rate adds on the right and subtracts on the left.
   const double turn = 0.5 * drive.track * input.steer;
   const double fastest = std::max(std::abs(input.speed - turn), std::abs(input.speed + turn));
-  // Both by one share: the ratio of yaw rate to speed, the curvature, stays.
+  // Scale both: the ratio of yaw rate to speed, the curvature, stays the same.
   const double share = fastest > drive.max_speed ? drive.max_speed / fastest : 1;
   return {share * (input.speed - turn), share * (input.speed + turn)};
 }
@@ -30,10 +30,11 @@ DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive,
 Roll DifferentialLine::roll(const DriveInput& input) const {
   if (input.brake) return {};
   const SideSpeeds sides = side_speeds(drive_, input);
-  // From the sides as they were cut, so that speed and yaw rate are those the wheels can do.
+  // Computed from the scaled sides, so that the wheels can reach speed and yaw rate.
   return {0.5 * (sides.left + sides.right), (sides.right - sides.left) / drive_.track};
 }
 
+// Means of both sides; their difference turns the machine.
 Roll DifferentialLine::rolled(const std::vector<WheelMotion>& motion) const {
   SideSpeeds sides;
   int left = 0, right = 0;
@@ -48,7 +49,7 @@ Roll DifferentialLine::rolled(const std::vector<WheelMotion>& motion) const {
 }
 
 double DifferentialLine::rolling_spin(const Roll& roll, const DriveWheel& wheel) const {
-  // A caster swivels into the way it is pulled; what it turns at is told as that of its side.
+  // A caster swivels into its direction of travel; its spin is reported as that of its side.
   return (roll.speed + (wheel.left ? -0.5 : 0.5) * drive_.track * roll.yaw_rate) / wheel.radius;
 }
 
@@ -65,12 +66,13 @@ double DifferentialLine::group_speed(const DriveInput& input, std::size_t group)
   return group == kLeft ? sides.left : sides.right;
 }
 
+// Curvature of the bicycle and of the drive agree at every speed.
 scene::AckermannDrive bicycle_of(const scene::DifferentialDrive& drive) {
   scene::AckermannDrive bicycle;
   static_cast<scene::Powertrain&>(bicycle) = drive;
   bicycle.wheelbase = drive.track;
-  bicycle.track = 0;  // the bicycle's own angle is what is limited
-  // Inner wheels at rest: the radius is half the track, tan = L / R = 2.
+  bicycle.track = 0;  // the bicycle's own angle is limited
+  // Inner wheels at rest: the radius is half the track width, tan = L / R = 2.
   bicycle.max_steer = std::atan(2);
   bicycle.steer_rate = std::numeric_limits<double>::infinity();
   return bicycle;

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command of a drive, the same for every kind and every engine.
+// Command of a drive, the same for every kind of drive and every engine.
 #pragma once
 
 #include "core/archive.h"
 
 namespace navvy::vehicle {
 
-/// Held until replaced. What `steer` means is the drive's: a bicycle angle [rad] of an Ackermann
-/// drive, a yaw rate [rad/s] of a differential drive, both positive to the left (scene::steer_unit,
-/// scene::steer_meaning).
+/// Command of a drive; held until replaced. `steer` depends on the kind: a bicycle angle [rad] for
+/// an Ackermann drive, a yaw rate [rad/s] for a differential drive, both positive to the left
+/// (scene::steer_unit, scene::steer_meaning).
 ///
 /// The brake also locks an oscillating axle or a caster; without it they swing freely.
 struct DriveInput {
   double speed = 0;  ///< forward [m/s]
-  double steer = 0;  ///< [rad] or [rad/s], as said
-  /// Hold the place; speed and steer of wheels that turn to steer aside, nothing else acts.
+  double steer = 0;  ///< [rad] or [rad/s], by kind
+  /// Stops the machine. Wheels that steer still follow `steer`; nothing else has an effect.
   bool brake = true;
-  int gear = 0;  ///< of an engine with gears, from 1 on; 0: it chooses
+  /// Gear of an engine with gears, 1-based; 0: automatic.
+  int gear = 0;
 
-  /// All but the gear, which only the state of a drive with gears holds.
+  /// Visits all but the gear, which belongs to the state of a drive with gears.
   void visit(Archive& a);
 };
 

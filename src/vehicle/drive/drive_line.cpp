@@ -12,12 +12,12 @@
 namespace navvy::vehicle {
 namespace {
 
-// Of a crawler's travel motor to an error of speed [s]: the oil of a pump goes through it, and it
-// shall turn a machine whose belts resist with half its weight. With the time of wheels a robot
-// asked for 0.5 rad/s has 0.1 after 8 s.
+// Response time of a crawler's travel motor to a speed error [s]. All of a pump's oil flows through
+// it, and it must turn a machine whose tracks resist with half its weight. With the response time
+// of wheels, a robot asked for 0.5 rad/s reaches 0.1 after 8 s.
 constexpr double kTrackResponse = 0.05;
 
-// One overload a kind: a new kind does not build until it has both.
+// One overload per kind: a new kind does not build without it.
 std::unique_ptr<DriveLine> line_of(const scene::AckermannDrive& drive,
                                    const std::vector<DriveWheel>& wheels) {
   return std::make_unique<AckermannLine>(drive, wheels);
@@ -33,10 +33,11 @@ std::unique_ptr<DriveLine> line_of(const scene::LinkageDrive& drive,
 
 }  // namespace
 
+// Reads sides and axles from the links' poses in M.
 std::vector<DriveWheel> drive_wheels(const scene::Machine& machine) {
   std::vector<DriveWheel> wheels;
   for (const scene::Wheel& wheel : machine.wheels) {
-    // Where nothing spins (a picture's wheel on a kinematic machine), the steered link tells the
+    // If nothing spins (a decorative wheel of a kinematic machine), the steered link determines the
     // side.
     int joint = machine.joint_index(wheel.joint);
     if (joint < 0) joint = machine.joint_index(wheel.steer_joint);
@@ -89,7 +90,7 @@ DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>
     ++wheels.count;
   }
   if (wheels.count == 0) return wheels;
-  // The cage of an open differential turns with the mean of its wheels.
+  // The carrier of an open differential turns at the mean of its wheels.
   wheels.spin /= wheels.count;
   wheels.radius /= wheels.count;
   wheels.mass = group.share * mass;
@@ -98,7 +99,7 @@ DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>
 
 double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt,
                                double pump_power) {
-  // The motor's force and power are shared out, the speed is every group's own.
+  // Groups share the motor's force and power; the speed is each group's own.
   scene::Powertrain part = powertrain_;
   part.tractive_force *= group.share;
   part.power *= group.share;
@@ -109,11 +110,12 @@ double DriveLine::motor_torque(Group& group, double speed, const DrivenWheels& w
   return each;
 }
 
+// The governor asks for a force; the engine limits it in the present gear.
 double DriveLine::engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels,
                                 double dt, double pump_power) {
   const double most = std::min(powertrain_.max_speed, engine_->fastest(input.gear) * wheels.radius);
   const double goal = std::clamp(input.speed, -most, most);
-  // The reverser stands as is asked, or at speed 0 as it rolls.
+  // The reverser follows the command, or the present rolling direction at a commanded speed of 0.
   const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin),
                carrier = way * wheels.spin;
   const double asked = group.governor.ask(goal, wheels, dt);
@@ -130,9 +132,10 @@ double DriveLine::engine_torque(Group& group, const DriveInput& input, const Dri
   return torque / wheels.count;
 }
 
+// Wheels taken by joint commands are left out of their group.
 void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass,
                         double dt, std::vector<double>& torque, double pump_power) {
-  // Group by group: one governor each, from the mean of its wheels.
+  // One governor per group, from the mean of its wheels.
   torque.assign(turns.size(), 0);
   held_.reset();
   if (powertrain_.engine_power <= 0) pump_power = 0;
@@ -140,7 +143,7 @@ void DriveLine::torques(const DriveInput& input, const std::vector<WheelTurn>& t
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const DrivenWheels wheels = on_line(group, turns, mass);
-    // All taken over by joint commands: the governor waits as it is.
+    // All taken over by joint commands: the governor keeps its state.
     if (wheels.count == 0) continue;
     if (input.brake) {
       group.governor.reset(wheels.spin * wheels.radius);
@@ -159,18 +162,18 @@ void DriveLine::settle(double carrier, double torque) {
 }
 
 void DriveLine::visit(Archive& a) {
-  // A snapshot of another kind of drive has another number of them.
+  // A snapshot of another kind of drive has another number of governors.
   a.constant("governors", groups_.size(),
              "the drive has another number of governors than the scene's");
   for (std::size_t g = 0; g < groups_.size(); ++g)
     a.item(g, [&] { a("governor", groups_[g].governor); });
   if (engine_) a("engine", *engine_);
   if (engine_ || powertrain_.engine_power > 0)
-    a.unhashed("told only", [&] { a("engine_state", state_); });
+    a.unhashed("output only", [&] { a("engine_state", state_); });
 }
 
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine) {
-  // The variant chooses; nothing else in the house asks for the kind.
+  // The variant selects the kind; no other code outside `scene` asks for it.
   return std::visit([&](const auto& kind) { return line_of(kind, drive_wheels(machine)); },
                     machine.drive);
 }

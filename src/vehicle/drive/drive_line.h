@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive command means for every wheel of a machine. One class a kind of drive, used by all
-// engines.
+// Drive lines: the effect of a drive command on every wheel of a machine. One class per kind of
+// drive, used by all engines.
 #pragma once
 
 #include <memory>
@@ -16,118 +16,144 @@
 
 namespace navvy::vehicle {
 
-/// A wheel as a drive line sees it: what never changes.
+/// Constant properties of a wheel in a drive line.
 struct DriveWheel {
   bool driven = false;
-  bool left = false;  ///< of the machine's middle: its link lies at y > 0 in M
-  double radius = 0;  ///< unloaded [m]
-  double x = 0;       ///< of its link in M [m]: wheels of one axle have the same
+  /// On the left side of the machine: its link has y > 0 in M.
+  bool left = false;
+  /// Unloaded radius [m].
+  double radius = 0;
+  /// Position of its link along x of M [m], equal for all wheels of an axle.
+  double x = 0;
 };
-/// One for each of machine.wheels.
+/// Returns one entry for each of machine.wheels.
 std::vector<DriveWheel> drive_wheels(const scene::Machine& machine);
 
-/// A differential of the line. Its cage turns with half the sum of |weight| x spin, and its torque
-/// is the sum of its shafts'.
+/// Differential of the line. Its carrier turns with half the sum of |weight| x spin, and its torque
+/// is the sum of its shafts' torques.
 struct Coupled {
-  /// axle_1 of the foremost driven axle and so on, centre between that and the others.
+  /// Name: axle_1 for the foremost driven axle and so on, centre between axles.
   std::string name;
   scene::Differential about;
-  /// By wheel [-]: of the shafts' difference in speed, sum of weight x spin.
+  /// Weights by wheel [-]: the shafts' speed difference is the sum of weight x spin.
   std::vector<double> weight;
 };
 
-/// A cage that turns as it is told, over the next step.
+/// Carrier with a prescribed speed over the next step.
 struct HeldCarrier {
-  double speed = 0;   ///< [rad/s]
-  double torque = 0;  ///< at most [N m]
+  double speed = 0;  ///< [rad/s]
+  /// Largest torque [N m].
+  double torque = 0;
 };
 
-/// A wheel as it turns at the start of a step.
+/// Rotation of a wheel at the start of a step.
 struct WheelTurn {
-  /// Driven, and the drive commands it (not a joint command that took it over).
+  /// Driven, and commanded by the drive (no joint command has taken it over).
   bool on_line = false;
-  double spin = 0;             ///< positive rolls forward [rad/s]
-  double radius = 0;           ///< loaded [m]
-  double spin_inertia = 0;     ///< [kg m2]
-  bool running_track = false;  ///< a sprocket
+  /// Spin [rad/s]; positive rolls forward.
+  double spin = 0;
+  /// Loaded radius [m].
+  double radius = 0;
+  double spin_inertia = 0;  ///< [kg m2]
+  /// The wheel is a track's sprocket.
+  bool running_track = false;
 };
 
-/// How a wheel moves, for engines that move the machine by it.
+/// Motion of a wheel, for engines that move the machine by it.
 struct WheelMotion {
-  double spin = 0;              ///< positive rolls forward [rad/s]
-  std::optional<double> steer;  ///< of its steering joint [rad]; none: it has none
+  /// Spin [rad/s]; positive rolls forward.
+  double spin = 0;
+  /// Angle of its steering joint [rad]; nothing if it has none.
+  std::optional<double> steer;
 };
 
-/// How the machine's frame moves while no wheel slips.
+/// Motion of the machine's frame without wheel slip.
 struct Roll {
-  double speed = 0;     ///< along x of M [m/s]
-  double yaw_rate = 0;  ///< positive to the left [rad/s]
+  /// Speed along x of M [m/s].
+  double speed = 0;
+  /// Yaw rate [rad/s], positive to the left.
+  double yaw_rate = 0;
 };
 
-/// The drive line of one machine.
+/// Drive line of one machine.
 ///
-/// Kinematics (roll, rolling_spin, steer_angle) is a function of the command alone: an engine
-/// without forces moves by it, one with forces turns steered joints by it. Torques have a memory,
-/// the governors'; it is saved and hashed.
+/// Kinematics (roll, rolling_spin, steer_angle) depends on the command alone: an engine without
+/// forces moves by it, an engine with forces turns steered joints by it. Torques depend on the
+/// state of the governors, which is saved and hashed.
 class DriveLine {
  public:
   virtual ~DriveLine() = default;
 
-  /// Where the command takes the machine, its limits of speed and steering kept; nowhere under the
-  /// brake. Yaw rate is speed x curvature for a kind that steers by an angle.
+  /// Returns the motion for a command, within the limits of speed and steering; zero under the
+  /// brake. The yaw rate is speed x curvature for a kind that steers by an angle.
   virtual Roll roll(const DriveInput& input) const = 0;
-  /// Where wheels take the machine that turn and are steered so, `motion` by wheel: the mean of the
-  /// driven wheels of a side, or of all, rolls without slip; the others follow.
+  /// Returns the motion that follows from wheels with this spin and steering, `motion` by wheel.
+  /// The mean of the driven wheels of a side, or of all, rolls without slip; the others follow.
   virtual Roll rolled(const std::vector<WheelMotion>& motion) const = 0;
-  /// Spin [rad/s] of a wheel that rolls along.
+  /// Returns the spin [rad/s] of a wheel that rolls along.
   virtual double rolling_spin(const Roll& roll, const DriveWheel& wheel) const = 0;
-  /// Angle [rad] of a wheel's steering joint; nothing from a kind that does not turn wheels.
+  /// Returns the angle [rad] of a wheel's steering joint; nothing for a kind that does not turn
+  /// wheels.
   virtual std::optional<double> steer_angle(const DriveInput& input,
                                             const DriveWheel& wheel) const = 0;
-  /// Fastest turning of a steering joint [rad/s].
+  /// Returns the largest rate of a steering joint [rad/s].
   virtual double steer_rate() const = 0;
 
-  /// Those of the line, of a kind that has any.
+  /// Returns how much further the outer wheel is turned than a common centre asks for [rad], with
+  /// the left and right steered wheels at these angles; nothing for a kind without tie rod.
+  virtual std::optional<double> steering_error(double left, double right) const {
+    (void)left, (void)right;
+    return std::nullopt;
+  }
+  /// Returns whether one motor turns the wheels through shafts. False for motors in the wheels.
+  virtual bool has_shafts() const { return true; }
+  /// Returns the differentials of the line; empty for a kind without any.
   virtual std::vector<Coupled> differentials() const { return {}; }
-  /// Those of them that hold their shafts together, locked or with limited slip.
+  /// Returns the differentials that couple their shafts: locked or with limited slip.
   std::vector<Coupled> coupled() const;
 
-  /// Torque [N m] about each wheel's axis over the next step dt [s], 0 for wheels not on the line;
-  /// `mass` is the machine's [kg], `pump_power` what its pump takes [W], which matters where both
-  /// have one engine. The brake is on: all 0, and the governors start afresh from the present
-  /// speed.
+  /// Computes the torque [N m] about each wheel's axis over the next step dt [s], 0 for wheels not
+  /// on the line. `mass` is the machine's [kg]; `pump_power` is the power of its pump [W], which
+  /// counts if both share one engine. Under the brake all torques are 0, and the governors restart
+  /// from the present speed.
   void torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
                std::vector<double>& torque, double pump_power = 0);
-  /// After that: the mean of all driven wheels as a source of speed holds it; nothing otherwise.
+  /// Returns the mean speed of all driven wheels that a speed source prescribes; nothing for other
+  /// engines. Call it after `torques`.
   const std::optional<HeldCarrier>& held() const { return held_; }
-  /// Tells the speed that it came to [rad/s] and the torque that it took [N m].
+  /// Records the speed [rad/s] that the carrier reached and the torque [N m] that it took.
   void settle(double carrier, double torque);
 
-  /// Zeros where neither gears nor a shared engine are.
+  /// Returns the state of the engine; zeros without gears and without a shared engine.
   const CombustionEngineState& engine() const { return state_; }
 
-  /// Memory of the governors and of the engine.
+  /// Visits the state of governors and engine.
   void visit(Archive& a);
 
  protected:
   /// Wheels that one governor turns.
   struct Group {
-    std::vector<char> members;  // is wheel w of machine.wheels one of them
-    double share = 1;           // of the machine's mass, and of the motor's force and power
+    // Membership by wheel of machine.wheels.
+    std::vector<char> members;
+    // Share of the machine's mass, and of the motor's force and power.
+    double share = 1;
     SpeedGovernor governor;
   };
+  /// Makes a line of these groups, with an engine for a line of one group.
   DriveLine(const scene::Powertrain& powertrain, std::vector<Group> groups,
             const std::optional<scene::CombustionEngine>& engine = std::nullopt);
+  /// Returns the group of all driven wheels.
   static Group all_driven(const std::vector<DriveWheel>& wheels);
-  /// Half the machine: the driven wheels of the left or right side.
+  /// Returns half the machine: the driven wheels of the left or right side.
   static Group driven_side(const std::vector<DriveWheel>& wheels, bool left);
-  /// Speed that a group's wheels are to roll at [m/s].
+  /// Returns the speed that a group's wheels shall roll at [m/s].
   virtual double group_speed(const DriveInput& input, std::size_t group) const = 0;
 
  private:
-  /// Those of a group that the line turns, together.
+  /// Returns the wheels of a group that the line turns, taken together.
   static DrivenWheels on_line(const Group& group, const std::vector<WheelTurn>& turns, double mass);
-  /// For each wheel of a group [N m], of the governed motor or of the engine.
+  /// Returns the torque [N m] for each wheel of a group, from the governed motor or from the
+  /// engine.
   double motor_torque(Group& group, double speed, const DrivenWheels& wheels, double dt,
                       double pump_power);
   double engine_torque(Group& group, const DriveInput& input, const DrivenWheels& wheels, double dt,
@@ -135,19 +161,22 @@ class DriveLine {
 
   scene::Powertrain powertrain_;
   std::vector<Group> groups_;
-  std::optional<GearedEngine> engine_;  // of a line of one group
-  std::optional<HeldCarrier> held_;     // of the present step
+  // Engine of a line with one group.
+  std::optional<GearedEngine> engine_;
+  // Prescribed speed of the present step.
+  std::optional<HeldCarrier> held_;
   CombustionEngineState state_;
 };
 
-/// The line of machine.drive.
+/// Makes the line of machine.drive.
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine);
 
-/// The bicycle that follows the same arcs, for laws that steer by a bicycle angle whatever drives
-/// the wheels: an Ackermann drive itself; for a differential drive one as long as its track, whose
-/// tightest arc is the one on which the inner wheels stand still.
+/// Returns a bicycle that follows the same arcs, for laws that steer by a bicycle angle whatever
+/// drives the wheels. For an Ackermann drive it is the drive itself; for a differential drive it is
+/// as long as the track width, and on its tightest arc the inner wheels stand still.
 scene::AckermannDrive equivalent_bicycle(const scene::Drive& drive);
-/// DriveInput::steer for an angle of that bicycle [rad] at `speed` [m/s, negative backwards].
+/// Returns DriveInput::steer for an angle of that bicycle [rad] at `speed`
+/// [m/s, negative backwards].
 double steer_command(const scene::Drive& drive, double bicycle, double speed);
 
 }  // namespace navvy::vehicle

@@ -14,9 +14,9 @@ namespace {
 constexpr double kDwell = 1;
 constexpr double kSpare = 1.25;     // tuned: same
 constexpr double kAboveIdle = 1.1;  // [-] tuned: paper/ackermann changes up and back at 1
-// [-] above the governed speed, over which torque falls to nothing (U)
+// [-] Range above the governed speed in which the torque falls to zero (U).
 constexpr double kDroop = 0.04;
-// [-] of idle: below, the governor begins to carry the engine itself
+// [-] Share of idle speed below which the governor supplies the engine's own drag.
 constexpr double kDragFrom = 1.25;
 
 bool sources(const scene::CombustionEngine& engine) {
@@ -30,7 +30,8 @@ GearedEngine::GearedEngine(scene::CombustionEngine about, bool drives_pump)
   if (about_.gears.empty() || (!sources(about_) && about_.curve.size() < 2))
     throw InputError(Fault{
         Fault::Severity::kError, "", 0, "engine", "",
-        "needs a gear and, unless it is a source of speed, two points of its torque curve", ""});
+        "needs at least one gear and, unless it is a speed source, two points of its torque curve",
+        ""});
   if (sources(about_)) return;
   slowest_ = drives_pump ? scene::rated_point(about_).speed : about_.curve.front().speed;
 }
@@ -44,6 +45,7 @@ double GearedEngine::fastest(int command) const {
   return about_.curve.back().speed / ratio(command > 0 ? std::min(command, count()) : count());
 }
 
+// Interpolates the curve and fades out above the governed speed.
 double GearedEngine::full_torque(double speed) const {
   const auto& curve = about_.curve;
   if (speed <= curve.front().speed) return curve.front().torque;
@@ -72,13 +74,14 @@ double GearedEngine::hold(int gear, double carrier) const {
 
 bool GearedEngine::fits(int gear, double carrier) const {
   const double shaft = ratio(gear) * carrier;
-  // A gear that was just put in shall not have to be left at once.
+  // A gear that was just engaged should not have to be left at once.
   const double least = about_.curve.front().speed * (gear > gear_ ? kAboveIdle : 1);
   const double most = about_.curve.back().speed * (gear < gear_ ? 1 : 1 + kDroop);
-  // The first gear may slip, the last one race: there is none beyond.
+  // The first gear may slip and the last one overspeed: there are no others beyond.
   return (gear == 1 || shaft >= least) && (gear == count() || shaft <= most);
 }
 
+// Tries the gears from the highest down.
 void GearedEngine::shift(int command, double carrier, double torque, double dt) {
   held_ = std::min(held_ + dt, kDwell);
   int next = gear_;
@@ -86,8 +89,8 @@ void GearedEngine::shift(int command, double carrier, double torque, double dt) 
   if (command > 0 || sources(about_)) {
     next = std::clamp(command, 1, count());
   } else if (held_ >= kDwell || !fits(gear_, carrier)) {
-    // Upwards it is enough to give what there is now: while the machine is slower than asked, more
-    // is asked for than it takes to keep its speed.
+    // To shift up, the present torque is enough: while the machine is slower than commanded, the
+    // governor asks for more than it needs to keep its speed.
     const double up = kSpare * std::min(std::abs(torque), has(gear_));
     double most = -1;
     for (int gear = count(); gear > 0; --gear) {
@@ -100,16 +103,18 @@ void GearedEngine::shift(int command, double carrier, double torque, double dt) 
   gear_ = next;
 }
 
+// Both limits at the carrier, from the engine's through the engaged gear.
 GearedEngine::Bounds GearedEngine::bounds(double carrier, double pump_power) const {
   const double r = ratio();
   if (sources(about_))
     return {-r / about_.efficiency * about_.max_torque, r * about_.efficiency * about_.max_torque};
   const double speed = engine_speed(r * carrier);
-  // Of the curve's torque what the pump leaves.
+  // The pump takes its part of the curve's torque.
   const double torque = std::max(0.0, full_torque(speed) - pump_power / speed);
   return {-hold(gear_, carrier), r * about_.efficiency * torque};
 }
 
+// Converts back from the carrier to the engine's shaft.
 CombustionEngineState GearedEngine::state(double carrier, double torque, double pump_power) const {
   CombustionEngineState out;
   out.gear = gear_;

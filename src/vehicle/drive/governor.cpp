@@ -8,11 +8,11 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kRamp = 1.5;          // [m/s2] travel pedal to speed (U)
-constexpr double kSpeedTime = 0.3;     // [s], that of wheels. tuned: BulletDrive.KeepsTheAskedSpeed
-constexpr double kIntegralTime = 1.0;  // [s] with it, and in proportion to others. tuned: same
+constexpr double kSpeedTime = 0.3;     // [s] for wheels. tuned: BulletDrive.KeepsTheAskedSpeed
+constexpr double kIntegralTime = 1.0;  // [s] for wheels, and proportional for others. tuned: same
 
-/// [N] for each [m/s] of error: suits the whole machine but stays stable for wheels that spin
-/// freely.
+/// Returns the gain [N] per [m/s] of error. It suits the whole machine and is stable for wheels
+/// that spin freely.
 double gain_of(const DrivenWheels& wheels, double dt) {
   const double rim = wheels.spin_inertia / (wheels.radius * wheels.radius);
   return std::min(wheels.mass / wheels.response, 0.3 * rim / dt);
@@ -20,13 +20,14 @@ double gain_of(const DrivenWheels& wheels, double dt) {
 
 }  // namespace
 
+// Power / speed limits the force, the tractive force limits it at low speed.
 double SpeedGovernor::wheel_torque(const scene::Powertrain& powertrain, double speed,
                                    const DrivenWheels& wheels, double dt, double left) {
   if (wheels.count <= 0) return 0;
   const double force =
       ask(std::clamp(speed, -powertrain.max_speed, powertrain.max_speed), wheels, dt);
   const double now = wheels.spin * wheels.radius;
-  // Full power from a crawl on; at rest the tractive force rules.
+  // Full power from a crawl on; at rest the tractive force limits.
   const double crawl = std::max(std::abs(now), 0.1);
   const double most = std::min(powertrain.tractive_force, powertrain.power / crawl);
   const double driving = std::min(most, left / crawl);
@@ -42,11 +43,12 @@ double SpeedGovernor::ask(double speed, const DrivenWheels& wheels, double dt) {
   return wheels.mass * (asked_ - before) / dt + gain_of(wheels, dt) * error + integral_;
 }
 
+// Limits the force and then decides whether the integral may grow.
 double SpeedGovernor::give(double force, double low, double high, const DrivenWheels& wheels,
                            double dt) {
   const double error = asked_ - wheels.spin * wheels.radius;
   const double limited = std::clamp(force, low, high);
-  // Integrates only while it can act.
+  // Integrate only while the integral can act.
   if (force == limited || error * force < 0)
     integral_ =
         std::clamp(integral_ + gain_of(wheels, dt) /

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed governor of a hydrostatic drive. Knows no engine and no kind of drive.
+// Speed governor of a hydrostatic drive. Independent of the engine and the kind of drive.
 #pragma once
 
 #include <limits>
@@ -13,35 +13,41 @@ namespace navvy::vehicle {
 /// side.
 struct DrivenWheels {
   int count = 0;
-  double spin = 0;          ///< mean of the wheels, that of the differential's cage [rad/s]
-  double radius = 0;        ///< mean, loaded [m]
-  double spin_inertia = 0;  ///< of all together about their axes [kg m2]
-  double mass = 0;          ///< that they have to move [kg]
-  double response = 0.3;    ///< of the governor to an error of speed [s]
+  /// Mean spin, that of the differential carrier [rad/s].
+  double spin = 0;
+  /// Mean loaded radius [m].
+  double radius = 0;
+  /// Inertia of all wheels together about their axes [kg m2].
+  double spin_inertia = 0;
+  /// Mass that they move [kg].
+  double mass = 0;
+  /// Response time of the governor to a speed error [s].
+  double response = 0.3;
 };
 
-/// Torque so that the driven wheels' mean speed follows the one asked for.
+/// Computes the torque with which the mean speed of the driven wheels follows the speed asked for.
 ///
-/// An open differential gives each wheel the same torque; its cage turns with their mean. The force
-/// at the ground is limited by the tractive force and by power / speed; the asked speed changes by
-/// at most 1.5 m/s2. Feed-forward of the mass's acceleration, a proportional part and an integral
-/// that only grows while it can act.
+/// An open differential gives each wheel the same torque; its carrier turns with their mean. The
+/// force at the ground is limited by the tractive force and by power / speed. The speed asked for
+/// changes by at most 1.5 m/s2. The law is a feed-forward of the mass's acceleration, a
+/// proportional part, and an integral that only grows while it can act.
 class SpeedGovernor {
  public:
-  /// Torque for each of the wheels [N m] over the next step dt [s], towards `speed` [m/s]; 0
-  /// without wheels. Of its power no more than `left` [W] drives; holding back is the motor's own.
+  /// Returns the torque for each of the wheels [N m] over the next step dt [s], towards `speed`
+  /// [m/s]; 0 without wheels. At most `left` [W] of its power drives; braking uses the motor alone.
   double wheel_torque(const scene::Powertrain& powertrain, double speed, const DrivenWheels& wheels,
                       double dt, double left = std::numeric_limits<double>::infinity());
 
-  /// The same in two steps, for whoever bounds the force otherwise: first what is asked for
-  /// [N at the rims], then what of it there is, from `low` to `high` [N].
+  /// Computes the same in two steps, for callers that limit the force otherwise: first the force
+  /// asked for [N at the rims], then the part of it that is available, from `low` to `high` [N].
   double ask(double speed, const DrivenWheels& wheels, double dt);
   double give(double force, double low, double high, const DrivenWheels& wheels, double dt);
-  /// The speed after the ramp [m/s].
+  /// Returns the speed after the ramp [m/s].
   double asked() const { return asked_; }
-  /// Brakes are on at this speed [m/s]: the governor starts afresh from it.
+  /// Restarts the governor from this speed [m/s], while the brakes are on.
   void reset(double speed);
 
+  /// Visits the ramp and the integral.
   void visit(Archive& a);
 
  private:

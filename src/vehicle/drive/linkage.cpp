@@ -7,18 +7,18 @@
 namespace navvy::vehicle {
 namespace {
 
-/// The other wheel's angle [rad] when the left one is at `left`; seen in a mirror, the left one's
-/// when the right one is.
+/// Returns the angle of the other wheel [rad] with the left one at `left`. Mirrored, this is the
+/// left wheel's angle for the right one's.
 double across(const scene::LinkageDrive& drive, double left) {
   const double a = drive.arm, t = drive.tie_rod, half = 0.5 * drive.track;
-  // Both arms with the wheels straight.
+  // Both arms with straight wheels.
   const Vec2 straight = scene::steering_arm(drive), mirrored(straight.x(), -straight.y());
-  // The end of the left one, from the right king pin: the right end is `a` from there and `t` from
+  // End of the left arm, from the right king pin. The right end is `a` from that pin and `t` from
   // the left end.
   const Vec2 end = Vec2(0, 2 * half) + Eigen::Rotation2Dd(left) * straight;
   const double cosine = (end.squaredNorm() + a * a - t * t) / (2 * a * end.norm());
   const double open = std::acos(std::clamp(cosine, -1.0, 1.0));
-  // Of the two ways to close it, the one that goes on from straight wheels.
+  // Of the two assemblies, the one that is continuous with straight wheels.
   const Vec2 from = Vec2(0, 2 * half) + straight;
   const double side = from.x() * mirrored.y() - from.y() * mirrored.x() < 0 ? -1 : 1;
   const double angle =
@@ -26,13 +26,13 @@ double across(const scene::LinkageDrive& drive, double left) {
   return std::remainder(angle, 2 * kPi);
 }
 
-/// Of both wheels, whatever the stops are.
+/// Returns the angles of both wheels, without regard to the stops.
 SteerAngles angles_at(const scene::LinkageDrive& drive, double motor) {
   const double left = motor / drive.gear_ratio;
   return {left, across(drive, left)};
 }
 
-/// Of both wheels, the mean: wheels that disagree drag.
+/// Returns the mean of both wheels: wheels that disagree drag.
 double mean_tangent(const scene::LinkageDrive& drive, const SteerAngles& angles) {
   return 0.5 *
          (bicycle_tangent(drive, angles.left, true) + bicycle_tangent(drive, angles.right, false));
@@ -41,8 +41,8 @@ double mean_tangent(const scene::LinkageDrive& drive, const SteerAngles& angles)
 }  // namespace
 
 MotorRange motor_range(const scene::LinkageDrive& drive) {
-  // To the left the left wheel is the inner one, to the right the outer one, which turns less; in a
-  // linkage that is turned round it is the other way.
+  // To the left the left wheel is the inner one; to the right it is the outer one, which turns
+  // less. For an inverted linkage it is the other way round.
   const double most = drive.max_steer, outer = across(drive, most);
   return {-drive.gear_ratio * std::min(outer, most),
           drive.gear_ratio * (outer > most ? -across(drive, -most) : most)};
@@ -79,8 +79,8 @@ std::optional<double> LinkageLine::steer_angle(const DriveInput& input,
 
 scene::AckermannDrive bicycle_of(const scene::LinkageDrive& drive) { return drive; }
 
-// The tangent grows with the motor's position: halved until nothing is left to halve, the same in
-// every run.
+// The tangent grows with the motor's position. Bisect a fixed number of times, so that every run is
+// bit-identical.
 double command_of(const scene::LinkageDrive& drive, double bicycle, double speed) {
   (void)speed;
   const double wanted = std::tan(std::clamp(bicycle, -radians(89), radians(89)));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines moved by their commands alone: joints go where they are told at limited rates, nothing
-// pushes back.
+// Kinematic engine: machines follow their commands at limited rates, and no force moves them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,19 +24,23 @@ struct Body {
   std::vector<JointInput> input;
   std::vector<double> q, qd;
   std::vector<std::uint8_t> braked;  // by joint
-  std::vector<std::uint8_t> taken;   // by joint: a command has it, of those that the drive moves
+  // By joint: a joint command has taken it over from the drive.
+  std::vector<std::uint8_t> taken;
   DriveInput drive;
-  bool placed = false;  // base inputs move it, not its drive
+  // Base inputs move it, not its drive.
+  bool placed = false;
   BaseInput goal;
-  double left = 0;                  // of the time to get there [s]
-  std::unique_ptr<DriveLine> line;  // asked where to roll; nothing here has torques
-  std::vector<DriveWheel> wheels;   // by wheel
+  // Time left to the goal [s].
+  double left = 0;
+  // Used for its kinematics; this engine has no torques.
+  std::unique_ptr<DriveLine> line;
+  std::vector<DriveWheel> wheels;  // by wheel
   std::vector<LinkState> links;
 };
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-class KinematicEngine final : public PhysicsEngine {
+class KinematicEngine final : public PhysicsEngine, private PlacementCapability {
  public:
   int add_machine(const scene::Machine& machine, const Pose& X_WM) override {
     if (machine.links.empty()) {
@@ -48,7 +51,7 @@ class KinematicEngine final : public PhysicsEngine {
     }
     Body body;
     body.machine = machine;
-    // Poses are those of the base link from here on: the model's frame is only where it was put.
+    // From here on poses are those of the base link; the model frame only gives the start.
     body.X_WB = X_WM * machine.links[0].X_ML;
     body.line = make_drive_line(machine);
     body.wheels = drive_wheels(machine);
@@ -96,18 +99,24 @@ class KinematicEngine final : public PhysicsEngine {
     body.left = input.duration;
   }
   BaseInput base(int machine) const override {
-    return at(machine).placed ? at(machine).goal : PhysicsEngine::base(machine);
+    const Body& body = at(machine);
+    if (body.placed) return body.goal;
+    BaseInput out;
+    out.p_W = body.links[0].X_WL.translation();
+    out.angles = fixed_angles(body.links[0].X_WL.linear());
+    return out;
   }
-  // Nothing pushes it: impulses and forces are swallowed.
+  PlacementCapability* placement() override { return this; }
+  // Impulses and forces have no effect.
   void apply_impulse(int, int, const Vec3&, const Vec3&, const Vec3&) override {}
   void apply_impulse_of_step(int, int, const Vec3&, const Vec3&, const Vec3&, double) override {}
   void add_force(int, int, const Vec3&, const Vec3&) override {}
 
   void step(double dt, const GroundQuery& ground) override {
     if (!(dt > 0))
-      throw SimulationError("vehicle: the step must be above zero, it is " + std::to_string(dt));
+      throw SimulationError("vehicle: the step must be positive, it is " + std::to_string(dt));
     for (Body& body : bodies_) {
-      // Joints first: a drive may then say otherwise of its wheels' joints for the next step.
+      // Joints first: a drive may then command its wheels' joints for the next step.
       move_joints(body, dt);
       if (body.placed)
         move_to_goal(body, dt);
@@ -140,7 +149,7 @@ class KinematicEngine final : public PhysicsEngine {
     if (joint < 0) return state;
     const scene::Joint& spin = body.machine.joints[index(joint)];
     const LinkState& carrier = body.links[index(spin.parent)];
-    // By the carrier, with the spin joint at 0: the wheel's frame does not spin with it.
+    // From the carrier, with the spin joint at 0: the wheel's frame does not spin with it.
     state.X_WWheel = carrier.X_WL * joint_pose(body.machine, spin, 0) * spin.X_LcJ;
     state.v_W = carrier.v_WL +
                 carrier.w_WL.cross(state.X_WWheel.translation() - carrier.X_WL.translation());
@@ -149,16 +158,13 @@ class KinematicEngine final : public PhysicsEngine {
     if (steer >= 0) state.steer = body.q[index(steer)];
     return state;
   }
-  /// Nothing can move it.
+  /// Returns zero: no force moves the link.
   Mat6 inverse_mass(int, int) const override { return Mat6::Zero(); }
-  Vec3 momentum(int) const override { return Vec3::Zero(); }
-  double work(int) const override { return 0; }
-  Vec3 ground_impulse(int) const override { return Vec3::Zero(); }
 
   void visit(Archive& a) override {
     a.section("kinematic", kVersion, [&] {
       a.constant("machines", bodies_.size(),
-                 "the snapshot holds another number of kinematic machines than the scene");
+                 "the snapshot has another number of kinematic machines than the scene");
       for (std::size_t b = 0; b < bodies_.size(); ++b)
         a.item(b, [&] { visit_body(bodies_[b], a); });
     });
@@ -185,24 +191,24 @@ class KinematicEngine final : public PhysicsEngine {
     a.ranged("left", body.left, 0.0, std::numeric_limits<double>::max());
     a.require(body.goal.p_W.allFinite() && body.goal.angles.allFinite() &&
                   body.goal.p_W.norm() < limits::kFarthest,
-              "goal", "a machine is on its way to no finite place, or to none near any site");
+              "goal", "the target of a base must be finite and near the site");
     a.require(body.X_WB.translation().norm() < limits::kFarthest, "X_WB",
-              "a machine has no finite place, or none near any site");
+              "the pose of a machine must be finite and near the site");
     // Poses of all links follow from base and joints.
     if (a.loading()) update_links(body);
   }
 
   static void visit_brake(Body& body, std::size_t j, Archive& a) {
     if (!(body.machine.joints[j].brake > 0)) return;
-    a.unhashed("hashed while it is on", [&] { a.ranged("braked", body.braked[j], 0, 1); });
+    a.unhashed("hashed while it is set", [&] { a.ranged("braked", body.braked[j], 0, 1); });
     if (body.braked[j] == 0) return;
-    // Which one is on, for the hash: without a brake on, it is that of machines without brakes.
+    // Hash which brake is set. Without a set brake the hash is that of a machine without brakes.
     int which = static_cast<int>(j) + 1;
     a("on", which);
-    a.require(which == static_cast<int>(j) + 1, "on", "another joint's brake");
+    a.require(which == static_cast<int>(j) + 1, "on", "the snapshot has another joint's brake set");
   }
-  /// Speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: of its cylinder where
-  /// it stands, if it has one, and no more than the joint's own.
+  /// Returns the speed [rad/s|m/s] of a joint whose valve is open by `opening`, -1 to 1: that of
+  /// its cylinder at the present position, if it has one, at most the joint's own.
   static double opened_speed(const Body& body, std::size_t j, double opening) {
     const scene::Joint& joint = body.machine.joints[j];
     double most = joint.velocity;
@@ -217,7 +223,7 @@ class KinematicEngine final : public PhysicsEngine {
   static void move_joints(Body& body, double dt) {
     for (std::size_t j = 0; j < body.q.size(); ++j) {
       const scene::Joint& joint = body.machine.joints[j];
-      // Free joints and those under effort stay: there is nothing that could move them.
+      // Free joints and joints under effort stay: no force moves them.
       double wanted = body.q[j];
       if (body.input[j].mode == JointMode::kPosition) wanted = body.input[j].target;
       if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
@@ -233,8 +239,8 @@ class KinematicEngine final : public PhysicsEngine {
     }
   }
 
-  /// Where the machine rolls in this step: as the drive says, or as its wheels turn and steer where
-  /// a command has taken one of them. Turns those wheels that the drive moves.
+  /// Returns the motion of this step: by the drive, or by the spin and steering of its wheels where
+  /// joint commands have taken any over. Turns the wheels that the drive moves.
   static Roll move_wheels(Body& body, double dt) {
     const Roll told = body.line->roll(body.drive);
     std::vector<WheelMotion> motion(body.machine.wheels.size());
@@ -258,7 +264,7 @@ class KinematicEngine final : public PhysicsEngine {
       motion[w].steer = body.q[index(turn)];
     }
     const Roll roll = any_taken ? body.line->rolled(motion) : told;
-    // The others roll along, wherever that goes.
+    // The other wheels roll along.
     for (std::size_t w = 0; w < motion.size(); ++w) {
       const int spin = body.machine.joint_index(body.machine.wheels[w].joint);
       if (spin >= 0 && body.taken[index(spin)] == 0 && !body.wheels[w].driven)
@@ -266,19 +272,19 @@ class KinematicEngine final : public PhysicsEngine {
     }
     return roll;
   }
-  /// Wheel `w` on joint `spin` rolls along; its joint is nobody's but the drive's.
+  /// Rolls wheel `w` on joint `spin` along; its joint belongs to the drive.
   static void turn_wheel(Body& body, std::size_t w, int spin, const Roll& roll, double dt) {
     body.qd[index(spin)] = body.line->rolling_spin(roll, body.wheels[w]);
     body.q[index(spin)] += dt * body.qd[index(spin)];
     body.input[index(spin)] = {JointMode::kFree, 0};
   }
 
-  /// Rolls without slip along the arc of drive or wheels, standing on the ground under its middle.
+  /// Moves the base without slip along the arc of drive or wheels, on the ground under its origin.
   static void move_base(Body& body, const GroundQuery& ground, double dt) {
     const Roll roll = move_wheels(body, dt);
     const double speed = roll.speed, rate = roll.yaw_rate;
     const double yaw = std::atan2(body.X_WB.linear()(1, 0), body.X_WB.linear()(0, 0));
-    // The midpoint's heading: the arc's chord up to third order in the step.
+    // Heading at the midpoint: the arc's chord up to third order in the step.
     const double mean = yaw + 0.5 * rate * dt;
     const Vec3 p = body.X_WB.translation();
     Vec3 next(p.x() + dt * speed * std::cos(mean), p.y() + dt * speed * std::sin(mean), 0);
@@ -289,8 +295,8 @@ class KinematicEngine final : public PhysicsEngine {
     body.X_WB = make_pose(next.x(), next.y(), next.z(), 0, 0, yaw + rate * dt);
   }
 
-  /// By a share of what is left, so that it arrives with the time; the turn goes the short way
-  /// round.
+  /// Moves the base by its share of the remaining distance, so that it arrives on time. It turns
+  /// through the smaller angle.
   static void move_to_goal(Body& body, double dt) {
     const double share = body.left > dt ? dt / body.left : 1;
     body.left = std::max(0.0, body.left - dt);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the element rigs. Their gates stand in the rigs; what today's law makes of a
-// triaxial sample is checked for itself.
+// Small versions of the element rigs. The rigs contain the tolerances; the behaviour of the present
+// law in a triaxial sample is checked here.
 #include <cmath>
 
 #include "core/math.h"
@@ -11,7 +11,7 @@ namespace {
 
 TEST(LabShear, SampleMobilisesTheSineOfItsFriction) {
   const Report report = run_rig("shear", {{"edge", 6}, {"speed", 0.2}});
-  // A smaller cube whose plates are nearer: 3 % where the rig's own size has 1 %.
+  // A smaller cube whose plates are closer: 3 % where the rig's own size has 1 %.
   EXPECT_NEAR(measured(report, "tau over sigma / sin phi"), 1, 0.03);
   EXPECT_EQ(report.ledger_error, 0);
 }
@@ -21,10 +21,10 @@ TEST(LabTriaxial, CompressionAndExtensionMobiliseAnAngleBelowOrAboveThePlaneOne)
     return measured(run_rig("triaxial", {{"path", path}}), "mobilised friction angle");
   };
   const double compression = angle(0), extension = angle(1);
-  // The mean over the middle of a cube of 8 cells reads 0.3 to 0.4 deg more than the law itself,
-  // which tests of the law hold to a hundredth; of 6 cells 0.8. A cone in stress space matched at
-  // phi 35 in plane strain has 25.2 and 36.5 deg; the surface of Matsuoka and Nakai 31.2 in both.
-  // Any law between them mobilises no less and no more.
+  // The mean over the middle of a cube of 8 cells is 0.3 to 0.4 deg above the law itself, which
+  // tests of the law check to a hundredth; for 6 cells 0.8. A circular cone matched at phi 35 in
+  // plane strain has 25.2 and 36.5 deg; the surface of Matsuoka and Nakai 31.2 in both. Any law
+  // between them mobilises no less and no more.
   EXPECT_GT(compression, 24.5);
   EXPECT_LT(compression, 31.8);
   EXPECT_GT(extension, 30.6);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The account of the soil's energy [docs/soil.md, energy]: that it closes, and that keeping it
-// changes no bit.
+// The soil's energy account [docs/soil.md, energy]: it balances, and it changes no bit of the run.
 #include <gtest/gtest.h>
 
 #include "lab/run_rig.h"
@@ -16,8 +15,9 @@ TEST(LabEnergy, OfABladeIsWhatWasSuppliedAndChangesNoBit) {
   const Report report = with_energy("blade", {});
   ASSERT_TRUE(report.energy);
   const soil::EnergyAccount& energy = *report.energy;
-  EXPECT_GT(energy.tools, 50);  // 2.5 kN over 0.07 m with their rise: 81 J
-  // All terms are taken by themselves: 0.4 % is left, as stresses and velocities are half a step
+  // 2.5 kN over 0.07 m with their rise: 81 J.
+  EXPECT_GT(energy.tools, 50);
+  // All terms are computed independently: 0.4 % remains, as stresses and velocities are half a step
   // apart.
   EXPECT_NEAR(energy.residual(), 0, 0.015 * energy.tools);
   EXPECT_LE(energy.dissipated(), energy.supplied());
@@ -25,7 +25,7 @@ TEST(LabEnergy, OfABladeIsWhatWasSuppliedAndChangesNoBit) {
        {energy.plastic, energy.viscous, energy.contact, energy.transfer, energy.mixing})
     EXPECT_GE(spent, 0);
   EXPECT_LE(energy.transfer, 0.05 * energy.tools);
-  // The blade is smooth and presses its soil up: no gain from crowding beyond a thousandth.
+  // The blade is smooth and compresses its soil: crowding gains less than a thousandth.
   EXPECT_NEAR(energy.apart, 0, 0.002 * energy.tools);
   EXPECT_EQ(report.state_hash, run_rig("blade", {}).state_hash);
   EXPECT_FALSE(run_rig("blade", {}).energy);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the granular rigs, seconds each. The gates are the rigs' own; where a small
-// sibling is outside its gate the test says so, checks what holds, and docs/validation.md has the
-// row as a miss.
+// Small versions of the granular rigs, seconds each. The tolerances are the rigs' own. Where a
+// small version is outside its tolerance the test says so, checks what holds, and
+// docs/validation.md lists the deviation.
 #include "core/error.h"
 #include "core/math.h"
 #include "lab/run_rig.h"
@@ -11,21 +11,22 @@ namespace navvy::lab {
 namespace {
 
 TEST(LabColumn, PlaneRunOutIsInTheBandAndAHardFloorOutsideIt) {
-  const Report report = run_rig("column", {});  // 30 cells, as the band demands
+  // 30 cells, as the tolerance requires.
+  const Report report = run_rig("column", {});
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(measured(report, "particles through a plate"), 0);
   EXPECT_EQ(report.ledger_error, 0);
-  // Negative control: nearly rigid sand must be told apart, already at 10 cells.
+  // Negative control: nearly rigid sand must be distinguished, already at 10 cells.
   const Report control =
       run_rig("column", {{"l0", 0.5}}, [](lab::Setup& s) { s.soil.friction_angle = radians(59); });
   EXPECT_LT(measured(control, "run-out over L0"), 1.2);
-  // Of which the gate itself says nothing, as it speaks of other sand and of more cells.
+  // The tolerance does not apply to it, as it is for other sand and more cells.
   EXPECT_EQ(misses(control), "");
   EXPECT_FALSE(control.find("run-out over L0")->judged());
 }
 
 TEST(LabColumn, RoundColumnSpreadsToAllSides) {
-  // 12 cells of radius, where the band wants 30: the run-out falls short, as it does in the plane
+  // 12 cells of radius, where the tolerance requires 30: the run-out is too short, as in the plane
   // case.
   const Report report = run_rig("column", {{"shape", 1}, {"l0", 0.6}});
   EXPECT_GT(measured(report, "run-out over L0"), 0.7);
@@ -39,7 +40,8 @@ TEST(LabCone, GentleHeapStandsAndSteepOneSlides) {
 }
 
 TEST(LabPour, GentleHeapTakesItsAngleOfRepose) {
-  // Half the base and little rest: the gate's range is not met, its band for the angle is.
+  // Half the base and little rest: outside the validity of the tolerance, inside its range for the
+  // angle.
   const Report report = run_rig("pour", {{"base", 0.8}, {"rest", 1}});
   const Quantity* angle = report.find("repose after rest");
   ASSERT_NE(angle, nullptr);
@@ -53,13 +55,14 @@ TEST(LabPour, GentleHeapTakesItsAngleOfRepose) {
 
 TEST(LabSlope, FlowsAndStopsAtTheAngleOfItsFriction) {
   const Report report = run_rig("slope", {{"length", 14}, {"halvings", 2}});
-  EXPECT_EQ(misses(report), "");  // found to within 1 degree
+  // Found to within 1 degree.
+  EXPECT_EQ(misses(report), "");
 }
 
 TEST(LabSlide, BlocksObeyCoulomb) {
   const Report report = run_rig("slide", {{"time", 0.6}});
   EXPECT_EQ(misses(report), "");
-  // The force the plate feels is Coulomb's to the rounding of floats.
+  // The force on the plate is Coulomb's up to the rounding of floats.
   EXPECT_NEAR(measured(report, "soil block, shear without adhesion x area over normal force"),
               std::tan(radians(20)), 1e-3);
 }

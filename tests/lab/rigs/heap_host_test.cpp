@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measures of a pile on piles whose volume and slope are known.
+// Measures of a pile, on piles of known volume and slope.
 #include "lab/rigs/heap.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kCell = 0.1;
 
-/// Eight a cell on a lattice, each shaken by up to `shake` of the spacing, where `inside` allows.
+/// Returns eight particles per cell on a lattice, each displaced by up to `shake` of the spacing,
+/// where `inside` allows.
 template <class F>
 std::vector<Vec3> lattice(const Vec3& size, double shake, const F& inside) {
   Random random(3);
@@ -49,16 +50,15 @@ TEST(HeapSurface, OfABlockIsAQuarterCellAboveItsGrains) {
   const double exact = mean_height(surface_of(lattice(size, 0, all), kCell, 0), size.head<2>());
   std::printf("[ VALUE    ] bias of the surface over a lattice: %.3f cells\n",
               (exact - 0.6) / kCell);
-  // A ball of half a cell sinks by 0.15 cells in the middle of four grains of a lattice, by a third
-  // of it on average.
+  // A ball of half a cell sinks by 0.15 cells between four particles of a lattice, by a third of it
+  // on average.
   EXPECT_NEAR(exact, 0.6, 0.07 * kCell);
-  // Shaken and strewn grains: the ball rolls on the highest of them, and falls between them as
-  // often.
+  // Displaced particles: the ball rolls on the highest of them, and falls between them as often.
   const double shaken = mean_height(surface_of(lattice(size, 0.5, all), kCell, 0), size.head<2>());
   std::printf("[ VALUE    ] bias of the surface over shaken grains: %.3f cells\n",
               (shaken - 0.6) / kCell);
   EXPECT_NEAR(shaken, 0.6, 0.05 * kCell);
-  // Grains anywhere, without order.
+  // Particles anywhere, without order.
   Random random(5);
   std::vector<Vec3> strewn;
   strewn.reserve(8 * 600);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small siblings of the tool rigs; the full sizes and half cells run in
+// Small versions of the tool rigs; the full sizes and half cells run in
 // tests/validation/lab_tools_test.cpp.
 #include <cmath>
 
@@ -20,7 +20,7 @@ TEST(LabBlade, SmoothWideBladeFeelsThePassivePressure) {
 TEST(LabBlade, FeelsTheSameAtHalfTheStep) {
   // Transfers last a fixed time [docs/soil.md, transfer]; with one in every step it is 7.7 %.
   const auto force = [](double courant) {
-    return measured(run_rig("blade", {{"courant", courant}, {"gate-percent", 0}}),
+    return measured(run_rig("blade", {{"courant", courant}, {"tolerance-percent", 0}}),
                     "horizontal force");
   };
   EXPECT_NEAR(force(0.25) / force(0.5), 1, 0.01);
@@ -37,7 +37,7 @@ TEST(LabBlade, CohesionAddsItsPart) {
 
 TEST(LabBlade, FlatterBladeNeedsLessForce) {
   const std::map<std::string, double> open = {
-      {"plane", 0}, {"width", 0.6}, {"gate-percent", 0}, {"travel", 0.2}, {"from", 0.1}};
+      {"plane", 0}, {"width", 0.6}, {"tolerance-percent", 0}, {"travel", 0.2}, {"from", 0.1}};
   auto flat = open;
   flat["rake-deg"] = 45;
   const double upright = measured(run_rig("blade", open), "horizontal force");
@@ -49,7 +49,7 @@ TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
                                 {{"rake-deg", 60},
                                  {"depth", 0.15},
                                  {"length", 0.3},
-                                 {"gate-percent", 0},
+                                 {"tolerance-percent", 0},
                                  {"from", 0.2},
                                  {"travel", 0.25}},
                                 [](lab::Setup& s) {
@@ -58,8 +58,10 @@ TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
                                 });
   const Quantity* force = report.find("horizontal force at the end");
   ASSERT_NE(force, nullptr);
-  EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // 6 cells of blade, 0.3 m/s
-  // All of the tool friction acts: the force leans by the rake's complement less delta, 5 deg.
+  // 6 cells of blade, 0.3 m/s.
+  EXPECT_NEAR(force->measured / force->expected, 1, 0.2);
+  // The whole tool friction acts: the force is inclined by the rake's complement minus delta, 5
+  // deg.
   const double down = measured(report, "vertical force on the blade, down");
   EXPECT_NEAR(degrees(std::atan2(down, measured(report, "horizontal force"))), 5, 2);
   EXPECT_EQ(measured(report, "particles through the blade"), 0);
@@ -78,9 +80,10 @@ TEST(LabBlade, RoughUprightBladeIsHeldAgainstItsBoundsNotAgainstTheWedge) {
   EXPECT_TRUE(force->judged());
   EXPECT_NE(force->source.find("[Lancellotta 2002]"), std::string::npos);
   EXPECT_FALSE(wedge->has_tolerance());
-  // The wedge is an upper bound: the gate ends below it.
+  // The wedge is an upper bound: the tolerance ends below it.
   EXPECT_GT(wedge->expected, force->high);
-  EXPECT_NEAR(force->measured / force->expected, 1, 0.2);  // three cells deep
+  // Three cells deep.
+  EXPECT_NEAR(force->measured / force->expected, 1, 0.2);
 }
 
 TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
@@ -91,14 +94,15 @@ TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
   const Quantity* force = report.find("horizontal force");
   ASSERT_NE(force, nullptr);
   EXPECT_FALSE(force->judged());
-  // What is expected is the residual soil's; the intact one's stands beside it without a gate.
+  // The expectation is that of the residual soil; that of the intact soil is listed without a
+  // tolerance.
   EXPECT_NEAR(force->expected,
               0.5 * 16e2 * kGravity * 0.09 * 3.6902 + 2 * 500 * 0.3 * std::sqrt(3.6902), 1);
   ASSERT_NE(report.find("horizontal force, were the soil intact"), nullptr);
   EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_tolerance());
 }
 
-/// The series of that name; empty when there is none.
+/// Returns the series of travel; empty when there is none.
 std::vector<double> travel_of(const Report& report) {
   for (const Series& series : report.series)
     if (series.name == "travel") return series.values;
@@ -114,20 +118,23 @@ TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
   ASSERT_GT(ramped.size(), sudden.size());
   EXPECT_NEAR(ramped.back(), 0.04, 1e-6);
   EXPECT_NEAR(sudden.back(), 0.04, 1e-6);
-  // Even acceleration from rest: the way grows with the square of the steps, the first one is tiny.
+  // Constant acceleration from rest: travel grows with the square of the steps, and the first one
+  // is tiny.
   EXPECT_LT(ramped.front(), 0.1 * sudden.front());
   const std::size_t half = 20 * ramped.size() / 60;
   EXPECT_NEAR(ramped[half] / ramped[half / 2], 4, 0.5);
 }
 
 TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
-  // A small wall, for what the rig says and not for its force.
+  // A small wall, for the report's statements and not for its force.
   const std::map<std::string, double> small = {
       {"height", 0.4}, {"travel", -0.03}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
   const Report slow = run_rig("wall", small, coarse);
-  EXPECT_GT(slow.simulated_time, 0.03 * 0.4 / 0.01);  // 0.01 m/s and a ramp
-  EXPECT_FALSE(slow.find("active force")->judged());  // four cells of height
+  // 0.01 m/s and a ramp.
+  EXPECT_GT(slow.simulated_time, 0.03 * 0.4 / 0.01);
+  // Four cells of height.
+  EXPECT_FALSE(slow.find("active force")->judged());
   auto quick = small;
   quick["speed"] = 0.05;
   EXPECT_LT(run_rig("wall", quick, coarse).simulated_time, 0.5 * slow.simulated_time);
@@ -137,12 +144,12 @@ TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
   std::map<std::string, double> small = {
       {"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
-  const char* const kept = "force it is held by / force before it stopped";
+  const char* const kept = "force after the stop / force before it";
   EXPECT_EQ(run_rig("wall", small, coarse).find(kept), nullptr);
   small["hold"] = 0.3;
   const Report report = run_rig("wall", small, coarse);
   ASSERT_NE(report.find(kept), nullptr);
-  // It stands; the soil loses some of the force that it needs to be moved by, and not all.
+  // It stands; the soil loses some, but not all, of the force that moved it.
   const std::vector<double> way = travel_of(report);
   ASSERT_FALSE(way.empty());
   EXPECT_NEAR(way.back(), 0.04, 1e-6);
@@ -152,8 +159,8 @@ TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
 }
 
 TEST(LabFooting, CarriesFourTimesTheCohesionAtHalfTheCellsOfTheTolerance) {
-  // Ten cells of breadth read 0.85 of Prandtl's 5.14, twenty 0.96, which the gate asks for. With a
-  // transfer in every step ten read more: the transfers' viscosity bore the rest.
+  // Ten cells of breadth give 0.85 of Prandtl's 5.14, twenty 0.96, which the tolerance requires.
+  // With a transfer in every step ten gave more: the viscosity of transfers carried the rest.
   const Report report = run_rig("footing", {}, [](lab::Setup& s) { s.cell = 0.1; });
   EXPECT_NEAR(measured(report, "Nc = pressure / c"), 4.36, 0.05 * 4.36);
   EXPECT_EQ(measured(report, "particles through the shell"), 0);
@@ -181,7 +188,7 @@ TEST(LabLightTool, GainsNoEnergy) {
 }
 
 TEST(LabScrape, NeitherJamsNorThrows) {
-  // The whole way: after half of it the pressed floor has let go.
+  // The whole travel: after half of it the pressed floor has separated.
   const Report report = run_rig("scrape", {});
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(measured(report, "particles through the shell"), 0);

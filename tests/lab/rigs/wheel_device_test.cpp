@@ -27,7 +27,8 @@ Report roll(double slip, double delta_degrees) {
 
 TEST(LabWheel, CarriesItsLoadAndPullsMoreTheMoreItSlips) {
   double before = -1e9;
-  for (const double slip : {-0.5, 0.0, 0.5}) {  // a locked one would go on sinking
+  // A locked one would continue to sink.
+  for (const double slip : {-0.5, 0.0, 0.5}) {
     const Report report = roll(slip, 20);
     EXPECT_EQ(misses(report), "") << slip;
     EXPECT_EQ(measured(report, "particles through the wheel"), 0) << slip;

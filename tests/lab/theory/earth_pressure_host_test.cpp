@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passive pressure of rough walls against values that were published or worked out elsewhere.
+// Passive pressure of rough walls compared with published values, or values computed elsewhere.
 #include "lab/theory/earth_pressure.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ double kc(double phi_degrees, double delta_degrees) {
 }
 
 TEST(SlipLine, CohesionCoefficientsMatchTheirTable) {
-  // The exact field's, to three figures; the planar wedge has 3.46, 4.78, 6.96, 11.2. The last one
-  // by hand: the fan turns by 40.6 deg, p = 7.85 c.
+  // Values of the exact field, to three digits; the planar wedge has 3.46, 4.78, 6.96, 11.2. The
+  // last one by hand: the fan turns by 40.6 deg, p = 7.85 c.
   const double deltas[] = {0, 10, 20, 30}, coefficients[] = {3.46, 4.60, 5.78, 6.72};
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(kc(30, deltas[i]), coefficients[i], 6e-3) << deltas[i];
 }
@@ -35,7 +35,7 @@ TEST(SlipLine, KeepsToTheWallsFriction) {
     const WallStress s = passive_slip_line(radians(28), radians(delta), 4000, 900, 2500);
     EXPECT_NEAR(s.shear, 900 + s.normal * std::tan(radians(delta)), 1e-3) << delta;
   }
-  // Rougher than the soil: the soil slips in itself, and more roughness changes nothing.
+  // Rougher than the soil: the soil slips internally, and more roughness changes nothing.
   EXPECT_EQ(kc(30, 45), kc(30, 60));
 }
 
@@ -53,7 +53,7 @@ TEST(Lancellotta, MatchesItsValueAndRankine) {
 }
 
 TEST(LogSpiral, ReachesTheTablesOfCaquotAndKerisel) {
-  // Of the whole force, along delta [Caquot 1948]; chart values, to two figures.
+  // The whole force, along delta [Caquot 1948]; chart values, to two digits.
   const auto whole = [](double phi, double delta) {
     return passive_log_spiral(radians(phi), radians(delta)) / std::cos(radians(delta));
   };
@@ -93,7 +93,7 @@ TEST(RoughPassive, OfASmoothBladeIsRankineWithCohesionAndAdhesionOnItsSlipLines)
   blade.adhesion = 1000, blade.delta = radians(20);
   const PassiveBand rough = rough_passive(blade);
   EXPECT_GT(rough.high, rough.low);
-  // Lift: friction on all that presses, and the adhesion.
+  // Lift: friction on all pressure, and adhesion.
   EXPECT_NEAR(rough.vertical, rough.low * std::tan(radians(20)) + 1000 * 0.3 * 2, 1);
 }
 

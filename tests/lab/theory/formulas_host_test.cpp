@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed forms against values worked out elsewhere.
+// The closed forms compared with values computed elsewhere.
 #include "lab/theory/formulas.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace navvy::lab {
 namespace {
 
 TEST(Formulas, RankineMatchesItsTable) {
-  // The coefficients of any textbook, given to three figures [Terzaghi 1943].
+  // Coefficients of any textbook, to three digits [Terzaghi 1943].
   EXPECT_NEAR(rankine_active(radians(30)), 0.333, 5e-4);
   EXPECT_NEAR(rankine_active(radians(35)), 0.271, 5e-4);
   EXPECT_NEAR(rankine_active(radians(40)), 0.217, 5e-4);
@@ -43,7 +43,8 @@ TEST(Formulas, WedgeReproducesItsCheckValue) {
   blade.depth = 0.5;
   blade.unit_weight = 1800 * kGravity;
   const BladeForce got = reece_wedge(blade);
-  EXPECT_NEAR(degrees(got.beta), 28.11, 0.005);  // worked by hand to these figures
+  // Computed by hand to these digits.
+  EXPECT_NEAR(degrees(got.beta), 28.11, 0.005);
   EXPECT_NEAR(got.force, 8032.7, 0.05);
 }
 

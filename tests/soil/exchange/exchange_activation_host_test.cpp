@@ -33,7 +33,7 @@ TEST(ExchangeActivation, KeepsTheMassOfEverySoilInRandomColumns) {
          static_cast<float>(random.uniform(0.9, 1.2)), 1.0f});
     const std::vector<std::int64_t> before = site.ground.mass_change();
     std::vector<std::int64_t> after = before;
-    const auto born = site.exchange.wake({ix - 1, iy, ix + 2, iy + 1}, z);
+    const auto born = site.exchange.activate({ix - 1, iy, ix + 2, iy + 1}, z);
     after = site.ground.mass_change();
     for (const Particle& p : born) {
       EXPECT_GT(p.mass, 0);
@@ -44,10 +44,10 @@ TEST(ExchangeActivation, KeepsTheMassOfEverySoilInRandomColumns) {
 }
 
 TEST(ExchangeActivation, PutsFlatGroundUnderTheStressOfItsWeight) {
-  // 0.73 m: the layers are not half cells.
+  // 0.73 m: layers are not half cells.
   for (const scene::Soil& soil : {sand(), loam()}) {
     Site site({soil});
-    site.add(site.exchange.wake({10, 10, 12, 12}, -0.73));
+    site.add(site.exchange.activate({10, 10, 12, 12}, -0.73));
     ASSERT_EQ(site.particles.size(), 2u * 2u * 15u * 4u);
     const double weight = soil.bank_density * kGravity;
     double sum = 0, expected_sum = 0;
@@ -59,7 +59,7 @@ TEST(ExchangeActivation, PutsFlatGroundUnderTheStressOfItsWeight) {
       EXPECT_FLOAT_EQ(p.j0, 1);
       sum += stress_zz(site, p);
       expected_sum -= weight * depth;
-      // At or inside the yield surface: alpha p + k, with rounding.
+      // At or inside the yield surface alpha p + k, with rounding.
       const LawConstants law = law_constants(soil, kCell);
       const double q = std::sqrt(0.5 * (p.s[0] * p.s[0] + p.s[1] * p.s[1] + p.s[2] * p.s[2]));
       const double pressure = p.s[2] - stress_zz(site, p);
@@ -73,18 +73,20 @@ TEST(ExchangeActivation, PutsFlatGroundUnderTheStressOfItsWeight) {
 
 TEST(ExchangeActivation, CarriesTheWeightOfSoilOnTopButNotOfSoilInTheAir) {
   Site site({sand()});
-  const double extra = 0.5;  // [m] of loose soil in its own state
+  // Thickness of loose soil in its own state [m].
+  const double extra = 0.5;
   for (const bool hangs : {false, true}) {
     const int z0 = 50 + (hangs ? 4 : 0);
     const auto load = fill(site, {10, 10, z0}, {11, 11, z0 + 5}, 1.13f,
                            [](double, double, double) { return true; });
-    const auto born = site.exchange.wake({10, 10, 11, 11}, -0.5, load);
+    const auto born = site.exchange.activate({10, 10, 11, 11}, -0.5, load);
     const double weight = 1600 * kGravity * (0.25 + (hangs ? 0 : extra / 1.13));
     double sum = 0;
     for (const Particle& p : born) sum -= stress_zz(site, p) / static_cast<double>(born.size());
-    EXPECT_NEAR(sum, weight, 2e-3 * weight);  // masses of the load are rounded, stress is float
-    for (const Particle& p : born)            // put it back for the second round
-      site.ground.put(10, 10, {0, p.mass, 1, 0});
+    // Masses of the load are rounded, stress is a float.
+    EXPECT_NEAR(sum, weight, 2e-3 * weight);
+    // Returned for the second round.
+    for (const Particle& p : born) site.ground.put(10, 10, {0, p.mass, 1, 0});
   }
 }
 
@@ -93,7 +95,7 @@ TEST(ExchangeActivation, CutsLayersSoThatAParticleIsOfOneSoilAndState) {
   site.ground.put(5, 5, {1, mass_units(3.0), 1.2f, 2.0f});
   const std::int64_t put = mass_units(3.0);
   const double top = site.ground.height(5, 5);
-  site.add(site.exchange.wake({5, 5, 6, 6}, -0.4));
+  site.add(site.exchange.activate({5, 5, 6, 6}, -0.4));
   double volume = 0, loose_mass = 0;
   for (const Particle& p : site.particles) {
     const double z = site.ground.datum() + height_in_cells(p) * kCell;
@@ -103,7 +105,7 @@ TEST(ExchangeActivation, CutsLayersSoThatAParticleIsOfOneSoilAndState) {
     volume += kilograms(p.mass) * p.j0 / site.world.soils[p.soil].bank_density;
     loose_mass += kilograms(p.mass) * p.shear / 2.0;
   }
-  // Volume and plastic shear come along, to float rounding.
+  // Volume and plastic shear are preserved up to float rounding.
   EXPECT_NEAR(volume, (top + 0.4) * kCell * kCell, 1e-6 * volume);
   EXPECT_NEAR(loose_mass, kilograms(put), 1e-5);
 }
@@ -121,7 +123,7 @@ TEST(ExchangeActivation, AToolActivatesTwoDigDepthsAheadOneAsideAndACellBelow) {
   for (int iy = 0; iy < 60; ++iy)
     for (int ix = 0; ix < 60; ++ix)
       if (site.ground.height(ix, iy) < -0.01) {
-        woken.include(ix, iy);
+        woken.include({ix, iy, ix + 1, iy + 1});
         EXPECT_LE(site.ground.height(ix, iy), -0.4 + 1e-6);
         EXPECT_GE(site.ground.height(ix, iy), -0.5 - 1e-6);
       }
@@ -131,7 +133,7 @@ TEST(ExchangeActivation, AToolActivatesTwoDigDepthsAheadOneAsideAndACellBelow) {
   EXPECT_EQ(woken.y0, 17);
   EXPECT_EQ(woken.y1, 33);
   EXPECT_EQ(site.mass_errors(), site.closed());
-  // Nothing new while it stays.
+  // Nothing new happens while it stays.
   EXPECT_EQ(site.checks(0.4, {tool}).activated_columns, 0);
 }
 
@@ -140,10 +142,10 @@ TEST(ExchangeActivation, MotionBesideRestingSoilActivatesItRingingAndElasticWave
     float speed, shear;  // [m/s], [-]
     int woken;
   };
-  // The last one moves as soil does that a wave of stress passes: it has not failed.
+  // The last one moves like soil in a stress wave: it has not failed.
   for (const Case& c : {Case{0.01F, 1, 0}, Case{0.2F, 1, 6 * 6}, Case{0.2F, 0.01F, 0}}) {
     Site site({sand()});
-    site.wake({10, 10, 14, 14}, -0.3);
+    site.activate({10, 10, 14, 14}, -0.3);
     for (Particle& p : site.particles) p.v[0] = c.speed, p.shear = c.shear;
     EXPECT_EQ(site.check().activated_columns, c.woken) << c.speed << " m/s, sheared by " << c.shear;
     EXPECT_EQ(site.mass_errors(), site.closed());
@@ -167,7 +169,7 @@ TEST(ExchangeActivation, ShrinksFromTheFarthestWhenTheBudgetIsFull) {
   const double under_tool = ground.height(30, 30);
   EXPECT_LT(under_tool, -0.39);
   EXPECT_NEAR(ground.height(36, 34), 0, 1e-9);
-  // The event is told once.
+  // The warning is logged once.
   exchange.check(result.born, std::vector{tool}, kCheck, kCheck);
   set_log_sink({});
   EXPECT_EQ(lines.size(), 1u);

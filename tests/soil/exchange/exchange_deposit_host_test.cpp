@@ -3,19 +3,21 @@
 
 #include <algorithm>
 
+#include "heightfield/volume_change.h"
 #include "soil/exchange/deposit_shape.h"
 #include "soil/exchange/exchange_site.h"
 
 namespace navvy::soil {
 namespace {
 
-constexpr double kRest = 1.2;  // longer than soil must rest before it is booked back [s]
-constexpr int kFlat = 50;      // surface of the flat site [cells above datum]
+// Longer than soil must rest before its deposit [s].
+constexpr double kRest = 1.2;
+constexpr int kFlat = 50;  // surface of the flat site [cells above datum]
 
 double raised(const Site& site) {
-  double up = 0, down = 0;
-  site.ground.volume_change(up, down);
-  return up - down;
+  const heightfield::testing::VolumeChange change =
+      heightfield::testing::volume_change(site.ground);
+  return change.raised - change.lowered;
 }
 
 std::vector<Particle> cone(const Site& site, double radius, double height, float j0,
@@ -30,8 +32,8 @@ std::vector<Particle> cone(const Site& site, double radius, double height, float
 }
 
 TEST(ExchangeDeposit, AHeapComesBackWithItsMassVolumeAndShape) {
-  // Slope 5 in 8: 32 deg, below repose. Jitter of half a particle spacing: a heap that fell, not a
-  // lattice.
+  // Slope 5 in 8: 32 deg, below repose. Jitter of half a particle spacing makes a heap that fell,
+  // not a lattice.
   for (const double jitter : {0.0, 0.25}) {
     Site site({sand()});
     site.add(cone(site, 8, 5, 1.13f, jitter));
@@ -72,11 +74,11 @@ TEST(ExchangeDeposit, AHeapComesBackWithItsMassVolumeAndShape) {
         "[ VALUE    ] heap, jitter %.2f cells: height change rms %.1f mm, most %.1f mm over %d "
         "columns\n",
         jitter, 1000 * rms, 1000 * most, count);
-    // The surface of a smoothed cone misses its volume by a few per cent, which the scaling gives
-    // back.
+    // The surface of a smoothed cone differs from its volume by a few per cent, which the scaling
+    // corrects.
     EXPECT_LT(rms, 0.010);
     EXPECT_LT(most, 0.030);
-    // What lies there now stays there: neither wakes nor slides.
+    // The deposit stays: it neither becomes active nor slides.
     const Exchange::Result after = site.checks(2);
     EXPECT_EQ(after.activated_columns, 0);
     EXPECT_EQ(after.slumped_columns, 0);
@@ -106,7 +108,7 @@ TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
             [](int ix, int iy) { return 0.2 * std::sin(0.2 * ix) * std::cos(0.15 * iy); });
   const std::vector<float> start = site.heights();
   for (int cycle = 0; cycle < 5; ++cycle) {
-    site.wake({8, 8, 32, 28}, -0.55);
+    site.activate({8, 8, 32, 28}, -0.55);
     site.checks(kRest);
     ASSERT_TRUE(site.particles.empty());
     EXPECT_EQ(site.mass_errors(), site.closed());
@@ -130,7 +132,7 @@ TEST(ExchangeDeposit, RepeatedActivationAndDepositChangesNothing) {
 
 TEST(ExchangeDeposit, FlatGroundComesBackAsItWas) {
   Site site({sand()});
-  site.wake({8, 8, 32, 28}, -0.55);
+  site.activate({8, 8, 32, 28}, -0.55);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
   EXPECT_EQ(site.mass_errors(), site.closed());
@@ -147,7 +149,7 @@ TEST(ExchangeDeposit, RefusesAnArchAndASlabInTheAir) {
   EXPECT_EQ(site.checks(2 * kRest).deposited_blocks, 0);
   EXPECT_EQ(site.particles.size(), count);
   EXPECT_EQ(site.mass_errors(), site.closed());
-  // What has stood for good is booked as fallen in.
+  // A void that stands for ever is deposited as collapsed.
   EXPECT_EQ(site.checks(5).deposited_blocks, 2);
   EXPECT_TRUE(site.particles.empty());
   EXPECT_EQ(site.mass_errors(), site.closed());
@@ -203,14 +205,14 @@ TEST(ExchangeDeposit, CrowdedSoilIsStoredDenserInsteadOfRisingIntoAPillar) {
   Site site({sand()});
   const auto all = [](double, double, double) { return true; };
   auto block = fill(site, {12, 12, kFlat}, {24, 24, kFlat + 4}, 1.0f, all);
-  // A quarter too much in its room, which j does not know
+  // A quarter too much in its volume, which j does not show.
   for (Particle& p : block) p.mass = p.mass * 5 / 4;
   site.add(block);
   site.checks(kRest);
   ASSERT_TRUE(site.particles.empty());
   EXPECT_EQ(site.mass_errors(), site.closed());
-  // 15 % above the iso-surface, whose volume is that of the box within a few per cent; the 44
-  // columns along its cliffs keep all they have.
+  // 15 % above the iso-surface, whose volume is that of the box within a few per cent. The 44
+  // columns along its cliffs keep all their soil.
   EXPECT_NEAR(raised(site), (1.15 * 100 + 1.25 * 44) * 4 * kCell * kCell * kCell,
               0.05 * raised(site));
   EXPECT_NEAR(site.ground.layers(18, 18).back().specific_volume, 1.15 / 1.25, 0.05);

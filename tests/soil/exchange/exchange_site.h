@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small site for the exchange tests: flat ground of chosen soils, and books over columns and
-// particles.
+// A small site for the exchange tests: flat ground of chosen soils, and mass balances of columns
+// and particles.
 #pragma once
 
 #include <cmath>
@@ -44,7 +44,8 @@ inline heightfield::Ground make_ground(
   setup.nx = nx;
   setup.ny = ny;
   setup.cell = world.solver.cell;
-  setup.origin = Vec2(-3, 2);  // not at zero, so that a forgotten origin shows
+  // Not at zero, so that a missing origin shows.
+  setup.origin = Vec2(-3, 2);
   setup.datum = -5;
   setup.soils = world.soils;
   setup.layers = std::move(layers);
@@ -52,7 +53,7 @@ inline heightfield::Ground make_ground(
   return heightfield::Ground(std::move(setup));
 }
 
-/// Ground, exchange and the particles between them, without a solver: particles lie where they are.
+/// Ground, exchange and the particles between them, without a solver: particles do not move.
 struct Site {
   explicit Site(
       std::vector<scene::Soil> soils, int nx = 48, int ny = 40,
@@ -72,7 +73,7 @@ struct Site {
     return world;
   }
 
-  /// One check; particles are taken and added as it says.
+  /// Runs one check and applies its result to the particles.
   Exchange::Result check(const std::vector<ToolRegion>& tools = {}) {
     Exchange::Result result = exchange.check(particles, tools, time, step);
     time += step;
@@ -86,7 +87,7 @@ struct Site {
     particles = stay;
     return result;
   }
-  /// Checks for `seconds`; returns the sums of their counts.
+  /// Runs checks for `seconds`; returns the sums of their counts.
   Exchange::Result checks(double seconds, const std::vector<ToolRegion>& tools = {}) {
     Exchange::Result sum;
     for (int n = static_cast<int>(std::lround(seconds / step)); n > 0; --n) {
@@ -105,14 +106,14 @@ struct Site {
       inserted[p.soil] += p.mass;
     }
   }
-  /// Wakes a rectangle and keeps what it gives.
-  void wake(const heightfield::CellRect& rect, double z_bottom) {
-    for (Particle& p : exchange.wake(rect, z_bottom, particles)) {
+  /// Activates a rectangle and adds its particles.
+  void activate(const heightfield::CellRect& rect, double z_bottom) {
+    for (Particle& p : exchange.activate(rect, z_bottom, particles)) {
       p.id = next_id++;
       particles.push_back(p);
     }
   }
-  /// Columns and particles against the start, per soil; all zero when the books are closed.
+  /// Returns columns and particles minus their start, per soil; all zero when the mass is balanced.
   std::vector<std::int64_t> mass_errors() const {
     std::vector<std::int64_t> sum = ground.mass_change();
     for (std::size_t s = 0; s < inserted.size(); ++s) sum[s] -= inserted[s];
@@ -133,11 +134,12 @@ struct Site {
   Exchange exchange;
   std::vector<Particle> particles;
   std::vector<std::int64_t> inserted;
-  double time = 0, step = kCheck;  ///< simulated now, and between checks [s]
+  /// Simulated time, and time between checks [s].
+  double time = 0, step = kCheck;
   std::uint32_t next_id = 1;
 };
 
-/// A particle at rest at (x, y, z) in cells of the grid frame.
+/// Returns a particle at rest at (x, y, z) in cells of the grid frame.
 inline Particle particle_at(const Site& site, double x, double y, double z, double volume_cells,
                             float j0, std::uint16_t soil = 0) {
   Particle p;
@@ -155,8 +157,9 @@ inline Particle particle_at(const Site& site, double x, double y, double z, doub
   return p;
 }
 
-/// Soil where `inside(x, y, z)` (cells), 8 particles a cell on a lattice, jittered.
-inline std::vector<Particle> fill(const Site& site, const Vec3i& low, const Vec3i& high, float j0,
+/// Returns soil where `inside(x, y, z)` (cells), 8 particles per cell on a lattice, jittered.
+inline std::vector<Particle> fill(const Site& site, const Eigen::Vector3i& low,
+                                  const Eigen::Vector3i& high, float j0,
                                   const std::function<bool(double, double, double)>& inside,
                                   double jitter = 0, std::uint16_t soil = 0) {
   std::vector<Particle> out;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "heightfield/volume_change.h"
 #include "soil/exchange/exchange_site.h"
 #include "soil/exchange/log_spiral.h"
 #include "soil/exchange/slump_table.h"
@@ -11,7 +12,7 @@
 namespace navvy::soil {
 namespace {
 
-// Takes the soil above `height` off the columns with x < 24: a cliff that somebody dug.
+// Removes the soil above `height` from the columns with x < 24: a dug cliff.
 void cut(Site& site, double height) {
   std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < site.ground.ny(); ++iy)
@@ -104,8 +105,8 @@ TEST(ExchangeSlump, AVerticalCutStandsToTheLogSpiralsHeight) {
   const scene::Soil soil = loam();
   const FaceHeights faces(soil.friction_angle);
   const double critical = faces.height(soil.cohesion / unit_weight(soil), kCell / 2, 100);
-  // Vertical face: 3.83 c / gamma tan(45 + phi/2) [Chen 1975]; the half cell of setback gives it a
-  // little more.
+  // Vertical face: 3.83 c / gamma tan(45 + phi/2) [Chen 1975]; the half cell of setback adds a
+  // little.
   const double vertical = 3.83 * soil.cohesion / unit_weight(soil) * std::tan(radians(60));
   print_value("vertical cut [m]", critical, std::to_string(vertical), "[Chen 1975]");
   EXPECT_GT(critical, vertical);
@@ -123,7 +124,7 @@ TEST(ExchangeSlump, AVerticalCutStandsToTheLogSpiralsHeight) {
   }
 }
 
-// [Taylor 1948] has the friction circle, whose numbers are those of the spiral to a hundredth.
+// [Taylor 1948] has the friction circle, whose numbers equal those of the spiral to a hundredth.
 TEST(ExchangeSlump, TheLogSpiralHasTheKnownNumbers) {
   EXPECT_NEAR(stability_number(0, radians(90)), 3.83, 0.02);
   for (const double phi : {10.0, 20.0, 30.0, 40.0})
@@ -132,7 +133,7 @@ TEST(ExchangeSlump, TheLogSpiralHasTheKnownNumbers) {
   EXPECT_NEAR(stability_number(radians(20), radians(60)), 1 / 0.097, 0.1);
   EXPECT_NEAR(stability_number(radians(15), radians(45)), 1 / 0.083, 0.15);
   EXPECT_TRUE(std::isinf(stability_number(radians(30), radians(29))));
-  // Read from the table between its entries.
+  // Interpolated in the table.
   const FaceHeights faces(radians(30));
   for (const double face : {37.0, 48.0, 61.0, 77.0}) {
     const double height = faces.height(0.1, 2 / std::tan(radians(face)), 100);
@@ -159,22 +160,25 @@ TEST(ExchangeSlump, FallenSoilIsLooseAndRemoulded) {
   Site site({loam()});
   cut(site, -3);
   const std::vector<std::int64_t> mass = site.ground.mass_change();
-  double up = 0, down = 0;
-  site.ground.volume_change(up, down);
-  const double before = up - down;
+  const auto rise = [&] {
+    const heightfield::testing::VolumeChange change =
+        heightfield::testing::volume_change(site.ground);
+    return change.raised - change.lowered;
+  };
+  const double before = rise();
   site.checks(8);
   EXPECT_EQ(site.ground.mass_change(), mass);
-  const auto layers = site.ground.layers(21, 20);  // in front of the face, now under rubble
+  // In front of the face, now under rubble.
+  const auto layers = site.ground.layers(21, 20);
   ASSERT_GT(layers.size(), 1u);
   EXPECT_FLOAT_EQ(layers.back().specific_volume, 1.23f);
   EXPECT_GT(layers.back().plastic_shear, 4 * loam().remoulding_strain);
-  site.ground.volume_change(up, down);
-  EXPECT_GT(up - down, before);
+  EXPECT_GT(rise(), before);
 }
 
 TEST(ExchangeSlump, GroundThatWasSteepHoldsUntilItIsTouched) {
   Site site({sand()}, 48, 40, {}, [](int ix, int) { return ix < 24 ? 0.0 : 1.5; });
-  // A rut on top and mere reading do not matter; digging at the foot does.
+  // A rut on top and mere reading have no effect; digging at the foot has.
   site.ground.compact_to(30, 20, 1.48);
   EXPECT_EQ(site.checks(0.5).slumped_columns, 0);
   std::vector<heightfield::SoilLayer> taken;
@@ -185,7 +189,7 @@ TEST(ExchangeSlump, GroundThatWasSteepHoldsUntilItIsTouched) {
 TEST(ExchangeSlump, OverSteepColumnsBesideActiveSoilActivateInstead) {
   Site site({sand()});
   cut(site, -1);
-  site.wake({18, 18, 23, 22}, -1.2);
+  site.activate({18, 18, 23, 22}, -1.2);
   const std::vector<std::int64_t> before = site.mass_errors();
   const Exchange::Result result = site.check();
   EXPECT_GT(result.activated_columns, 0);
@@ -201,7 +205,8 @@ TEST(ExchangeSlump, ColumnsSlideWhenNoParticleMayBeAdded) {
   std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < 40; ++iy)
     for (int ix = 0; ix < 24; ++ix) ground.take_above(ix, iy, -1, taken);
-  ToolRegion tool;  // stands beside the face
+  // Stands beside the face.
+  ToolRegion tool;
   tool.min = Vec3(ground.origin().x() + 1.6, ground.origin().y() + 2, -1.05);
   tool.max = tool.min + Vec3(0.3, 0.3, 0.5);
   int slumped = 0;

@@ -26,7 +26,7 @@ void set_scene(Site& site) {
       site, {28, 24, 50}, {36, 32, 54}, 1.13f,
       [](double x, double y, double z) { return std::hypot(x - 32, y - 28) < 4 - 1.5 * (z - 50); },
       0.2));
-  site.wake({20, 8, 28, 14}, -0.4);
+  site.activate({20, 8, 28, 14}, -0.4);
   for (std::size_t i = 0; i < site.particles.size(); ++i)
     if (i % 37 == 0) site.particles[i].v[0] = 0.3f;
 }
@@ -47,7 +47,7 @@ TEST(ExchangeState, MassBalanceHoldsThroughRandomWork) {
   Random random(11);
   int woken = 0, deposited = 0, slumped = 0;
   for (int n = 0; n < 120; ++n) {
-    // Soil moves about as if a solver ran, then rests again.
+    // Soil moves as if a solver ran, then rests again.
     for (Particle& p : site.particles) {
       const bool moves = n % 40 < 8 && random.uniform() < 0.05;
       p.v[0] = moves ? static_cast<float>(random.uniform(-0.5, 0.5)) : 0.0f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Awake soil under wheels becomes ground that bears them [docs/exchange.md, footings].
+// Active soil under wheels becomes ground that supports them [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 namespace navvy::soil {
 namespace {
 
-constexpr double kRadius = 0.5, kDepth = 0.2;  // of the wheel, of the layer [m]
+// Of the wheel, of the layer [m].
+constexpr double kRadius = 0.5, kDepth = 0.2;
 
 /// A wheel that rolls along x over column (24, 20), its lowest point at this height [m].
 SupportArea wheel_at(const Site& site, double height) {
@@ -74,8 +75,9 @@ TEST(ExchangeSupportArea, DepositsTheSoilUnderAWheelLevelAndLeavesTheRestActive)
       EXPECT_EQ(mass_over(site, ix, iy), 0);
       most = std::max(most, std::abs(site.ground.height(ix, iy) - kDepth));
     }
-  // Counted by column, jittered particles would scatter by centimetres; smoothed by place they lie
-  // level. What stays is the share of grains that the pool's edge cuts: one in forty.
+  // Counted by column, jittered particles would scatter by centimetres; smoothed by position they
+  // form a level surface. The remainder is the share of particles that the pool's edge cuts: one in
+  // forty.
   EXPECT_LT(most, 0.008);
   EXPECT_NEAR(site.ground.height(24, 30), 0, 1e-9);
   EXPECT_NEAR(site.ground.specific_volume(24, 20), 1.1, 1e-3);
@@ -85,7 +87,7 @@ TEST(ExchangeSupportArea, LeavesAloneWhatAWheelDoesNotComeTo) {
   Site site({sand()});
   site.add(layer(site));
   EXPECT_EQ(check(site, {wheel_at(site, kDepth + 0.2)}).support_columns, 0);
-  // Falling fast enough it comes to it before the next check.
+  // It falls fast enough to arrive before the next check.
   SupportArea falls = wheel_at(site, kDepth + 0.2);
   falls.v_W.z() = -4;
   EXPECT_GT(check(site, {falls}).support_columns, 20);
@@ -116,7 +118,7 @@ TEST(ExchangeSupportArea, TakesNothingThatIsInTheAirInABucketOrTouched) {
     std::vector<ToolRegion> tools;
     for (Particle& p : site.particles) {
       if (!in_column(p)) continue;
-      // 0.65 m over the ground, where the axle is
+      // 0.65 m over the ground, at the axle.
       if (kind == kInTheAir) p.x[2] += 2.5f, p.block[2] += 1;
       if (kind == kTouched) p.side = 1;
     }
@@ -142,21 +144,20 @@ TEST(ExchangeSupportArea, TakesNothingThatIsInTheAirInABucketOrTouched) {
 TEST(ExchangeSupportArea, DoesNotLiftAWheelByWhatStandsInIt) {
   Site site({sand()});
   site.add(layer(site));
-  // The wheel stands half as deep in the layer as that is high, and its load presses it flat by 20
-  // mm.
+  // The wheel stands half as deep in the layer as that is high, and its load flattens it by 20 mm.
   SupportArea wheel = wheel_at(site, 0.5 * kDepth);
-  wheel.give = 0.02;
+  wheel.flattening = 0.02;
   check(site, {wheel});
-  // To a particle's share of a column, 12.5 mm.
-  EXPECT_NEAR(site.ground.height(24, 20), 0.5 * kDepth + wheel.give, 0.0125);
+  // Up to a particle's share of a column, 12.5 mm.
+  EXPECT_NEAR(site.ground.height(24, 20), 0.5 * kDepth + wheel.flattening, 0.0125);
   EXPECT_GT(mass_over(site, 24, 20), 0);
   EXPECT_EQ(site.mass_errors(), site.closed());
-  // Nor bit by bit, as long as it moves.
+  // Nor gradually while it moves.
   for (int n = 0; n < 40; ++n) {
     for (Particle& p : site.particles) p.v[2] = 0.1F;
     check(site, {wheel});
   }
-  EXPECT_LT(site.ground.height(24, 20), 0.5 * kDepth + wheel.give + 0.0125);
+  EXPECT_LT(site.ground.height(24, 20), 0.5 * kDepth + wheel.flattening + 0.0125);
 }
 
 TEST(ExchangeSupportArea, SoilUnderAWheelActivatesOnlyWhereAToolTouchesIt) {
@@ -181,7 +182,7 @@ TEST(ExchangeSupportArea, SoilUnderAWheelActivatesOnlyWhereAToolTouchesIt) {
 TEST(ExchangeSupportArea, ABankThatIsTooSteepStaysUnderAWheel) {
   for (const bool wheel : {false, true}) {
     Site site({sand()});
-    // A cut 0.5 m deep along the wheel, with awake soil at its foot.
+    // A cut 0.5 m deep along the wheel, with active soil at its foot.
     std::vector<heightfield::SoilLayer> taken;
     for (int iy = 22; iy < 36; ++iy)
       for (int ix = 4; ix < 44; ++ix) site.ground.take_above(ix, iy, -0.5, taken);
@@ -198,7 +199,7 @@ TEST(ExchangeSupportArea, ABankThatIsTooSteepStaysUnderAWheel) {
 TEST(ExchangeSupportArea, ActivationAndSupportDoNotAlternate) {
   Site site({sand()});
   site.add(layer(site));
-  // All that is awake moves fast enough to wake what is beside it, for as long as the wheel stands.
+  // All active soil moves fast enough to activate its neighbours, while the wheel stands.
   for (int n = 0; n < 40; ++n) {
     for (Particle& p : site.particles) p.v[0] = 0.2F;
     const Exchange::Result result = check(site, {wheel_at(site, kDepth)});
@@ -233,7 +234,7 @@ TEST(ExchangeSupportArea, TheOrderOfParticlesDoesNotMatterAndTwoSoilsKeepTheirMa
     ASSERT_EQ(a.particles.size(), b.particles.size());
     ASSERT_EQ(a.mass_errors(), a.closed());
   }
-  // Loam lies on sand, as it did.
+  // Loam lies on sand, as before.
   EXPECT_EQ(a.ground.surface_soil(24, 20), 1);
   EXPECT_EQ(a.ground.layers(24, 20).size(), 3u);
 }

@@ -25,7 +25,8 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
       const Vec3 v = v0 + gradient * (kStageCell * (node - Vec3::Constant(40)));
       for (int k = 0; k < 3; ++k)
         nodes[4 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
-      nodes[4 * i + 3] = 1e-3f;  // loose: nothing is moved apart
+      // Loose: nothing separates.
+      nodes[4 * i + 3] = 1e-3f;
     }
     stages.grid.velocity().write(nodes);
     stages.scatter.used().write(std::vector<std::int32_t>(table.particle_blocks.size(), 1));
@@ -57,8 +58,8 @@ TEST(GridToParticle, ReadsALinearVelocityFieldBackExactly) {
   }
 }
 
-// Nodes that hold more to the right: where that is crowded, what is sheared goes left and what is
-// not stays.
+// Nodes with more mass to the right: where that is crowded, sheared soil moves left and other soil
+// stays.
 TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
   for (const double gradient : {0.0, 5.0, 1000.0}) {
     Stages stages(strewn(33));
@@ -85,15 +86,16 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
       // |D| of a simple shear is the gradient; the variance of the quadratic B-spline is a quarter
       // of a cell.
       const double mass = 1.2 * full + slope * x,
-                   share = std::min(1.0, kStageStep * gradient / crowding_shear());
-      double apart = std::max(-share * 0.25 * slope / mass, -0.25 * farthest_apart());
+                   share = std::min(1.0, kStageStep * gradient / kScheme.crowding_strain);
+      double apart =
+          std::max(-share * 0.25 * slope / mass, -0.25 * kScheme.max_crowding_displacement);
       if (static_cast<double>(before[i].j) * mass <= full) apart = 0;
       crowded += apart < 0;
-      const double way = kStageStep * gradient * y + apart;
-      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]), way,
-                  2e-6 * (1 + gradient));
+      const double displacement = kStageStep * gradient * y + apart;
+      EXPECT_NEAR(static_cast<double>(after[i].x[0]) - static_cast<double>(before[i].x[0]),
+                  displacement, 2e-6 * (1 + gradient));
       EXPECT_NEAR(static_cast<double>(after[i].x[2]), static_cast<double>(before[i].x[2]), 1e-6);
-      // What is open here closes, as these nodes are heavy; no J goes below the density state.
+      // Open soil closes here, as these nodes are heavy; no J falls below the density state.
       EXPECT_LE(after[i].j, before[i].j);
       EXPECT_GE(after[i].j, std::min(before[i].j, before[i].j0));
     }
@@ -101,13 +103,14 @@ TEST(GridToParticle, MovesCrowdedSoilApartByItsShear) {
   }
 }
 
-// Where the nodes hold a closed soil's mass, soil that is a little open closes by its share; what
-// is far open has been thrown and keeps its gaps, and light nodes leave all as it is.
+// Where the nodes hold the mass of closed soil, soil that is a little open closes by its share.
+// Soil that is far open has been thrown and keeps its gaps; light nodes change nothing.
 TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
   std::vector<Particle> soil = strewn(40);
   const float state = 1.1f, opened[] = {1.08f, 1.15f, 1.3f};
   for (std::size_t i = 0; i < soil.size(); ++i) soil[i].j0 = state, soil[i].j = opened[i % 3];
-  for (const double filled : {0.8, 1.0}) {  // of what counts as closed in this state
+  // Of the mass of closed soil in this state.
+  for (const double filled : {0.8, 1.0}) {
     Stages stages(soil);
     const BlockTable& table = stages.store.table();
     const double mass = 1.01 * filled * filled_mass(stages.store.densest(), kStageCell) /
@@ -124,9 +127,9 @@ TEST(GridToParticle, ClosesWhatNoiseOpensWhereTheNodesShowIt) {
       const bool closes = filled >= 1 && before[i].j == opened[1];
       closed += closes;
       // Stages pass a quarter of a transfer.
-      const double way =
-          closes ? 0.25 * closing_share() * static_cast<double>(opened[1] - state) : 0;
-      EXPECT_NEAR(static_cast<double>(before[i].j - after[i].j), way, 1e-6);
+      const double displacement =
+          closes ? 0.25 * kScheme.closing_share * static_cast<double>(opened[1] - state) : 0;
+      EXPECT_NEAR(static_cast<double>(before[i].j - after[i].j), displacement, 1e-6);
       EXPECT_EQ(after[i].j0, before[i].j0);
     }
     EXPECT_EQ(closed > 0, filled >= 1);

@@ -10,7 +10,7 @@
 namespace navvy::soil {
 namespace {
 
-/// Node velocities and masses per room, four numbers each, of all active blocks.
+/// Returns node velocities and masses per free volume, four numbers each, of all active blocks.
 std::vector<float> nodes_of(Stages& stages, const Vec3& dv) {
   stages.enqueue_scatter();
   stages.enqueue_grid(dv);
@@ -40,7 +40,7 @@ TEST(GridUpdate, KeepsMomentumAndAddsGravityFarFromTheGround) {
 }
 
 TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
-  // Ground through the middle of the strewn particles.
+  // Ground through the middle of the scattered particles.
   const std::vector<Particle> particles = strewn(200);
   Stages open(particles), stages(particles, 40);
   const std::vector<float> free_nodes = nodes_of(open, Vec3::Zero()),
@@ -52,11 +52,11 @@ TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
                          static_cast<double>(i % BLOCK_NODES / 16) - 40;
     const auto mass = static_cast<double>(free_nodes[4 * i + 3]);
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(nodes[4 * i + k], above <= kHeldMargin ? 0.0f : free_nodes[4 * i + k]);
+      EXPECT_EQ(nodes[4 * i + k], above <= kScheme.held_margin ? 0.0f : free_nodes[4 * i + k]);
     // One float division more than without ground.
     EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::free_fraction_above(above), mass,
                 1e-6 * mass);
-    held += mass > 0 && above <= kHeldMargin;
+    held += mass > 0 && above <= kScheme.held_margin;
   }
   EXPECT_GT(held, 10);
 }

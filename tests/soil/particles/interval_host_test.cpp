@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kCell = 0.1, kLength = 6e-3;
 
-/// Steps of dt [s] that one transfer takes at these speeds [m/s].
+/// Returns the number of steps of dt [s] in one transfer at these speeds [m/s].
 int steps_of(double dt, double soil, double tool, double gravity = 0) {
   TransferInterval interval;
   int steps = 0;
   do {
-    interval.book(dt, kCell, soil, tool);
+    interval.count_step(dt, kCell, soil, tool);
     ++steps;
   } while (interval.holds(dt, kLength, kCell, tool, gravity));
   return steps;
@@ -33,7 +33,7 @@ TEST(TransferInterval, EndsBeforeSoilOrAToolHasGoneAFifthOfACell) {
   EXPECT_EQ(steps_of(1.5e-3, 5, 0), 2);
   EXPECT_EQ(steps_of(1.5e-3, 0, 5), 2);
   EXPECT_EQ(steps_of(1.5e-3, 20, 0), 1);
-  // What falls from rest gains 15 mm/s a step at 1 g: no reason to end; at 100 g it is.
+  // Soil that falls from rest gains 15 mm/s per step at 1 g, no reason to end; at 100 g it is.
   EXPECT_EQ(steps_of(1.5e-3, 3, 0, 9.81), 4);
   EXPECT_EQ(steps_of(1.5e-3, 3, 0, 981), 3);
 }

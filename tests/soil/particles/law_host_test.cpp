@@ -17,20 +17,21 @@ using reference::law_update;
 using reference::LawSoil;
 using reference::LawState;
 
-/// One particle under a velocity gradient that the test sets.
+/// One particle under a velocity gradient set by the test.
 struct Element : LawState {
   explicit Element(const LawSoil& of) : LawState{{0, 0, 0, 0, 0, 0}, 1, 1, 0}, soil(of) {}
   LawSoil soil;
   double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, sigma[6] = {0, 0, 0, 0, 0, 0};
   void step(double dt) { law_update(c, dt, &soil, this, sigma); }
-  double q() const {  ///< root of the second deviator invariant
+  /// Returns the root of the second deviator invariant.
+  double q() const {
     return std::sqrt(0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[3] * s[3] + s[4] * s[4] +
                      s[5] * s[5]);
   }
   double pressure() const { return -(sigma[0] + sigma[1] + sigma[2]) / 3; }
 };
 
-/// Sand whose strength knows no rate.
+/// Returns sand whose strength does not depend on the rate.
 scene::Soil plain_sand(double phi_degrees) {
   scene::Soil soil = rig::sand(phi_degrees);
   soil.static_friction_share = 0;
@@ -54,7 +55,8 @@ TEST(SoilLaw, SimpleShearMobilisesTheSineOfTheFrictionAngle) {
 
 TEST(SoilLaw, UniaxialCompressionGivesTheElasticRestRatio) {
   scene::Soil soil = rig::sand();
-  soil.cohesion = soil.residual_cohesion = 1e6;  // keeps it elastic
+  // Keeps it elastic.
+  soil.cohesion = soil.residual_cohesion = 1e6;
   Element e{law_soil(soil, 0.1)};
   e.soil.viscosity = 0;
   e.c[8] = -1e-5;
@@ -79,7 +81,8 @@ TEST(SoilLaw, OpenedSoilCarriesNothingUntilItCloses) {
 TEST(SoilLaw, SoilThatOpensWithoutEndStaysANumberAndClosesAgain) {
   Element e{law_soil(rig::sand(), 0.1)};
   for (const int axis : {0, 4, 8}) e.c[axis] = 50;
-  for (int i = 0; i < 5000; ++i) e.step(1e-3);  // 0.15 a step: 1e300 after 5000
+  // 0.15 per step: 1e300 after 5000.
+  for (int i = 0; i < 5000; ++i) e.step(1e-3);
   EXPECT_EQ(e.j, 100);
   for (const int axis : {0, 4, 8}) e.c[axis] = -50;
   for (int i = 0; i < 40; ++i) e.step(1e-3);
@@ -92,11 +95,13 @@ TEST(SoilLaw, CohesionFadesWithOpeningAndWithRemoulding) {
   soil.residual_cohesion = 1000;
   Element e{law_soil(soil, 0.1)};
   e.c[1] = 1;
-  e.step(0.1);  // far over the yield stress at once
+  // Far above the yield stress at once.
+  e.step(0.1);
   EXPECT_NEAR(e.q(), 5000 * std::cos(soil.friction_angle), 1e-6);
   e.shear = soil.remoulding_strain;
   e.step(0.1);
-  EXPECT_NEAR(e.q(), 2000 * std::cos(soil.friction_angle), 1e-6);  // (c - c_r) fell to a quarter
+  // (c - c_r) falls to a quarter.
+  EXPECT_NEAR(e.q(), 2000 * std::cos(soil.friction_angle), 1e-6);
   e.j = e.j0 * (1 + 0.5 * soil.opening_strain);
   e.shear = soil.remoulding_strain;
   e.step(0.1);
@@ -113,7 +118,8 @@ TEST(SoilLaw, DensityStateGrowsOnlyToTheSwellAndOnlyAsFarAsTheVolumeAllows) {
   closed.j = 1 - 20e3 / closed.soil.bulk;
   closed.c[1] = 1;
   for (int i = 0; i < 2000; ++i) closed.step(1e-3);
-  EXPECT_EQ(closed.j0, 1);  // confined shear makes no pressure out of nothing
+  // Confined shear creates no pressure.
+  EXPECT_EQ(closed.j0, 1);
   Element open{law_soil(soil, 0.1)};
   open.j = 1.5;
   open.c[1] = 1;
@@ -121,15 +127,15 @@ TEST(SoilLaw, DensityStateGrowsOnlyToTheSwellAndOnlyAsFarAsTheVolumeAllows) {
   EXPECT_NEAR(open.j0, soil.swell, 1e-12);
 }
 
-/// Sheared in plane strain at a fixed normal stress on the plane of shear, as in a shear box: the
-/// height follows.
+/// Plane-strain shear at a fixed normal stress on the plane of shear, as in a shear box: the height
+/// follows.
 struct ShearBox {
   explicit ShearBox(const scene::Soil& soil, double normal)
       : e{law_soil(soil, 0.1)}, target(normal) {
     e.soil.viscosity = 0;
     e.j = 1 - normal / e.soil.bulk;
   }
-  /// Shears by `strain`; returns how much the volume grew.
+  /// Shears by `strain`; returns the growth of the volume.
   double shear(double strain) {
     const double dt = 1e-3, before = volume;
     e.c[1] = 0.05;
@@ -140,7 +146,8 @@ struct ShearBox {
     }
     return volume - before;
   }
-  /// sin of the mobilised friction angle: radius / centre of Mohr's circle in the plane.
+  /// Returns the sine of the mobilised friction angle: radius / centre of Mohr's circle in the
+  /// plane.
   double mobilised() const {
     return std::hypot(0.5 * (e.sigma[0] - e.sigma[1]), e.sigma[3]) /
            (-0.5 * (e.sigma[0] + e.sigma[1]));
@@ -152,11 +159,13 @@ struct ShearBox {
 TEST(SoilLaw, DenseSoilDilatesByItsAngleAtItsFrictionAngleUntilItIsLoose) {
   for (const double psi : {5.0, 12.0}) {
     scene::Soil soil = plain_sand(35);
-    soil.swell = 2;  // far away: what is measured is nearly bank soil
+    // Far away: the result is nearly that of bank soil.
+    soil.swell = 2;
     soil.dilatancy_angle = radians(psi);
     soil.loosening_strain = 100;
     ShearBox box(soil, 20e3);
-    box.shear(0.3);  // until the elastic strains stand
+    // Until elastic strains are steady.
+    box.shear(0.3);
     const double growth = box.shear(0.02) / 0.02, left = (soil.swell - box.e.j0) / (soil.swell - 1);
     const double sin_now = left * std::sin(radians(psi));
     print_value("volume / shear strain at psi " + std::to_string(psi), growth,
@@ -195,21 +204,22 @@ TEST(SoilLaw, DilatingSoilThatIsConfinedPressesItself) {
 }
 
 TEST(SoilLaw, PressureCompactsForGoodAlongItsLineAndUnloadsElastically) {
-  // Oedometer: pressed along z without side strain, let go, pressed again.
+  // Oedometer: compressed along z without side strain, released, compressed again.
   scene::Soil soil = rig::sand(33);
   soil.swell = 1.2;
   soil.compaction_pressure = 20e3;
   soil.compaction_strain = 0.05;
   Element e{law_soil(soil, 0.1)};
   e.soil.viscosity = 0;
-  const auto press = [&](double to) {  // mean pressure
+  // Compresses to a mean pressure.
+  const auto press = [&](double to) {
     e.c[8] = e.pressure() < to ? -0.01 : 0.01;
     const bool up = e.c[8] < 0;
     for (int i = 0; i < 100000 && (up ? e.pressure() < to : e.pressure() > to); ++i) e.step(1e-3);
   };
   const auto bears = [&] { return 20e3 * (1 + (1 - e.j0) / 0.05); };
   press(18e3);
-  EXPECT_EQ(e.j0, 1) << "bank soil bears it";
+  EXPECT_EQ(e.j0, 1) << "bank soil carries it";
   press(40e3);
   print_value("density state at twice the pressure", e.j0, "0.95 +-0.1 %", "the line's definition");
   EXPECT_NEAR(e.pressure(), bears(), 0.01 * bears());
@@ -218,10 +228,10 @@ TEST(SoilLaw, PressureCompactsForGoodAlongItsLineAndUnloadsElastically) {
   press(1e3);
   EXPECT_EQ(e.j0, dense) << "it stays dense";
   press(35e3);
-  EXPECT_EQ(e.j0, dense) << "and bears what it has borne";
+  EXPECT_EQ(e.j0, dense) << "and carries what it has carried before";
   press(200e3);
   EXPECT_NEAR(e.j0, 0.88, 1e-9) << "the densest state";
-  // Loosened soil gives way at a twentieth.
+  // Loosened soil yields at a twentieth.
   Element loose{law_soil(soil, 0.1)};
   loose.soil.viscosity = 0;
   loose.j = loose.j0 = 1.15;
@@ -252,8 +262,8 @@ TEST(SoilLaw, FrictionGrowsWithTheInertialNumber) {
   }
 }
 
-/// Sheared in proportion to the diagonal `rates` [1/s], which sum up to 0, at a constant pressure
-/// until it flows.
+/// Returns an element sheared in proportion to the diagonal `rates` [1/s], whose sum is 0, at a
+/// constant pressure until it flows.
 Element sheared(const scene::Soil& soil, double pressure, const Vec3& rates) {
   Element e{law_soil(soil, 0.1)};
   e.soil.viscosity = 0;
@@ -263,7 +273,7 @@ Element sheared(const scene::Soil& soil, double pressure, const Vec3& rates) {
   return e;
 }
 
-/// Angle whose sine is (largest - least) / (largest + least) principal stress [deg].
+/// Returns the angle whose sine is (largest - least) / (largest + least) principal stress [deg].
 double mobilised_degrees(const Element& e) {
   const auto [least, most] = std::minmax({-e.sigma[0], -e.sigma[1], -e.sigma[2]});
   return std::asin((most - least) / (most + least)) * 180 / kPi;
@@ -300,7 +310,7 @@ TEST(SoilLaw, StressesBetweenTriaxialStatesKeepTheInvariantsOfMatsuokaAndNakai) 
   for (const double lean : {-0.1, -0.07, -0.03, 0.02, 0.06, 0.1}) {
     const Element e = sheared(plain_sand(phi), 20e3, Vec3(0.1, lean, -0.1 - lean));
     const double a = -e.sigma[0], b = -e.sigma[1], c = -e.sigma[2];
-    // Of three Newton steps; the excess over 9 is what friction makes.
+    // Error of three Newton steps; the excess over 9 is due to friction.
     EXPECT_NEAR((a + b + c) * (a * b + b * c + c * a) / (a * b * c) - 9, expected - 9,
                 1e-3 * (expected - 9))
         << lean;
@@ -317,7 +327,7 @@ TEST(SoilLaw, SoilWithoutFrictionHasOneCohesionInEveryDirection) {
 TEST(SoilLaw, SoilThatHardlyShearsHasAStaticShareOfItsStrengthOnTop) {
   scene::Soil soil = rig::sand(35);
   soil.static_friction_share = 0.08;
-  // Shear rates sqrt(2 D : D) of 2 x the figure; from 0.1 /s on it is gone.
+  // Shear rates sqrt(2 D : D) are twice these values; from 0.1 /s on the effect is gone.
   for (const double half : {0.01, 0.04, 0.05, 0.2}) {
     Element e{law_soil(soil, 0.1)};
     e.soil.viscosity = 0;
@@ -336,7 +346,8 @@ TEST(SoilLaw, ClosedSoilsVolumeIsDampedInTheStressAndNotInTheYield) {
   Element e{law_soil(soil, 0.1)};
   e.j = 1 - 5e3 / e.soil.bulk;
   for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = -0.2;
-  e.c[2] = 40;  // far over the yield stress in one step
+  // Far above the yield stress in one step.
+  e.c[2] = 40;
   e.step(1e-3);
   const double still = e.soil.bulk * (1 - e.j);
   EXPECT_NEAR(e.pressure(), still + zeta * 0.6, 1e-9 * still);
@@ -349,7 +360,8 @@ TEST(SoilLaw, ClosedSoilsVolumeIsDampedInTheStressAndNotInTheYield) {
   for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = 1;
   e.step(1e-4);
   EXPECT_LT(e.j, e.j0);
-  EXPECT_NEAR(e.pressure(), 0, 1e-9 * still);  // but for the deviator's rounding
+  // Except for the deviator's rounding.
+  EXPECT_NEAR(e.pressure(), 0, 1e-9 * still);
   e.j = 1.01;
   for (int axis = 0; axis < 3; ++axis) e.c[4 * axis] = -1;
   e.step(1e-4);
@@ -372,14 +384,14 @@ TEST(SoilLaw, TurningWithoutStrainTurnsTheStress) {
 
 TEST(Mixing, GoesByStrainAndNoFasterThanItsTime) {
   const LawSoil soil = law_soil(plain_sand(35), 0.1);
-  // J after a step of `dt` at a simple shear of `rate`, of a particle that is open by 0.2 in a cell
-  // open by 0.1.
+  // Returns J after a step of `dt` at a simple shear of `rate`, for a particle that is open by 0.2
+  // in a cell open by 0.1.
   const auto after = [&](double rate, double dt, double opening) {
     LawState state{{0, 0, 0, 0, 0, 0}, 1.2, 1, 0};
     const double c[9] = {0, rate, 0, 0, 0, 0, 0, 0, 0};
     double sigma[6];
-    reference::advance_state(c, dt, &soil, opening, dt / mixing_strain(), most_mixing(dt), &state,
-                             sigma);
+    reference::advance_state(c, dt, &soil, opening, dt / kScheme.mixing_strain, most_mixing(dt),
+                             &state, sigma);
     return state.j;
   };
   EXPECT_EQ(after(0, 1e-3, 1.1), 1.2) << "soil at rest keeps what it has";

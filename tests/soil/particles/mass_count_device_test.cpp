@@ -17,7 +17,8 @@ TEST(MassCount, OnTheDeviceIsThatOnTheHostToTheUnitForEverySoil) {
   std::vector<Particle> particles = site.fill({Vec3(9, 9, 0.1), Vec3(10.3, 9.9, 0.6)});
   for (std::size_t i = 0; i < particles.size(); i += 3) {
     particles[i].soil = 1;
-    particles[i].mass += static_cast<std::int32_t>(i);  // every sum differs
+    // Every sum differs.
+    particles[i].mass += static_cast<std::int32_t>(i);
   }
   ParticleStore store(rig::Rig::device(), {200, 200}, soil_table(soils, 0.1));
   store.assign(particles);

@@ -16,12 +16,13 @@ TEST(ParticleToGrid, KeepsMassAndMomentumForAnyNumberOfParticles) {
     stages.enqueue_scatter();
     const std::vector<float> tiles = stages.scatter.tiles().read();
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-    for (const ParticleBlock& home : stages.store.particle_blocks()) {
-      const auto first = tiles.begin() + static_cast<std::ptrdiff_t>(home.tile) * 4 * TILE_NODES;
+    for (const ParticleBlock& particle_block : stages.store.particle_blocks()) {
+      const auto first =
+          tiles.begin() + static_cast<std::ptrdiff_t>(particle_block.tile) * 4 * TILE_NODES;
       sum += sum_of(std::vector<float>(first, first + 4 * 512), 512);
     }
-    // Stress and affine parts cancel in the sum; floats of 27 shares a particle, in units of 0.2 kg
-    // m/s each.
+    // Stress and affine parts cancel in the sum; floats of 27 shares per particle, in units of 0.2
+    // kg m/s each.
     const Eigen::Vector4d expected = sum_of(particles);
     EXPECT_LT((sum - expected).cwiseAbs().maxCoeff(), 1e-6 * 0.2 * count) << count;
     for (const Report& report : stages.report.map_read(0, stages.store.particle_blocks().size()))

@@ -17,7 +17,7 @@ double at(const Particle& p, int axis) {
 
 TEST(Rebin, SortsParticlesWhereTheHostWouldHavePutThem) {
   for (const int count : {1, 17, 413}) {
-    // Homes of before a drift of up to 0.7 cells, which a re-bin finds in the store.
+    // Blocks before a drift of up to 0.7 cells, which a re-bin finds in the store.
     ParticleStore store(rig::Rig::device(), {0, 0, 200, 200},
                         soil_table({rig::sand()}, kStageCell));
     store.assign(strewn(count));
@@ -37,7 +37,7 @@ TEST(Rebin, SortsParticlesWhereTheHostWouldHavePutThem) {
             << "another cell";
       }
     }
-    // The same particles with the same words, whatever their order inside a cell.
+    // The same particles with the same words, in any order inside a cell.
     const auto by_id = [](std::vector<Particle> list) {
       std::sort(list.begin(), list.end(),
                 [](const Particle& a, const Particle& b) { return a.id < b.id; });
@@ -49,7 +49,7 @@ TEST(Rebin, SortsParticlesWhereTheHostWouldHavePutThem) {
       EXPECT_EQ(is[i].mass, was[i].mass);
       EXPECT_EQ(is[i].j, was[i].j);
       for (int k = 0; k < 9; ++k) EXPECT_EQ(is[i].c[k], was[i].c[k]);
-      // A float of 4 cells
+      // A float of 4 cells.
       for (int a = 0; a < 3; ++a) EXPECT_NEAR(at(is[i], a), at(was[i], a), 1e-6);
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The schedule of work-groups against that of lanes, with a tool in the soil; both run on every
-// device.
+// Compares the schedule of work-groups with that of lanes, with a tool in the soil; both run on
+// every device.
 #include "soil/particles/schedule.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using rig::Rig;
 using rig::SiteBox;
 
-/// Sets the schedule for its life.
+/// Sets the schedule during its lifetime.
 class With {
  public:
   explicit With(const char* schedule) {
@@ -40,13 +40,14 @@ class With {
 struct Outcome {
   std::vector<Particle> particles;
   Vec3 impulse = Vec3::Zero(), moment = Vec3::Zero();
-  double residual = 0;  ///< of the nodal solve's momentum, worst step
+  /// Of the nodal solve's momentum, worst step.
+  double residual = 0;
   std::uint64_t digest = 0, rebins = 0, crossings = 0;
   std::int64_t ledger = 0;
 };
 
-/// An open box with its lip in a bed of two soils, cutting and turning; `inverse_mass` > 0: it
-/// yields.
+/// Runs an open box with its cutting edge in a bed of two soils, cutting and turning;
+/// `inverse_mass` > 0: it yields.
 Outcome dig(const char* schedule, int steps, double inverse_mass = 0) {
   const With with(schedule);
   scene::Soil loam = rig::sand(28);
@@ -120,7 +121,8 @@ TEST(SoilSchedule, BothAgreeAfterOneStepToRounding) {
     print_value("schedules after one step with a tool, positions [cells]", d.x, "< 2e-6",
                 "float ulp of 4 cells");
     EXPECT_LT(d.x, 2e-6);
-    EXPECT_LT(d.v, 1e-5);  // sums of a node in another order
+    // Sums of a node in another order.
+    EXPECT_LT(d.v, 1e-5);
     EXPECT_LT(d.s, 0.1);
     ASSERT_GT(lanes.impulse.norm(), 1);
     EXPECT_LT((lanes.impulse - groups.impulse).norm(), 1e-5 * lanes.impulse.norm());
@@ -147,7 +149,8 @@ TEST(SoilSchedule, GroupsRepeatBitForBitAndAreNotTheLanes) {
                 lanes = dig("lanes", 60, 0.01);
   EXPECT_GT(first.rebins, 0u);
   EXPECT_EQ(first.digest, again.digest);
-  EXPECT_NE(first.digest, lanes.digest);  // or the variable would do nothing
+  // Otherwise the variable would have no effect.
+  EXPECT_NE(first.digest, lanes.digest);
 }
 
 TEST(SoilSchedule, IsChosenByTheDeviceUnlessTheVariableSaysOtherwise) {

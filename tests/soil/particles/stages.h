@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One stage of the transfer at a time: particles in a store, no tools, the ground far below or
-// where the test wants it.
+// Single stages of the transfer: particles in a store, no tools, the ground far below or where the
+// test puts it.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace navvy::soil {
 
 inline constexpr double kStageCell = 0.1, kStageStep = 1e-3;
 
-/// `count` particles strewn over a few blocks around a corner where eight of them meet; repeatable.
+/// Returns `count` particles scattered over a few blocks around a corner where eight of them meet;
+/// repeatable.
 inline std::vector<Particle> strewn(int count) {
   Random random(7);
   std::vector<Particle> out;
@@ -67,7 +68,7 @@ struct Stages {
   }
   void enqueue_scatter() { scatter.enqueue(store, report, kStageStep, kStageCell, false); }
   void enqueue_grid(const Vec3& dv) { grid.enqueue(store, scatter, near, dv, false); }
-  /// And the transfer's end.
+  /// Queues the gather and the end of the transfer.
   void enqueue_gather() {
     gather.enqueue(store, grid.velocity(), near, scatter.used(), report, kStageStep, 0.25,
                    kStageCell);
@@ -83,7 +84,7 @@ struct Stages {
   NearNodes near;
 };
 
-/// Momentum and mass of a list of float4s.
+/// Returns momentum and mass of a list of float4s.
 inline Eigen::Vector4d sum_of(const std::vector<float>& nodes, std::size_t count) {
   Eigen::Vector4d out = Eigen::Vector4d::Zero();
   for (std::size_t n = 0; n < count; ++n)

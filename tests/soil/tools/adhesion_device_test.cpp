@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adhesion of soil on tools: the kernel against its double twin, a plate slid on soil against the
-// closed form.
+// Adhesion of soil on tools: comparison of the kernel with its double twin, and of a plate that
+// slides on soil with the closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,19 +49,19 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   reference::ReferenceSolver twin({soil}, cell, Vec3(0, 0, -kGravity),
                                   [](int, int) { return -10.0; });
   for (const Particle& p : block) twin.points.push_back(reference::from_particle(p));
-  const ContactSettings s;
-  const reference::Reach reach{s.reach,
-                               s.ramp,
-                               s.edge,
-                               s.edge_ramp,
+  const SchemeConstants s;
+  const reference::Reach reach{s.contact_reach,
+                               s.contact_ramp,
+                               s.contact_edge,
+                               s.contact_edge_ramp,
                                kDt * cell * cell,
-                               s.opening * std::sqrt(kGravity * cell),
-                               s.settling * std::sqrt(kGravity * cell),
-                               s.falling * std::sqrt(kGravity * cell),
+                               s.contact_opening * std::sqrt(kGravity * cell),
+                               s.contact_settling * std::sqrt(kGravity * cell),
+                               s.contact_falling * std::sqrt(kGravity * cell),
                                0,
                                0,
                                -1};
-  const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), s, cell);
+  const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), cell);
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
     const double clearance = at[2] - (plate_z - rig.ground().datum() + 0.015) / cell, inset = 10;
@@ -84,8 +84,8 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   rig.solver().step(kDt, std::span(&motion, 1), std::span(&impulse, 1));
   print_value("impulse along the plate, kernel / twin", impulse.J_W.x() / -on_soil.x(), "1 +-1e-4",
               "double twin");
-  // Float sums of some hundred nodes; a node at the branch between sticking and sliding changes
-  // nothing of the force.
+  // Float sums of some hundred nodes; a node between sticking and sliding does not change the
+  // force.
   EXPECT_NEAR(impulse.J_W.x(), -on_soil.x(), 1e-4 * on_soil.norm());
   EXPECT_NEAR(impulse.J_W.z(), -on_soil.z(), 1e-4 * on_soil.norm());
   const auto after = rig.solver().particles();
@@ -94,15 +94,17 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
     for (int axis = 0; axis < 3; ++axis)
       worst =
           std::max(worst, std::abs(static_cast<double>(after[i].v[axis]) - twin.points[i].v[axis]));
-  EXPECT_LT(worst, 1e-5);  // [m/s], float rounding of speeds of 2 m/s
+  // [m/s], float rounding of speeds of 2 m/s.
+  EXPECT_LT(worst, 1e-5);
 }
 
 struct Slid {
-  double shear = 0, push = 0;  ///< mean forces on the plate [N]
+  /// Mean forces on the plate [N].
+  double shear = 0, push = 0;
   double residual = 0;
 };
 
-/// A plate of 0.8 x 0.6 m slid at 0.3 m/s over a bed, pressed so that it carries `pressure` [Pa].
+/// Slides a plate of 0.8 x 0.6 m at 0.3 m/s over a bed under `pressure` [Pa].
 Slid slide(const scene::Soil& soil, double pressure, double share = 1) {
   const SiteBox bed{Vec3(9, 9.2, -0.5), Vec3(11.4, 10.8, 0)};
   Rig rig({soil}, bed);

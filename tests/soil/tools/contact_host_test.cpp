@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plate and a node do to each other: shares, areas, impulses, in doubles.
+// Contact of a plate and a node: shares, areas, impulses, in doubles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,12 +18,22 @@ using reference::impulse_on;
 using reference::Reach;
 
 Reach shipped() {
-  const ContactSettings s;
-  return {s.reach, s.ramp, s.edge, s.edge_ramp, 1, s.opening, s.settling, s.falling, 0, 0, -1};
+  const SchemeConstants s;
+  return {s.contact_reach,
+          s.contact_ramp,
+          s.contact_edge,
+          s.contact_edge_ramp,
+          1,
+          s.contact_opening,
+          s.contact_settling,
+          s.contact_falling,
+          0,
+          0,
+          -1};
 }
 
-/// Sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length` x (wide)
-/// with two free edges.
+/// Returns the sum over the nodes of a lattice, `offset` cells aside, in front of a plate `length`
+/// x (wide) with two free edges.
 double area_of(double length, double offset, double across) {
   const Reach r = shipped();
   double sum = 0;
@@ -36,8 +46,8 @@ double area_of(double length, double offset, double across) {
 }
 
 TEST(ContactLaw, NodeAreasSumUpToThePlateWhereverItIs) {
-  // Exact on a lattice along the plate's axes: hats and ramps as wide as a cell add up to one. Two
-  // edges must not share a node: from 2 x 2.3 cells on.
+  // Exact on a lattice along the plate's axes: hats and ramps of one cell add up to one. Two edges
+  // must not share a node: from 2 x 2.3 cells on.
   for (const double length : {5.0, 7.3, 12.0})
     for (const double offset : {0.0, 0.31, 0.5, 0.77})
       for (const double across : {0.0, 0.2, 0.5, 0.93})
@@ -46,13 +56,13 @@ TEST(ContactLaw, NodeAreasSumUpToThePlateWhereverItIs) {
 }
 
 TEST(ContactLaw, CornersAreMadeUpForByThePlatesFactor) {
-  // 8 x 6 cells, nodes at any place: corners take an eighth of the area, the factor gives it back.
+  // 8 x 6 cells, nodes at any place: corners take an eighth of the area, which the factor restores.
   const double cell = 0.1, length = 8, width = 6;
   scene::Shell plate;
   plate.vertices = {
       {0, 0, 0}, {0.1 * length, 0, 0}, {0.1 * length, 0.1 * width, 0}, {0, 0.1 * width, 0}};
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const double factor = plate_area_factor(ShellGeometry(plate, cell), ContactSettings{}, cell);
+  const double factor = plate_area_factor(ShellGeometry(plate, cell), cell);
   EXPECT_GT(factor, 1.05);
   EXPECT_LT(factor, 1.3);
   const Reach r = shipped();
@@ -67,7 +77,7 @@ TEST(ContactLaw, CornersAreMadeUpForByThePlatesFactor) {
 }
 
 TEST(ContactLaw, ANodeThatHasAreaHasAShare) {
-  // Without one it is no contact, and what its area holds in shear would be lost.
+  // Without a share there is no contact, and the shear of its area would be lost.
   const Reach r = shipped();
   for (double clearance = -2; clearance <= 2; clearance += 0.01)
     for (double inset = 0; inset <= 3; inset += 0.05) {
@@ -77,7 +87,7 @@ TEST(ContactLaw, ANodeThatHasAreaHasAShare) {
 }
 
 TEST(ContactLaw, ShearIsAdhesionPlusCoulombUntilItSticks) {
-  // A share changes none of it
+  // A share changes nothing of it.
   ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0, 0.4, 0.3};
   double opening = 0;
   const Vec3 sliding = impulse_on(node, opening);
@@ -98,7 +108,8 @@ TEST(ContactLaw, ShearIsAdhesionPlusCoulombUntilItSticks) {
 }
 
 TEST(ContactLaw, ACoveredPartOfANodeKeepsUpWithItsShareOfAnAdvancingPlate) {
-  // Four tenths covered, 2 kg, the plate advances at 0.5 m/s: soil from 0.2 m/s on is left alone.
+  // Four tenths covered, 2 kg, the plate advances at 0.5 m/s: soil faster than 0.2 m/s is not
+  // affected.
   const Vec3 advance(0, 0, 0.5);
   ContactNode node{Vec3(0, 0, 0.2), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0, advance).z(), 0, 1e-15);
@@ -118,8 +129,7 @@ TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
 }
 
 TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAStandingPlateThatCarriesItsWholeLoad) {
-  // 0.02 m/s are left to the node; what is more is taken from its whole mass, however slowly it
-  // came.
+  // The node keeps 0.02 m/s; the excess is taken from its whole mass, however slow.
   ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0.02, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.28, 1e-12);
   node.v.z() = -0.02;
@@ -132,15 +142,15 @@ TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAStandingPlateThatCarriesIt
         << "soil at the plate stands";
     EXPECT_EQ(reference::contact_settling(r.h + 0.5 * r.ramp, 0, down, &r), r.settling);
     // It would take the soil's pressure off a plate that stands, and from under one that is slower
-    // than it settles.
+    // than the soil settles.
     EXPECT_NEAR(reference::contact_settling(r.h + 0.5 * r.ramp, 2.0 / 3, down, &r), 0, 1e-12)
-        << "where there is no room to";
+        << "where there is no clearance";
   }
 }
 
 TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotSupportIt) {
-  // A load in a bucket and soil before a blade are held whatever the node has (above): they would
-  // leak at their surface.
+  // A load in a bucket and soil before a blade are held for any fill of the node (above): they
+  // would leak at their surface.
   const Reach r = shipped();
   const double at = r.h - 0.5 * r.ramp, end = r.h + 0.5 * r.ramp, both = r.settling + r.falling;
   EXPECT_EQ(reference::contact_settling(at, 2.0 / 3, 1, &r), 0)
@@ -148,9 +158,9 @@ TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotSupportIt) {
   EXPECT_NEAR(reference::contact_settling(at, 0, 1, &r), both, 1e-12);
   EXPECT_NEAR(reference::contact_settling(end, 0.64, 1, &r), both, 1e-12);
   EXPECT_NEAR(reference::contact_settling(end, 0.91, 1, &r), 0, 1e-12)
-      << "soil up to the plate: no room to settle into";
+      << "soil up to the plate: no clearance to settle into";
   EXPECT_LT(reference::contact_settling(at, 0.6, 1, &r), 0.02 * both)
-      << "what almost bears is settled onto slowly";
+      << "a plate settles slowly onto almost full nodes";
 }
 
 TEST(ContactLaw, FrictionOfAPartlyCoveredNodeIsThatOfItsPush) {

@@ -13,16 +13,17 @@ namespace {
 
 using rig::Rig;
 
-constexpr double kEdge = 1.2, kStep = 1.6e-3;  // of the box [m]; [s]
+// Of the box [m]; [s].
+constexpr double kEdge = 1.2, kStep = 1.6e-3;
 
-/// Grains in the frame of the box's floor, and the surface over them [m].
+/// Particles in the frame of the box's floor, and the surface over them [m].
 struct Bed {
   std::vector<Vec3> grains;
   lab::HeapSurface surface;
   double cell = 0;
 
-  /// Particles a cell under the surface of square columns of the half edge `half` [m] around
-  /// `centres`; 8 in the bank.
+  /// Returns particles per cell under the surface of square columns of the half edge `half` [m]
+  /// around `centres`; 8 in the bank.
   double crowding(const std::vector<Vec2>& centres, double half) const {
     double count = 0, height = 0, points = 0;
     for (const Vec2& centre : centres) {
@@ -39,8 +40,8 @@ struct Bed {
   }
 };
 
-/// Sheets over the whole plan of the box, half a cell thick, one behind the other at 1 m/s, each
-/// grain a little aside.
+/// Pours sheets over the whole plan of the box, half a cell thick, one behind the other at 1 m/s,
+/// each particle a little aside.
 void pour(Rig& rig, const Vec3& floor, double inside, const std::function<void(double)>& run) {
   Random random(1);
   const double half = inside - 0.25 * rig.cell(), mouth = 0.7, thick = rig.cell() / 2;
@@ -58,7 +59,8 @@ void pour(Rig& rig, const Vec3& floor, double inside, const std::function<void(d
 
 Bed poured_box(const Vec3& floor) {
   scene::Soil soil = rig::sand(33);
-  soil.tool_friction_angle = 0;  // slip walls, where soil crowds [docs/soil.md, crowding]
+  // Smooth walls, where soil crowds [docs/soil.md, crowding].
+  soil.tool_friction_angle = 0;
   Rig rig({soil});
   const scene::Shell box = rig::open_box(kEdge, kEdge, 1.0);
   ToolMotion motion;
@@ -81,10 +83,10 @@ Bed poured_box(const Vec3& floor) {
 }
 
 TEST(SoilCorner, OfABoxOfPlatesKeepsTheVolumeOfItsSoil) {
-  // Two places of the plates between the grid's planes.
+  // Two positions of the plates between the grid's planes.
   for (const Vec3& floor : {Vec3(10.013, 10.007, 1.5), Vec3(10.046, 9.961, 1.473)}) {
     const Bed bed = poured_box(floor);
-    // Columns of 2 x 2 cells, half the spacing of grains off the faces, where a lattice at rest
+    // Columns of 2 x 2 cells, half the spacing of particles off the faces, where a lattice at rest
     // begins.
     const double half = bed.cell, off = kEdge / 2 - 0.015 - 0.25 * bed.cell - half;
     const double middle = bed.crowding({Vec2::Zero()}, 0.3);
@@ -96,13 +98,13 @@ TEST(SoilCorner, OfABoxOfPlatesKeepsTheVolumeOfItsSoil) {
     print_value("same, beside a wall / middle", wall, "1 +-10 %",
                 "[docs/validation.md, Swell, pouring and heaps]");
     print_value("same, middle", middle, "8 in the bank", "not gated");
-    // No place may hold more than the bank: that is crowding. Grains are counted in columns of 4
+    // No place may hold more than the bank: that is crowding. Particles are counted in columns of 4
     // cells: about 200 in the four corners.
     EXPECT_LT(corner * middle, 1.05 * 8);
     EXPECT_LT(wall * middle, 1.05 * 8);
-    // Against the middle it was within 10 % while J was closed. Poured soil now lies looser in the
-    // middle (6.3 and 6.8 of 8) than at one of the two places' walls: an open miss of the gate
-    // above, kept from growing.
+    // Compared with the middle it was within 10 % while J was closed. Poured soil is now looser in
+    // the middle (6.3 and 6.8 of 8) than at one of the two positions' walls: a known deviation from
+    // the tolerance above, kept from growing.
     EXPECT_NEAR(corner, 1, 0.17);
     EXPECT_NEAR(wall, 1, 0.17);
   }

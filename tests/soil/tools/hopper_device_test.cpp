@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hopper: two tools that hold soil together, and let it go when one of them slides away.
+// A hopper: two tools hold soil together, and release it when one of them slides away.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,8 +11,8 @@ namespace {
 
 using rig::Rig;
 
-/// A square funnel without a floor: outlet of this width at z = 0, walls out to `mouth` at z =
-/// `cone`, upright to `top`. Its inside is its front.
+/// Returns a square funnel without a floor: outlet of this width at z = 0, walls out to `mouth` at
+/// z = `cone`, upright to `top`. Its inside is its front.
 scene::Shell funnel(double outlet, double mouth, double cone, double top) {
   scene::Shell s;
   s.name = "hopper";

@@ -10,13 +10,13 @@ namespace navvy::soil {
 namespace {
 
 TEST(Marks, LeaveSortedAndOnceWhateverTheOrderTheyCameIn) {
-  // More than three words a row, the last one not full
+  // More than three words per row, the last one not full.
   constexpr std::size_t kRows = 7, kColumns = 200;
   Marks marks(kRows, kColumns);
   std::vector<std::set<std::size_t>> expected(kRows);
   std::minstd_rand random(5);
   for (int i = 0; i < 400; ++i) {
-    // The last row stays empty
+    // The last row stays empty.
     const std::size_t row = random() % (kRows - 1), column = random() % kColumns;
     marks.set(row, column);
     expected[row].insert(column);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tool that stands: its soil goes back to columns, which bear it until more is asked of them.
+// A tool that stands: its soil becomes columns, which support it until the load grows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace navvy::soil {
 namespace {
 
-constexpr double kMass = 300, kHeight = 0.3;  // 8 kPa on ground of 5 kPa
+// 8 kPa on ground of 5 kPa.
+constexpr double kMass = 300, kHeight = 0.3;
 
 scene::Soil ground_of(double tool_friction_degrees) {
   scene::Soil out = lab::cohesive(28, 5000);
@@ -19,12 +20,12 @@ scene::Soil ground_of(double tool_friction_degrees) {
   return out;
 }
 
-/// A site whose ground wakes and takes soil back, with a box laid on it.
-class Laid : public lab::Site {
+/// A site whose ground exchanges soil with particles, with a box on it.
+class RestingBody : public lab::Site {
  public:
-  Laid() : Laid(0, lab::cohesive(28, 5000)) {}
-  /// On ground that rises along x by `slope` [rad].
-  Laid(double slope, const scene::Soil& soil)
+  RestingBody() : RestingBody(0, lab::cohesive(28, 5000)) {}
+  /// Makes ground that rises along x by `slope` [rad].
+  RestingBody(double slope, const scene::Soil& soil)
       : Site(rig::Rig::device(), {soil}, 0.1, options(slope)) {
     scene::Shell shell = lab::closed_box(0.6, 0.6, kHeight);
     for (Vec3& v : shell.vertices) v.z() -= kHeight / 2;
@@ -37,7 +38,7 @@ class Laid : public lab::Site {
   lab::Tool& box() { return tool(box_); }
   double height() { return box().motion.X_WT.translation().z(); }
   int active() const { return solver().stats().particles; }
-  /// Until no particle is left; false when some are after 15 s.
+  /// Runs until no particle is left; returns false when some are after 15 s.
   bool come_to_rest() {
     for (int i = 0; i < 30; ++i) {
       run(0.5);
@@ -59,7 +60,7 @@ class Laid : public lab::Site {
 };
 
 TEST(RestingContact, AStandingBodyIsSupportedByColumnsAndDoesNotMove) {
-  Laid site;
+  RestingBody site;
   ASSERT_TRUE(site.come_to_rest());
   const double before = site.height();
   site.run(2);
@@ -70,7 +71,7 @@ TEST(RestingContact, AStandingBodyIsSupportedByColumnsAndDoesNotMove) {
 }
 
 TEST(RestingContact, AboveItsPreviousLoadTheGroundActivatesAndSupportsAnew) {
-  Laid site;
+  RestingBody site;
   ASSERT_TRUE(site.come_to_rest());
   const double before = site.height();
   site.box().force_W = Vec3(0, 0, -2 * kMass * kGravity);
@@ -86,25 +87,25 @@ TEST(RestingContact, AboveItsPreviousLoadTheGroundActivatesAndSupportsAnew) {
 TEST(RestingContact, IsLeftByABodyThatIsLiftedOrPushedAside) {
   for (const Vec3& push :
        {Vec3(0, 0, 1.5 * kMass * kGravity), Vec3(0.8 * kMass * kGravity, 0, 0)}) {
-    Laid site;
+    RestingBody site;
     ASSERT_TRUE(site.come_to_rest());
     const Vec3 before = site.box().motion.X_WT.translation();
     site.box().force_W = push;
     site.run(0.3);
-    // Half of what it would go without any ground is more than friction of 20 degrees takes away.
+    // Half of its displacement without any ground is more than friction of 20 degrees removes.
     EXPECT_GT((site.box().motion.X_WT.translation() - before).norm(), 0.05) << push;
     EXPECT_EQ(site.solver().ledger().error(), 0);
   }
 }
 
 TEST(RestingContact, GoesOnFromASnapshotAsIfNothingHappened) {
-  Laid site, other;
+  RestingBody site, other;
   ASSERT_TRUE(site.come_to_rest());
   const std::vector<char> ground = saved(site.ground()), soil = saved(site.solver());
   load_saved(ground, other.ground());
   load_saved(soil, other.solver());
   other.box().motion = site.box().motion;
-  for (Laid* each : {&site, &other}) {
+  for (RestingBody* each : {&site, &other}) {
     each->run(0.5);
     each->box().force_W = Vec3(0, 0, -2 * kMass * kGravity);
     each->run(0.5);
@@ -120,9 +121,9 @@ TEST(RestingContact, StartsOnlyWhereTheFeetCarryTheLoad) {
   motion.inverse_mass = Mat6::Identity();
   EXPECT_EQ(feet(box, motion.X_WT, 0.1, Vec3::UnitZ()).size(), 4u);
   const auto takes = [&](const Vec3& force, const Vec3& moment) {
-    RestingContact seat;
-    seat.take(box, motion, force, moment, 0.36, 0.1, Vec3::UnitZ());
-    return seat.taken;
+    RestingContact contact;
+    contact.start(box, motion, force, moment, 0.36, 0.1, Vec3::UnitZ());
+    return contact.engaged;
   };
   EXPECT_TRUE(takes(Vec3(0, 0, 1000), Vec3::Zero()));
   EXPECT_TRUE(takes(Vec3(300, 0, 1000), Vec3::Zero())) << "by friction";
@@ -132,12 +133,12 @@ TEST(RestingContact, StartsOnlyWhereTheFeetCarryTheLoad) {
 
 TEST(RestingContact, ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns) {
   for (const double degrees : {5.0, 12.0}) {
-    Laid site(radians(degrees), ground_of(20));
+    RestingBody site(radians(degrees), ground_of(20));
     ASSERT_TRUE(site.come_to_rest()) << degrees;
     const Vec3 before = site.box().motion.X_WT.translation();
     site.run(2);
     EXPECT_EQ(site.active(), 0) << degrees;
-    // Rows are solved in sixty sweeps: what they leave is far below what would be seen in a day.
+    // Rows are solved in sixty iterations: their error is far below what a day would show.
     EXPECT_LT((site.box().motion.X_WT.translation() - before).norm(), 1e-6)
         << degrees << " deg, [m] in 2 s";
     EXPECT_NEAR(site.box().impulse.force_W.z() / (kMass * kGravity), 1, 1e-6) << degrees;
@@ -146,7 +147,7 @@ TEST(RestingContact, ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns) {
 }
 
 TEST(RestingContact, ABodyOnASlopeBeyondItsFrictionAngleSlidesAndTakesNone) {
-  Laid site(radians(12), ground_of(6));
+  RestingBody site(radians(12), ground_of(6));
   const double before = site.box().motion.X_WT.translation().x();
   site.run(2);
   // Half of what 6 deg leave of the weight along 12 deg, as soil before its edge holds it.
@@ -168,11 +169,11 @@ TEST(RestingContact, FeetOfABodyOnASlopeAreItsCornersOnTheSlope) {
     motion.inverse_mass = Mat6::Identity();
     EXPECT_EQ(feet(box, motion.X_WT, 0.1, normal).size(), 4u);
     const auto takes = [&](const Vec3& up) {
-      RestingContact seat;
+      RestingContact contact;
       // Its weight acts 0.15 m over its lower face.
       const Vec3 force(0, 0, 1000), arm = motion.X_WT.linear() * Vec3(0, 0, 0.15);
-      seat.take(box, motion, force, arm.cross(force), std::tan(radians(20)), 0.1, up);
-      return seat.taken;
+      contact.start(box, motion, force, arm.cross(force), std::tan(radians(20)), 0.1, up);
+      return contact.engaged;
     };
     EXPECT_EQ(takes(normal), degrees < 20) << degrees;
     EXPECT_FALSE(takes(Vec3::UnitZ())) << degrees << ": level ground has one edge to stand on";

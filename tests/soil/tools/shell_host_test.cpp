@@ -14,8 +14,9 @@ TEST(ShellGeometry, KnowsInsideAndOutsideOfAnOpenBoxAlsoAtItsEdges) {
   const ShellGeometry box(rig::open_box(1.0, 0.8, 0.6), 0.1);
   EXPECT_NEAR(box.distance(Vec3(0, 0, 0.1)), 0.1, 1e-12);
   EXPECT_NEAR(box.distance(Vec3(0, 0, -0.1)), -0.1, 1e-12);
-  EXPECT_NEAR(box.distance(Vec3(0.45, 0.35, 0.05)), 0.05, 1e-12);  // in an inner corner
-  // Outside a corner the closest face alone may say "inside": the pseudo-normal does not.
+  // In an inner corner.
+  EXPECT_NEAR(box.distance(Vec3(0.45, 0.35, 0.05)), 0.05, 1e-12);
+  // Outside a corner the closest face alone may give "inside": the pseudo-normal does not.
   EXPECT_NEAR(box.distance(Vec3(0.6, 0.5, -0.1)), -std::sqrt(0.03), 1e-12);
   EXPECT_NEAR(box.distance(Vec3(0.55, 0, -0.2)), -std::hypot(0.05, 0.2), 1e-12);
 }
@@ -38,7 +39,7 @@ TEST(ShellGeometry, FindsTheSameDistanceFromEveryGuess) {
 
 TEST(ShellGeometry, SharpFoldsOfAClosedBodyCountAsEdgesAndNoOthersDo) {
   // A box whose outside is its front: twelve edges, not the six diagonals of its faces. Turned
-  // inside out, as the inside of a tank, none; with its lid open the four of the rim.
+  // inside out, as a tank, none; with its lid open the four of the rim.
   scene::Shell box = lab::closed_box(1.0, 0.8, 0.6);
   EXPECT_EQ(ShellGeometry(box, 0.1).rims().size(), 12u);
   for (auto& triangle : box.triangles) std::swap(triangle[1], triangle[2]);
@@ -72,7 +73,8 @@ TEST(ShellGeometry, PiecesCoverTheShellWithoutGapsAndStaySmall) {
 TEST(ShellGeometry, HoldsSoilInsideAndHeapedOverTheMouth) {
   const ShellGeometry box(rig::open_box(1.0, 0.8, 0.6), 0.1);
   EXPECT_TRUE(box.holds(Vec3(0, 0, 0.3)));
-  EXPECT_TRUE(box.holds(Vec3(0, 0, 0.75)));  // in the heap
+  // In the heap.
+  EXPECT_TRUE(box.holds(Vec3(0, 0, 0.75)));
   EXPECT_FALSE(box.holds(Vec3(0, 0, 1.5)));
   EXPECT_FALSE(box.holds(Vec3(0, 0, -0.05)));
   EXPECT_FALSE(box.holds(Vec3(0.6, 0, 0.3)));

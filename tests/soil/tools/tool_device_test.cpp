@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools in the particle soil: bucket, blade, light plate. All small and coarse; finer siblings run
+// Tools in the particle soil: bucket, blade, light plate. All small and coarse; finer versions run
 // in ./dev validate.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 using rig::Rig;
 using rig::SiteBox;
 
-/// Steps one tool along; keeps sums and the worst momentum residual.
+/// Steps one tool; keeps sums and the worst momentum residual.
 struct Driver {
   Driver(Rig& rig_in, const scene::Shell& shell, const Pose& X) : rig(rig_in) {
     motion.tool = rig.solver().add_tool(shell);
@@ -44,7 +44,7 @@ struct Driver {
   double worst = 0, time = 0;
 };
 
-/// Soil laid into an open box that stands at p with this pitch [rad].
+/// Returns soil in an open box at this pose.
 std::vector<Particle> load_of(const Rig& rig, const Pose& X, double length, double width,
                               double height) {
   std::vector<Particle> out;
@@ -78,10 +78,11 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
   EXPECT_NEAR(-force.z() / weight, 1, 0.01);
   EXPECT_LT(std::hypot(force.x(), force.y()), 0.01 * weight);
   EXPECT_NEAR(held, weight / kGravity, 1e-3);
-  EXPECT_EQ(held, before);  // nothing drips
+  // Nothing leaks.
+  EXPECT_EQ(held, before);
   EXPECT_LT(bucket.worst, 1e-5);
 
-  // Tip it over in 1.2 s and wait: empty, and nobody went through a wall.
+  // Tips it over in 1.2 s and waits: it must be empty, and no particle may have passed a wall.
   bucket.motion.w_WT = Vec3(0, 1.8, 0);
   bucket.run(1.2);
   bucket.motion.w_WT = Vec3::Zero();
@@ -97,7 +98,7 @@ TEST(SoilTool, HeldBucketFeelsTheWeightOfItsLoadAndEmptiesWithoutALeak) {
 TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
   const SiteBox bed{Vec3(9, 9, -0.5), Vec3(11.6, 11, 0)};
   Rig rig({rig::sand(35)}, bed);
-  // A box on its side: the mouth looks along -x, the lip is its lower edge.
+  // A box on its side: the mouth faces -x, its lower rim is the cutting edge.
   const Pose X = make_pose(10.9, 10.02, 0.16, 0, radians(-90), 0);
   Driver bucket(rig, rig::open_box(0.6, 0.8, 0.7), X);
   rig.solver().insert(rig.fill(bed, true));
@@ -106,7 +107,8 @@ TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
   bucket.motion.v_WT = Vec3(-0.5, 0, 0);
   bucket.motion.w_WT = Vec3(0, 1.2, 0);
   const Vec3 drag = bucket.run(0.6);
-  EXPECT_GT(drag.x(), 200);  // the soil pushes back
+  // The soil resists.
+  EXPECT_GT(drag.x(), 200);
   bucket.motion.v_WT = Vec3(0, 0, 0.8);
   bucket.motion.w_WT = Vec3(0, 1.2, 0);
   bucket.run(0.7);
@@ -124,8 +126,8 @@ TEST(SoilTool, BucketDraggedThroughABedFillsLiftsAndKeepsItsLoad) {
   EXPECT_LT(bucket.worst, 1e-5);
 }
 
-/// Two upright side plates, `gap` apart, joined by a plate across: seen from above an H. Inside,
-/// and ahead of the plate across, is the front, so that soil behind that one has the back of it and
+/// Returns two upright side plates, `gap` apart, joined by a cross plate: an H from above. The
+/// front is inside, and ahead of the cross plate, so that soil behind that plate faces its back and
 /// the front of the sides.
 scene::Shell crossed_channel(double length, double gap, double height) {
   scene::Shell s;
@@ -140,18 +142,20 @@ scene::Shell crossed_channel(double length, double gap, double height) {
     s.triangles.push_back({a, c, d});
   };
   for (const int x : {0, 1}) {
-    // Looks along +y
+    // Faces +y.
     quad(corner(x, 0, 0), corner(x, 0, 1), corner(x + 1, 0, 1), corner(x + 1, 0, 0));
-    quad(corner(x, 1, 0), corner(x + 1, 1, 0), corner(x + 1, 1, 1), corner(x, 1, 1));  // along -y
+    // Faces -y.
+    quad(corner(x, 1, 0), corner(x + 1, 1, 0), corner(x + 1, 1, 1), corner(x, 1, 1));
   }
-  quad(corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1));  // along +x
+  // Faces +x.
+  quad(corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1));
   return s;
 }
 
 TEST(SoilTool, SoilBehindAPlateThatLeavesItIsNotPushedThroughThePlatesBesideIt) {
   Rig rig({rig::sand(35)});
   const double gap = 0.36, height = 1.2;
-  // Soil in free fall a cell behind the plate across, somewhat more than that off the sides.
+  // Soil in free fall a cell behind the cross plate, somewhat more off the sides.
   Driver channel(rig, crossed_channel(2, gap, height), make_pose(10.03, 10.02, 1, 0, 0, 0));
   std::vector<Particle> soil;
   for (const double z : {0.55, 0.6, 0.65})
@@ -166,17 +170,18 @@ TEST(SoilTool, SoilBehindAPlateThatLeavesItIsNotPushedThroughThePlatesBesideIt) 
     return out;
   };
   const double before = aside();
-  // The plate across draws off by a cell and a half: the sides are nearest now.
+  // The cross plate moves away by a cell and a half: the sides are closest now.
   channel.motion.v_WT = Vec3(1.5, 0, 0);
   channel.run(0.1);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
-  // Nothing acts aside; what a kernel reaches of plates that pass by without touching is nothing.
-  // Pushed out through a side they would be at 0.2 m.
+  // Nothing acts sideways: plates that pass by without touching have no effect. Pushed out through
+  // a side, particles would be at 0.2 m.
   EXPECT_LT(aside(), before + 1e-3);
 }
 
 struct BladeCase {
-  double cohesion, tool_friction, thickness;  // 0: a plate
+  // 0: a plate.
+  double cohesion, tool_friction, thickness;
 };
 class BladeTest : public testing::TestWithParam<BladeCase> {};
 
@@ -190,7 +195,8 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
   Rig rig({soil}, bed);
   const double face = 9.6;
   std::vector<Particle> all = rig.fill(bed, true), cut;
-  for (const Particle& p : all) {  // a trench stands open behind the blade
+  // A trench is open behind the blade.
+  for (const Particle& p : all) {
     const Vec3 at = rig.position(p);
     if (at.x() > face || at.z() < -depth || std::abs(at.y() - 10) > width / 2 + 0.1)
       cut.push_back(p);
@@ -202,7 +208,8 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
   rig.solver().insert(cut);
   driver.motion.v_WT = Vec3(speed, 0, 0);
   driver.run(0.03 / speed);
-  const Vec3 force = driver.run(0.04 / speed);  // mean over 0.03 .. 0.07 m of travel
+  // Mean over 0.03 .. 0.07 m of travel.
+  const Vec3 force = driver.run(0.04 / speed);
   const double kp = (1 + std::sin(soil.friction_angle)) / (1 - std::sin(soil.friction_angle));
   const double rankine = width * (0.5 * soil.bank_density * kGravity * depth * depth * kp +
                                   2 * soil.cohesion * depth * std::sqrt(kp));
@@ -210,11 +217,11 @@ TEST_P(BladeTest, FeelsThePassiveEarthPressure) {
                   ", thickness " + std::to_string(thickness),
               -force.x(), std::to_string(rankine) + " N +-20 %",
               "[Rankine 1857] passive, smooth wide blade");
-  // 20 %: the gate is 15 % for a wide blade at fine cells; this one is 5.3 depths wide and 3 cells
-  // deep.
+  // 20 %: the tolerance is 15 % for a wide blade at fine cells; this one is 5.3 depths wide and 3
+  // cells deep.
   EXPECT_NEAR(-force.x() / rankine, 1, 0.2);
   if (thickness == 0)
-    // Smooth; a block stands on its floor
+    // Smooth; a block stands on its floor.
     EXPECT_LT(std::abs(force.z()), 1e-3 * std::abs(force.x()));
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_LT(driver.worst, 1e-5);
@@ -235,7 +242,7 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
   Driver driver(rig, plate, make_pose(10.02, 10.01, 0.08, 0, radians(4), 0));
   rig.solver().insert(rig.fill(bed, true));
-  // 8 kg, where the cells it touches hold some 60 kg: explicit exchange would blow up.
+  // 8 kg, where the cells it touches hold some 60 kg: an explicit exchange would diverge.
   const double mass = 8;
   const Vec3 inertia = mass / 12 * Vec3(0.36, 0.36, 0.72);
   driver.motion.v_WT = Vec3(0, 0, -0.5);
@@ -268,16 +275,17 @@ TEST(SoilTool, LightPlateDroppedOnSoilComesToRestWithoutGainingEnergy) {
   }
   print_value("light plate, highest energy / energy at the start", most / start, "<= 1.01",
               "two-way [docs/validation.md, Buckets and carried loads]");
-  EXPECT_LE(most, 1.01 * start);  // 1 %: the gain of one gravity kick before the first contact
+  // 1 %: the gain of one step of gravity before the first contact.
+  EXPECT_LE(most, 1.01 * start);
   EXPECT_LT(driver.motion.v_WT.norm(), 0.02);
   EXPECT_LT(driver.worst, 1e-5);
 }
 
 TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   Rig rig({rig::sand(35)});
-  const Pose home = make_pose(10.03, 10.02, 1.5, 0, radians(20), 0);
-  Driver driver(rig, rig::open_box(1.0, 0.8, 0.6), home);
-  const auto soil = load_of(rig, home, 1.0, 0.8, 0.4);
+  const Pose start = make_pose(10.03, 10.02, 1.5, 0, radians(20), 0);
+  Driver driver(rig, rig::open_box(1.0, 0.8, 0.6), start);
+  const auto soil = load_of(rig, start, 1.0, 0.8, 0.4);
   rig.solver().insert(soil);
   const double load = mass_of(soil), mass = 0.3 * load, dt = 1.6e-3;
   const Vec3 inertia = mass / 12 * Vec3(1.0, 1.36, 1.64);
@@ -285,15 +293,16 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   // rotation.
   const double omega = 2 * kPi * 2, stiffness = (mass + load) * omega * omega,
                damping = 2 * 0.7 * (mass + load) * omega;
-  const double arm2 = 0.3;  // radius of gyration squared of bucket and load [m2]
+  // Squared radius of gyration of bucket and load [m2].
+  const double arm2 = 0.3;
   double rms = 0;
   int counted = 0;
   ToolMotion& m = driver.motion;
   for (int i = 0; i < 1000; ++i) {
     const Mat3 R = m.X_WT.linear();
-    const Eigen::AngleAxisd turn(R * home.linear().transpose());
-    const Vec3 force = -stiffness * (m.X_WT.translation() - home.translation()) - damping * m.v_WT +
-                       Vec3(0, 0, load * kGravity);
+    const Eigen::AngleAxisd turn(R * start.linear().transpose());
+    const Vec3 force = -stiffness * (m.X_WT.translation() - start.translation()) -
+                       damping * m.v_WT + Vec3(0, 0, load * kGravity);
     const Vec3 torque = -arm2 * (stiffness * turn.angle() * turn.axis() + damping * m.w_WT);
     Mat6 inverse = Mat6::Zero();
     inverse.topLeftCorner<3, 3>() = R * inertia.cwiseInverse().asDiagonal() * R.transpose();
@@ -318,8 +327,9 @@ TEST(SoilTool, BucketLighterThanItsLoadHangsOnASoftServoWithoutChatter) {
   rms = std::sqrt(rms / counted);
   print_value("rms acceleration of a bucket of 0.3 x its load [m/s2]", rms, "< 1.5",
               "[docs/validation.md, Buckets and carried loads]");
-  EXPECT_LT(rms, 1.5);  // explicit exchange: 15-29; the servo's own motion is about 1
-  EXPECT_LT((m.X_WT.translation() - home.translation()).norm(), 0.05);
+  // Explicit exchange: 15-29; the servo's own motion is about 1.
+  EXPECT_LT(rms, 1.5);
+  EXPECT_LT((m.X_WT.translation() - start.translation()).norm(), 0.05);
   EXPECT_NEAR(rig.solver().payload(0, m.X_WT), load, 0.01 * load);
   EXPECT_EQ(rig.solver().stats().shell_crossings, 0u);
   EXPECT_LT(driver.worst, 1e-5);
@@ -351,7 +361,8 @@ TEST(SoilTool, APlateCompactsSoftSoilForGood) {
   double state[2], rebound[2];
   for (const bool soft : {false, true}) {
     scene::Soil soil = rig::sand(33);
-    if (soft) soil.compaction_pressure = 6000;  // the bed's own weight makes 5 kPa at its floor
+    // The bed's own weight makes 5 kPa at its floor.
+    if (soft) soil.compaction_pressure = 6000;
     Rig rig({soil}, bed);
     rig.solver().insert(rig.fill(bed, true));
     Driver driver(rig, lab::plate(0.78, 0.78), make_pose(10, 10, 0.1, kPi, 0, 0));
@@ -362,9 +373,10 @@ TEST(SoilTool, APlateCompactsSoftSoilForGood) {
       return sum / static_cast<double>(particles.size());
     };
     rig.run(0.3);
-    EXPECT_NEAR(mean_state(), 1, 1e-3) << "its own weight it bears";
+    EXPECT_NEAR(mean_state(), 1, 1e-3) << "it carries its own weight";
     driver.motion.v_WT = Vec3(0, 0, -0.1);
-    driver.run(1.5);  // 50 mm into the soil, less what the contact holds off
+    // 50 mm into the soil, minus the stand-off of the contact.
+    driver.run(1.5);
     state[soft] = mean_state();
     driver.motion.v_WT = Vec3(0, 0, 0.2);
     driver.run(1);

@@ -15,6 +15,9 @@ namespace navvy::control {
 /// made; its account reports what is left and the depth reached.
 struct Dig final : ActivityStep {
   static constexpr const char* kElement = "dig";
+  /// Sentence for the reference of scene elements.
+  static constexpr const char* kText =
+      "Digs a straight trench by whole cycles, until floor and length are reached.";
   /// Ends of the centre line at the surface [m] in W; either may be the far end.
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();
   /// Depth below the surface at the start [m].
@@ -30,9 +33,19 @@ struct Dig final : ActivityStep {
   /// Largest number of cycles; without it, until the trench is done.
   std::optional<int> max_cycles;
 
-  /// Reads <from_m>, <to_m>, <depth_m>, <dump_at_m> and the elements with defaults. All positions
-  /// must be on the site, the depth above rock.
-  static Dig read(const scene::StepSource& source);
+  void describe(scene::Fields& f) override {
+    f("from_m", from, {-1e6, 1e6}, "One end of the trench's centre line in W.", scene::kNeeded);
+    f("to_m", to, {-1e6, 1e6}, "The other end.", scene::kNeeded);
+    f("depth_m", depth, {0.02, 20}, "Depth below the ground at the start.", scene::kNeeded);
+    f("width_m", width, {0.05, 50}, "Width; by default that of the bucket's cut.");
+    f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
+    f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
+    f("pass_depth_m", pass_depth, {0.02, 5}, "Depth of one pass.");
+    f("max_cycles", max_cycles, {1, 100000},
+      "Number of cycles; by default until the trench is done, at most 60.");
+  }
+  /// Checks that the machine can dig and that trench and spoil are on the site and above rock.
+  void check(const scene::StepSource& source);
   const char* element() const override { return kElement; }
   bool needs_arm() const override { return true; }
   /// Returns an activity with the phases of the digging cycle, and a last look at the trench.

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constants of the particle scheme, once. Unlike the constants of a soil (law_constants.h) they
+// are the same for every soil and no scene sets them; `navvy lab constants` lists them and
+// `navvy lab RIG --set scheme.NAME=VALUE` changes one for an experiment.
+//
+// Kernels, the native loop and the double twin write SCHEME(name). On the device the value is a
+// compile-time literal (soil::scheme_options passes it as -D), so changing one builds the kernels
+// again and costs nothing while they run. The host reads the members of soil::SchemeConstants.
+// Adding one: kernels/README.md.
+#ifndef NAVVY_KERNELS_SOIL_SCHEME_CONSTANTS_H
+#define NAVVY_KERNELS_SOIL_SCHEME_CONSTANTS_H
+
+// X(name, default, unit, lowest, highest, description). "cells" is a length in units of the cell's
+// edge; the wave speed is that of pressure waves; "sqrt(g cell)" is a speed.
+#define SCHEME_CONSTANTS(X) \
+  SCHEME_LAW(X)             \
+  SCHEME_VOLUME(X)          \
+  SCHEME_TRANSFER(X)        \
+  SCHEME_CONTACT(X)
+
+// Stress update (law.h) [docs/soil.md, viscosity] [docs/soil.md, opening].
+//
+// - min_density_state: limits compaction and the layers that columns take from particles. A tighter
+// limit there turns noise into volume [docs/exchange.md, decisions].
+#define SCHEME_LAW(X)                                                                     \
+  X(shear_damping, 0.05, "", 0, 0.5,                                                      \
+    "shear viscosity of soil that does not yield / (density x wave speed x cell)")        \
+  X(volume_damping, 10, "", 0, 30, "bulk viscosity of closed soil / its shear viscosity") \
+  X(static_friction_time, 10, "s", 0, 1e6,                                                \
+    "inverse of the shear rate at which the static share of the strength has vanished")   \
+  X(min_volume_ratio, 0.2, "", 0.01, 0.8, "lowest J, far below any real state")           \
+  X(max_volume_ratio, 100, "", 1.5, 1e6, "highest J of soil that opens")                  \
+  X(min_density_state, 0.88, "", 0.5, 1, "densest J0 that compaction and deposition reach")
+
+// Volume of a particle, corrected by its cell and by the nodes (point.h) [docs/soil.md, mixing]
+// [docs/soil.md, crowding] [docs/soil.md, opening].
+//
+// - mixing_strain: tuned by CohesiveBlade.FeelsTheWholeStrengthAtAnyCohesion and
+// SoilSwell.DugAndDumpedSoilEndsAtItsSwell. A blade in clay of 150 kPa feels 0.85 of its strength
+// with 0.025, and 0.83 with 0.1.
+// - min_mixing_time: tuned by the same swell test. Without mixing a tipped load rests at 1.45 of
+// its bank volume instead of 1.23; mixing by time alone gives 1.27 with 0.1 s, 1.24 with 0.02 s
+// and 1.22 with 0.005 s.
+// - crowding_threshold: J is integrated and cannot see particles crowd. Loam that was scooped and
+// dumped lay at 0.97 of its bank volume while its J said 1.24. The correction is one-sided: beside
+// a free surface or a plate nodes hold less than the soil's density.
+// - crowding_strain: tuned in the plane-strain laboratory. 0.02 stirs heaps at rest, 0.2 leaves
+// their core at 1.23 of its density state.
+// - max_crowding_displacement: a tenth of the particles' spacing.
+// - closing_share: an opening closes over some twelve cells' travel of a wave. Tuned by
+// CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. A third lands thrown sand at 1.065
+// of its volume in cells of 0.05 m, all of it at 1.092 (1.5 if wide openings close, too); a blade
+// in clay of 150 kPa feels 0.87 of the strength with a third, 0.86 with a sixth, 0.66 with none.
+#define SCHEME_VOLUME(X)                                                                       \
+  X(mixing_strain, 0.025, "", 1e-6, 1e6,                                                       \
+    "strain over which J / J0 relaxes to the mean of its cell")                                \
+  X(min_mixing_time, 0.02, "s", 1e-6, 1e6, "shortest time over which it relaxes")              \
+  X(crowding_threshold, 1.05, "", 1, 2,                                                        \
+    "nodal density / density by J and J0 above which soil counts as crowded")                  \
+  X(crowding_strain, 0.1, "", 1e-6, 1e6, "shear strain over which crowded particles separate") \
+  X(max_crowding_displacement, 0.05, "cells", 0, 0.1,                                          \
+    "longest displacement of a crowded particle in a transfer")                                \
+  X(closing_share, 1.0 / 6, "", 0, 1,                                                          \
+    "share of a numerical opening that closes in a transfer where nodes show closed soil")     \
+  X(max_closing_ratio, 1.1, "", 1, 100, "J / J0 up to which an opening counts as numerical")
+
+// Length of a transfer, and nodes beside ground and plates (node.h) [docs/soil.md, transfer]
+// [docs/soil.md, free volume] [docs/soil.md, resting ground].
+//
+// - transfer_length: four steps at a Courant number of 0.5. A transfer damps short waves; with a
+// fixed length the damping is one per time, whatever the step.
+// - max_transfer_motion: weights and near nodes are those of the transfer's start. Tuned by
+// `navvy lab throw`: without a limit eight steps a transfer spoil thrown soil (volume 0.76 of its
+// density state).
+#define SCHEME_TRANSFER(X)                                                                     \
+  X(transfer_length, 2, "cell / wave speed", 0, 16, "longest time between two transfers")      \
+  X(max_transfer_motion, 0.2, "cells", 0, 0.25,                                                \
+    "longest displacement of a particle or a tool between two transfers")                      \
+  X(held_margin, 0.25, "cells", 0, 0.5, "height above the columns up to which nodes are held") \
+  X(min_free_fraction, 0.25, "", 0.01, 1,                                                      \
+    "lowest free fraction of a node's kernel beside ground and plates")
+
+// Contact of soil and tools (contact_law.h, shell_side.h) [docs/tools.md, contact shares]
+// [docs/tools.md, stand-off] [docs/tools.md, adhesion].
+//
+// - contact_max_depth: displacements of particle and tool in a transfer, 0.2 each, after a push
+// that left as much; a tenth for rounding.
+// - contact_full: soil half as large again as in the bank still fills a node.
+// - contact_bearing_*: tuned by `navvy lab light-tool`. Under a plate, a node of soil that stands
+// off by a quarter of a cell carries 0.8, and a fill of 0.9 counts as full.
+// - contact_touch: not tuned; 0.75 = 1 / 1.33, a large swell.
+#define SCHEME_CONTACT(X)                                                                         \
+  X(contact_band, 2.5, "cells", 1.5, 3,                                                           \
+    "distance from a plate within which particles have a side")                                   \
+  X(contact_reach, 1, "cells", 0, 2, "clearance at which a node has half of the contact's share") \
+  X(contact_ramp, 1, "cells", 0.01, 4, "length over which that share falls from 1 to 0")          \
+  X(contact_edge, 0.6, "cells", 0, 2,                                                             \
+    "distance inside a free edge at which a node has half of the share along the plate")          \
+  X(contact_edge_ramp, 1, "cells", 0.01, 4, "length over which that share falls from 1 to 0")     \
+  X(contact_margin, 0.35, "cells", 0.01, 1, "extra reach of the lists of near nodes")             \
+  X(contact_max_push, 0.2, "cells", 0, 0.25, "longest push of a particle out of a plate")         \
+  X(contact_max_depth, 0.7, "cells", 0, 2.5,                                                      \
+    "depth behind a plate beyond which a particle belongs to another plate of the tool")          \
+  X(contact_opening, 0.1, "sqrt(g cell)", 0, 10,                                                  \
+    "separation speed above which adhesion has ended")                                            \
+  X(contact_settling, 0.05, "sqrt(g cell)", 0, 10,                                                \
+    "speed at which soil settles towards a plate that does not advance")                          \
+  X(contact_falling, 0.5, "sqrt(g cell)", 0, 10,                                                  \
+    "speed at which a plate falls through nodes that carry hardly any load")                      \
+  X(contact_full, 1.5, "", 0.1, 100, "fullness of a node / its fill, up to 1")                    \
+  X(contact_bearing_slope, 4, "", 0.1, 100,                                                       \
+    "growth of the carried share with the fill under a plate")                                    \
+  X(contact_bearing_offset, 2.6, "", 0, 100,                                                      \
+    "slope x fill from which a node under a plate carries load")                                  \
+  X(contact_touch, 1 / 0.75, "", 0.1, 100, "wetted share of the area of a node / its fill, up to 1")
+
+#ifdef __cplusplus
+namespace navvy::soil {
+
+// The default values; see soil/scheme.h for names, units and ranges at run time.
+#define SCHEME_MEMBER(name, value, unit, low, high, help) double name = value;
+struct SchemeConstants {
+  SCHEME_CONSTANTS(SCHEME_MEMBER)
+};
+#undef SCHEME_MEMBER
+
+inline constexpr SchemeConstants kScheme{};
+
+}  // namespace navvy::soil
+
+// What is compiled for the host (twin, native loop) computes with the defaults.
+#define SCHEME(name) static_cast<scalar>(::navvy::soil::kScheme.name)
+
+#elif defined(SCHEME_GIVEN)
+// The host passes every constant as -DSCHEME_name=value.
+#define SCHEME(name) SCHEME_##name
+
+#else
+// Kernels that are compiled alone, by a linter, have the defaults.
+#define SCHEME_DEFAULT(name, value, unit, low, high, help) constant float scheme_##name = value;
+SCHEME_CONSTANTS(SCHEME_DEFAULT)
+#undef SCHEME_DEFAULT
+#define SCHEME(name) scheme_##name
+#endif
+
+#endif  // NAVVY_KERNELS_SOIL_SCHEME_CONSTANTS_H

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names that earlier releases used: elements of files, values, options, layers and channels.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace navvy {
+
+/// Kind of a name. Names of different kinds are independent.
+enum class NameKind {
+  kElement,         ///< element of a scene file: "navvy:physics"
+  kAttributeValue,  ///< "ELEMENT/ATTRIBUTE=VALUE" of a scene file: "navvy:drive/type=linkage"
+  kOption,          ///< option of the command line: "--duration"
+  kLayer,           ///< layer of a map: "elevation"
+  kChannel,         ///< channel of a controller; matches whole parts from its end: "drive/gear"
+};
+
+/// One row of the table of renamed names.
+struct RenamedName {
+  NameKind kind;
+  const char* old_name;
+  const char* name;
+  const char* until;  ///< release that no longer reads the old name
+};
+
+/// Returns the rows of this release. It is the only place with old names.
+const std::vector<RenamedName>& renamed_names();
+
+/// Returns the current name for `name`, which may be an old one. Logs a warning for the first use
+/// of each old name. A name that is not in the table is returned unchanged. Safe to call from
+/// several threads.
+std::string current_name(NameKind kind, const std::string& name);
+/// Looks up a table other than `renamed_names()`; for tests.
+std::string current_name(NameKind kind, const std::string& name,
+                         const std::vector<RenamedName>& table);
+
+}  // namespace navvy

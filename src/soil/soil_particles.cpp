@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "soil/soil_particles.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/archive.h"
+#include "core/log.h"
+#include "device/device_error.h"
+
+namespace navvy::soil {
+
+Particle in_cell_block(Particle p) {
+  for (int a = 0; a < 3; ++a) {
+    const int d = static_cast<int>(std::floor(p.x[a] / kBlockCells));
+    p.block[a] += d;
+    p.x[a] -= static_cast<float>(kBlockCells * d);
+  }
+  return p;
+}
+
+SoilParticles::SoilParticles(device::Device& device, const std::array<std::int32_t, 4>& site,
+                             const std::vector<SoilRow>& soils, int budget)
+    : store_(device, site, soils), soils_(soils.size()), budget_(budget) {}
+
+std::vector<Particle> SoilParticles::records() const {
+  return unplaced_.empty() ? store_.records() : unplaced_;
+}
+
+std::vector<Particle> SoilParticles::by_cell() const {
+  std::vector<Particle> out = store_.records();
+  for (Particle& p : out) p = in_cell_block(p);
+  return out;
+}
+
+std::vector<PointMass> SoilParticles::masses_near(const Vec3& low, const Vec3& high) const {
+  if (unplaced_.empty()) return store_.masses_near(low, high);
+  std::vector<PointMass> out;
+  for (const Particle& p : unplaced_) {
+    PointMass point;
+    for (int a = 0; a < 3; ++a)
+      point.grid[a] =
+          kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
+    point.mass = p.mass;
+    out.push_back(point);
+  }
+  return out;
+}
+
+std::vector<std::int64_t> SoilParticles::masses() const {
+  if (unplaced_.empty()) return store_.masses(soils_);
+  std::vector<std::int64_t> out(soils_, 0);
+  for (const Particle& p : unplaced_) out[p.soil] += p.mass;
+  return out;
+}
+
+void SoilParticles::assign(const std::vector<Particle>& particles) {
+  const bool over = static_cast<int>(particles.size()) > budget_;
+  if (over && !over_budget_)
+    log_warning("soil: " + std::to_string(particles.size()) +
+                " particles are active, more than the budget of " + std::to_string(budget_));
+  over_budget_ = over;
+  try {
+    store_.assign(particles);
+  } catch (const device::DeviceError&) {
+    unplaced_ = ParticleStore::sorted(particles);
+    throw;
+  }
+  unplaced_.clear();
+  blocks_changed_ = true;
+  drift_ = 0;
+}
+
+std::vector<Particle> SoilParticles::rebin() {
+  std::vector<Particle> left = store_.rebin();
+  drift_ = 0;
+  blocks_changed_ = true;
+  return left;
+}
+
+void SoilParticles::visit(Archive& a) {
+  if (!a.loading() && !unplaced_.empty())
+    ParticleStore::visit(a, unplaced_, soils_);
+  else
+    store_.visit(a);
+  if (a.loading()) unplaced_.clear();
+  a("blocks_changed", blocks_changed_);
+  a("drift", drift_);
+  a.require(std::isfinite(drift_) && drift_ >= 0, "drift", "must be finite and not negative");
+}
+
+}  // namespace navvy::soil
