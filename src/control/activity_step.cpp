@@ -6,7 +6,7 @@
 namespace navvy::control {
 
 const ActivityStep& step_of(const scene::ProgramStep& step) {
-  // Scenes may come from anywhere; only here a step gets what carries it out.
+  // Scenes may come from anywhere; only here is a step known to have an activity.
   const auto* known = step.as<ActivityStep>();
   if (known == nullptr)
     throw InputError(Fault{Fault::Severity::kError, "", 0, "navvy:program", step->element(),

@@ -9,8 +9,8 @@
 namespace navvy::control {
 namespace {
 
-/// Index of the joint that the model names for a role; the loader cannot ask for it, as not every
-/// program digs.
+/// Returns the joint that the model names for a role. The loader cannot require it, because not
+/// every program digs.
 int require_joint(const scene::Machine& machine, const std::string& name, const char* role) {
   const int index = name.empty() ? -1 : machine.joint_index(name);
   if (index < 0)
@@ -31,7 +31,7 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   if (machine.buckets.empty())
     throw InputError(Fault{Fault::Severity::kError, machine.file, 0, machine.name + "/navvy:bucket",
                            "", "the machine has no bucket", "describe one in the model"});
-  // Several buckets on one machine are not driven: the first digs.
+  // Of several buckets on one machine, the first digs.
   bucket_data_ = machine.buckets.front();
   const auto joint = [&](int i) -> const scene::Joint& {
     return machine.joints[static_cast<std::size_t>(i)];
@@ -45,7 +45,7 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
     upper_[i] = j.has_limits ? j.upper : kPi;
   }
   const scene::Joint& swing = joint(swing_);
-  // A swing ring without limits turns without end.
+  // A swing ring without limits turns endlessly.
   swing_limited_ = swing.has_limits;
   swing_lower_ = swing.lower;
   swing_upper_ = swing.upper;
@@ -57,8 +57,8 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   X_BS_ = link(0).X_ML.inverse() * X_MS;
   const Vec3 p0 = X_MS.inverse() * pin(joints_[0]), p1 = X_MS.inverse() * pin(joints_[1]),
              p2 = X_MS.inverse() * pin(joints_[2]);
-  // The arm is a chain of three bars in the swing plane: lengths between the pins, angles of the
-  // bucket's tip and edge.
+  // The arm is a chain of three bars in the swing plane: compute lengths between pins, and angles
+  // of the bucket's tip and edge.
   const int bucket_link = machine.link_index(bucket_data_.link);
   const Vec3 tip = X_MS.inverse() * (link(bucket_link).X_ML * bucket_data_.p_tip);
   pin_reach_ = p0.x();
@@ -70,7 +70,7 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   const Vec3 cut =
       X_MS.linear().transpose() * (link(bucket_link).X_ML.linear() * bucket_data_.cut_direction);
   cut_angle_ = std::atan2(cut.z(), cut.x()) - tip_angle_;
-  // The shell's outline seen from the side, turned so that the line pin to tip is level.
+  // Outline of the shell seen from the side, rotated so that the line from pin to tip is level.
   for (const scene::Shell& shell : machine.shells) {
     if (shell.name != bucket_data_.shell) continue;
     const Pose X_SL = X_MS.inverse() * link(machine.link_index(shell.link)).X_ML;
@@ -86,7 +86,7 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   }
 }
 
-// Only corners can be lowest or farthest out; edges matter where they are cut off at a height.
+// Only vertices can be lowest or farthest out; edges matter where they are cut off at a height.
 double ArmKinematics::below_tip(double angle) const {
   const double c = std::cos(angle), s = std::sin(angle);
   double lowest = 0;
@@ -95,7 +95,8 @@ double ArmKinematics::below_tip(double angle) const {
 }
 
 BucketPose ArmKinematics::forward(const ArmAngles& q) const {
-  // Angles of boom, stick and the line pin to tip over S's plane: joints add up along the chain.
+  // Angles of boom, stick and the line from pin to tip over S's plane; joint angles add up along
+  // the chain.
   const double a = q[0], b = a + q[1], c = b + q[2] + tip_angle_;
   return {pin_reach_ + boom_ * std::cos(a) + stick_ * std::cos(b) + bucket_ * std::cos(c),
           pin_height_ + boom_ * std::sin(a) + stick_ * std::sin(b) + bucket_ * std::sin(c), c};
@@ -108,7 +109,7 @@ double ArmKinematics::beyond_tip(double angle, double height) const {
     Vec2 a = turn * profile_[static_cast<std::size_t>(edge[0])],
          b = turn * profile_[static_cast<std::size_t>(edge[1])];
     if (a.y() > b.y()) std::swap(a, b);
-    // Only what lies in the ground counts: an edge is cut where it comes out of it.
+    // Only the part below the ground counts, so an edge is clipped at the given height.
     if (a.y() > height) continue;
     farthest = std::max(farthest, a.x());
     if (b.y() > height) b = a + (height - a.y()) / (b.y() - a.y()) * (b - a);
@@ -118,21 +119,21 @@ double ArmKinematics::beyond_tip(double angle, double height) const {
 }
 
 bool ArmKinematics::inverse(const BucketPose& pose, ArmAngles& q) const {
-  // The bucket pin in the plane of the boom's foot; then two bars of known length, elbow up, by the
-  // law of cosines.
+  // Locate the bucket pin in the plane of the boom's foot; then solve two bars of known length,
+  // elbow up, by the law of cosines.
   const double x = pose.reach - bucket_ * std::cos(pose.angle) - pin_reach_;
   const double z = pose.height - bucket_ * std::sin(pose.angle) - pin_height_;
   const double c = (x * x + z * z - boom_ * boom_ - stick_ * stick_) / (2 * boom_ * stick_);
-  // Stretched or folded quite is out of reach as well: there the joints would move without bound.
+  // A fully stretched or folded arm counts as out of reach: joint speeds would be unbounded there.
   if (!(c > -1 && c < 1)) return false;
   const double elbow = std::acos(c);
   q[1] = -elbow;
   q[0] = std::atan2(z, x) + std::atan2(stick_ * std::sin(elbow), boom_ + stick_ * c);
   q[2] = pose.angle - tip_angle_ - q[0] - q[1];
-  // The bucket's angle may be given a turn off.
+  // The given bucket angle may differ by a full turn.
   while (q[2] > upper_[2]) q[2] -= 2 * kPi;
   while (q[2] < lower_[2]) q[2] += 2 * kPi;
-  // Rounding must not throw out a pose at the very limit, such as the one it stands in.
+  // Rounding must not reject a pose exactly at a limit, such as the present one.
   constexpr double kSlack = 1e-9;
   for (std::size_t i = 0; i < 3; ++i)
     if (q[i] < lower_[i] - kSlack || q[i] > upper_[i] + kSlack) return false;
@@ -146,7 +147,7 @@ bool ArmKinematics::inverse_nearest(BucketPose& pose, ArmAngles& q) const {
     for (const double sign : {1.0, -1.0}) {
       pose.angle = wish + sign * i * step;
       if (!inverse(pose, q)) continue;
-      // The limit lies in the last step; without the bisection the joints would move in jerks of 2
+      // The limit is within the last step; without bisection the joints would move in steps of 2
       // deg.
       double good = pose.angle, bad = pose.angle - sign * step;
       while (std::abs(good - bad) > 1e-6) {

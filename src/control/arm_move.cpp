@@ -11,13 +11,13 @@
 namespace navvy::control {
 namespace {
 
-// Rates of an unhurried operator at the middle of a move [rad/s]: swing, boom, stick, bucket;
-// hydraulics may be slower.
+// Rates of an unhurried operator at the middle of a move [rad/s]: swing, boom, stick, bucket.
+// Hydraulics may be slower.
 constexpr double kRates[4] = {0.80, 0.45, 0.70, 1.5};
 constexpr double kShareOfLimit = 0.85;  // of a joint's own speed limit
 constexpr double kShortestMove = 0.4;   // [s]
 constexpr double kArrived = 0.03;       // [rad]
-// Past a move's time at rest is as good as arrived [s], [rad/s]
+// When a move's time is over, an arm at rest counts as arrived [s], [rad/s].
 constexpr double kSettle = 0.3, kAtRest = 0.02;
 constexpr double kPatience = 2.0;  // beyond a move's own time [s]
 
@@ -32,10 +32,11 @@ void ArmMove::start(const OperatorContext& place, const Axes& to, const Observat
     const double possible = kShareOfLimit * seen.joints[place.joint(i)].velocity_limit;
     const double rate =
         possible > 0 ? std::min(pace.share * kRates[i], possible) : pace.share * kRates[i];
-    // The smooth profile's fastest moment is 1.5 times its mean.
+    // The smooth profile is fastest at 1.5 times its mean.
     time[i] = std::max(kShortestMove, 1.5 * std::abs(to_[i] - from_[i]) / rate);
   }
-  // Boom, stick and bucket share one time: what is level at both ends stays level on the way.
+  // Boom, stick and bucket share one duration, so a bucket that is level at both ends stays level
+  // in between.
   swing_time_ = time[0];
   arm_time_ = std::max({time[1], time[2], time[3]});
   arm_delay_ = time[0] > kShortestMove ? pace.arm_delay * time[0] : 0;
@@ -43,7 +44,8 @@ void ArmMove::start(const OperatorContext& place, const Axes& to, const Observat
 
 void ArmMove::open_bucket(const OperatorContext& place, const Observation& seen) {
   const ArmKinematics& arm = *place.arm;
-  // The nearest turn to the opening angle that the cylinder can do; only the bucket joint moves.
+  // Choose the revolution of the opening angle that the cylinder can reach; only the bucket joint
+  // moves.
   ArmAngles q = place.arm_angles();
   const double angle = arm.forward(q).angle;
   q[2] = std::clamp(q[2] + std::remainder(kOpen - angle, 2 * kPi), arm.lower(2), arm.upper(2));
@@ -64,7 +66,7 @@ bool ArmMove::advance(OperatorContext& place, const Observation& seen, double si
                       const char* phase) {
   const double swing = smooth(since / swing_time_),
                other = smooth((since - arm_delay_) / arm_time_);
-  // What the machine still lacks, judged at all four joints alike.
+  // Remaining distance to the target, over all four joints alike.
   double error = 0, speed = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     place.handover.q[i] = from_[i] + (i == 0 ? swing : other) * (to_[i] - from_[i]);
@@ -74,8 +76,7 @@ bool ArmMove::advance(OperatorContext& place, const Observation& seen, double si
   }
   const double over = since - duration();
   if (over < 0) return false;
-  // Heavy soil in the bucket keeps a joint a little short for ever: at rest there is as good as
-  // arrived.
+  // Heavy soil in the bucket can hold a joint slightly short for ever, so rest counts as arrival.
   if (error < kArrived || (over > kSettle && speed < kAtRest)) return true;
   if (over < kPatience) return false;
   place.warn(std::string(phase) + " ended " + std::to_string(error) + " rad short of its target");

@@ -6,13 +6,14 @@
 namespace navvy::control {
 
 SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
-  // Swing turns about S's z axis, which leans with the machine: all is worked out in S, not in W.
+  // Swing rotates about S's z axis, which tilts with the machine, so everything is computed in S,
+  // not in W.
   const Vec3 p = X_WS.inverse() * p_W;
   SwingPoint out;
   out.swing = std::atan2(p.y(), p.x());
   out.reach = std::hypot(p.x(), p.y());
   out.height = p.z();
-  // What is level in W is pitched in S by so much.
+  // A line that is level in W is pitched by this in S.
   const Vec3 outward = X_WS.linear() * Vec3(std::cos(out.swing), std::sin(out.swing), 0);
   out.pitch = std::asin(outward.z());
   return out;
@@ -21,13 +22,13 @@ SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W) {
 bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground,
                double clearance, ArmAngles& q, double& possible) {
   constexpr double kLeast = 0.3, kStep = 0.05;
-  // Opened, the soil leaves about below the pin, which therefore comes over the dump point.
-  // From the wish down, in steps that no heap shows.
+  // Opened, the bucket drops its soil roughly below the pin, which is therefore placed over the
+  // dump point. Try from the wanted clearance downwards, in steps too small to show on the heap.
   for (double c = clearance; c >= std::min(kLeast, clearance) - 1e-9; c -= kStep) {
     const double pin = ground + c - arm.bucket_length() * std::sin(kOpen);
     const SwingPoint p = swing_point(X_WS, Vec3(dump_at.x(), dump_at.y(), pin));
-    // Level now, with the pin where it will be when the bucket opens: only the bucket joint moves
-    // then.
+    // Level now, with the pin where it will be when the bucket opens, so that only the bucket joint
+    // moves then.
     const double angle = p.level(kCarry);
     possible = c;
     if (arm.inverse({p.reach + arm.bucket_length() * std::cos(angle),

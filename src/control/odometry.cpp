@@ -11,7 +11,7 @@
 namespace navvy::control {
 namespace {
 
-/// The first driven wheel of a side that has an encoder.
+/// Returns the first driven wheel of a side that has an encoder.
 CountedWheel counted_wheel(const scene::Machine& machine, bool left) {
   const std::vector<vehicle::DriveWheel> about = vehicle::drive_wheels(machine);
   for (std::size_t w = 0; w < about.size(); ++w)
@@ -25,7 +25,7 @@ CountedWheel counted_wheel(const scene::Machine& machine, bool left) {
                          "add <navvy:encoder> with the wheel's joint"});
 }
 
-/// sin(x) / x.
+/// Returns sin(x) / x.
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 }  // namespace

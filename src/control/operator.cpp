@@ -15,8 +15,8 @@ struct Operator::State {
   State(const scene::Machine& machine, const scene::Program& program_in, const std::string& name_in,
         const MakePathPlanner& planners);
 
-  // Activities refer to the steps and to the workplace: all three keep their addresses, as the
-  // state does not move.
+  // Activities refer to the steps and to the context: all three keep their addresses, as the state
+  // does not move.
   const scene::Program program;
   const std::string name;
   std::vector<const ActivityStep*> steps;
@@ -53,7 +53,7 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
       place(machine),
       commanded(machine.joints.size()) {
   for (const scene::ProgramStep& one : program.steps) steps.push_back(&step_of(one));
-  // One step that uses the arm makes all hold it: left alone it would sink or be shaken while the
+  // One step that uses the arm makes all hold it: left alone, it would sink or be shaken while the
   // machine drives.
   const auto needs_arm = [](const ActivityStep* one) { return one->needs_arm(); };
   if (std::any_of(steps.begin(), steps.end(), needs_arm)) place.arm.emplace(place.machine);
@@ -65,19 +65,19 @@ Operator::State::State(const scene::Machine& machine, const scene::Program& prog
                 "", "nobody plans paths here", "hand a planner to the operator, or use drive_to"});
     place.planner = planners(place.machine);
   }
-  // Told before anything moves, not when the step's turn comes.
+  // Reported before anything moves, not when the step's turn comes.
   for (const ActivityStep* one : steps) one->check_machine(place.machine);
 }
 
 void Operator::State::make_activity() {
   place.label =
       "'" + name + "', step " + std::to_string(step + 1) + " (" + present().element() + ")";
-  // The description makes what carries it out; its memory is new every time.
+  // The step creates its activity, whose state is new every time.
   place.step = step + 1;
   active = present().activity(place);
 }
 
-/// Of all steps at once, on the ground as it lies when the program begins.
+/// Plans the paths of all steps on the ground at the program's start.
 void Operator::State::plan_ahead(const Observation& seen) {
   if (!place.planner) return;
   place.look(seen);
@@ -111,11 +111,11 @@ void Operator::State::finish(StepState state, const std::string& reason, const O
                              double time) {
   reports.push_back(report(state, reason, seen, time));
   active.reset();
-  // The step that fell short stays the present one: the program has come so far and no further.
+  // The step that fell short stays the present one: the program goes no further.
   if (!fell_short(state)) ++step;
 }
 
-/// A machine can fall over when its program is long done: a second report of the last step says so.
+/// A machine can tip over long after its program is done: a second report of the last step says so.
 void Operator::State::watch_over(const Observation& seen, double time, double dt) {
   std::string reason;
   const StepState state = watch.look(seen, dt, reason);
@@ -131,7 +131,7 @@ void Operator::State::watch_over(const Observation& seen, double time, double dt
 }
 
 void Operator::State::read_arm(const Observation& seen) {
-  // Once only: from then on commands follow commands, so that a load that bends the arm does not
+  // Only once: from then on commands follow commands, so that a load that bends the arm does not
   // make it drift.
   if (place.handover.known != 0) return;
   // Swing, boom, stick, bucket.
@@ -140,7 +140,7 @@ void Operator::State::read_arm(const Observation& seen) {
 }
 
 void Operator::State::hold_arm(Command& out) const {
-  // What the activity has commanded itself stays.
+  // Commands of the activity itself stay.
   for (std::size_t i = 0; i < 4; ++i)
     if (auto& slot = out.joints[place.joint(i)]; !slot)
       slot = vehicle::JointInput{vehicle::JointMode::kPosition, place.handover.q[i]};
@@ -149,8 +149,8 @@ void Operator::State::hold_arm(Command& out) const {
 Command Operator::State::stop() const {
   Command out;
   out.joints.resize(commanded.size());
-  // Where they are, not where they were told to go: the way there may be what went wrong. Others
-  // keep what they have.
+  // Hold the joints where they are, not at their targets, because the motion there may be what went
+  // wrong. Other joints keep their commands.
   for (std::size_t j = 0; j < commanded.size(); ++j)
     if (commanded[j] != 0) out.joints[j] = vehicle::JointInput{vehicle::JointMode::kVelocity, 0};
   if (place.machine.has_drive) out.drive = vehicle::DriveInput{0, steer, true};
@@ -172,7 +172,7 @@ Operator::Operator(Operator&&) noexcept = default;
 bool Operator::done() const { return state_->done(); }
 bool Operator::ended() const { return state_->done() || state_->failed(); }
 Command Operator::stop() const { return state_->stop(); }
-// All else is known to the step and its activity; here is only the order.
+// The step and its activity know everything else; this function only keeps the order.
 std::string Operator::phase() const {
   if (state_->failed()) return name_of(state_->reports.back().state);
   return state_->active ? state_->active->phase() : "idle";
@@ -212,7 +212,7 @@ Command Operator::update(const Observation& seen, double time, double dt) {
     } else {
       const bool over = s.active->advance(seen, dt, out);
       s.event = s.active->take_event();
-      // The next step begins with the next control step: telemetry sees "idle" between them.
+      // The next step begins with the next control step, so telemetry sees "idle" between them.
       if (over) s.finish(s.active->state(), s.active->reason(), seen, time);
     }
   } else {
@@ -229,8 +229,8 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 
 void Operator::visit(Archive& a) {
   State& s = *state_;
-  // Version 5: reports of the steps, what was commanded; 6: how the machine stands; 7: what came
-  // after the last step; 8: a scoop begins before its soil.
+  // Version 5: reports of the steps, commands; 6: the machine's stability; 7: events after the last
+  // step; 8: a scoop begins before its soil.
   a.section("operator", 8, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
@@ -239,8 +239,8 @@ void Operator::visit(Archive& a) {
     a("watch", s.watch);
     a("started", s.started);
     a("reports", s.reports);
-    // One a step that is over; one more of the step that fell short, or of what came after the
-    // last.
+    // One per completed step; one more for the step that fell short, or for an event after the last
+    // step.
     a.require(static_cast<std::int64_t>(s.reports.size()) == s.step + (s.failed() ? 1 : 0),
               "reports", "another number of them than steps that are over");
     // As many as the scene's machine has joints.
@@ -260,7 +260,7 @@ void Operator::visit(Archive& a) {
       a.require(
           running.empty() || running == here, "running",
           "the program has another step there: '" + here + "'; use the scene it was made with");
-      // Made anew, then it reads its memory.
+      // Created anew, then it loads its state.
       s.active.reset();
       if (!running.empty()) s.make_activity();
     }

@@ -6,8 +6,7 @@
 namespace navvy::control {
 
 const char* name_of(StepState state) {
-  // In the order of the enum; a style of its own is never needed, so files and messages share
-  // these.
+  // In the order of the enum; files and messages share these names.
   static constexpr std::array<const char*, 9> names = {"running",     "done",   "blocked",
                                                        "stalled",     "tipped", "out_of_reach",
                                                        "out_of_time", "buried", "no_path"};

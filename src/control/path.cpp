@@ -8,7 +8,7 @@
 namespace navvy::control {
 namespace {
 
-/// From `at` by a signed length [m] along an arc.
+/// Moves from `at` by a signed length [m] along an arc.
 PlanePose moved(const PlanePose& at, double length, double curvature) {
   // The chord of an arc that turns by 2 h is its length times sin(h) / h, along the mean heading.
   const double h = 0.5 * length * curvature;
@@ -54,7 +54,7 @@ double Path::curvature(const PathLeg& leg, double s, double half) const {
   for (const PathPiece& piece : pieces_) {
     const double end = begin + std::abs(piece.length);
     sum += piece.curvature * std::max(0.0, std::min(end, high) - std::max(begin, low));
-    // Where the stretch is a point, the piece that it lies on.
+    // Where the leg is a point, take the piece on which it lies.
     if (low >= begin && low <= end && end > leg.begin && begin < leg.end) here = piece.curvature;
     begin = end;
   }

@@ -9,18 +9,18 @@
 namespace navvy::control {
 namespace {
 
-// An offset fades over some 1.3 m, nearly without swinging over.
+// An offset decays over some 1.3 m, nearly without overshoot.
 // [1/m^2] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
 constexpr double kAsideGain = 0.6;
 // [1/m] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
 constexpr double kTurnedGain = 1.4;
-// A bend that begins at once becomes one that grows over twice this: a centimetre beside it, and
-// wheels that can.
+// A bend that begins at once becomes one that grows over twice this length [m]: a centimetre of
+// offset, and wheels that can follow.
 constexpr double kHalf = 0.5;  // [m] tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
-// Of the rate at which the wheels turn; the rest is for corrections.
+// Share of the wheels' steering rate; the rest is for corrections.
 // tuned: PathFollower.EndsAtTheGoalForwardsBackwardsAndOverCusps
 constexpr double kRateShare = 0.8;
-// [m] in which any bend's speed is reached from 1.4 m/s
+// Distance [m] in which any bend's speed is reached from 1.4 m/s.
 constexpr double kAhead = 2, kAheadStep = 0.25;
 
 }  // namespace
@@ -34,7 +34,8 @@ PathFollower::PathFollower(const scene::Drive& drive)
 PathPlace PathFollower::place(const Path& path, const PathLeg& leg, const PlanePose& at,
                               double s) const {
   PathPlace out{s, 0, 0};
-  // Newton's way to the foot of the perpendicular; off by 1e-4 of a step that is centimetres long.
+  // Newton's method for the foot of the perpendicular; its error is 1e-4 of a step that is
+  // centimetres long.
   for (int i = 0; i < 3; ++i) {
     const PlanePose on = path.at(out.s);
     const Vec2 way(std::cos(on.yaw), std::sin(on.yaw)), d = at.p - on.p;
@@ -49,7 +50,7 @@ PathPlace PathFollower::place(const Path& path, const PathLeg& leg, const PlaneP
 double PathFollower::steer(const Path& path, const PathLeg& leg, const PathPlace& place) const {
   const double ahead = path.curvature(leg, place.s, kHalf);
   const double e = place.aside, t = place.turned;
-  // In the limit of no offset this is the path's curvature; its pole lies at the bend's centre.
+  // For zero offset this is the path's curvature; its pole is at the bend's centre.
   const double along = ahead * std::cos(t) / std::max(0.2, 1 - ahead * e);
   const double curvature = along - kTurnedGain * leg.sense * t -
                            kAsideGain * (std::abs(t) < 1e-6 ? 1 : std::sin(t) / t) * e;

@@ -12,7 +12,7 @@ double clearance_along(const PathPlanner& planner, const Path& path, double s, d
   const double way = std::max(0.0, path.length() - s);
   const int steps = static_cast<int>(std::ceil(way / kStep));
   double least = range;
-  // Both ends are looked at.
+  // Both ends are sampled.
   for (int i = 0; i <= steps && least >= enough; ++i)
     least = std::min(least,
                      planner.clearance(path.at(i < steps ? s + i * kStep : path.length()), range));

@@ -9,12 +9,12 @@
 namespace navvy::control {
 namespace {
 
-// A machine that has moved by less than this within the patience does not get on. The patience is
+// A machine that moves by less than this within its patience makes no progress. The patience is
 // that of a driver who sees nothing happen, longer for drives so slow that they need it.
 constexpr double kMoved = 0.05, kTurned = radians(2);  // [m], [rad]
 constexpr double kPatience = 5;                        // [s]
-// Tyres that push sideways with this share of the weight push against something: on any slope, with
-// nothing else in touch, their forces add up to the weight's opposite, which is upright.
+// Tyres that push sideways with this share of the weight push against an obstacle: on any slope,
+// without other contacts, their forces add up to the opposite of the weight, which is vertical.
 constexpr double kPush = 0.03;
 
 }  // namespace
@@ -33,7 +33,7 @@ StepState ProgressMonitor::look(const Observation& seen, const scene::Machine& m
   if (moved) begin(at);
   stuck_ += dt;
   push_ += dt * seen.tyre_force;
-  // Of the fastest driven wheel: an open differential turns one side alone.
+  // Use the fastest driven wheel: an open differential may turn one side alone.
   double fastest = 0, weight = 0;
   for (const scene::Wheel& wheel : machine.wheels) {
     const int joint = wheel.driven ? machine.joint_index(wheel.joint) : -1;

@@ -9,8 +9,8 @@
 namespace navvy::control {
 namespace {
 
-// A long look ahead is calm far away, a short one ends close to the line; below half a wheelbase
-// the steering, which takes a second from lock to lock, would swing about the line.
+// A long look-ahead is calm far away, a short one ends close to the line; below half a wheelbase
+// the steering, which takes a second from lock to lock, would oscillate about the line.
 constexpr double kLongLook = 3.0, kShortLook = 1.5;  // [m] tuned: Drive.ArrivesBesideAndTurned
 constexpr double kCreep = 0.05;                      // [m/s]
 
@@ -30,8 +30,8 @@ Pursuit Pursuit::of(const DriveGoal& goal, const scene::Drive& drive, const Plan
   pursuit.heading = goal.has_heading    ? goal.heading
                     : way.norm() < 0.05 ? start.yaw
                                         : std::atan2(way.y(), way.x());
-  // max_steer is the inner wheel's: the circle's centre is half a track nearer to it than to the
-  // bicycle.
+  // max_steer is the inner wheel's: the circle's centre is half a track width nearer to it than to
+  // the bicycle.
   pursuit.most_steer = std::atan(
       bicycle.wheelbase / (bicycle.wheelbase / std::tan(bicycle.max_steer) + 0.5 * bicycle.track));
   return pursuit;
@@ -53,7 +53,7 @@ double Pursuit::steer(const PlanePose& at) const {
 }
 
 double stopping_speed(double left) {
-  // v^2 = 2 a s; creeping to the end, where the root would never arrive.
+  // v^2 = 2 a s; creep to the end, where the root would never arrive.
   return std::max(kCreep, std::sqrt(2 * kDriveAcceleration * std::max(0.0, left - kStopShort)));
 }
 
@@ -61,7 +61,7 @@ double Pursuit::speed_limit(const PlanePose& at) const { return stopping_speed(l
 
 PlanePose Pursuit::end_from(PlanePose at, double steer_rate) const {
   constexpr double kStep = 0.02;  // [s]
-  // The same law as in the run on a bicycle whose steering turns as fast as the machine's.
+  // The same law as in the run, on a bicycle whose steering turns as fast as the machine's.
   double v = 0, turned = 0;
   const double patience = 60 + 4 * (target - at.p).norm() / std::max(0.05, std::abs(speed));
   for (double time = 0; left(at) > kStopShort && time < patience; time += kStep) {

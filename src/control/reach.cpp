@@ -10,7 +10,7 @@
 
 namespace navvy::control {
 
-// Two digits: a centimetre and a hundredth of a degree are finer than anybody places a machine.
+// Two digits: a centimetre and a hundredth of a degree are finer than any placement of a machine.
 std::string number_text(double value, const char* unit) {
   char text[48];
   std::snprintf(text, sizeof text, "%.2f %s", value, unit);
@@ -49,7 +49,7 @@ std::vector<Fault> ReachCheck::run() {
   for (index_ = 0; index_ < program_.steps.size(); ++index_) {
     const ActivityStep& step = step_of(program_.steps[index_]);
     step.check_reach(*this);
-    // A drive that misses its target has been told of; the steps after it are judged as if it
+    // A drive that misses its target has been reported; the steps after it are checked as if it
     // arrived.
     if (const std::optional<Pose> next = step.station(machine, X_WB, surface)) X_WB = *next;
   }
@@ -84,7 +84,7 @@ void ReachCheck::add(Fault::Severity severity, const std::string& element, const
 
 void ReachCheck::require_swing(const ArmKinematics& arm, const char* element, double swing,
                                const char* remedy) {
-  // Angles of the joint, as the engine stops it there.
+  // Joint angles, as the physics engine limits them.
   if (!arm.swing_limited() || (swing >= arm.swing_lower() && swing <= arm.swing_upper())) return;
   fault(element, number_text(degrees(swing), "deg"),
         "the swing joint turns from " + number_text(degrees(arm.swing_lower()), "deg") + " to " +
@@ -102,7 +102,7 @@ std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Progr
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program,
                            const Pose& X_WB, const SurfaceView& surface) {
   std::vector<Pose> out{X_WB};
-  // Steps that leave the machine where it is are no stations.
+  // Steps that do not move the machine are no stations.
   for (const scene::ProgramStep& step : program.steps)
     if (const std::optional<Pose> next = step_of(step).station(machine, out.back(), surface))
       out.push_back(*next);

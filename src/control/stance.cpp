@@ -9,7 +9,7 @@
 namespace navvy::control {
 namespace {
 
-// The chassis moves on its tyres; at twice this the arm waits
+// The chassis moves on its tyres; at twice this tilt the arm waits.
 constexpr double kTilt = radians(1.5);
 constexpr double kBaseTime = 0.25;  // smoothing of the chassis' pose [s]
 
@@ -46,7 +46,7 @@ void Stance::follow(const Pose& X_WB, double dt) {
 
 Pose Stance::swing_frame(const ArmKinematics& arm) const {
   Pose X_WB = Pose::Identity();
-  // slerp keeps the length to rounding only.
+  // slerp preserves the length only to rounding.
   X_WB.linear() =
       Eigen::Quaterniond(base_[3], base_[4], base_[5], base_[6]).normalized().toRotationMatrix();
   X_WB.translation() = Vec3(base_[0], base_[1], base_[2]);
@@ -54,15 +54,15 @@ Pose Stance::swing_frame(const ArmKinematics& arm) const {
 }
 
 double Stance::rise(const Pose& X_WB, const ArmKinematics& arm, double swing) const {
-  // Sine of the angle between the arm's direction and the plane on which the base stood: turning
-  // about the upright counts nothing, nor does leaning to the arm's side.
+  // Sine of the angle between the arm's direction and the plane of the base at the last settling;
+  // rotation about the vertical and roll to the arm's side do not count.
   const Vec3 outward =
       X_WB.linear() * arm.X_BS().linear() * Vec3(std::cos(swing), std::sin(swing), 0);
   return std::asin(std::clamp(outward.dot(Vec3(up_[0], up_[1], up_[2])), -1.0, 1.0));
 }
 
 double Stance::footing(const Pose& X_WB) const {
-  // Sine of the angle between the base's upright then and now, as in rise.
+  // Sine of the angle between the base's z axis then and now, as in rise.
   const double tilt = Vec3(up_[0], up_[1], up_[2]).cross(Vec3(X_WB.linear().col(2))).norm();
   return std::clamp(2 - tilt / kTilt, 0.0, 1.0);
 }

@@ -9,16 +9,16 @@
 namespace navvy::control {
 namespace {
 
-// Tip this far behind its path: the path waits [m]
+// Lag of the tip behind its path at which the path waits [m].
 constexpr double kLag = 0.12;
-// [m/s] a waiting tip slower than this is held by the soil
+// Speed below which a waiting tip counts as held by the soil [m/s].
 constexpr double kHeld = 0.08;
 constexpr double kGiveIn = 0.2;  // [s] of being held before the path rises
-// Of the path while held, and back when free [m/s]
+// Speed at which the path rises while held, and returns when free [m/s].
 constexpr double kLiftRate = 0.3, kSinkRate = 0.1;
-// A nose that rises by more than this is let down, from so much on [rad] as fast as this [m/s]: 5
-// deg/s, with the lip some 6 m ahead of the axle about which the machine turns. tuned: digging up a
-// slope of 12 deg in loam the nose rises by 2.8 deg at most.
+// A nose that rises by more than this angle [rad] is let down at this speed [m/s]: 5 deg/s, with
+// the edge some 6 m ahead of the axle about which the machine turns. tuned: digging up a slope of
+// 12 deg in loam the nose rises by 2.8 deg at most.
 constexpr double kRise = radians(1.5), kRiseMost = radians(2.5), kReliefRate = 0.5;
 
 }  // namespace
@@ -27,7 +27,7 @@ TipPath::Solution TipPath::solve(const OperatorContext& place, const Stance& sta
                                  double height) const {
   const SwingPoint tip = swing_point(stance.swing_frame(*place.arm), Vec3(p.x(), p.y(), height));
   BucketPose pose{tip.reach, tip.height, tip.level(angle)};
-  // Out of reach the arm keeps its angles.
+  // Out of reach, the arm keeps its angles.
   ArmAngles q = place.arm_angles();
   const bool found = place.arm->inverse_nearest(pose, q);
   const double swing =
@@ -49,12 +49,12 @@ Axes TipPath::start(const OperatorContext& place, const Stance& stance, const Ve
 
 void TipPath::follow(OperatorContext& place, const Stance& stance, const Vec2& p,
                      const Observation& seen, double dt, bool curling) {
-  // Out of reach `reached` stays what it last was.
+  // Out of reach, `reached` keeps its last value.
   const Solution solution = solve(place, stance, p, z + lift);
   if (solution.found) reached = solution.angle;
   Axes& q = place.handover.q;
   for (std::size_t i = 0; i < 4; ++i) {
-    // The servo gets no jumps, whatever the pose of the machine or a limit of the arm did.
+    // The servo gets no jumps, whatever the machine's pose or an arm limit did.
     const double rate =
         1.5 * std::min(2.0, std::max(0.1, seen.joints[place.joint(i)].velocity_limit));
     q[i] += std::clamp(solution.q[i] - q[i], -rate * dt, rate * dt);
@@ -85,16 +85,16 @@ void TipPath::feel_stall(const OperatorContext& place, const Stance& stance,
   const ArmKinematics& arm = *place.arm;
   const BucketPose wanted = arm.forward(place.arm_angles()), tip = arm.forward(real),
                    next = arm.forward(soon);
-  // How far the tip lags behind what the arm could reach, and how fast it goes, from two poses a
+  // Compute how far the tip lags behind what the arm could reach, and its speed, from two poses a
   // moment apart.
   const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);
   const double speed = std::hypot(next.reach - tip.reach, next.height - tip.height) / kAhead;
   const double footing = stance.footing(seen.X_WB);
   slow = std::min(footing, std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
-  // A lag alone may be the servo's; what lags and hardly moves is held.
+  // A lag alone may be the servo's; a tip that lags and hardly moves is held.
   const bool held = (slow < 0.35 || stalled) && speed < kHeld;
   stall_ = held ? stall_ + dt : std::max(0.0, stall_ - 2 * dt);
-  // Heel or lip bear on the ground and lift the nose: in proportion to it the path gives way.
+  // Heel or edge press on the ground and lift the nose: the path yields in proportion.
   const double rise = stance.rise(seen.X_WB, arm, seen.joints[place.joint(0)].position);
   const double relief = kReliefRate * std::clamp((rise - kRise) / (kRiseMost - kRise), 0.0, 1.0);
   // Rising helps against soil in front, but not while the curl pulls the machine over.

@@ -7,7 +7,7 @@ namespace navvy::control {
 namespace {
 
 constexpr double kFarthestTilt = radians(45);  // no wheeled machine comes back from there by itself
-// A wheel that hits a stone rocks the machine by more than this for moments only.
+// A wheel that hits a stone rocks the machine by more than this only for moments.
 constexpr double kTiltRate = 0.05;  // [rad/s]
 constexpr double kOutside = 0.2;    // [s]
 

@@ -38,7 +38,7 @@ class Driving final : public ActivityWith<Memory> {
   void begin(const Observation& seen) override {
     const PlanePose at = plane_pose(seen.X_WB);
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
-    // Patience is a matter of the whole way, not of what is left.
+    // The time limit depends on the whole distance, not on what is left.
     m.way = (step_.target - at.p).norm();
     m.progress.begin(at);
   }
@@ -47,7 +47,7 @@ class Driving final : public ActivityWith<Memory> {
   bool update(const Observation& seen, double dt, Command& out) override {
     const PlanePose at = plane_pose(seen.X_WB);
     Pursuit pursuit = Pursuit::of(step_, place_.machine.drive, at);
-    // Without a heading of its own the line is the one seen at the start, not from here.
+    // Without a heading, the line is the one seen at the start, not from here.
     pursuit.heading = m.heading;
     const double limit = 30 + 3 * m.way / std::max(0.05, std::abs(step_.speed));
     const bool late = phase_time() > limit;
@@ -73,11 +73,11 @@ class Driving final : public ActivityWith<Memory> {
     const double way = (step_.target - at.p).norm();
     const StepState progress = m.progress.look(seen, place_.machine, step_.speed, way, dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
-    // Up along the ramp, down along the curve that stops at the target.
+    // Accelerate along the ramp, decelerate along the curve that stops at the target.
     m.speed = std::min(
         {std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
     const double speed = pursuit.sense() * m.speed;
-    // Pursuit steers by a bicycle angle; the drive says what it makes of that.
+    // Pursuit steers by a bicycle angle; the drive converts it.
     const scene::Drive& drive = place_.machine.drive;
     out.drive =
         vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
@@ -104,7 +104,8 @@ std::unique_ptr<Activity> DriveTo::activity(OperatorContext& place) const {
 void DriveTo::check_reach(ReachCheck& check) const {
   const PlanePose start = plane_pose(check.X_WB);
   const scene::Drive& drive = check.machine.drive;
-  // The law of the run on a machine that rolls without slip: what steering alone cannot reach.
+  // The law of the run on a machine that rolls without slip: reports what steering alone cannot
+  // reach.
   const PlanePose end = Pursuit::of(*this, drive, start)
                             .end_from(start, vehicle::equivalent_bicycle(drive).steer_rate);
   const double miss = (end.p - target).norm();

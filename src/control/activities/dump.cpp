@@ -9,7 +9,7 @@
 namespace navvy::control {
 namespace {
 
-// Heavy soil keeps the bucket short by less; more is an obstacle
+// Tolerance of the bucket's angle: heavy soil causes less; more is an obstacle.
 constexpr double kShort = radians(6);
 constexpr double kAtRest = 0.02;  // [rad/s]
 
@@ -25,14 +25,14 @@ struct Memory {
   }
 };
 
-// Open, hold, close; it does not look at what the bucket still holds.
+// Open, hold, close; the remaining load is not observed.
 class Dumping final : public ActivityWith<Memory> {
  public:
   Dumping(OperatorContext& place, const Dump& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "dump"; }
 
   void begin(const Observation& seen) override {
-    // It curls back to what was commanded, not to what a load had bent it to.
+    // It curls back to the commanded angle, not to where a load had bent it.
     m.bucket_before = place_.handover.q[3];
     m.move.open_bucket(place_, seen);
     enter(kOpening);
@@ -45,7 +45,7 @@ class Dumping final : public ActivityWith<Memory> {
       held(seen, "closed");
       return true;
     }
-    // Soil leaves whether the bucket is quite open or not: time alone decides here.
+    // Soil leaves whether or not the bucket is fully open, so time alone decides.
     if (phase_time() <= m.move.duration()) m.move.advance(place_, seen, phase_time(), phase());
     if (phase_time() <= m.move.duration() + step_.hold) return false;
     if (held(seen, "open")) return true;
@@ -56,12 +56,12 @@ class Dumping final : public ActivityWith<Memory> {
     return false;
   }
 
-  /// Whether something holds the bucket short of its target: the step falls short then.
+  /// Returns true when something holds the bucket short of its target: the step falls short then.
   bool held(const Observation& seen, const char* target) {
     const std::size_t j = place_.joint(3);
     const vehicle::JointState& bucket = seen.joints[j];
     const double rest = std::abs(m.move.target(3) - bucket.position);
-    // Still on its way it is only slow.
+    // A bucket that still moves is only slow.
     if (rest < kShort || !(bucket.stalled || std::abs(bucket.velocity) < kAtRest)) return false;
     return fall_short(StepState::kBlocked,
                       held_text(place_.machine.joints[j], bucket, rest, target));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The go_to step: plan, turn the wheels, drive a leg, stop; look at the ground on the way
-// meanwhile.
+// The go_to step: plan, steer the wheels, drive a leg, stop; meanwhile monitor the ground along the
+// path.
 #include "control/activities/go_to.h"
 
 #include <algorithm>
@@ -17,23 +17,23 @@
 namespace navvy::control {
 namespace {
 
-// [s] between looks at the ground on the way
+// Interval between checks of the ground along the path [s].
 constexpr double kLook = 0.25;
-// [s] at a cusp, and for wheels that have been turned
+// Time at a cusp, and for wheels that have been steered [s].
 constexpr double kSettle = 0.3;
-// Beside the path: it plans anew [m], [rad]
+// Distance [m] and angle [rad] off the path at which it plans again.
 constexpr double kOffPath = 0.25, kOffTurn = radians(20);
-// From the start of a path that was planned ahead
+// Tolerance from the start of a path that was planned ahead.
 constexpr double kElsewhere = 0.1, kElsewhereTurn = radians(3);
-// Clearances are told up to this [m]
+// Largest clearance that messages report [m].
 constexpr double kRange = 1;
-// New plans since the last one ended beside the goal
+// Number of new plans after a path that ended beside the goal.
 constexpr int kMostCorrections = 3;
 constexpr int kMostPlans = 100;  // nothing may go on for ever
 
 enum Phase : std::int64_t { kPlan, kTurn, kDrive, kStop, kNoPath };
 
-/// What comes when the machine stands.
+/// The next action once the machine stands.
 enum class Then : std::uint8_t { kNextLeg, kPlanAnew };
 
 struct Memory {
@@ -53,7 +53,7 @@ struct Memory {
 
   void visit(Archive& a) {
     a("path", path);
-    // The path's own number of legs is asked for below.
+    // The path's own number of legs is checked below.
     a("leg", leg);
     a.require(leg >= 0 && leg <= static_cast<std::int64_t>(path.legs().size()), "leg",
               "the path has no such leg");
@@ -97,7 +97,7 @@ class Going final : public ActivityWith<Memory> {
   void begin(const Observation& seen) override {
     look(seen);
     const PlanePose at = plane_pose(seen.X_WB);
-    // Of the plans of this step so far there is at most one: that of the program's beginning.
+    // At most one of this step's plans exists so far: the one made when the program began.
     for (const PlannedPath& ahead : place_.paths)
       if (ahead.step == place_.step) m.path = ahead.path, m.plans = 1;
     if (m.plans == 0 || arrived(at)) return;
@@ -126,7 +126,7 @@ class Going final : public ActivityWith<Memory> {
  private:
   bool update(const Observation& seen, double dt, Command& out) override {
     const PlanePose at = plane_pose(seen.X_WB);
-    // Standing unless it drives: brake on, wheels as they are.
+    // Unless it drives, the machine stands: brake on, wheels as they are.
     out.drive = vehicle::DriveInput{0, steer_input(0), true};
     m.standing = seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : 0;
     switch (phase_index()) {
@@ -165,7 +165,7 @@ class Going final : public ActivityWith<Memory> {
            step_.clearance;
   }
 
-  /// Plans from where the machine stands; true when the step is over.
+  /// Plans from the machine's present pose; returns true when the step is over.
   bool plan(const Observation& seen, const PlanePose& at) {
     look(seen);
     if (m.plans >= kMostPlans)
@@ -216,10 +216,10 @@ class Going final : public ActivityWith<Memory> {
   const PathLeg& leg() const { return m.path.legs()[static_cast<std::size_t>(m.leg)]; }
   bool past_last() const { return m.leg >= static_cast<std::int64_t>(m.path.legs().size()); }
 
-  /// Turns the wheels to where the leg begins, while the machine stands; there may be no leg.
+  /// Steers the wheels to the start of the leg while the machine stands; there may be no leg.
   void begin_leg(const PlanePose& at) {
     const double angle = past_last() ? 0 : law_.steer_at_start(m.path, leg());
-    // A differential drive turns nothing.
+    // A differential drive has no wheels to steer.
     m.turn = std::abs(angle - m.steer) / law_.steer_rate() + kSettle;
     m.steer = angle;
     m.progress.begin(at);
@@ -262,7 +262,8 @@ class Going final : public ActivityWith<Memory> {
       return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) +
                                                    " took longer than " +
                                                    number_text(phase_time(), "s"));
-    // Up along the ramp, down along the curves that end in a bend's speed or at the leg's end.
+    // Accelerate along the ramp, decelerate along the curves that end in a bend's speed or at the
+    // leg's end.
     m.speed = std::min(
         {step_.speed, m.speed + kDriveAcceleration * dt, law_.speed_limit(m.path, leg(), m.s)});
     m.steer = law_.steer(m.path, leg(), place);
@@ -277,7 +278,7 @@ class Going final : public ActivityWith<Memory> {
     enter(kStop);
   }
 
-  /// The machine has come to a stand; true when the step is over.
+  /// Handles a machine that has come to a stop; returns true when the step is over.
   bool stand(const PlanePose& at) {
     const bool anew = m.then == Then::kPlanAnew;
     if (!anew) ++m.leg;

@@ -9,25 +9,25 @@
 namespace navvy::control {
 namespace {
 
-// A load or a slope bends the swing by less; more is an obstacle
+// Tolerance of the swing angle: a load or a slope causes less; more is an obstacle.
 constexpr double kShort = radians(3);
 
-// One move; patience is the move's.
+// One move, with the move's own patience.
 class Swinging final : public ActivityWith<ArmMove> {
  public:
   Swinging(OperatorContext& place, const Swing& step) : ActivityWith(place), step_(step) {}
   const char* phase() const override { return "swing"; }
 
   void begin(const Observation& seen) override {
-    // Boom, stick and bucket stay as commanded: the load stays level.
+    // Boom, stick and bucket stay as commanded, so the load stays level.
     m.start(place_, with_arm(step_.angle, place_.arm_angles()), seen, {});
   }
 
  private:
   bool update(const Observation& seen, double, Command&) override {
     if (!m.advance(place_, seen, phase_time(), phase())) return false;
-    // A move also ends at rest short of its target: heavy soil does that to the arm, but not to the
-    // swing.
+    // A move also ends at rest short of its target: heavy soil can do that to the arm, but not to
+    // the swing.
     const double rest = std::abs(step_.angle - seen.joints[place_.joint(0)].position);
     if (rest < kShort) return true;
     return fall_short(StepState::kBlocked,
@@ -50,7 +50,7 @@ std::unique_ptr<Activity> Swing::activity(OperatorContext& place) const {
 }
 
 void Swing::check_reach(ReachCheck& check) const {
-  // An angle is a joint's, not a direction: it is not wound into the limits.
+  // The angle is a joint position, not a direction: it is not wrapped into the limits.
   check.require_swing(ArmKinematics(check.machine), "swing", angle, "choose an angle between them");
 }
 

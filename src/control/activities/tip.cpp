@@ -36,7 +36,7 @@ class Tipping final : public ActivityWith<Memory> {
   const char* phase() const override { return "tip"; }
 
   void begin(const Observation& seen) override {
-    // The time allowed grows with the way: a ram is slow, and slower under load.
+    // The time limit grows with the angle: a ram is slow, and slower under load.
     m.way = std::abs(step_.angle - seen.joints[joint_].position);
     tell(CycleEvent::kTipStart);
   }
@@ -44,14 +44,14 @@ class Tipping final : public ActivityWith<Memory> {
  private:
   bool update(const Observation& seen, double dt, Command& out) override {
     const vehicle::JointState& bed = seen.joints[joint_];
-    // Every step anew: an input may have moved the bed in between.
+    // Commanded in every step, because an input may have moved the bed in between.
     out.joints[joint_] = vehicle::JointInput{vehicle::JointMode::kPosition, step_.angle};
     const bool late = phase_time() > std::min(kTipPatience, 10 + m.way / kSlowRate);
     const double rest = std::abs(step_.angle - bed.position);
     // `standing` stays positive once the bed has arrived.
     if (m.standing > 0 || rest < kArrived) m.standing += dt;
     if (m.standing == 0 && late) {
-      // What fell out until here counts as tipped.
+      // Soil that fell out until here counts as tipped.
       tell(CycleEvent::kTipEnd);
       return fall_short(StepState::kStalled,
                         "the bed stopped " + number_text(degrees(rest), "deg") +

@@ -14,16 +14,17 @@ namespace {
 
 using scene::kDegree;
 
-// Of a joint: a servo's lag under load is less [m]
+// Tolerance of a joint's position [m]: a servo's lag under load is smaller.
 constexpr double kShortAngle = radians(3), kShortPath = 0.03;
-// [s] before a joint at rest counts as held
+// Time [s] after which a joint at rest counts as held.
 constexpr double kSettle = 0.3;
 constexpr double kAtRest = 0.02;  // [rad/s|m/s]
-// [s] for joints that are slower than their positions
+// Extra time [s] for joints that are slower than their positions.
 constexpr double kPatience = 5;
 
-// Open loop: it does not look where the joints are while they move, and ends by the clock. Only at
-// the end it looks: a joint that is on its way is waited for, one that is held ends the program.
+// Open loop: joints are not observed while they move, and the step ends by the clock. Only at the
+// end are they checked: the step waits for a joint that still moves; a joint that is held ends the
+// program.
 class Following final : public Activity {
  public:
   Following(OperatorContext& place, const Trajectory& step) : Activity(place), step_(step) {
@@ -36,26 +37,26 @@ class Following final : public Activity {
   bool update(const Observation& seen, double, Command& out) override {
     const std::vector<double>& times = step_.times;
     const double t = std::clamp(phase_time(), times.front(), times.back());
-    // Between knots k and n; one knot alone is held.
+    // Between knots k and n; a single knot is held.
     std::size_t k = 0;
     while (k + 2 < times.size() && times[k + 1] <= t) ++k;
     const std::size_t n = std::min(k + 1, times.size() - 1);
     const double span = times[n] - times[k];
     const double u = span > 0 ? (t - times[k]) / span : 1;
-    // One row of positions a knot.
+    // One row of positions per knot.
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double q = step_.positions[k][i] + u * (step_.positions[n][i] - step_.positions[k][i]);
       const auto joint = static_cast<std::size_t>(joints_[i]);
       out.joints[joint] = vehicle::JointInput{vehicle::JointMode::kPosition, q};
       if (!place_.arm) continue;
-      // The next step's move begins where this one has led the arm.
+      // The next step's move starts where this one has led the arm.
       for (std::size_t axis = 0; axis < 4; ++axis)
         if (joint == place_.joint(axis)) place_.handover.q[axis] = q;
     }
     return phase_time() >= times.back() && arrive(seen, phase_time() - times.back());
   }
 
-  /// Whether the step is over `late` [s] after its last time.
+  /// Returns true when the step is over `late` [s] after its last time.
   bool arrive(const Observation& seen, double late) {
     bool on_the_way = false;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -67,8 +68,8 @@ class Following final : public Activity {
         continue;
       on_the_way = true;
       if (late < kSettle) continue;
-      // A joint that lies beside its target and moves may well be driven off by what holds it:
-      // patience has an end.
+      // A joint beside its target that moves may be driven off by what holds it, so patience is
+      // limited.
       if (late > kPatience || now.stalled || std::abs(now.velocity) < kAtRest)
         return fall_short(StepState::kBlocked, held_text(joint, now, rest, "its last position"));
     }
@@ -146,7 +147,7 @@ void Trajectory::check(const scene::StepSource& source) {
 }
 
 void Trajectory::check_machine(const scene::Machine& machine) const {
-  // Programs built in C++ may be anything: the run relies on what is asked here.
+  // Programs built in C++ are unchecked, and the run relies on these conditions.
   const auto fail = [&](const std::string& value, const std::string& rule) {
     throw InputError(Fault{Fault::Severity::kError, machine.file, 0,
                            machine.name + "/navvy:program/trajectory", value, rule,

@@ -6,7 +6,7 @@
 namespace navvy::control {
 namespace {
 
-// Without memory: the clock that every activity has is enough.
+// Without state: the clock that every activity has suffices.
 class Resting final : public Activity {
  public:
   Resting(OperatorContext& place, const Wait& step) : Activity(place), step_(step) {}

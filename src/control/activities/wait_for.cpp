@@ -7,7 +7,7 @@
 namespace navvy::control {
 namespace {
 
-// Reads the other program's progress as it stood at the start of the control step, whatever the
+// Reads the other program's progress as it was at the start of the control step, whatever the
 // machines' order.
 class WaitingFor final : public Activity {
  public:
@@ -22,10 +22,10 @@ class WaitingFor final : public Activity {
       const auto found = seen.programs->find(step_.machine);
       if (found != seen.programs->end()) other = &found->second;
     }
-    // The loader knows the machine, but it may stand in a world built in C++.
+    // The loader knows the machine, but it may be in a world built in C++.
     if (!other)
       return fall_short(StepState::kBlocked, "no program of '" + step_.machine + "' is known");
-    // 0 stands for all steps, however many the other program has.
+    // 0 means all steps, however many the other program has.
     const int wanted = step_.steps > 0 ? step_.steps : other->steps;
     if (other->done >= wanted) return true;
     const std::string stands = "'" + step_.machine + "' has done " + std::to_string(other->done) +

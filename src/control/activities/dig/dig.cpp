@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dig step as a scene describes it; dig_reach.cpp looks at its targets, digging.h carries it
-// out.
+// The dig step as a scene describes it; dig_reach.cpp checks its targets, digging.h carries it out.
 #include "control/activities/dig/dig.h"
 
 #include "control/activities/dig/digging.h"

@@ -9,25 +9,25 @@ namespace {
 
 constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
-// Length given up before a scoop's start when it brings nothing [m]
+// Length given up before a scoop's start when it brings nothing [m].
 constexpr double kRefused = 0.4;
-// A scoop begins so far from the near end at least, if the floor there is down: the lip needs way
-// to fill the bucket and to cut on while it curls. tuned: the trench takes 17 cycles at 0 and 12 at
-// 1.0; at 1.5 the loads are no larger.
+// A scoop begins at least this far from the near end if the floor there is finished: the edge needs
+// distance to fill the bucket and to cut on while it curls. tuned: the trench takes 17 cycles at 0
+// and 12 at 1.0; at 1.5 the loads are no larger.
 constexpr double kLeastRun = 1.0;   // [m]
 constexpr double kBeside = 0.5;     // how far beside the cut spilt soil is looked for [m]
 constexpr double kOverload = 0.15;  // a load may be larger than a full bucket by this share of it
 constexpr double kThinner = 0.7;    // a slice after one that held the bucket, of that one
 constexpr double kThinnest = 0.1;   // what the soil's cells still resolve [m]
-// A slice's rest below this share of a bucket waits for the next slice
+// The rest of a slice below this share of a bucket waits for the next slice.
 constexpr double kWorth = 0.5;
 constexpr double kWorthLast = 0.15;  // that of the last slice stays
 
 }  // namespace
 
 TrenchLine trench_line(const Dig& dig, const Pose& X_WS) {
-  // Which end is far, and where the line lies, is seen in plan from the swing axis, as the arm
-  // works in planes through it.
+  // Which end is far, and where the line is, are seen in plan from the swing axis, as the arm works
+  // in planes through it.
   const auto plan = [&](const Vec2& p) {
     const Vec3 q = X_WS.inverse() * Vec3(p.x(), p.y(), X_WS.translation().z());
     return Vec2(q.x(), q.y());
@@ -64,7 +64,7 @@ void DigPlan::derive() {
 }
 
 double DigPlan::height(const SurfaceView& surface, double s) const {
-  // Mean of three points across the middle of the cut: crumbs at the walls do not count.
+  // Mean of three points across the middle of the cut: loose particles at the walls do not count.
   const Vec2 across(-along_.y(), along_.x());
   double sum = 0;
   for (const double t : {-0.25, 0.0, 0.25}) {
@@ -101,7 +101,7 @@ double DigPlan::remaining(const SurfaceView& surface, int i, double level) const
 
 void DigPlan::refuse(const SurfaceView& surface, double s) {
   for (int i = 0; i < samples(); ++i) {
-    // Half as far behind the start as ahead of it: the scoop went that way.
+    // Half as far behind the start as ahead of it, because the scoop moved that way.
     if (at(i) > s + 0.5 * kRefused || at(i) < s - kRefused) continue;
     const auto k = static_cast<std::size_t>(i);
     deepest_[k] = std::min(deepest_[k], start_[k] - height(surface, at(i)));
@@ -130,8 +130,8 @@ double DigPlan::volume_above(const SurfaceView& surface, double level) const {
 }
 
 TrenchState DigPlan::state(const SurfaceView& surface) const {
-  // All of the width, where `height` looks at its middle: what is left is left at the walls as
-  // well.
+  // Over the whole width, where `height` samples the middle: soil that is left is left at the walls
+  // too.
   constexpr int kStripes = 5;
   const Vec2 across(-along_.y(), along_.x());
   // The first sample has no piece before it, as in volume_above.
@@ -154,8 +154,8 @@ TrenchState DigPlan::state(const SurfaceView& surface) const {
 }
 
 double DigPlan::fill_end(const SurfaceView& surface, int start, double level) const {
-  // What the slice still holds goes into equal loads: a short last scoop wears the walls as much as
-  // a long one.
+  // The rest of the slice is divided into equal loads: a short last scoop wears the walls as much
+  // as a long one.
   const double rest = volume_above(surface, level);
   const double load = rest / std::max(1.0, std::ceil(rest / scoop_volume_ - kOverload));
   double volume = 0;
@@ -168,7 +168,7 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
 }
 
 int DigPlan::run_up(const SurfaceView& surface, int i, double level) const {
-  // Back over the floor that is down already; what could not be dug ends it.
+  // Back over the finished floor; undiggable soil ends it.
   for (; i + 1 < samples() && at(i) < kLeastRun; ++i)
     if (height(surface, at(i + 1)) > start_[static_cast<std::size_t>(i + 1)] - level + kTolerance)
       break;
@@ -176,13 +176,13 @@ int DigPlan::run_up(const SurfaceView& surface, int i, double level) const {
 }
 
 Scoop DigPlan::next(const SurfaceView& surface) const {
-  // Slices of equal depth; the next one is opened only when the one above holds no worthwhile load.
+  // Slices of equal depth; the next one starts only when the one above holds no worthwhile load.
   for (int k = 1; k <= slices(); ++k) {
     const double level = dig_.depth * k / slices();
     if (volume_above(surface, level) < (k < slices() ? kWorth : kWorthLast) * scoop_volume_)
       continue;
     for (int i = samples() - 1; i >= 1; --i)
-      // Two neighbours must agree, a single crumb is not worth a cycle.
+      // Two neighbours must agree, as a single loose particle is not worth a cycle.
       if (remaining(surface, i, level) > kTolerance &&
           remaining(surface, i - 1, level) > kTolerance)
         return {at(run_up(surface, i, level)), fill_end(surface, i, level), at(i), level, true};
@@ -200,8 +200,8 @@ void TrenchLine::visit(Archive& a) {
 }
 
 void DigPlan::visit(Archive& a) {
-  // The trench as it was ordered when the dig began: a scene that has changed since does not bend a
-  // plan half done.
+  // The trench as commanded when the dig began: a scene that has changed since does not alter a
+  // plan in progress.
   a("from", dig_.from);
   a("to", dig_.to);
   a("dump_at", dig_.dump_at);
@@ -213,7 +213,7 @@ void DigPlan::visit(Archive& a) {
   a("scoop_volume", scoop_volume_);
   a("start", start_);
   a("deepest", deepest_);
-  // One of each a sample, and two samples at least: or none at all, where no plan has been made.
+  // One of each per sample, and at least two samples; or none at all, where no plan has been made.
   a.require(deepest_.size() == start_.size() && start_.size() != 1, "deepest",
             "has not one depth for each sample");
   if (a.loading() && !start_.empty()) derive();

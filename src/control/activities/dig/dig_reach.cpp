@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a trench and its spoil can be reached from where the machine stands.
+// Checks that a trench and its spoil can be reached from where the machine stands.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,14 +13,14 @@ namespace navvy::control {
 namespace {
 
 constexpr double kMostOffset = 0.15;  // of the trench's line from the swing axis [m]
-// End of the trench to the swing axis: clear of wheels and undercarriage [m]
+// Distance from the end of the trench to the swing axis: clear of wheels and undercarriage [m].
 constexpr double kNearest = 3.0;
 constexpr double kWiderCut = 0.1;    // than the bucket [m]
 constexpr double kSpoilClear = 0.5;  // dump point to the trench's edge [m]
 constexpr const char* kMoveOrTurn = "move the target or turn the machine";
 
-/// One dig at one place of the machine. Stops at a line beside the swing axis: everything else
-/// would be wrong, too.
+/// Checks one dig at one pose of the machine. Stops at a line beside the swing axis, as everything
+/// else would be wrong, too.
 class DigReach {
  public:
   DigReach(const Dig& dig, ReachCheck& check)
@@ -28,13 +28,14 @@ class DigReach {
 
   void look() {
     const TrenchLine line = trench_line(dig_, X_WS_);
-    // A bucket cannot be moved aside within a line: one cut is one bucket wide.
+    // A bucket cannot be moved sideways within a line: one cut is one bucket wide.
     if (dig_.width > arm_.bucket().width + kWiderCut)
       check_.fault("dig/width", metres(dig_.width),
                    "the bucket cuts " + metres(arm_.bucket().width),
                    "dig a trench one bucket wide, or several side by side");
     if (line.offset > kMostOffset) {
-      // Where the rear axle had to stand to look along the line from the same distance.
+      // Position of the rear axle from which the line would be seen along its length at the same
+      // distance.
       const Vec2 u = (line.far - line.near).normalized();
       const Vec2 axis = line.near - line.near_reach * u;
       const Vec2 origin = axis - arm_.X_BS().translation().x() * u;
@@ -69,9 +70,9 @@ class DigReach {
   }
 
  private:
-  /// The tip at W (p, z), digging or plunging.
+  /// Checks the tip at W (p, z), digging or plunging.
   void require_tip(const char* element, const Vec2& p, double z) {
-    // The bucket may turn away from its plunging angle, as it does when it digs.
+    // The bucket may rotate away from its plunging angle, as it does when it digs.
     const SwingPoint at = swing_point(X_WS_, Vec3(p.x(), p.y(), z));
     const auto possible = [&](double reach) {
       BucketPose pose{reach, at.height, at.level(with_cut(arm_, kPlunge))};
@@ -79,8 +80,8 @@ class DigReach {
       return arm_.inverse_nearest(pose, q);
     };
     if (possible(at.reach)) return;
-    // How far it would have been possible at that height, found by trying: the message shall help
-    // to place the machine.
+    // Find by trial how far would have been possible at that height: the message shall help to
+    // place the machine.
     double least = 0, most = 0;
     for (double r = 0.5; r < arm_.longest() + 2; r += 0.02) {
       if (!possible(r)) continue;
@@ -97,7 +98,7 @@ class DigReach {
   }
 
   void require_dump() {
-    // The ground before the dig: the heap that grows there is the operator's to see.
+    // The ground before the dig: the operator observes the heap that grows there.
     const double ground = check_.surface.height(dig_.dump_at.x(), dig_.dump_at.y());
     const SwingPoint at = swing_point(X_WS_, Vec3(dig_.dump_at.x(), dig_.dump_at.y(), ground));
     check_.require_swing(arm_, "dig/dump_at", at.swing, kMoveOrTurn);
@@ -115,7 +116,7 @@ class DigReach {
       return;
     }
     double least = 0, most = 0;
-    // Nowhere at all at this distance: where else in that direction?
+    // Nothing is possible at this distance: search in the same direction.
     const Vec2 axis = X_WS_.translation().head<2>(), u = (dig_.dump_at - axis).normalized();
     for (double r = 1; r < arm_.longest() + 2; r += 0.05) {
       if (!dump_pose(arm_, X_WS_, axis + r * u, ground, 0.3, q, possible)) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump; and when the
-// trench is done.
+// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump; and the conditions
+// that end it.
 #include "control/activities/dig/digging.h"
 
 #include <algorithm>
@@ -13,42 +13,43 @@
 namespace navvy::control {
 namespace {
 
-// Of the heaped capacity, when the curl begins; the lip cuts on while it curls, which adds a tenth.
-// Fuller buckets carry more (0.55: loads of 520 kg instead of 400), but drip on the way, and heaps
-// that go up rub the trench's walls. tuned: on the trench, 0.45 / 0.50 lose 0.7 / 0.9 % on the way
-// and over-dig 7.3 / 9.1 %; with half the patience for drips 0.45 / 0.50 / 0.55 lose 1.1 / 1.2 /
-// 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
+// Share of the heaped capacity at which the curl begins; the edge cuts on while it curls, which
+// adds a tenth. Fuller buckets carry more (0.55: loads of 520 kg instead of 400), but spill during
+// the swing, and higher heaps rub the trench's walls. tuned: on the trench, 0.45 / 0.50 lose 0.7 /
+// 0.9 % during the swing and over-dig 7.3 / 9.1 %; with half the patience for drips 0.45 / 0.50 /
+// 0.55 lose 1.1 / 1.2 / 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
 constexpr double kFill = 0.45;
 constexpr double kLiftClear = 0.6;  // lowest point over the ground before the machine swings [m]
-// Of a slice: raised by more on the whole drag's mean, the next slice is thinner
+// Share of a slice: when the drag was raised by more on average, the next slice is thinner.
 constexpr double kHeldUp = 0.4;
 constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
 constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
-// On the last floor a scoop that brings less is not made a second time: a high wall sheds as much
-// again and again.
+// On the last floor a scoop that brings less is not repeated: a high wall sheds as much again and
+// again.
 constexpr double kLooseParticles = 0.15;
 constexpr int kMostEmpty = 3;  // empty scoops in a row that end the dig
-// What a heaped bucket loses by itself falls back into the trench: so much less [share] within so
-// long [s], for at most so long after the lift [s]. Then a bucket with a fair load
-// [share of a full one] swings more gently [share of the usual rate].
+// Soil that a heaped bucket loses by itself falls back into the trench: wait while it loses this
+// [share] within this time [s], for at most this long after the lift [s]. A bucket with a fair load
+// [share of a full one] then swings more gently [share of the usual rate].
 constexpr double kDrip = 0.001, kStill = 0.8, kDripPatience = 4;
 constexpr double kHeavy = 0.3, kGently = 0.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
-// A scoop's start may lie so far out of reach [m]: drives end 0.15 m off
+// A scoop's start may be this far out of reach [m]; drives end 0.15 m off.
 constexpr double kBeyond = 0.3;
 constexpr double kRest = 2.0;    // [s] for loose soil to come to rest before the end
 constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
-// Of the design volume: with more left a trench is not done [docs/validation.md, whole digs].
+// Share of the design volume: with more left, a trench is not done
+// [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
 constexpr int kMostCleanUps = 2;
 constexpr double kCleanEnough = 0.02;  // share of the design volume that may stay on the floor
 constexpr double kHeapRadius = 0.6;    // around the dump point [m]
-// On the way back the arm comes down after this share of the swing
+// During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.4;
 
-/// Highest ground around a point [m].
+/// Returns the highest ground around a point [m].
 double heap_height(const SurfaceView& surface, const Vec2& p) {
   double highest = surface.height(p.x(), p.y());
   for (int i = 0; i < 8; ++i)
@@ -59,7 +60,7 @@ double heap_height(const SurfaceView& surface, const Vec2& p) {
   return highest;
 }
 
-/// What the operator looks at: the view given, or the resting ground.
+/// Returns the surface that the operator sees: the view given, or the resting ground.
 template <class Use>
 auto with_surface(const Observation& seen, Use use) {
   if (seen.surface) return use(*seen.surface);
@@ -72,7 +73,7 @@ auto with_surface(const Observation& seen, Use use) {
 void Digging::begin(const Observation& seen) {
   m.stance.begin(seen.X_WB);
   const heightfield::Ground& ground = *seen.ground;
-  // One soil stands for the whole trench: the one at its middle says what a full bucket weighs.
+  // The soil at the trench's middle decides the mass of a full bucket.
   const Vec2 middle = 0.5 * (dig_.from + dig_.to);
   const Vec2i cell = ground.column_at(middle.x(), middle.y());
   const auto& soils = ground.setup().soils;
@@ -90,13 +91,13 @@ void Digging::begin(const Observation& seen) {
 }
 
 bool Digging::plan_scoop(const Observation& seen) {
-  // Nothing is dug for ever: both limits end the dig whatever the plan still sees.
+  // Both limits end the dig whatever the plan still sees.
   if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
     return false;
   Scoop scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.next(surface); });
   m.cleaning = 0;
-  // What fell back lies along the whole floor, too thin for a scoop of the plan: it is swept up
-  // once or twice.
+  // Soil that fell back is spread along the whole floor, too thin for a scoop of the plan; one or
+  // two passes clean it up.
   if (!scoop.any && m.clean_ups < kMostCleanUps) {
     const double rest = with_surface(
         seen, [&](const SurfaceView& surface) { return plan_.volume_above(surface, dig_.depth); });
@@ -118,7 +119,7 @@ bool Digging::beyond_reach(const Scoop& scoop) const {
   const SwingPoint at =
       swing_point(m.stance.swing_frame(arm_),
                   Vec3(p.x(), p.y(), plan_.start_height(scoop.start) - scoop.level));
-  // Nearer or farther by what is let pass it would do.
+  // A position nearer or farther by the tolerance would do.
   for (const double off : {0.0, -kBeyond, kBeyond}) {
     BucketPose pose{at.reach + off, at.height, at.level(with_cut(arm_, kPlunge))};
     ArmAngles q = place_.arm_angles();
@@ -130,8 +131,8 @@ bool Digging::beyond_reach(const Scoop& scoop) const {
 void Digging::go_to_scoop(Phase next, const Observation& seen) {
   m.s = m.scoop_start;
   const Vec2 p = plan_.point(m.s);
-  // While it swings back the bucket stays above the trench's edges and what was spilt on them; then
-  // it goes down.
+  // During the return swing the bucket stays above the trench's edges and the soil spilt on them;
+  // then it goes down.
   const double ground = with_surface(seen, [&](const SurfaceView& surface) {
     return next == kReturn ? plan_.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
   });
@@ -157,7 +158,7 @@ void Digging::start_lift(const Observation& seen) {
 }
 
 bool Digging::drips(const Observation& seen) {
-  // The clock starts anew with every loss; before the arm has lifted there is nothing to judge.
+  // Every loss restarts the clock; before the arm has lifted there is nothing to judge.
   if (m.held_since < m.move.duration() || seen.payload < (1 - kDrip) * m.held) {
     m.held = seen.payload;
     m.held_since = phase_time();
@@ -166,7 +167,7 @@ bool Digging::drips(const Observation& seen) {
 }
 
 void Digging::start_swing(const Observation& seen) {
-  // The heap grows from cycle to cycle: the bucket opens over what lies there now.
+  // The heap grows from cycle to cycle: the bucket opens over its present height.
   const double heap = with_surface(
       seen, [&](const SurfaceView& surface) { return heap_height(surface, dig_.dump_at); });
   const SwingPoint over =
@@ -178,7 +179,7 @@ void Digging::start_swing(const Observation& seen) {
     place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
     q = place_.arm_angles();
   }
-  // The short way round; with limits the only way.
+  // Take the shorter arc; with limits, the only one.
   const double swing =
       arm_.swing_limited()
           ? over.swing
@@ -201,11 +202,11 @@ void Digging::thin_slices() {
 }
 
 bool Digging::dump(const Observation& seen) {
-  // When the opening is over the shaking has the bucket's joint: the move must not take it back.
+  // After the opening the shaking controls the bucket's joint: the move must not take it back.
   const bool open = phase_time() > m.move.duration() || move(seen);
   const bool empty = seen.payload < kEmpty * m.full_mass;
   shake(seen);
-  // The bucket need not open all the way when it is empty before.
+  // The bucket need not open fully when it is empty before.
   if (empty && phase_time() > kEarly * m.move.duration()) return true;
   return open && (empty || phase_time() > m.move.duration() + kDumpPatience);
 }
@@ -220,7 +221,7 @@ void Digging::shake(const Observation& seen) {
 }
 
 void Digging::look_round(const Observation& seen) {
-  // Bucket half closed, out of the way, while what is loose comes to rest.
+  // Bucket half closed and aside, while loose soil comes to rest.
   ArmAngles q = place_.arm_angles();
   q[2] = std::clamp(q[2] + std::remainder(-0.75 * kPi - arm_.forward(q).angle, 2 * kPi),
                     arm_.lower(2), arm_.upper(2));
@@ -256,7 +257,7 @@ bool Digging::conclude(const Observation& seen) {
   if (m.empty_scoops >= kMostEmpty && undone)
     return fall_short(StepState::kStalled,
                       "three empty scoops in a row: nothing more comes into the bucket; " + left);
-  // Whoever orders a number of cycles wants these, not the trench.
+  // A program that sets a number of cycles wants these, not the trench.
   if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
     remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);
   } else if (const Scoop next =
@@ -296,17 +297,17 @@ const char* Digging::phase() const {
 }
 
 bool Digging::update(const Observation& seen, double dt, Command&) {
-  // In all phases, or the pose would jump when it is used again.
+  // Filtered in all phases, or the pose would jump when it is used again.
   m.stance.follow(seen.X_WB, dt);
   switch (phase_index()) {
     case kReturn:
-      // What lay loose when the bucket left has come to rest by now.
+      // Soil that was loose when the bucket left has come to rest by now.
       if (move(seen)) go_on(kApproach, seen);
       break;
     case kApproach:
       if (!move(seen)) break;
       enter(kPenetrate);
-      // What the ground under the wheels has done so far is not the bucket's doing.
+      // What the ground under the wheels has done so far was not caused by the bucket.
       m.stance.settle();
       m.clean_ups += m.cleaning;
       tell(CycleEvent::kScoopStart);
@@ -332,8 +333,8 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
     case kSwing:
       if (!move(seen)) break;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
-      // A pass along the whole floor may well bring little; a scoop that does shows soil that
-      // cannot be dug.
+      // A pass along the whole floor may bring little; a scoop that does has met soil that cannot
+      // be dug.
       if (m.cleaning == 0 &&
           seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kLooseParticles) * m.full_mass)
         with_surface(seen,
@@ -344,7 +345,7 @@ bool Digging::update(const Observation& seen, double dt, Command&) {
     case kDump:
       if (!dump(seen)) break;
       ++place_.handover.cycles;
-      // Where the next cycle begins, or whether, is seen from here.
+      // From here it is visible whether, and where, the next cycle begins.
       tell(CycleEvent::kCycleEnd);
       go_on(kReturn, seen);
       break;
@@ -380,7 +381,7 @@ void DiggingMemory::visit(Archive& a) {
 
 void Digging::visit(Archive& a) {
   ActivityWith::visit(a);
-  // The phase picks a name out of a table.
+  // The phase indexes a table of names.
   a.require(phase_index() >= kReturn && phase_index() <= kLook, "phase", "no phase of a dig");
   a("plan", plan_);
 }
