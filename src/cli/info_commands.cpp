@@ -19,6 +19,7 @@
 #include "device/device.h"
 #include "run/scene_check.h"
 #include "scene_io/loader.h"
+#include "scene_io/shipped.h"
 #include "sim/world.h"
 #include "sim/world_channels.h"
 
@@ -45,7 +46,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     // An unknown name is a fault of one file and does not keep the others from being checked.
     std::string file;
     try {
-      file = find_scene(name);
+      file = scene_io::find_scene(name);
     } catch (const InputError& fault) {
       std::cout << fault.what() << "\n";
       ++errors;

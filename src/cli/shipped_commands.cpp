@@ -38,7 +38,7 @@ int list(const std::map<std::string, std::string>& files, const char* what) {
   return kOk;
 }
 
-int scenes() { return list(shipped_scenes(), "scenes"); }
+int scenes() { return list(scene_io::shipped_scenes(), "scenes"); }
 
 /// Prints the shipped machines and how a scene uses one.
 int machines() {

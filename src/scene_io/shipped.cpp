@@ -24,6 +24,34 @@ std::map<std::string, std::string> shipped_machines() {
   return files;
 }
 
+std::map<std::string, std::string> shipped_scenes() {
+  std::map<std::string, std::string> out;
+  std::error_code ignored;
+  for (const std::string& directory : data_directories()) {
+    const fs::path scenarios = fs::path(directory) / "scenarios";
+    for (const auto& entry : fs::recursive_directory_iterator(scenarios, ignored)) {
+      // Other files, such as maps, are beside the scenes.
+      if (entry.path().extension() != ".sdf") continue;
+      const fs::path name = entry.path().lexically_relative(scenarios);
+      out.emplace(fs::path(name).replace_extension().generic_string(), entry.path().string());
+    }
+  }
+  return out;
+}
+
+std::string find_scene(const std::string& name) {
+  if (fs::exists(name)) return name;
+  for (const std::string& candidate : {name, "scenarios/" + name, "scenarios/" + name + ".sdf"})
+    if (const std::string found = find_data(candidate); !found.empty()) return found;
+  if (name.find('/') != std::string::npos) return name;
+  std::vector<std::string> known;
+  for (const auto& [scene, path] : shipped_scenes()) known.push_back(scene);
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "scene", name,
+                         "no such file here and no such shipped scene",
+                         known.empty() ? "set NAVVY_DATA_DIR"
+                                       : suggestion(name, known) + "; `navvy scenes` lists them"});
+}
+
 std::vector<scene::Soil> shipped_soils() {
   const std::string directory = find_data("terrain/soils");
   if (directory.empty())

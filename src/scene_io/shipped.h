@@ -14,6 +14,14 @@ namespace navvy::scene_io {
 /// all data directories; the first one that has a name wins.
 std::map<std::string, std::string> shipped_machines();
 
+/// Returns the files of the shipped scenes by name, e.g. "trench" or "paper/ackermann".
+std::map<std::string, std::string> shipped_scenes();
+
+/// Returns the scene file that a user means by `name`: a path, or the name of a shipped scene with
+/// or without ".sdf". A file of the user's comes first. Returns an unknown path unchanged, as the
+/// loader's message is the better one. @throws InputError that names the nearest shipped scene.
+std::string find_scene(const std::string& name);
+
 /// Returns the shipped soils, sorted by name. @throws InputError when none are found.
 std::vector<scene::Soil> shipped_soils();
 
