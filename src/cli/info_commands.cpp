@@ -39,7 +39,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
   std::set<std::string> logged;
   set_log_sink([&](LogLevel level, const std::string& text) {
     if (level < LogLevel::kWarning || !logged.insert(text).second) return;
-    std::cout << (print_its_severity(text) ? "" : "warning: ") << text << "\n";
+    std::cout << (has_severity(text) ? "" : "warning: ") << text << "\n";
     ++warnings;
   });
   for (const std::string& name : files) {

@@ -38,24 +38,13 @@ void install_log_sink() {
     constexpr std::size_t kRemembered = 1000;
     if (level == LogLevel::kWarning && logged->size() < kRemembered && !logged->insert(text).second)
       return;
-    if (level >= LogLevel::kWarning && cli::print_its_severity(text)) {
+    if (level >= LogLevel::kWarning && cli::has_severity(text)) {
       bare->warn(text);
       return;
     }
-    switch (level) {
-      case LogLevel::kDebug:
-        logger->debug(text);
-        break;
-      case LogLevel::kInfo:
-        logger->info(text);
-        break;
-      case LogLevel::kWarning:
-        logger->warn(text);
-        break;
-      case LogLevel::kError:
-        logger->error(text);
-        break;
-    }
+    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info,
+                                                     spdlog::level::warn, spdlog::level::err};
+    logger->log(kLevels[static_cast<int>(level)], text);
   });
 }
 

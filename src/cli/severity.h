@@ -8,7 +8,7 @@ namespace navvy::cli {
 
 /// Returns true for a fault as core/error.h formats it, `file:line: warning: ...`, which needs no
 /// further severity.
-inline bool print_its_severity(const std::string& line) {
+inline bool has_severity(const std::string& line) {
   // Colons of the file part are not followed by a space.
   const std::size_t colon = line.find(": ");
   if (colon == std::string::npos) return false;
