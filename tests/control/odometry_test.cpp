@@ -201,7 +201,7 @@ TEST(OneController, DrivesBothPhysicsEnginesWithSlipAsTheOnlyDifference) {
   // are equal at any time except for the solver's residual. 1 mm is an eighth of the travel between
   // two readings.
   const double apart = largest_difference(exact.trace, rolling.trace);
-  print_value("beliefs of both controllers apart [m]", apart, "0", "");
+  print_value("distance of both controllers' poses [m]", apart, "0", "");
   EXPECT_LT(apart, 1e-3);
   // Both controllers estimate that they are back at the start.
   for (const Drive& each : {exact, rolling}) EXPECT_LT(each.trace.back().p.norm(), 0.02);

@@ -71,7 +71,7 @@ TEST(KernelProgram, NamesFileAndLineOfABuildError) {
   EXPECT_NE(text.find("nope"), std::string::npos) << text;
 }
 
-TEST(KernelProgram, NamesTheLineOfAnIncludeThatIsNotThere) {
+TEST(KernelProgram, NamesTheLineOfAMissingInclude) {
   const std::string text = build_error("soil/x.cl", "\n#include \"common/absent.h\"\n");
   EXPECT_NE(text.find("soil/x.cl:2: no kernel file 'common/absent.h'"), std::string::npos) << text;
 }
@@ -87,7 +87,7 @@ TEST(KernelProgram, EmbedsEveryKernelFile) {
   }
 }
 
-TEST(KernelProgram, IncludesEachFileOnceAndGoesOnCounting) {
+TEST(KernelProgram, IncludesEachFileOnceAndKeepsLineNumbers) {
   const std::string text = expand_includes(
       "a.cl", "#include \"common/portable.h\"\n # include \"common/portable.h\"\nint x;\n");
   EXPECT_EQ(text.find("FP_CONTRACT"), text.rfind("FP_CONTRACT"));
@@ -124,7 +124,7 @@ TEST(KernelProgram, DoesNotContract) {
   EXPECT_EQ(y.read().front(), 0x1p-11f);
 }
 
-TEST(KernelProgram, RoundsDivisionAndRootAsTheHost) {
+TEST(KernelProgram, RoundsDivisionAndRootLikeTheHost) {
   Device device;
   if (!device.info().correct_divide_sqrt)
     GTEST_SKIP() << device.info().name << " cannot round them correctly";
