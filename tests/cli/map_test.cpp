@@ -165,7 +165,7 @@ TEST_F(Map, SuggestsWhatWasMeantAndWritesNothing) {
 }
 
 TEST_F(Map, NeverReplacesItsInputsOrSpecialFiles) {
-  // A site from a map, with a design from another.
+  // A site from a map, with a design from another map.
   const auto grid = [&](const std::string& name, double z) {
     std::ofstream file(path(name));
     file << "ncols 20\nnrows 16\nxllcorner 0\nyllcorner 0\ncellsize 1\n";

@@ -96,7 +96,7 @@ class Alone {
     while (!advance() && time < limit) continue;
     return time;
   }
-  /// At once, but for the joint that something holds, or that is slower than it is told to be.
+  /// Moves a joint to its target at once, unless it is blocked or limited in rate.
   void follow(std::size_t j, double target) {
     vehicle::JointState& joint = seen.joints[j];
     const double rest = target - joint.position;

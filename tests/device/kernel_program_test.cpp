@@ -63,7 +63,7 @@ std::string build_error(const std::string& name, const std::string& text) {
 }
 
 TEST(KernelProgram, NamesFileAndLineOfABuildError) {
-  // The include is long; the line must be counted in the file that includes it.
+  // The include is long; the line is counted in the file that includes it.
   const std::string text = build_error(
       "soil/broken.cl", "#include \"common/portable.h\"\n\nkernel void f() { int x = nope; }\n");
   EXPECT_NE(text.find("soil/broken.cl:3"), std::string::npos) << text;
