@@ -19,7 +19,7 @@ using nlohmann::json;
 
 std::string base64_of(const std::string& text) { return base64(std::as_bytes(std::span(text))); }
 
-/// Decodes base64 without checks.
+/// Decodes valid base64.
 std::vector<char> decoded(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::vector<char> out;
@@ -35,7 +35,7 @@ std::vector<char> decoded(const std::string& text) {
   return out;
 }
 
-TEST(Base64, GivesTheTextsOfRfc4648) {
+TEST(Base64, MatchesTheExamplesOfRfc4648) {
   EXPECT_EQ(base64_of(""), "");
   EXPECT_EQ(base64_of("f"), "Zg==");
   EXPECT_EQ(base64_of("fo"), "Zm8=");

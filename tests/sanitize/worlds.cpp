@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds side by side, each in a thread of its own with a device of its own: `navvy_worlds SCENE
-// SECONDS [SCENE SECONDS]...` runs each for so long [s simulated] and prints its name, steps and
-// state hash. For builds under ThreadSanitizer and AddressSanitizer.
+// Runs worlds in parallel, each in its own thread with its own device: `navvy_worlds SCENE SECONDS
+// [SCENE SECONDS]...` runs each for this simulated time and prints its name, steps and state hash.
+// For builds under ThreadSanitizer and AddressSanitizer.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -21,13 +21,14 @@ using namespace navvy;
 struct Run {
   std::string file;
   double seconds = 0;
-  std::string told;  ///< its line
+  /// Line to print.
+  std::string told;
   bool failed = false;
 };
 
 void run(Run& one) {
   try {
-    // All of it in this thread: loading too must not know of the others.
+    // Everything happens in this thread: loading must be independent of the others, too.
     scene::Scene scene = scene_io::load_scene(one.file, control::step_kinds());
     const std::string name = scene.name;
     device::Device device("cpu");

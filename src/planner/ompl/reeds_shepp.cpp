@@ -29,10 +29,9 @@ using Space = ob::ReedsSheppStateSpace;
 
 // Distance between checked poses [m].
 constexpr double kStep = 0.15;
-// The next four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that
-// has not met within its iterations is replaced by a new one, because growth costs more the larger
-// the trees are.
-// Largest growth of a tree at a time [m].
+// The next four are tuned: PathPlanner.GoesAroundATrenchAndTurnsInANarrowPlace. A pair of trees
+// that has not met within its iterations is replaced by a new one, because growth costs more the
+// larger the trees are. Largest growth of a tree at a time [m].
 constexpr double kRange = 6;
 // Largest number of pairs of trees.
 constexpr int kTrees = 16;
