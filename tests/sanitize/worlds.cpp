@@ -22,7 +22,7 @@ struct Run {
   std::string file;
   double seconds = 0;
   /// Line to print.
-  std::string told;
+  std::string line;
   bool failed = false;
 };
 
@@ -34,10 +34,10 @@ void run(Run& one) {
     device::Device device("cpu");
     session::Session session(std::move(scene), device);
     while (session.world().time() < one.seconds && !session.done()) session.step();
-    one.told =
+    one.line =
         name + " " + std::to_string(session.world().steps()) + " steps " + session.state_hash();
   } catch (const std::exception& error) {
-    one.told = one.file + ": " + error.what();
+    one.line = one.file + ": " + error.what();
     one.failed = true;
   }
 }
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   for (std::thread& thread : threads) thread.join();
   bool failed = false;
   for (const Run& one : runs) {
-    std::printf("%s\n", one.told.c_str());
+    std::printf("%s\n", one.line.c_str());
     failed = failed || one.failed;
   }
   return failed ? 1 : 0;

@@ -13,7 +13,7 @@
 namespace navvy::sim {
 namespace {
 
-/// The first shell of a scene's first machine, as the world has it.
+/// First shell of a scene's first machine, at its pose in the world.
 struct ShellInWorld {
   explicit ShellInWorld(const World& world)
       : geometry(world.description().machines[0].machine.shells.at(0), world.ground().cell()) {
@@ -87,13 +87,13 @@ TEST(ParticleClipperTest, KeepsDrawnParticlesOffTheFacesOnTheirOwnSide) {
     EXPECT_GT(was * now, 0) << i << ": through the plate";
     EXPECT_GE(std::abs(now), std::abs(was) - 1e-5) << i << ": nearer than before";
     EXPECT_NEAR(particles.room[i], std::clamp(std::abs(now) - half, 0.0, kReach), 2e-5) << i;
-    // With enough space it does not move.
+    // With enough clearance it does not move.
     if (std::abs(was) - half > kGap + 1e-5) EXPECT_LE((p_T - before[i]).norm(), 1e-5) << i;
     moved += (p_T - before[i]).norm() > 1e-4 ? 1 : 0;
     close += particles.room[i] < kGap - 1e-4 ? 1 : 0;
   }
   EXPECT_GE(moved, before.size() / 2);
-  // Only the narrowest corners between plates leave less space.
+  // Only the narrowest corners between plates leave less clearance.
   EXPECT_LE(close, before.size() / 50);
 }
 
