@@ -79,7 +79,7 @@ TEST_F(SnapshotFile, RefusesTenThousandDamagedFiles) {
       bytes.resize(any(bytes.size()));
       ++cuts;
     } else if (i % 5 == 4) {
-      // Two runs of bytes change places.
+      // Swaps two runs of bytes.
       while (bytes == whole) {  // swapping equal bytes is no damage
         const std::size_t size = 1 + any(64), from = any(bytes.size() - size),
                           to = any(bytes.size() - size);
@@ -135,7 +135,7 @@ TEST_F(SnapshotFile, HashesCoverTheWholeStartingGroundAndEveryParameter) {
   std::sort(hashes.begin(), hashes.end());
   EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end())
       << "before the first step";
-  // Hills that nothing has touched yet.
+  // Untouched hills.
   const auto hills = [&](std::uint64_t seed) {
     scene_io::Overrides overrides;
     overrides.set = {scene_io::parse_setting(kCoarse[0])};

@@ -71,7 +71,7 @@ TEST(Snapshot, OfAnotherSceneIsRefusedByItsName) {
   EXPECT_THROW(load_ground(scene, folder / "none.snapshot"), FileError);
 }
 
-/// Each of the three alone, by the smallest change that a run would feel.
+/// Each of the three alone, changed by the smallest amount that affects a run.
 TEST(Snapshot, OfAnotherMassCohesionOrPlaceIsRefusedWithTheDifference) {
   const test::Folder folder;
   const scene::Scene scene = testing::load("bucket_path.sdf");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One run of a rig that must meet its gates: what the laboratory's parameterised cases are made of.
+// One run of a rig that must meet its tolerances: the element of the laboratory's parameterised
+// cases.
 #pragma once
 
 #include <map>
@@ -12,7 +13,7 @@
 
 namespace navvy::validation {
 
-/// What a case changes in the rig's default soil; kNone keeps the default.
+/// Changes of a case to the rig's default soil; kNone keeps the default.
 struct SoilChange {
   double phi_degrees = lab::kNone;   ///< friction angle [deg]
   double cohesion = lab::kNone;      ///< the residual one too [Pa]
@@ -46,7 +47,7 @@ inline std::string case_name(const testing::TestParamInfo<RigCase>& tested) {
   return tested.param.name;
 }
 
-/// Runs the rig and holds it against its gates.
+/// Runs the rig and compares it with its tolerances.
 inline void expect_tolerances(const RigCase& c) {
   expect_tolerances(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
     if (!std::isnan(c.cell)) setup.cell = c.cell;

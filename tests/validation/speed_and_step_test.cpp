@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces at several speeds and two steps each: one that depends on either has no value. A miss
-// fails unless it is in tolerances/known_deviations.md.
+// Forces at several speeds and two steps each: a result that depends on either is not meaningful. A
+// deviation fails unless it is in tolerances/known_deviations.md.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -47,12 +47,12 @@ TEST(ToolSpread, OfASmoothBladeOverSpeedsAndSteps) {
                  kStep);
 }
 
-// Four times slower than the slowest of the others: nothing of the contact goes by time.
-TEST(ToolSpread, OfABladeThatCreeps) {
+// Four times slower than the slowest of the others: contact does not depend on time.
+TEST(ToolSpread, OfACreepingBlade) {
   const double creeping = blade(0.05, 0.0125, 0.5);
   expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s",
                  creeping / blade(0.05, 0.05, 0.5), 0.95, 1.05, kSource);
-  // Three cells deep: what so few cannot resolve.
+  // Three cells deep: the limit of so few cells.
   print_value("smooth blade, cells of 0.1 m, force at 0.0125 m/s / at 0.05 m/s",
               blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no gate", kSource);
 }
@@ -68,14 +68,14 @@ TEST(ToolSpread, OfASmoothBladeInCoarseCells) {
                  0.13, kSource);
   expect_between("smooth blade, cells of 0.1 m: largest change at half the step", worst, 0, 0.01,
                  kStep);
-  // Soil that a fast blade sets moving adds rho v^2 d w to Rankine's 2606 N: 1600 kg/m3, 0.3 m, 1
-  // m.
+  // Soil that a fast blade sets in motion adds rho v^2 d w to Rankine's 2606 N: 1600 kg/m3, 0.3 m,
+  // 1 m.
   const double inertia = 1600 * 0.6 * 0.6 * 0.3 / 2606.4;
   expect_between("smooth blade, cells of 0.1 m, 0.6 m/s: force less rho v^2 d w / Rankine",
                  blade(0.1, 0.6, 0.5) - inertia, 0.95, 1.05, kSource);
 }
 
-/// A force over its formula, and the bounds of what it may be where tool friction leaves two.
+/// A force relative to its formula, and its bounds where tool friction leaves two.
 struct Judged {
   double force = 0, expected = 0, low = 0, high = 0;
 };
@@ -87,7 +87,7 @@ Judged judged(const lab::Report& report, const std::string& name) {
   return {q->measured, q->expected, q->low, q->high};
 }
 
-/// A wall of 1 m that goes in by a fifth of its height [N/m].
+/// A wall of 1 m that moves into the soil by a fifth of its height [N/m].
 Judged wall(double cell, double speed, double delta_degrees) {
   return judged(lab::run_rig("wall", {{"speed", speed}},
                              [&](lab::Setup& s) {
@@ -97,7 +97,7 @@ Judged wall(double cell, double speed, double delta_degrees) {
                 "passive force");
 }
 
-/// A rough blade, stiff enough for its wedge to come up within 0.08 m of travel [N].
+/// A rough blade in soil stiff enough to develop its wedge within 0.08 m of travel [N].
 Judged rough_blade(double cell, double speed) {
   return judged(lab::run_rig("blade", {{"speed", speed}, {"from", 0.08}, {"travel", 0.12}},
                              [&](lab::Setup& s) {
@@ -108,7 +108,7 @@ Judged rough_blade(double cell, double speed) {
                 "horizontal force");
 }
 
-/// Speeds against each other, and their mean against what it may be.
+/// Compares the forces at all speeds with each other, and their mean with its bounds.
 void expect_one_force(const std::string& name, const std::vector<Judged>& runs, double most_spread,
                       double low, double high) {
   std::vector<double> forces;
@@ -147,14 +147,14 @@ TEST(ToolSpread, OfARoughBladeOverSpeeds) {
   }
 }
 
-// Eight depths of the lip within a cell: what the grid decides about where a blade ends.
+// Eight depths of the cutting edge within a cell: the effect of the grid on the end of a blade.
 TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
   std::vector<double> forces;
   double mean = 0, squares = 0;
   for (int i = 0; i < 8; ++i) {
-    const lab::Report report =
-        lab::run_rig("blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"tolerance-percent", 0}},
-                     [](lab::Setup& s) { s.cell = 0.1; });
+    const lab::Report report = lab::run_rig(
+        "blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"tolerance-percent", 0}},
+        [](lab::Setup& s) { s.cell = 0.1; });
     forces.push_back(lab::measured(report, "horizontal over expected"));
     mean += forces.back() / 8;
   }

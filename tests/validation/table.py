@@ -38,7 +38,8 @@ GATED = re.compile(r"^(?:\d+: )?\| (.*) \|$")
 VALUE = re.compile(r"^(?:\d+: )?\[ VALUE    \] (.*): measured (\S+), expected (.*) \((.*)\)$")
 RUNS = re.compile(r"^(?:\d+: )?\[ RUN      \] (\S+)")
 TEST = re.compile(r"^\d+/\d+ Testing: (\S+)", re.M)
-# The gates' own test, and the soil's tests once more in the other schedule: no figures of their own.
+# Tests of the tolerances themselves, and the soil's tests repeated in the other schedule: no
+# separate results.
 NO_FIGURES = re.compile(r"ExpectBetween\.|test_soil_in_groups$")
 
 
@@ -60,7 +61,7 @@ def save(path, rows):
 
 
 def rows_of(text, case=None):
-    """Rows of a test's output; `case` names what does not say it itself."""
+    """Rows of a test's output; `case` names rows without a case."""
     out, running, names = [], case, TEST if TEST.search(text) else RUNS
     for line in text.splitlines():
         line = line.rstrip()
@@ -168,7 +169,7 @@ def table(rows):
 
 
 def written(page, rows):
-    """The page with its tables made of `rows`; and what is wrong with the marks."""
+    """The page with its tables generated from `rows`, and faults of the marks."""
     out, wrong, taken, inside = [], [], collections.Counter(), False
     for line in page.splitlines():
         begin = BEGIN.match(line)
@@ -193,7 +194,7 @@ def written(page, rows):
         wrong.append("the last table does not end")
     for case in dict.fromkeys(row["case"] for row in rows):
         if taken[case] != 1:
-            wrong.append("%s stands in %d tables" % (case, taken[case]))
+            wrong.append("%s is in %d tables" % (case, taken[case]))
     return "\n".join(out) + "\n", wrong
 
 
@@ -220,7 +221,7 @@ def slug(heading):
 
 
 def summary(rows, chosen):
-    """Markdown of the chosen quantities, one row each, and what is wrong with the choice."""
+    """Markdown of the chosen quantities, one row each, and faults of the choice."""
     found, wrong = {}, []
     for row in rows:
         found.setdefault((row["case"], row["figure"]), row)
@@ -248,7 +249,7 @@ def summary(rows, chosen):
 
 
 def with_summary(page, rows, chosen):
-    """The page with the lines between its marks made of `rows`; and what is wrong."""
+    """The page with the lines between its marks generated from `rows`, and faults."""
     begin, end = SUMMARY + "\n", END + "\n"
     head, found, rest = page.partition(begin)
     if not found or end not in rest:
@@ -282,7 +283,7 @@ def selftest():
     assert not wrong and "old" not in short and short.endswith("prose\n"), (short, wrong)
     assert "[Rest, and stress](validation.md#rest-and-stress) | a force | **2** | 1 | at least 0 | **no**" in short, short
     assert with_summary(page, kept, [dict(chosen[0], quantity="x")])[1] == ["no result 'x' of A.Holds"]
-    assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B stands in 0 tables"]
+    assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B is in 0 tables"]
     assert written("<!-- generated: begin; cases: C.* -->\n", [])[1] == ["no case is called C.*",
                                                                          "the last table does not end"]
 
@@ -327,7 +328,7 @@ def main():
             file.write(after)
     elif before != after:
         wrong.append("edited")
-        print("%s: a table is not what %s gives: ./dev docs writes it" % (path, options.results), file=sys.stderr)
+        print("%s: a table differs from %s: ./dev docs writes it" % (path, options.results), file=sys.stderr)
     return 1 if wrong else 0
 
 
