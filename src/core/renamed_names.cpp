@@ -53,10 +53,9 @@ void warn_once(const RenamedName& row) {
 
 const std::vector<RenamedName>& renamed_names() {
   static const std::vector<RenamedName> rows = {
-      {NameKind::kElement,
-       "navvy:"
-       "engine",
-       "navvy:physics", "0.4"},
+      {NameKind::kElement, "navvy:engine", "navvy:physics", "0.4"},
+      {NameKind::kElement, "awake", "active", "0.4"},
+      {NameKind::kElement, "awake_zone", "active_zone", "0.4"},
       {NameKind::kLayer,
        "aw"
        "ake",

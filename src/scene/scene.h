@@ -38,7 +38,7 @@ struct SolverSettings {
       "Rate whose period is a whole number of base steps.", kShown);
     f("max_particles", max_particles, {1000, limits::kParticles},
       "Budget of particles. Beyond it, the ground farthest from the tools is not activated.");
-    f("awake_zone", active_zone, {0.5, 4},
+    f("active_zone", active_zone, {0.5, 4},
       "Factor of the zone around and below a tool in which soil is active.");
     f.derived("exchange", exchange);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/renamed_names.h"
 #include "core/utf8.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/schema.h"
@@ -33,6 +34,7 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
       at = end + 1;
     }
     if (part.name.empty() || (at < key.size() && key[at] != '.')) return false;
+    part.name = current_name(NameKind::kElement, part.name);
     parts.push_back(part);
     if (at++ == key.size()) break;
   }
