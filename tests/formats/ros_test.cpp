@@ -327,6 +327,13 @@ TEST(RosBag, ArraysAreReadByOthers) {
   expect_arrays(read(folder, folder / "run"));
 }
 
+TEST(Bags, AreReproducibleByteForByte) {
+  const test::Folder folder;
+  write_map("mcap", example(), kTwo, folder / "a.mcap");
+  write_map("mcap", example(), kTwo, folder / "b.mcap");
+  EXPECT_EQ(read_file(folder / "a.mcap"), read_file(folder / "b.mcap"));
+}
+
 TEST(Bags, HoldTheBytesOfAnArray) {
   // Without readers: encapsulation, dimensions, length and text of the label, size, stride, offset,
   // count, numbers.
