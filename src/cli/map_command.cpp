@@ -25,6 +25,7 @@
 #include "planner/map_path_planner.h"
 #include "record/path_file.h"
 #include "scene_io/loader.h"
+#include "scene_io/shipped.h"
 #include "session/session.h"
 #include "sim/world_terrain.h"
 
@@ -151,7 +152,7 @@ map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat&
   const std::string scene =
       options.scene.empty()
           ? scene_of(std::filesystem::path(options.from).parent_path(), options.from)
-          : find_scene(options.scene);
+          : scene_io::find_scene(options.scene);
   const scene::Scene described = load(scene);
   require_apart(options, format, reads_of(described, {options.from}));
   // The session restores particles as a run would resume from them.
@@ -186,7 +187,7 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
     return {map::map_of_run(scene, site, end, wanted), From::kRun};
   }
   if (is_sealed(options.from)) return {of_snapshot(options, format, layers), From::kSnapshot};
-  const scene::Scene scene = load(find_scene(options.from));
+  const scene::Scene scene = load(scene_io::find_scene(options.from));
   require_apart(options, format, reads_of(scene, {}));
   const heightfield::Ground site = heightfield::make_ground(scene);
   return {map::map_of_site(site, map_options(options, layers, scene, site)), From::kScene};

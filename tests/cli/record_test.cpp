@@ -44,7 +44,7 @@ std::string scene(const std::string& records, const std::string& active = "") {
 }
 
 /// z of the vertices of a binary PLY, row by row from the least y: x y z as doubles first, then
-/// what its head tells.
+/// the content of its head.
 std::vector<float> heights_of_ply(const std::string& bytes) {
   const std::size_t begin = bytes.find("end_header\n") + 11;
   std::istringstream head(bytes.substr(0, begin));

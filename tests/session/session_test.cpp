@@ -181,7 +181,7 @@ TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
   session->command(slide, {vehicle::JointMode::kVelocity, 0.5});
   EXPECT_EQ(session->phase(0), "inputs");
   run_to(*session, 0.1);
-  // A kinematic machine moves exactly as told.
+  // A kinematic machine moves exactly as commanded.
   EXPECT_NEAR(slide.position() - start, 0.5 * (session->world().time() - begun), 1e-9);
 }
 
