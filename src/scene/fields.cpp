@@ -126,7 +126,7 @@ std::string value_text(const Value& value, double factor) {
                  [](const std::optional<int>* v) { return *v ? std::to_string(**v) : "none"; },
                  [&](const Direction& v) { return numbers(v.value->data(), 3); },
                  [&](const Rgb& v) { return numbers(v.value, 3); },
-                 [](const Choice& v) { return std::string(v.names.at(v.get())); },
+                 [](const NamedChoice& v) { return std::string(v.names.at(v.get())); },
                  [](const Computed& v) { return v(); }, [](const Pose*) { return std::string(); }},
       value);
 }
