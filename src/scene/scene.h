@@ -193,7 +193,7 @@ struct Scene {
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the scene and of the folder of its results.", kSdf | kShown);
-    f("gravity", gravity, "Acceleration of gravity in W [m/s2].", kSdf);
+    f("gravity", gravity, {-100, 100}, "Acceleration of gravity in W [m/s2].", kSdf);
     f("navvy:seed", seed, "Seed of everything random: hills and faults of encoders.");
     f("navvy:soil", soils, limits::kSoils, "Soil, by values of its own or by a shipped one.",
       kNeeded);

@@ -43,16 +43,9 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
 }
 
 void key_fault(const std::string& key, const std::string& value, const std::string& rule,
-               const std::string& remedy,
-               // The key stands for the element.
-               Faults& faults) {
-  Fault fault;
-  fault.file = "command line";
-  fault.element = key;
-  fault.value = value;
-  fault.rule = rule;
-  fault.remedy = remedy;
-  faults.add(fault);
+               const std::string& remedy, Faults& faults) {
+  // The key stands for the element.
+  faults.add({Fault::Severity::kError, "command line", 0, key, value, rule, remedy});
 }
 
 /// Returns "ew180" for model://ew180, ../ew180/model.sdf, ew180/ and ew180.sdf.
