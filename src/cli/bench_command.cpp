@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy bench`: how fast this machine steps soil, one row a case and device.
+// `navvy bench`: measures the speed of the soil, a row per case and device.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -13,6 +13,7 @@
 namespace navvy::cli {
 namespace {
 
+/// Options as parsed.
 struct BenchOptions {
   std::vector<std::string> devices;
   std::string only, csv, json;
@@ -20,8 +21,8 @@ struct BenchOptions {
   bool quick = false, list = false;
 };
 
-/// What --device means: each name given, every device there is for "all", the usual choice for
-/// none.
+/// Returns the devices to measure: each given name, all devices for "all", the usual choice without
+/// a name.
 std::vector<std::string> chosen(const std::vector<std::string>& names) {
   std::vector<std::string> out;
   for (const std::string& name : names) {
@@ -34,6 +35,7 @@ std::vector<std::string> chosen(const std::vector<std::string>& names) {
   return out;
 }
 
+/// Prints the columns of a row that matter to people; files have all of them.
 void print_row(const bench::Row& row) {
   const std::vector<std::string> c = bench::cells(row);
   std::printf("%-20s %9s %6s %11s %11s %11s %9s %9s %9s  %s\n", c[0].c_str(), c[3].c_str(),
@@ -42,6 +44,7 @@ void print_row(const bench::Row& row) {
   std::fflush(stdout);
 }
 
+/// Measures every case on every chosen device, or lists what could be measured.
 int run_bench(const BenchOptions& options) {
   if (options.columns) {
     std::printf("%s\n", bench::csv_header().c_str());
@@ -52,6 +55,7 @@ int run_bench(const BenchOptions& options) {
       std::printf("%-20s %s%s\n", c.name.c_str(), c.help.c_str(), c.quick ? " (quick)" : "");
     return kOk;
   }
+  // A sweep takes minutes, so the files are checked first.
   for (const std::string& path : {options.csv, options.json})
     if (!path.empty()) require_writable(path);
   std::vector<bench::Row> rows;
@@ -63,7 +67,7 @@ int run_bench(const BenchOptions& options) {
     bench::run_soil_cases(device, options.only, options.quick, [&](const bench::Row& row) {
       rows.push_back(row);
       print_row(row);
-      // Kept row by row: what an interrupted sweep has measured stays.
+      // Files are written after each row, so that an interrupted sweep keeps its results.
       std::string csv = bench::csv_header() + "\n";
       for (const bench::Row& r : rows) csv += bench::csv_line(r) + "\n";
       if (!options.csv.empty()) write_file_atomically(options.csv, csv);
@@ -77,11 +81,11 @@ int run_bench(const BenchOptions& options) {
 
 void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<BenchOptions>();
-  CLI::App* command = app.add_subcommand("bench", "measure how fast soil is stepped here");
-  command->add_option("only", options->only, "only cases whose name holds this word");
+  CLI::App* command = app.add_subcommand("bench", "measure the speed of the soil on this machine");
+  command->add_option("only", options->only, "only cases whose name contains this word");
   command
       ->add_option("--device", options->devices,
-                   "OpenCL device, as in `navvy run`; again for more, or 'all'")
+                   "OpenCL device, as in `navvy run`; repeatable, or 'all'")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--csv", options->csv,

@@ -19,40 +19,45 @@
 namespace navvy::cli {
 namespace {
 
+/// Signals that end a process by a fault.
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-// A stack that ran over has no room for a handler.
+// A separate stack for the handler, which works after a stack overflow.
 alignas(16) char stack[64 << 10];
 
+/// Returns true if `text` contains one of the words.
 bool holds_any(const char* text, std::initializer_list<const char*> words) {
   for (const char* word : words)
     if (std::strstr(text, word) != nullptr) return true;
   return false;
 }
 
-/// Machine code of kernels counts as the driver's: it made it.
+/// Returns true for files of an OpenCL driver. The machine code of kernels counts, as the driver
+/// made it.
 bool is_driver(const char* file) {
   return holds_any(file, {"libpocl", "libOpenCL", "opencl", "amdocl", "igdrcl", "navvy/kernels",
                           "navvy-kernels"});
 }
 
-/// These pass on what their callers did.
+/// Returns true for libraries that only pass on faults of their callers.
 bool is_between(const char* file) {
   return holds_any(file, {"libc.so", "libc-", "libstdc++", "libgcc", "libpthread", "ld-linux",
                           "libasan", "linux-vdso"});
 }
 
-/// Where this was called from, as a text for people: "abort inside the OpenCL driver, in
-/// libpocl.so.2". True when that is the driver.
+/// Writes where this was called from: "abort inside the OpenCL driver, in libpocl.so.2". Returns
+/// true if the driver is at fault.
 bool blame(const char* what, int signal, char* text, std::size_t size) {
   Dl_info own{};
   dladdr(reinterpret_cast<void*>(&blame), &own);
   void* frames[64];
   const int count = backtrace(frames, 64);
-  const char* where = nullptr;  // innermost that is not between
+  // Innermost file that is at fault.
+  const char* where = nullptr;
   bool driver = false;
-  bool handler = true;  // our frames that come first are this function's and its callers'
-  // From the inside out; other libraries work for the driver (LLVM compiles for it) as long as none
-  // of our own code lies between.
+  // The first frames of our own are this function and its callers.
+  bool handler = true;
+  // Innermost frame first. Other libraries may work for the driver (LLVM compiles for it), so the
+  // search ends only at our own code.
   for (int i = 0; i < count && !driver; ++i) {
     Dl_info info;
     const bool known = dladdr(frames[i], &info) != 0 && info.dli_fname != nullptr;
@@ -62,7 +67,7 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
     driver = is_driver(info.dli_fname);
     if (info.dli_fbase == own.dli_fbase) break;
   }
-  // Nothing but our own frames: a check of our own code.
+  // Without other frames it is a check of our own code.
   if (where == nullptr) where = own.dli_fname;
   const char* slash = where == nullptr ? nullptr : std::strrchr(where, '/');
   const char* name = slash != nullptr ? slash + 1 : where != nullptr ? where : "an unknown place";
@@ -70,51 +75,58 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
   const std::size_t used = std::strlen(text);
   if (signal != 0) std::snprintf(text + used, size - used, " (signal %d)", signal);
   if (driver)
-    std::strncat(text,
-                 "; it may have told its cause above; check disk, memory and the driver's version",
-                 size - std::strlen(text) - 1);
+    std::strncat(
+        text,
+        "; its messages above may name the cause; check disk, memory and the driver's version",
+        size - std::strlen(text) - 1);
   return driver;
 }
 
-void tell(const char* text) {
+/// Prints a crash and writes the summary of the run, by system calls only: this runs in handlers.
+void report(const char* text) {
   record::write_crash_summary("failed", text);
   const char* const parts[] = {"error: ", text, "\n"};
   for (const char* part : parts)
     if (::write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
 }
 
+/// Handles a fatal signal. A fault of the driver has an exit status of its own; others are raised
+/// again, so that the system ends the process as usual.
 extern "C" void on_crash(int signal) {
-  // The second crash, in what follows, ends the process as the system does.
+  // A second crash while handling this one ends the process as the system does.
   for (const int one : kCrashes) std::signal(one, SIG_DFL);
   char text[512];
   const bool driver = blame(signal == SIGABRT ? "abort" : "crash", signal, text, sizeof text);
-  tell(text);
+  report(text);
   if (driver) _exit(kDevice);
   raise(signal);
 }
 
-/// As the C library tells a failed assertion.
-void say_assertion(const char* what, const char* file, unsigned line, const char* function) {
+/// Prints a failed assertion as the C library does.
+void print_assertion(const char* what, const char* file, unsigned line, const char* function) {
   char text[512];
   std::snprintf(text, sizeof text, "%s:%u: %s: assertion '%s' failed\n", file, line, function,
                 what);
   if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
+/// True once main is about to return.
 std::atomic<bool> exit_expected{false};
 
+/// Runs at exit. An exit before main returns comes from a library.
 extern "C" void on_exit_of_others() {
   if (exit_expected) return;
   char text[512];
   const bool driver = blame("end of the process", 0, text, sizeof text);
-  tell(text);
+  report(text);
   _exit(driver ? kDevice : kInternal);
 }
 
+/// Reports an abort and ends the process by SIGABRT, even where the signal is blocked.
 [[noreturn]] void end_by_abort() {
-  // Once: what follows may fail again, and another thread at the same time.
-  static std::atomic<bool> told{false};
-  if (!told.exchange(true)) on_crash(SIGABRT);
+  // Handled once: this may fail again, or in another thread at the same time.
+  static std::atomic<bool> handled{false};
+  if (!handled.exchange(true)) on_crash(SIGABRT);
   std::signal(SIGABRT, SIG_DFL);
   sigset_t wanted;
   sigemptyset(&wanted);
@@ -126,20 +138,20 @@ extern "C" void on_exit_of_others() {
 
 }  // namespace
 
-// The two take the place of the C library's for every library of the process. LLVM, which a driver
-// compiles with, puts handlers of its own where ours stood from the first build on; at an abort
-// they return, and the C library then ends the process without a word of ours.
+// These two replace the functions of the C library for all libraries of the process. LLVM, which
+// drivers compile with, replaces our signal handlers at its first build. Its handlers return at an
+// abort, and the C library then ends the process without our report.
 extern "C" void abort() noexcept { end_by_abort(); }
 
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
                                            unsigned line,  // NOLINT: its name
                                            const char* function) noexcept {
-  say_assertion(what, file, line, function);
+  print_assertion(what, file, line, function);
   end_by_abort();
 }
 
 void install_crash_report() {
-  // The first call loads a library, which a handler must not.
+  // The first call loads a library, which must not happen in a handler.
   void* frames[4];
   backtrace(frames, 4);
   stack_t own{};

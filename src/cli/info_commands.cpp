@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy check`, `devices`, `channels`: commands that only tell.
+// `navvy check`, `devices`, `channels`: commands that only report.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,74 +16,45 @@
 #include "cli/severity.h"
 #include "control/step_kinds.h"
 #include "core/log.h"
-#include "core/math.h"
 #include "device/device.h"
-#include "planner/map_path_planner.h"
-#include "record/map_recorder.h"
+#include "run/scene_check.h"
 #include "scene_io/loader.h"
-#include "session/program_check.h"
-#include "sim/start_check.h"
+#include "scene_io/shipped.h"
 #include "sim/world.h"
 #include "sim/world_channels.h"
 
 namespace navvy::cli {
 namespace {
 
-/// Tells of the map under the site and of its design, lets the machines settle, says how each
-/// stands, and adds what is wrong with that.
-void check_machines(const scene::Scene& scene, std::vector<Fault>& faults) {
-  sim::StartCheck start = sim::check_start(scene);
-  std::fputs(start.terrain.c_str(), stdout);
-  std::fputs(start.design.c_str(), stdout);
-  for (std::size_t m = 0; m < start.standing.size(); ++m) {
-    const vehicle::Stability& stands = start.standing[m];
-    if (!stands.free) continue;
-    const char* name = scene.machines[m].name.c_str();
-    const double tilt = degrees(stands.tilt);
-    if (start.falling[m])
-      std::printf("'%s' does not stand after a second: it is still falling\n", name);
-    else if (stands.margin == 0)
-      std::printf("'%s' stands: tilt %.1f deg, on feet that span no area\n", name, tilt);
-    else
-      std::printf("'%s' stands: tilt %.1f deg, centre of mass %.2f m %s its feet\n", name, tilt,
-                  std::abs(stands.margin), stands.margin > 0 ? "within" : "outside");
-  }
-  // A ground that cannot be laid has been told of by the programs' check.
-  for (Fault& fault : start.faults)
-    if (std::none_of(faults.begin(), faults.end(),
-                     [&](const Fault& one) { return one.text() == fault.text(); }))
-      faults.push_back(std::move(fault));
-  std::fflush(stdout);
-}
-
-/// Says what follows from a machine's file without standing in it.
+/// Prints values that follow from a machine's file.
 void print_derived(const std::string& name, const scene::Machine& machine) {
   for (const std::string& one : machine.derived)
     std::printf("'%s': %s\n", name.c_str(), one.c_str());
 }
 
+/// Prints all faults of all files, and what a first second of each scene shows.
 int check(const std::vector<std::string>& files, const scene_io::Overrides& overrides) {
   std::size_t errors = 0, warnings = 0;
-  // What libraries warn of while they try a start counts like any other: once, and on standard
-  // output.
-  std::set<std::string> told;
+  // Warnings that libraries log during the check are printed once and counted.
+  std::set<std::string> logged;
   set_log_sink([&](LogLevel level, const std::string& text) {
-    if (level < LogLevel::kWarning || !told.insert(text).second) return;
-    std::cout << (print_its_severity(text) ? "" : "warning: ") << text << "\n";
+    if (level < LogLevel::kWarning || !logged.insert(text).second) return;
+    std::cout << (has_severity(text) ? "" : "warning: ") << text << "\n";
     ++warnings;
   });
   for (const std::string& name : files) {
+    // An unknown name is a fault of one file and does not keep the others from being checked.
     std::string file;
     try {
-      file = find_scene(name);
+      file = scene_io::find_scene(name);
     } catch (const InputError& fault) {
       std::cout << fault.what() << "\n";
       ++errors;
       continue;
     }
-    // One pass over all files: a user fixes every fault in one go.
+    // All files are checked, so that a user can correct all faults at once.
     std::optional<scene::Scene> world;
-    // Machine and soil files are checked by themselves and give no world.
+    // Machine and soil files are checked alone and give no scene.
     std::optional<scene::Machine> machine;
     scene_io::FaultCount count;
     std::vector<Fault> faults =
@@ -96,16 +66,14 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     if (world)
       for (const scene::MachineInWorld& placed : world->machines)
         print_derived(placed.name, placed.machine);
-    // What only a machine on its ground can tell: the test that a run makes before it starts.
-    if (world)
-      for (Fault& fault : session::check_programs(*world, planner::path_planners()))
-        faults.push_back(std::move(fault));
-    if (world)
-      for (Fault& fault : record::check_records(*world)) faults.push_back(std::move(fault));
-    // And what its machines do in their first second.
-    if (world) check_machines(*world, faults);
+    // Checks that need the machines on their ground.
+    if (world) {
+      run::SceneCheck start = run::check_scene(*world);
+      for (const std::string& note : start.notes) std::cout << note << "\n";
+      std::move(start.faults.begin(), start.faults.end(), std::back_inserter(faults));
+    }
     for (std::size_t i = 0; i < faults.size(); ++i) {
-      // On standard output: it is what was asked for.
+      // Faults go to standard output, as they are the result.
       std::cout << faults[i].text() << "\n";
       if (i >= counted) ++(faults[i].severity == Fault::Severity::kError ? errors : warnings);
     }
@@ -118,20 +86,20 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
   return errors > 0 ? kBadInput : kOk;
 }
 
+/// Prints a line for each OpenCL device.
 int devices() {
-  // On standard output, for scripts.
   const auto list = device::list_devices();
   for (const auto& info : list) std::cout << info.text() << "\n";
-  // None at all is a failure, with a message that helps.
   if (!list.empty()) return kOk;
-  // Picking from an empty list says what to install.
+  // Without any device the construction throws, with a message that says what to install.
   device::Device none;
   return kDevice;
 }
 
+/// Prints names, units and meanings of all inputs, outputs and arrays of a scene.
 int channels(const SceneOptions& options) {
   device::Device device(options.device);
-  // The channels of a scene are those of its machines: it has to be built, but not run.
+  // Channels depend on the machines, so the world is built but not run.
   const sim::World world(options.load(), device);
   std::fputs(sim::channel_list(world).c_str(), stdout);
   return kOk;
@@ -140,7 +108,7 @@ int channels(const SceneOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Action& action) {
-  // Options outlive the parse in a shared pointer that the action keeps.
+  // The action keeps the options alive after parsing.
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("check",
                                          "validate scene, machine or soil files without running "
@@ -162,7 +130,7 @@ void add_channels(CLI::App& app, Action& action) {
   auto options = std::make_shared<SceneOptions>();
   CLI::App* command = app.add_subcommand(
       "channels", "list the named inputs and outputs of a scene (--control stdio)");
-  // The same options as a run: overrides may add or rename machines.
+  // Takes the options of a run, as overrides may add or rename machines.
   options->add_to(*command);
   command->callback([options, &action] { action = [options] { return channels(*options); }; });
 }

@@ -17,7 +17,7 @@
 namespace navvy::cli {
 namespace {
 
-/// Keys of the JSON name the quantity and its unit, as scene files do: "farthest motion", "mm" ->
+/// Returns the JSON key of a quantity with its unit, as in scene files: "farthest motion", "mm" ->
 /// "farthest_motion_mm".
 std::string key(const std::string& name, const std::string& unit) {
   std::string out;
@@ -26,22 +26,22 @@ std::string key(const std::string& name, const std::string& unit) {
   return out;
 }
 
-/// JSON knows no NaN: a quantity that could not be measured is null.
+/// Returns a number, or null for a quantity that could not be measured: JSON has no NaN.
 nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
-/// Every number under its name in scene files.
+/// Returns all numbers of a soil under their names in scene files.
 nlohmann::json soil_json(scene::Soil soil) {
   nlohmann::json out = {{"name", soil.name}, {"source", soil.source}};
   for (const scene::SoilValue& v : scene::soil_values(soil)) out[v.name] = v.written();
   return out;
 }
 
-/// Empty where there is no number.
+/// Returns a number as text; empty for NaN.
 std::string text_of(double value) { return std::isnan(value) ? "" : lab::short_text(value); }
 
-/// Supplied, kept and spent, in joules; then what the sums do not explain.
+/// Prints supplied, stored and dissipated energy [J], then the remainder.
 void print_energy(const soil::EnergyAccount& energy) {
   std::string text;
   soil::report_energy(energy, [&](const char* name, double joule) {
@@ -56,8 +56,9 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
   nlohmann::json out;
   out["rig"] = rig.name;
   out["version"] = NAVVY_VERSION;
-  // Results are repeatable bit for bit on one device only, so the device is part of them.
+  // Results are bit-identical on one device only, so the device is part of them.
   out["device"] = setup.device->info().text();
+  // Inputs come first, so that a file contains all that its results depend on.
   nlohmann::json& inputs = out["inputs"];
   inputs["soil"] = soil_json(setup.soil);
   inputs["cell_m"] = setup.cell;
@@ -71,13 +72,14 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     const std::string name = key(q.name, q.unit);
     out["result"][name] = number(q.measured);
     out["expected"][name] = number(q.expected);
-    // Absent where there is none, so that a reader need not tell a gate of nulls from no gate.
+    // Absent if there is no acceptance range.
     if (q.has_tolerance()) out["gate"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
     if (q.missed()) out["missed"].push_back(name);
-    // Of a gate that says nothing here: what it holds for.
+    // The setups for which the acceptance range holds, if this one is none of them.
     if (!q.in_range) out["not_judged"][name] = q.range;
   }
+  // Curves over time or travel, where the rig measures one.
   for (const lab::Series& s : report.series) {
     nlohmann::json& values = out["series"][key(s.name, s.unit)] = nlohmann::json::array();
     for (const double v : s.values) values.push_back(number(v));
@@ -123,7 +125,7 @@ void print_table(const lab::Report& report) {
 
 std::function<void(double)> progress_line(bool quiet) {
   if (quiet || isatty(STDERR_FILENO) == 0) return {};
-  // Carriage return and clearing code keep it one line; the last call wipes it.
+  // Carriage return and the clearing code keep it on one line; the last call clears it.
   return [watch = Stopwatch()](double share) {
     std::fprintf(stderr, "\r%3.0f %%  about %.0f s left \033[K", 100 * share,
                  watch.seconds() * (1 - share) / share);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `navvy lab` tells of an experiment: a table for a person, JSON for a program.
+// Output of `navvy lab`: a table for people, JSON for programs.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,15 @@
 
 namespace navvy::cli {
 
-/// Inputs first, so that a file says by itself what it is the result of. Keys name the quantity and
-/// its unit, as scene files do.
+/// Returns an experiment as JSON: inputs, results, expectations and series. Keys contain quantity
+/// and unit, as in scene files.
 nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::Report& report);
 
-/// Results for a person: five digits, misses marked, how the run went in the lines below. A gate
-/// that holds for other setups only is told with what it holds for.
+/// Prints the results as a table with five digits, marks those outside their acceptance range, and
+/// adds lines about the run.
 void print_table(const lab::Report& report);
 
-/// A line on a terminal with the share done; nothing when stderr is a file or pipe.
+/// Returns a function that shows progress on a terminal; empty when stderr is a file or pipe.
 std::function<void(double)> progress_line(bool quiet);
 
 }  // namespace navvy::cli

@@ -25,50 +25,40 @@ namespace {
 
 using namespace navvy;
 
-/// Libraries hand out lines; what becomes of them is the program's choice.
+/// Installs the sink of the log, which prints to standard error.
 void install_log_sink() {
-  // stderr, so that results on stdout stay clean for pipes.
   auto logger = spdlog::stderr_color_mt("navvy");
   logger->set_pattern("%^%l%$: %v");
+  // Faults contain their severity and need no prefix.
   auto bare = spdlog::stderr_color_mt("faults");
   bare->set_pattern("%v");
-  // A warning that comes again word for word says nothing new; the bound is for runs of hours.
-  auto told = std::make_shared<std::set<std::string>>();
-  set_log_sink([logger, bare, told](LogLevel level, const std::string& text) {
+  // Repeated warnings are printed once. The limit bounds the memory of long runs.
+  auto logged = std::make_shared<std::set<std::string>>();
+  set_log_sink([logger, bare, logged](LogLevel level, const std::string& text) {
     constexpr std::size_t kRemembered = 1000;
-    if (level == LogLevel::kWarning && told->size() < kRemembered && !told->insert(text).second)
+    if (level == LogLevel::kWarning && logged->size() < kRemembered && !logged->insert(text).second)
       return;
-    if (level >= LogLevel::kWarning && cli::print_its_severity(text)) {
+    if (level >= LogLevel::kWarning && cli::has_severity(text)) {
       bare->warn(text);
       return;
     }
-    switch (level) {
-      case LogLevel::kDebug:
-        logger->debug(text);
-        break;
-      case LogLevel::kInfo:
-        logger->info(text);
-        break;
-      case LogLevel::kWarning:
-        logger->warn(text);
-        break;
-      case LogLevel::kError:
-        logger->error(text);
-        break;
-    }
+    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info,
+                                                     spdlog::level::warn, spdlog::level::err};
+    logger->log(kLevels[static_cast<int>(level)], text);
   });
 }
 
-/// What the parser complains of, in one line: an unknown option with the nearest known one.
+/// Returns the error of the parser in one line; an unknown option comes with the nearest known one.
 std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const std::vector<const CLI::App*> all =
       app.get_subcommands([](const CLI::App*) { return true; });
   const CLI::App* chosen = &app;
   for (const CLI::App* command : all)
     if (argc > 1 && command->get_name() == argv[1]) chosen = command;
+  // Every message names the help that explains more.
   const std::string where =
       "(" + (chosen == &app ? "navvy" : "navvy " + chosen->get_name()) + " --help)";
-  // What is missing, and what it is: its name alone says little.
+  // A missing argument is named with its description.
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
     for (const CLI::Option* option : chosen->get_options())
       if (option->get_required() && option->count() == 0)
@@ -79,7 +69,7 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   std::vector<std::string> known;
   for (const CLI::Option* option : chosen->get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  // The first word with a dash that nobody knows; what follows it may be its value.
+  // Finds the first unknown option; the word after it may be its value.
   for (int i = 2; i < argc; ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     if (!word.empty() && word.front() == '-' &&
@@ -90,13 +80,12 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
   return std::string(error.what()) + " " + where;
 }
 
-/// Every kind of failure has an exit status of its own, which scripts may rely on
-/// (cli/exit_code.h).
+/// Runs an action and gives every kind of failure its exit status (cli/exit_code.h).
 int guarded(const cli::Action& action) {
   try {
     return action();
   } catch (const InputError& error) {
-    // What the user can mend comes without the word "error" before it: each fault carries its own.
+    // Faults contain their own severity.
     std::cerr << error.what() << "\n";
     return cli::kBadInput;
   } catch (const device::DeviceError& error) {
@@ -109,7 +98,7 @@ int guarded(const cli::Action& action) {
     std::cerr << "error: " << error.what() << "\n";
     return cli::kSimulation;
   } catch (const std::bad_alloc&) {
-    // Host memory; the device's has its own error.
+    // Memory of the host; that of the device has its own error.
     std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a "
                  "smaller site\n";
     return cli::kInternal;
@@ -119,27 +108,28 @@ int guarded(const cli::Action& action) {
   }
 }
 
-/// The whole program, from its command line on.
+/// Parses the command line and runs the command.
 int run(int argc, char** argv) {
-  // The first lines of the help are what a newcomer types.
+  // The help begins with the command that a newcomer types.
   CLI::App app(
       "Navvy: terrain and excavation simulator on OpenCL.\n"
       "Start with: navvy run scenarios/trench.sdf");
   app.set_version_flag("--version", NAVVY_VERSION);
-  // Parsing only fills `action`: nothing runs before the whole command line is understood.
+  // Parsing only fills `action`, which runs after the whole command line is known to be valid.
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 done, 1 internal fault, 2 bad input, 3 no or failing OpenCL device, 4 a file "
-      "could not be\n"
-      "written, 5 the simulation stopped itself (failed.snapshot is left), 6 the run ended, but a "
+      "Exit status: 0 done, 1 internal error, 2 invalid input, 3 no or failing OpenCL device, 4 a "
+      "file could not\n"
+      "be written, 5 the simulation failed (it leaves failed.snapshot), 6 the run ended before a "
       "program of it did\n"
-      "not come to its end (summary.json: programs), 7 `navvy lab` missed a gate, 130 interrupted "
-      "(Ctrl-C, SIGTERM,\n"
-      "SIGHUP, a controller that went away); above 130 a crash of Navvy's own, which says where.\n"
-      "scenarios/README.md explains scene files from the first line on.");
-  // Filled by the subcommand that was typed.
+      "(see programs in summary.json), 7 `navvy lab` measured a result outside its acceptance "
+      "range, 130\n"
+      "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
+      "which is reported.\n"
+      "scenarios/README.md explains scene files.");
+  // The chosen subcommand fills the action.
   cli::Action action;
-  // The whole command line goes into the run's folder.
+  // The command line is recorded in the folder of a run.
   cli::add_run(app, action, {argv, argv + argc});
   cli::add_check(app, action);
   cli::add_map(app, action);
@@ -151,7 +141,7 @@ int run(int argc, char** argv) {
   cli::add_schema(app, action);
   cli::add_lab(app, action);
   cli::add_bench(app, action);
-  // CLI11 would answer an unknown word with the help of the whole program; a short line is kinder.
+  // CLI11 would answer an unknown command with the whole help.
   const std::vector<CLI::App*> commands = app.get_subcommands({});
   const auto is_chosen = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_chosen)) {
@@ -165,12 +155,12 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version end well; whatever else the parser complains of is bad input.
+    // Help and version are no errors.
     if (error.get_exit_code() == 0) return app.exit(error) == 0 ? cli::kOk : cli::kBadInput;
     std::cerr << "error: " << complaint(app, error, argc, argv) << "\n";
     return cli::kBadInput;
   }
-  // Only now: parsing says what it has to say by itself.
+  // Parsing prints its own messages, so the log follows it.
   install_log_sink();
   return action();
 }
@@ -178,9 +168,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Before any library is used, as their start may crash, too.
   cli::install_crash_report();
-  // A reader that went away and a file that grew past its limit are errors of the call that writes,
-  // told like others.
+  // A closed pipe and a file that exceeds its limit become errors of the call that writes.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   const int status = guarded([&] { return run(argc, argv); });

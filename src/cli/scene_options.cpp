@@ -2,12 +2,11 @@
 #include "cli/scene_options.h"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "cli/validators.h"
 #include "control/step_kinds.h"
-#include "core/edit_distance.h"
 #include "core/error.h"
+#include "scene_io/shipped.h"
 
 namespace navvy::cli {
 namespace {
@@ -31,37 +30,6 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
 }
 
 }  // namespace
-
-std::map<std::string, std::string> shipped_scenes() {
-  std::map<std::string, std::string> out;
-  std::error_code ignored;
-  // All data directories, as the look-up goes through all of them; the first that has it wins.
-  for (const std::string& directory : scene_io::data_directories())
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(directory + "/scenarios", ignored)) {
-      // Their READMEs and maps lie beside them.
-      if (entry.path().extension() != ".sdf") continue;
-      const auto name =
-          entry.path().lexically_relative(directory + "/scenarios").replace_extension();
-      out.emplace(name.generic_string(), entry.path().string());
-    }
-  return out;
-}
-
-std::string find_scene(const std::string& name) {
-  // A file of the user's goes before a shipped scene of the same name.
-  if (std::filesystem::exists(name)) return name;
-  for (const std::string& candidate : {name, "scenarios/" + name, "scenarios/" + name + ".sdf"})
-    if (const std::string found = scene_io::find_data(candidate); !found.empty()) return found;
-  // With a path the loader's own message is the better one.
-  if (name.find('/') != std::string::npos) return name;
-  std::vector<std::string> known;
-  for (const auto& [scene, path] : shipped_scenes()) known.push_back(scene);
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "scene", name,
-                         "no such file here and no such shipped scene",
-                         known.empty() ? "set NAVVY_DATA_DIR"
-                                       : suggestion(name, known) + "; `navvy scenes` lists them"});
-}
 
 void SceneOptions::add_values_to(CLI::App& command) {
   // One value each, or the scene's name after it would be taken for a second one.
@@ -116,7 +84,8 @@ scene_io::Overrides SceneOptions::overrides() const {
 }
 
 scene::Scene SceneOptions::load(std::string* resolved) const {
-  return scene_io::load_scene(find_scene(file), control::step_kinds(), overrides(), resolved);
+  return scene_io::load_scene(scene_io::find_scene(file), control::step_kinds(), overrides(),
+                              resolved);
 }
 
 }  // namespace navvy::cli

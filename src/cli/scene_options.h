@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,13 +14,6 @@ class App;
 }
 
 namespace navvy::cli {
-
-/// Paths of the shipped scenes by their names.
-std::map<std::string, std::string> shipped_scenes();
-/// The file that `name` means: a file of the user's, or a shipped scene (with or without ".sdf").
-/// @throws InputError naming the nearest shipped one, when there is no such thing and `name` has no
-/// path.
-std::string find_scene(const std::string& name);
 
 /// The scene to load and what to change in it; filled by the parser, read by the action afterwards.
 struct SceneOptions {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lines of the log carry their severity already.
+// Recognises log lines that contain their severity.
 #pragma once
 
 #include <string>
 
 namespace navvy::cli {
 
-/// Whether a line is a fault as core/error.h writes it, `file:line: warning: ...`: nothing is to be
-/// put before that.
-inline bool print_its_severity(const std::string& line) {
-  // The file's part has no blank after its colons.
+/// Returns true for a fault as core/error.h formats it, `file:line: warning: ...`, which needs no
+/// further severity.
+inline bool has_severity(const std::string& line) {
+  // Colons of the file part are not followed by a space.
   const std::size_t colon = line.find(": ");
   if (colon == std::string::npos) return false;
   for (const char* const word : {"warning", "error"})

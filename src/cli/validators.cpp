@@ -8,7 +8,7 @@
 namespace navvy::cli {
 namespace {
 
-/// The number that the whole text is; NaN when it is none, or not finite.
+/// Returns the number in a text; NaN if the text is no finite number.
 double number(const std::string& text) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -18,7 +18,7 @@ double number(const std::string& text) {
 
 }  // namespace
 
-// A NaN compares as false.
+// Comparisons with NaN are false.
 std::string above_zero(const std::string& text) {
   return number(text) > 0 ? "" : "'" + text + "': must be a number above 0";
 }
@@ -27,6 +27,7 @@ std::string not_negative(const std::string& text) {
   return number(text) >= 0 ? "" : "'" + text + "': must be a number, 0 or above";
 }
 
+// Seeds use all 64 bits, which a double does not hold.
 std::string whole_number(const std::string& text) {
   std::uint64_t value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -14,12 +14,14 @@
 namespace navvy::record {
 namespace {
 
-/// A summary without cycles has 4 kB; it grows by a line a cycle.
+/// A summary without cycles has 4 kB and grows by some lines per cycle.
 constexpr std::size_t kLeastCapacity = std::size_t{64} << 10;
 
+/// The object that write_crash_summary uses.
 std::atomic<CrashSummary*> speaking{nullptr};
 
-/// A part of a summary in which no program goes on: the run is over when it is read.
+/// Returns a part of a summary with running programs marked as interrupted: the run is over when it
+/// is read.
 std::string ended(std::string text) {
   const std::string running = "\"state\": \"running\"", over = "\"state\": \"interrupted\"";
   for (std::size_t at = text.find(running); at != std::string::npos;
@@ -28,8 +30,9 @@ std::string ended(std::string text) {
   return text;
 }
 
-// What follows is called in handlers of signals: no memory is taken, no lock, no errno of anybody
-// changed for good.
+// The functions below run in signal handlers, so they allocate no memory and take no lock.
+
+/// Writes all bytes. Returns false on failure.
 bool put(int file, const char* text, std::size_t size) {
   while (size > 0) {
     const ssize_t n = ::write(file, text, size);
@@ -41,7 +44,7 @@ bool put(int file, const char* text, std::size_t size) {
   return true;
 }
 
-/// As the inside of a JSON string; what would need an escape of its own becomes a blank.
+/// Writes text as the content of a JSON string. Characters that need an escape become a space.
 bool put_text(int file, const char* text) {
   for (; *text != '\0'; ++text) {
     const char c = *text == '\n' ? ';' : *text;
@@ -71,17 +74,17 @@ CrashSummary::CrashSummary(std::string reserve, std::string target)
 CrashSummary::~CrashSummary() {
   CrashSummary* self = this;
   speaking.compare_exchange_strong(self, nullptr);
-  // Once it became the summary there is no file of this name.
+  // There is no file of this name once it became the summary.
   if (file_ >= 0) ::close(file_);
   ::unlink(reserve_.c_str());
 }
 
-/// Written and not only asked for: file systems that compress or copy on writing promise more than
-/// they keep.
+/// Writes the bytes, as file systems that compress or copy on write do not guarantee space that was
+/// only reserved.
 bool CrashSummary::take_capacity(std::size_t bytes) {
   const std::string blank(4096, ' ');
-  for (; room_ < bytes; room_ += blank.size())
-    if (::pwrite(file_, blank.data(), blank.size(), static_cast<off_t>(room_)) !=
+  for (; reserved_ < bytes; reserved_ += blank.size())
+    if (::pwrite(file_, blank.data(), blank.size(), static_cast<off_t>(reserved_)) !=
         static_cast<ssize_t>(blank.size())) {
       if (errno == 0) errno = ENOSPC;
       return false;
@@ -93,13 +96,15 @@ void CrashSummary::keep(const std::string& summary) {
   const std::string mark = "\"status\": \"running\"";
   const std::size_t at = summary.find(mark);
   if (file_ < 0 || at == std::string::npos) return;
-  // Twice the present text: it grows between two checkpoints, and a message comes to it.
-  if (summary.size() * 2 > room_ && !take_capacity(summary.size() * 4)) return;
+  // Twice the size of the text, which grows between two checkpoints and by a message.
+  if (summary.size() * 2 > reserved_ && !take_capacity(summary.size() * 4)) return;
   const int next = ready_ == 0 ? 1 : 0;
+  // The text that a handler may read right now stays as it is.
   texts_[next] = {ended(summary.substr(0, at)), ended(summary.substr(at + mark.size()))};
   ready_ = next;
 }
 
+/// The file keeps its reserved blocks until it is cut to the length of the text.
 bool CrashSummary::write(const std::string& text) noexcept {
   if (file_ < 0 || ::lseek(file_, 0, SEEK_SET) != 0 || !put(file_, text.data(), text.size()))
     return false;
@@ -127,7 +132,7 @@ bool CrashSummary::leave(const char* status, const char* message) noexcept {
 }
 
 bool write_crash_summary(const char* status, const char* message) noexcept {
-  // Whoever comes first has the word: a handler may be called within a handler.
+  // The first caller wins: a handler may be called within a handler.
   CrashSummary* words = speaking.exchange(nullptr);
   return words != nullptr && words->leave(status, message);
 }

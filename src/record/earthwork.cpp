@@ -10,16 +10,20 @@
 namespace navvy::record {
 namespace {
 
-/// Bank volume of each soil in a column [m3].
+/// Computes the bank volume of each soil in a column [m3].
 void bank_volumes(const std::vector<heightfield::SoilLayer>& column,
                   const std::vector<scene::Soil>& soils, std::vector<double>& volumes) {
-  // The caller keeps the vector: this is called for every touched column.
+  // The caller reuses the vector, as this is called for every changed column.
   volumes.assign(soils.size(), 0.0);
   for (const heightfield::SoilLayer& layer : column)
     volumes[layer.soil] += kilograms(layer.mass) / soils[layer.soil].bank_density;
 }
 
 }  // namespace
+
+Earthwork measure_earthwork(const sim::World& world) {
+  return measure_earthwork(world, sim::active_places(world).lying);
+}
 
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
@@ -34,7 +38,7 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
   }
   Earthwork sum;
   sum.soils.resize(soils.size());
-  // Only touched columns can have changed, and those on which soil fell.
+  // Only columns that were touched or on which soil fell can have changed.
   heightfield::CellRect rect = ground.touched_rect();
   for (const heightfield::LooseSoil::Column& column : lying.columns())
     rect.include({column.ix, column.iy, column.ix + 1, column.iy + 1});
@@ -45,14 +49,14 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
   std::vector<double> after, before;
   for (int iy = std::max(rect.y0, 0); iy < std::min(rect.y1, ground.ny()); ++iy)
     for (int ix = std::max(rect.x0, 0); ix < std::min(rect.x1, ground.nx()); ++ix) {
-      // As it lies against as it lay.
       ground.column(ix, iy, now);
       ground.start_column(ix, iy, start);
       bank_volumes(now, soils, after);
       bank_volumes(start, soils, before);
       const auto above = active.find({ix, iy});
       double gain = 0;
-      // By soil: a layer dug away and another dumped in its place are both earthwork.
+      // Soils are compared one by one: a layer that was dug and another that was dumped in its
+      // place are both earthwork.
       for (std::size_t i = 0; i < soils.size(); ++i) {
         const double change =
             after[i] + (above == active.end() ? 0.0 : above->second[i]) - before[i];
@@ -60,9 +64,9 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
         if (change < -least) sum.soils[i].dug -= change * soils[i].bank_density;
         if (change > least) sum.soils[i].spoil += change * soils[i].bank_density;
       }
-      // Volumes by the column as a whole: bank volume where it lost, the rise of the surface where
-      // it gained. Spoil that a wheel pressed may lie lower than the ground was; it has no negative
-      // volume.
+      // Volumes are those of whole columns: bank volume where a column lost mass, the rise of the
+      // surface where it gained mass. Spoil that a wheel compacted may be lower than the ground
+      // was, and counts as zero.
       if (gain < -least) sum.bank_volume -= gain;
       if (gain > least)
         sum.loose_volume +=

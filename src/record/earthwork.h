@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much earth was moved, from the ground as it is against the ground as it was.
+// Volumes and masses of moved earth, from a comparison of the ground with its start.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,30 @@
 
 namespace navvy::record {
 
-/// Mass of one soil that left columns and that came to others [kg].
+/// Moved mass of one soil [kg].
 struct SoilMoved {
-  double dug = 0, spoil = 0;
+  /// Mass that left columns.
+  double dug = 0;
+  /// Mass that came to other columns.
+  double spoil = 0;
 };
 
-/// Earth moved by digging and dumping, wheel ruts apart: columns whose mass changed. Soil that is
-/// awake and lies on a column counts as the column's; what is in the air, a bucket or a bed has
-/// been dug and is no spoil yet.
+/// Earth moved by digging and dumping, without wheel ruts: columns whose mass changed. Active soil
+/// on a column counts as part of it. Soil in the air, a bucket or a bed was dug and is not spoil
+/// yet.
 struct Earthwork {
-  double bank_volume = 0;        ///< mass taken out of columns / bank density [m3]
-  double loose_volume = 0;       ///< rise of the columns that gained mass, never below 0 [m3]
-  std::vector<SoilMoved> soils;  ///< as the scene lists them
+  /// Mass taken out of columns / bank density [m3].
+  double bank_volume = 0;
+  /// Rise of the columns that gained mass, never negative [m3].
+  double loose_volume = 0;
+  /// Masses by soil, in the order of the scene.
+  std::vector<SoilMoved> soils;
 };
-/// Of the surface that maps show. Costs a pass over the touched columns, and over the particles
-/// where `lying` (sim::active_places) is not known already.
+
+/// Measures the moved earth on the surface that maps show. Costs a pass over the changed columns,
+/// and one over the particles unless `lying` (sim::active_places) is given.
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
+/// Measures with the loose soil of the particles, at the cost of a pass over them.
+Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record

@@ -8,10 +8,10 @@
 namespace navvy::record {
 namespace {
 
-/// time = steps x dt is rounded: a distance counts as reached this much early.
+/// Tolerance [intervals] for the rounding of time = steps x dt.
 constexpr double kHair = 1e-9;
 
-/// Names the parts there are: a scene with sensors has more columns.
+/// Returns the column names. A scene with sensors has more parts.
 std::string header_of(const session::Session& session) {
   std::string header = "step,time_s,state";
   for (const auto& [part, hash] : session.hash_parts()) header += "," + part;
@@ -23,7 +23,7 @@ std::string header_of(const session::Session& session) {
 HashLog::HashLog(const session::Session& session, std::string path, double every)
     : session_(session), file_(std::move(path), header_of(session)), every_(every) {
   const sim::World& world = session_.world();
-  // A resumed run goes on at the next distance, so that its rows equal those of the whole run.
+  // A resumed run continues at the next interval, so that its rows equal those of the whole run.
   if (world.steps() > 0)
     next_ = static_cast<std::uint64_t>(std::floor(world.time() / every_ + kHair)) + 1;
   observe();
@@ -31,7 +31,7 @@ HashLog::HashLog(const session::Session& session, std::string path, double every
 
 void HashLog::row() {
   const sim::World& world = session_.world();
-  // Time with six digits tells steps apart; the step itself is exact.
+  // The step is exact; six digits of time are for people.
   char start[64];
   std::snprintf(start, sizeof start, "%llu,%.6f,", static_cast<unsigned long long>(world.steps()),
                 world.time());
@@ -39,12 +39,11 @@ void HashLog::row() {
   for (const auto& [part, hash] : session_.hash_parts()) text += "," + hash;
   last_step_ = world.steps();
   file_.add(text);
-  // A row costs a pass over the whole state: a kill in the next step shall not take it.
+  // A row is expensive, so a kill in the next step must not lose it.
   file_.flush();
 }
 
 void HashLog::observe() {
-  // At most one row a step.
   const double count = session_.world().time() / every_ + kHair;
   if (count < static_cast<double>(next_)) return;
   row();
@@ -52,7 +51,7 @@ void HashLog::observe() {
 }
 
 void HashLog::finish() {
-  // The last state has a row even between two distances.
+  // The final state has a row even between two intervals.
   if (file_.rows() == 0 || last_step_ != session_.world().steps()) row();
   file_.sync();
 }

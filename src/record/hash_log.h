@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hashes.csv: what every part of the state hashed to, at fixed distances of simulated time.
+// hashes.csv: hashes of all parts of the state, at fixed intervals of simulated time.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,28 @@
 
 namespace navvy::record {
 
-/// One row per distance: step, time [s], the whole state, then part by part, so that two runs
-/// compared line by line show when they parted and which part did first. Each row costs a pass over
-/// everything.
+/// Writes a row per interval: step, time [s], the hash of the whole state, then those of its parts.
+/// A comparison of two files line by line shows when two runs diverged, and which part diverged
+/// first. Each row costs a pass over the whole state.
 class HashLog {
  public:
-  /// `every` [s]; a row at the start of a fresh run, none where a resumed one begins.
+  /// Begins the file; `every` is the interval [s]. A new run has a row at its start, a resumed run
+  /// continues with the next interval.
   HashLog(const session::Session& session, std::string path, double every);
-  /// Called after each step: appends the row that is due. @throws FileError.
-  /// At most one row a step.
+  /// Appends a row if one is due, at most one per step. Call it after each step. @throws FileError.
   void observe();
-  /// The state the run ends with. @throws FileError.
+  /// Appends a row for the final state and waits for the disk. @throws FileError.
   void finish();
 
  private:
+  /// Appends a row for the present state.
   void row();
 
   const session::Session& session_;
   RowFile file_;
-  double every_;
-  std::uint64_t next_ = 0;       ///< counts distances
-  std::uint64_t last_step_ = 0;  ///< of the last row, no row = none written
+  double every_;                 ///< interval [s]
+  std::uint64_t next_ = 0;       ///< number of the next interval
+  std::uint64_t last_step_ = 0;  ///< step of the last row
 };
 
 }  // namespace navvy::record

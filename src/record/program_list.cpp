@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A step's report. Figures stand beside the other keys: their names end in their units.
+/// Returns the entry of a step. Measurements are keys of their own, whose names end in their units.
 json step_entry(const control::StepReport& report) {
   json out = {{"step", report.step},
               {"kind", report.element},
@@ -21,7 +21,7 @@ json step_entry(const control::StepReport& report) {
   return out;
 }
 
-/// What the run's own end makes of a step that still ran: nothing goes on in a run that is over.
+/// Marks a step that still ran when the run ended as interrupted.
 void end_with(json& entry, const std::string& status, bool taken) {
   if (entry["state"] != control::name_of(control::StepState::kRunning) || status == "running")
     return;

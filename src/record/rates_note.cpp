@@ -8,15 +8,17 @@
 namespace navvy::record {
 namespace {
 
-/// Parts in a thousand million: what rounding leaves of a whole number of steps.
+/// Relative tolerance for the rounding of a whole number of steps.
 constexpr double kWhole = 1e-9;
 
+/// Returns a formatted number.
 std::string number(const char* format, double value) {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
+/// Returns names as "a, b and c".
 std::string list(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -28,10 +30,12 @@ std::string list(const std::vector<std::string>& names) {
 
 std::string rates_note(const sim::World& world, double control_rate) {
   const double dt = world.dt();
-  // Whom the steps serve exactly is not mentioned.
+  // Rates that the steps meet exactly are not mentioned.
   std::vector<std::string> nearest, every;
   const auto look = [&](const std::string& name, double rate) {
     if (!(rate > 0)) return;
+    // Number of base steps in a period: below 1 every step is used, a fraction means the nearest
+    // step.
     const double steps = 1 / (rate * dt);
     const std::string text = name + " (" + number("%g", rate) + " Hz)";
     if (steps < 1 - kWhole)
@@ -46,8 +50,8 @@ std::string rates_note(const sim::World& world, double control_rate) {
       look("camera '" + camera.name + "'", camera.rate);
 
   std::vector<std::string> parts;
-  // A step shorter than the soil asks for costs time and changes results a little: its cause is
-  // told.
+  // A step shorter than the soil needs costs time and changes results a little, so its cause is
+  // reported.
   if (dt < world.longest_step() * (1 - kWhole))
     parts.push_back(
         "a whole number of base steps makes up a control step; without it they would be " +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run does about rates that its base step does not divide, told before it starts.
+// Message about rates that the base step of a run does not divide.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace navvy::record {
 
-/// One line about everything that comes out other than asked: a base step that the control rate
-/// made shorter, telemetry and cameras that take the nearest step, rates above the steps' own.
-/// Empty when all is as asked. `control_rate` [1/s] is that of a controller outside; 0: there is
-/// none.
+/// Returns a line about all rates that differ from the request: a base step that the control rate
+/// made shorter, telemetry and cameras that use the nearest step, and rates above the step rate.
+/// Empty if all rates are as requested. `control_rate` [1/s] is that of a controller outside; 0
+/// means none.
 std::string rates_note(const sim::World& world, double control_rate);
 
 }  // namespace navvy::record

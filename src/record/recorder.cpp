@@ -10,6 +10,8 @@
 #include "core/file.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
+#include "record/array_recorder.h"
+#include "record/camera_pictures.h"
 #include "record/crash_summary.h"
 #include "record/hash_log.h"
 #include "record/map_recorder.h"
@@ -17,46 +19,46 @@
 #include "record/run_info.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
-#include "render/renderer.h"
-#include "sim/frame_builder.h"
 #include "sim/timing.h"
 
 namespace navvy::record {
 
+/// The parts of a recording. Each writes its own files.
 struct Recorder::State {
-  // Telemetry and frames look at the same session; neither keeps more than a reference.
+  // All parts refer to the same session.
   State(session::Session& s, Options o, std::unique_ptr<RunFolder> f)
       : session(s),
         options(std::move(o)),
         folder(std::move(f)),
         crash_summary(folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
-        frames(s.world()) {
-    // A resumed run goes on in its numbers and counts its own speed only.
+        arrays(s, *folder),
+        pictures(s.world()) {
+    // A resumed run counts only its own speed.
     status.start_time = s.world().time();
   }
 
-  // Telemetry is written at checkpoints, pictures and hashes at once.
+  // Telemetry and arrays are written at checkpoints, pictures and hashes at once.
   session::Session& session;
   Options options;
   std::unique_ptr<RunFolder> folder;
   CrashSummary crash_summary;
   Telemetry telemetry;
-  sim::FrameBuilder frames;
-  // Of frames; without those, of pictures that somebody asks for
-  std::unique_ptr<render::Renderer> renderer, drawer;
+  ArrayRecorder arrays;
+  CameraPictures pictures;
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
   RunStatus status;
   Stopwatch total, since_checkpoint, since_summary;
-  std::size_t summary_bytes = 0;  // of the last one
+  std::size_t summary_bytes = 0;  ///< size of the last summary
   bool finished = false;
 
   std::string path(const std::string& name) { return folder->path(name); }
-  /// Whether the present step is the nearest to a period of `rate` [1/s].
+  /// Returns true if the present step is the nearest to a multiple of the period of `rate` [1/s].
   bool due(double rate) const;
   void sample_when_due();
   void draw_when_due();
+  void record_arrays();
   void hash_when_due();
   void map_when_due();
   void checkpoint(bool force);
@@ -67,10 +69,9 @@ struct Recorder::State {
 };
 
 Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder) {
-  // Nothing is written before the folder stands; what cannot be made is told before the first step.
+  // Nothing is written before the folder is ready. Problems show before the first step.
   if (!folder) folder = std::make_unique<RunFolder>(options.directory);
   folder->begin();
-  // Telemetry and frames are made with their paths in the new folder.
   state_ = std::make_unique<State>(session, std::move(options), std::move(folder));
   try {
     state_->write_start();
@@ -81,10 +82,9 @@ Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<R
 }
 
 void Recorder::State::write_start() {
-  // A summary from the start on: whatever becomes of the run, it has one, and from here on one can
-  // be left that says how it ended.
+  // The summary exists from the start, so that every run has one, whatever happens.
   write_summary(false);
-  // What it was comes next.
+  // The description of the run follows.
   const scene::Scene& scene = session.world().description();
   if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
   write_file_atomically(path("run.json"), run_json({kRunFormat, navvy_version(), options.command,
@@ -92,8 +92,7 @@ void Recorder::State::write_start() {
   write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
   sample_when_due();
-  // The renderer takes a graphics context, which runs without pictures do not need.
-  if (options.render) renderer = std::make_unique<render::Renderer>();
+  record_arrays();
   draw_when_due();
   if (options.hash_every > 0)
     hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
@@ -105,12 +104,11 @@ void Recorder::State::write_start() {
 Recorder::~Recorder() = default;
 
 bool Recorder::State::due(double rate) const {
-  // By the step's number, counted from time zero: a resumed run records the steps that the whole
-  // one would.
+  // Depends on the step count alone, so a resumed run records the same steps as the whole run.
   return rate > 0 && sim::sample_due(session.world().steps(), session.world().dt(), rate);
 }
 
-/// A run in which nobody planned leaves no such file.
+/// Writes the planned paths. A run without any has no such file.
 void Recorder::State::write_paths() {
   std::string rows;
   for (const session::ProgramReport& report : session.programs())
@@ -120,7 +118,7 @@ void Recorder::State::write_paths() {
   if (!rows.empty()) write_file_atomically(path("paths.csv"), record::path_header() + "\n" + rows);
 }
 
-/// At most one row a step: a rate above the step's gives every step.
+/// Adds at most one row per step, also for a rate above the step rate.
 void Recorder::State::sample_when_due() {
   const bool first = telemetry.rows() == 0;
   if (!first && !due(session.world().description().recording.telemetry_rate)) return;
@@ -128,34 +126,40 @@ void Recorder::State::sample_when_due() {
   telemetry.sample();
 }
 
+/// All cameras of one instant share a frame.
 void Recorder::State::draw_when_due() {
-  // One frame for all cameras of this instant: filling it costs more than a view of it.
-  if (!renderer) return;
-  const auto& cameras = session.world().description().cameras;
+  if (!options.render) return;
   const sim::World& world = session.world();
-  const scene::Frame* frame = nullptr;
-  for (const scene::Camera& camera : cameras) {
-    if (!due(camera.rate)) continue;
-    // Drawing is counted apart: the real-time factor is the simulation's.
-    const Lap lap(status.render_time);
-    if (frame == nullptr) frame = &frames.build();
-    const render::Image image = renderer->render(*frame, frames.camera(camera));
-    // The number of a picture tells its time: name_N.png is N periods from the start.
+  std::vector<const scene::Camera*> cameras;
+  for (const scene::Camera& camera : world.description().cameras)
+    if (due(camera.rate)) cameras.push_back(&camera);
+  // Drawing is timed apart: the real-time factor is that of the simulation.
+  const Lap lap(status.render_time);
+  pictures.draw(cameras, [&](const scene::Camera& camera, const render::Image& image) {
+    // The number of a picture gives its time: name_N.png is N periods from the start.
     char name[32];
     const std::uint64_t number = sim::sample_number(world.steps(), world.dt(), camera.rate);
     std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(number));
     render::write_png(path("frames/" + camera.name + name), image);
     ++status.frames;
-  }
+  });
+}
+
+/// Arrays come at the rates of their samplers; the recorder looks in each step for new values.
+void Recorder::State::record_arrays() {
+  if (session.world().arrays().channels().empty()) return;
+  const Lap lap(status.record_time);
+  arrays.observe();
 }
 
 void Recorder::State::hash_when_due() {
   if (!hashes) return;
   const Lap lap(status.record_time);
-  // A pass over everything, so only when asked for.
+  // Costs a pass over the state, so it runs on request only.
   hashes->observe();
 }
 
+/// The map recorder knows which of its records are due.
 void Recorder::State::map_when_due() {
   if (!maps) return;
   const Lap lap(status.record_time);
@@ -163,19 +167,20 @@ void Recorder::State::map_when_due() {
 }
 
 void Recorder::State::checkpoint(bool force) {
-  // Wall time of the simulation alone.
+  // Wall time of the simulation only.
   status.wall_time = total.seconds() - status.render_time - status.record_time;
   if (!force && since_checkpoint.seconds() < options.checkpoint) return;
   const Lap lap(status.record_time);
-  // At most every other second unless it is the last.
+  // Checkpoints come at least two seconds apart, except for the last.
   telemetry.checkpoint(force);
-  // The hash of a running state costs a pass over everything: only the forced ones pay it.
+  arrays.checkpoint(force);
+  // Only the first and the last summary contain the hash, which costs a pass over the state.
   if (force || since_summary.seconds() >= rewrite_period(summary_bytes)) write_summary(force);
-  // Counted from the end of the writing, or a slow disk would do nothing else.
+  // The interval counts from the end of writing, or a slow disk would be busy all the time.
   since_checkpoint.restart();
 }
 
-/// Kept ready as well, for whoever has to leave it in a hurry.
+/// Also updates the text that a crash would write.
 void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
   crash_summary.keep(text);
@@ -184,9 +189,10 @@ void Recorder::State::write_summary(bool with_hash) {
   since_summary.restart();
 }
 
-/// In the order of cost: a full disk is noticed at the cheapest.
+/// Cheap outputs come first: a full disk shows at the cheapest.
 void Recorder::observe() {
   state_->sample_when_due();
+  state_->record_arrays();
   state_->draw_when_due();
   state_->hash_when_due();
   state_->map_when_due();
@@ -195,21 +201,23 @@ void Recorder::observe() {
 
 void Recorder::restart() {
   State& s = *state_;
-  if (!s.maps) return;
   const Lap lap(s.status.record_time);
+  s.arrays.restart();
+  if (!s.maps) return;
   s.maps->restart();
   s.maps->observe();
 }
 
 void Recorder::finish(const std::string& status, const std::string& message) {
   State& s = *state_;
-  // Failing while finishing must not write a second, half different summary.
+  // A failure while finishing must not write a second, different summary.
   if (s.finished) return;
   s.finished = true;
   s.status.status = status;
   s.status.message = message;
-  // Each file for itself: one that the disk refuses keeps none of the others from being written,
-  // and the summary, which comes last, tells of it.
+  // Each file is written independently: if one fails, the others are still written, and the
+  // summary, which comes last, reports it.
+  // The first failure is thrown at the end, after all files had their chance.
   std::exception_ptr first;
   const auto attempt = [&](const auto& write) {
     try {
@@ -225,7 +233,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
       if (!first) first = std::current_exception();
     }
   };
-  // The state of the fault, to be looked at or gone on from.
+  // The state at the failure, for analysis.
   if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
   attempt([&] {
     if (s.hashes) s.hashes->finish();
@@ -233,9 +241,10 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   attempt([&] {
     if (s.maps) s.maps->finish();
   });
-  // The end of the ground, also of a run that failed: it shows where.
+  // The final ground, also of a failed run.
   attempt([&] { write_terrain(s.session.world(), s.path("terrain_end.tif")); });
   attempt([&] { s.telemetry.checkpoint(true); });
+  attempt([&] { s.arrays.checkpoint(true); });
   attempt([&] { s.write_paths(); });
   std::string text;
   bool written = false;
@@ -245,7 +254,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     write_file_atomically(s.path("summary.json"), text);
     written = true;
   });
-  // The disk takes no new file: the room that was taken at the start serves.
+  // If the disk takes no new file, the reserved one serves.
   if (!written) {
     try {
       text = s.summary(true);
@@ -255,43 +264,21 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     if (text.empty() || !s.crash_summary.write(text))
       write_crash_summary("failed", s.status.message.c_str());
   }
-  // A failed run has told its cause already.
+  // The cause of a failed run is known already.
   if (first && status != "failed") std::rethrow_exception(first);
 }
 
 render::Image Recorder::draw(const std::string& camera) {
-  State& s = *state_;
-  // One renderer a process: that of the frames serves, or is made for this.
-  if (!s.renderer && !s.drawer) s.drawer = std::make_unique<render::Renderer>();
-  for (const scene::Camera& each : s.session.world().description().cameras)
-    if (each.name == camera) {
-      const Lap lap(s.status.render_time);
-      return (s.renderer ? *s.renderer : *s.drawer).render(s.frames.build(), s.frames.camera(each));
-    }
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera,
-                         "no camera of this name in the scene", ""});
+  const Lap lap(state_->status.render_time);
+  return state_->pictures.draw(camera);
 }
+
+std::string Recorder::summary(bool with_hash) const { return state_->summary(with_hash); }
+const RunStatus& Recorder::status() const { return state_->status; }
 
 double wall_time_left(double simulated, double real_time_factor) {
   // The last step may end a rounding error after the duration; "-0 s left" would be printed then.
   return real_time_factor > 0 && simulated > 0 ? simulated / real_time_factor : 0;
-}
-
-RunProgress Recorder::progress() const {
-  const State& s = *state_;
-  const sim::World& world = s.session.world();
-  RunProgress out;
-  out.time = world.time();
-  out.duration = world.description().recording.duration;
-  // What a resumed run had done before does not count as its own speed.
-  const double spent = s.total.seconds();
-  out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
-  out.remaining = wall_time_left(out.duration - out.time, out.real_time_factor);
-  out.particles = world.soil().counts().particles;
-  out.cycles = static_cast<int>(s.session.cycles().size());
-  out.frames = s.status.frames;
-  out.phase = world.description().machines.empty() ? "" : s.session.phase(0);
-  return out;
 }
 
 }  // namespace navvy::record

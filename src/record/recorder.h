@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything a run leaves behind, written so that a kill at any moment leaves the old or the new
-// file.
+// The results of a run, written so that a kill at any moment leaves either the old or the new file.
 #pragma once
 
 #include <cstdint>
@@ -16,59 +15,61 @@
 
 namespace navvy::record {
 
-/// What a caller wants of a run's folder; defaults are those of `navvy run`.
+/// Options of a recording. The defaults are those of `navvy run`.
 struct Options {
-  /// Results go here; what an earlier run wrote there moves to "<directory>.previous".
+  /// Folder of the results. The results of an earlier run in it move to "<directory>.previous".
   std::string directory;
+  /// Draws pictures at the rates of the scene's cameras.
   bool render = true;
-  double hash_every = 0;  ///< simulated time between rows of hashes.csv [s]; 0: no such file
-  double checkpoint = 2;  ///< wall time between rewrites of telemetry and summary [s]
-  /// The scene as scene_io::load_scene wrote it out, for scene.sdf; empty: no such file, the folder
-  /// cannot be run again.
+  /// Simulated time between rows of hashes.csv [s]; 0: no such file.
+  double hash_every = 0;
+  /// Wall time between updates of telemetry and summary [s].
+  double checkpoint = 2;
+  /// The scene as scene_io::load_scene resolved it, for scene.sdf. Empty: no such file, and the
+  /// folder cannot be run again.
   std::string scene_text;
-  std::vector<std::string> command;  ///< that started the run, for run.json
-};
-
-/// What a progress line shows; costs nothing to read.
-struct RunProgress {
-  double time = 0, duration = 0;  ///< simulated, most it may take [s]
-  double real_time_factor = 0;
-  double remaining = 0;  ///< wall time left if the run takes its full duration [s]
-  int particles = 0, cycles = 0, frames = 0;
-  std::string phase;
+  /// Command line that started the run, for run.json.
+  std::vector<std::string> command;
 };
 
 /// Returns the wall time [s] that `simulated` more seconds take at `real_time_factor`. The result
 /// is never negative, and 0 while the factor is still unknown (0).
 double wall_time_left(double simulated, double real_time_factor);
 
+/// Records a session into a folder.
+///
 /// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and
-/// at the end only), telemetry.csv, hashes.csv when asked, terrain_start.tif, terrain_end.tif,
-/// frames/<camera>_<n>.png, what the scene records (map_recorder.h) and, after a failure,
-/// failed.snapshot. Not thread-safe; draws on the calling thread.
+/// at the end only), telemetry.csv, terrain_start.tif and terrain_end.tif; on request hashes.csv,
+/// pictures frames/<camera>_<n>.png, arrays/<name>.npy of each array output (array_recorder.h) and
+/// the records of the scene (map_recorder.h); after a failure failed.snapshot. Memory does not grow
+/// with the run. Not thread-safe; draws on the calling thread.
 class Recorder {
  public:
-  /// Makes the directory and writes what is known at the start; a `folder` that was taken before is
-  /// used in its place.
+  /// Makes the folder and writes the files of the start. Uses `folder`, if given, which was locked
+  /// before. Keeps a reference to `session`.
   /// @throws FileError, and InputError as RunFolder does.
   Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder = nullptr);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Called after each step: samples, draws and writes what is due. @throws FileError (disk full).
+  /// Samples, draws and writes all that is due. Call it after each step. @throws FileError, e.g. on
+  /// a full disk.
   void observe();
-  /// Called when the session was put into another state, an earlier one or any other: recorded maps
-  /// and bags begin new files (map_recorder.h), tables go on. @throws FileError.
+  /// Continues after the session was put into another state. Recorded maps and bags begin new files
+  /// (map_recorder.h), tables continue. @throws FileError.
   void restart();
-  /// Writes the final files, once; later calls do nothing. `status` is one of RunStatus::status but
-  /// "running"; after a failure also the snapshot of the last state. A file that cannot be written
-  /// makes the run a failed one, whose summary says so.
-  /// @throws FileError for that file, unless the run had failed before.
+  /// Writes the final files, once. `status` is one of RunStatus::status except "running"; "failed"
+  /// also saves failed.snapshot. If a file cannot be written, the others still are, and the summary
+  /// reports the run as failed. @throws FileError for that file, unless the run had failed before.
   void finish(const std::string& status, const std::string& message = "");
-  RunProgress progress() const;
-  /// What a camera of the scene sees now, for whoever asks; counts as no frame. @throws Error when
-  /// nothing can be drawn, InputError for a name that is no camera's.
+  /// Returns the text of summary.json as it would be now. The state's hash costs a pass over the
+  /// state; without it `state_hash` is null.
+  std::string summary(bool with_hash) const;
+  /// Returns the status of the run: its wall times and the number of pictures so far.
+  const RunStatus& status() const;
+  /// Returns what a camera of the scene sees now; the picture is not written and not counted.
+  /// @throws InputError for an unknown camera, Error when nothing can be drawn.
   render::Image draw(const std::string& camera);
 
  private:

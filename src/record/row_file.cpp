@@ -14,6 +14,7 @@
 namespace navvy::record {
 namespace {
 
+/// Throws the error of a system call.
 [[noreturn]] void fail(const std::string& action, const std::string& path, int code) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
@@ -22,8 +23,8 @@ namespace {
 
 RowFile::RowFile(std::string path, std::string header)
     : path_(std::move(path)), waiting_(std::move(header)) {
-  // All it will ever hold, so that a run of days takes no more after hours than at its start; pages
-  // that stay unused cost nothing.
+  // The buffer gets its maximum size at once, so memory does not grow during a run. Unused pages
+  // cost nothing.
   waiting_.reserve(kMostWaiting + kMostWaiting / 16);
   waiting_ += '\n';
 }
@@ -32,6 +33,7 @@ RowFile::~RowFile() {
   if (file_ >= 0) ::close(file_);
 }
 
+/// Appending to memory is all that most rows cost.
 void RowFile::add(std::string_view row) {
   waiting_ += row;
   waiting_ += '\n';
@@ -42,7 +44,7 @@ void RowFile::add(std::string_view row) {
 void RowFile::flush() {
   if (waiting_.empty()) return;
   if (file_ < 0) {
-    // A file of an earlier run is there whole or gone, never half overwritten.
+    // A file of an earlier run is replaced as a whole, never overwritten in part.
     write_file_atomically(path_, waiting_);
     file_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (file_ < 0) fail("open", path_, errno);
@@ -56,8 +58,8 @@ void RowFile::flush() {
     if (n < 0) {
       if (errno == EINTR) continue;
       const int code = errno;
-      // A full disk may have taken a part of it. If even the cut fails, the row without an end is
-      // left to readers.
+      // A full disk may have written a part of the rows. If the file cannot be cut, readers leave
+      // out the row without an end.
       if (done > 0 && ::ftruncate(file_, static_cast<off_t>(on_disk_)) != 0)
         fail("cut", path_, errno);
       fail("append to", path_, code);

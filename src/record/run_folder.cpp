@@ -22,19 +22,19 @@ namespace {
 
 const std::string kHead = "navvy run folder 1";
 const std::string kMoving = kHead + " moving";
-/// What runs write: a file of one of these names that no list knows is somebody's own.
+/// Names of the files that runs write. A file of such a name that no list contains is of another
+/// origin.
 const char* const kNames[] = {"scene.sdf",       "run.json",        "summary.json",
                               "telemetry.csv",   "hashes.csv",      "terrain_start.tif",
                               "terrain_end.tif", "failed.snapshot", "summary.reserve"};
 
-/// Without the slash that a shell's completion leaves at the end: beside it the earlier results go.
+/// Removes the slash at the end that shells complete: ".previous" is appended to the name.
 std::string clean(const std::string& directory) {
   const fs::path path = fs::path(directory).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).string();
 }
 
-/// A list is a file like any other and may be damaged: only names below its own folder are
-/// believed.
+/// Returns true for a name below its own folder. A list may be damaged, so its names are checked.
 bool is_plain(const std::string& name) {
   const fs::path path(name);
   if (name.empty() || path.is_absolute()) return false;
@@ -43,12 +43,13 @@ bool is_plain(const std::string& name) {
   });
 }
 
-/// Also a link that leads nowhere is something of somebody's.
+/// Returns true if anything exists at `path`, also a dangling link.
 bool is_there(const fs::path& path) {
   std::error_code code;
   return fs::symlink_status(path, code).type() != fs::file_type::not_found;
 }
 
+/// Refuses a folder that the user named.
 [[noreturn]] void refuse(const std::string& folder, const std::string& rule,
                          const std::string& remedy) {
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--out", folder, rule, remedy});
@@ -58,6 +59,7 @@ bool is_there(const fs::path& path) {
   throw FileError("cannot " + action + " '" + path + "': " + std::strerror(code));
 }
 
+/// Writes all of a text. @throws FileError.
 void write_all(int file, const std::string& text, const std::string& path) {
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t n = ::write(file, text.data() + at, text.size() - at);
@@ -74,11 +76,10 @@ bool RunFolder::writes(const std::string& name) {
          std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
-/// An open list: its lock, what it names, and whether its folder was being filled when it was
-/// written.
+/// An open list: its lock, its names, and whether its folder was being filled when it was written.
 struct RunFolder::Marker {
   int file = -1;
-  bool unused = false;  ///< no run has written into it
+  bool unused = false;  ///< no run has written to it
   std::set<std::string> names;
   bool moving = false;
 };
@@ -91,7 +92,7 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
                       O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (make ? O_CREAT : 0), 0644);
     if (out.file < 0 && errno == ENOENT && !make) return out;
     if (out.file < 0) fail("write", path, errno);
-    // A file system without locks is used as if alone.
+    // On a file system without locks the run assumes that it is alone.
     if (flock(out.file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(out.file);
       refuse(folder, "another run is writing into this folder",
@@ -99,18 +100,18 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
     }
     struct stat found {};
     const bool known = fstat(out.file, &found) == 0;
-    // Empty: made just now, by this run or by one that lost the race for its lock, or before a
-    // kill.
+    // An empty list was made just now, by this run or by another that lost the race for the lock,
+    // or it was left by a kill.
     out.unused = known && found.st_size == 0;
-    // The run that held it a moment ago may have removed it: a lock on a file without a name keeps
-    // nobody out.
+    // The previous owner may have removed the file: a lock on a file without a name protects
+    // nothing.
     if (!known || found.st_nlink > 0) break;
     ::close(out.file);
   }
   try {
     const std::vector<char> bytes = read_file(path);
     const std::string text(bytes.begin(), bytes.end());
-    // A line without its end was cut by a kill
+    // A line without its end was cut by a kill.
     std::istringstream lines(text.substr(0, text.rfind('\n') + 1));
     std::string line;
     if (std::getline(lines, line)) {
@@ -130,6 +131,7 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
   return out;
 }
 
+/// Results must not replace a file of another origin.
 void RunFolder::require_free(const Marker& marker, const std::string& folder) const {
   for (const char* name : kNames)
     if (marker.names.count(name) == 0 && is_there(fs::path(folder) / name))
@@ -139,6 +141,7 @@ void RunFolder::require_free(const Marker& marker, const std::string& folder) co
              "choose another folder with --out, or move the file away");
 }
 
+/// A run must not remove what it reads, such as the snapshot that it continues from.
 void RunFolder::require_unread(const Marker& marker, const std::string& folder,
                                const std::vector<std::string>& reads) const {
   std::error_code code;
@@ -164,7 +167,7 @@ RunFolder::RunFolder(const std::string& directory, const std::vector<std::string
     leave();
     throw FileError("cannot create '" + directory_ + "': " + cause);
   }
-  // Behind a link the results lie elsewhere, and so does what was there before.
+  // If the folder is a link, the previous results are beside its target.
   const fs::path real = fs::canonical(directory_, code);
   previous_ = (code ? fs::path(directory_) : real).string() + ".previous";
   try {
@@ -173,7 +176,7 @@ RunFolder::RunFolder(const std::string& directory, const std::vector<std::string
     unused_ = marker.unused;
     require_free(marker, directory_);
     listed_ = std::move(marker.names);
-    // With nothing to move aside, what lies there stays.
+    // If there is nothing to move, the previous results stay.
     if (listed_.empty() || !is_there(previous_)) return;
     marker = open_marker(previous_, false);
     previous_lock_ = marker.file;
@@ -191,11 +194,11 @@ RunFolder::~RunFolder() { leave(); }
 
 void RunFolder::leave() {
   close_previous();
-  // The marker goes while it is locked, so that no other run takes one that is about to go.
+  // The marker file is removed while it is locked, so that no other run locks a file that vanishes.
   if (unused_ && !begun_) ::unlink((directory_ + "/" + kMarker).c_str());
   if (lock_ >= 0) ::close(lock_);
   lock_ = -1;
-  // Empty ones only: somebody may have put something there since.
+  // Only empty folders are removed.
   for (const std::string& path : made_)
     if (begun_ || ::rmdir(path.c_str()) != 0) break;
 }
@@ -205,8 +208,7 @@ void RunFolder::close_previous() {
   previous_lock_ = -1;
 }
 
-/// Cut and written anew under the lock: the file keeps its place, or the lock would be on a file
-/// without a name.
+/// Rewrites the list in place: a replaced file would lose its lock.
 void RunFolder::write_list(const std::string& folder, int file, const std::set<std::string>& names,
                            bool moving) const {
   const std::string path = folder + "/" + kMarker;
@@ -218,25 +220,24 @@ void RunFolder::write_list(const std::string& folder, int file, const std::set<s
 
 namespace {
 
-/// Adds the folders that lie between `folder` and a file in it.
+/// Adds the folders between `folder` and a file in it.
 void add_folders_of(const fs::path& file, const fs::path& folder, std::set<fs::path>& folders) {
   for (fs::path path = file.parent_path(); path != folder; path = path.parent_path())
     folders.insert(path);
 }
 
-/// Empty ones only: what else lies in them is not ours. Inner ones first, which sort behind those
-/// that hold them.
+/// Removes empty folders, inner ones first: they sort after those that contain them.
 void remove_empty(const std::set<fs::path>& folders) {
   for (auto path = folders.rbegin(); path != folders.rend(); ++path) ::rmdir(path->c_str());
 }
 
-/// A listed file and what a kill may have left of its writing.
+/// Removes the listed files, and partial files that a kill may have left.
 void remove_listed(const std::string& folder, const std::set<std::string>& names) {
   std::error_code code;
   std::set<fs::path> folders;
   for (const std::string& name : names) {
     const fs::path path = fs::path(folder) / name;
-    // Folders of that name are nobody's results.
+    // A folder of that name is no result.
     if (!fs::is_directory(fs::symlink_status(path, code))) fs::remove(path, code);
     if (code)
       throw FileError("cannot remove the earlier result '" + path.string() +
@@ -260,9 +261,10 @@ void RunFolder::begin() {
       previous_lock_ = marker.file;
       require_free(marker, previous_);
     }
-    // What an unfinished move has brought there is of the run before, not of the one before that.
+    // Files of an interrupted move belong to the previous run, not to the one before it.
     if (!previous_moving_) remove_listed(previous_, previous_listed_);
     write_list(previous_, previous_lock_, listed_, true);
+    // Each file is renamed by itself, so that other files in the folder stay.
     std::set<fs::path> folders;
     for (const std::string& name : listed_) {
       const fs::path from = fs::path(directory_) / name, to = fs::path(previous_) / name;
@@ -295,7 +297,7 @@ std::string RunFolder::path(const std::string& name) {
   std::error_code code;
   fs::create_directories(fs::path(path).parent_path(), code);
   if (code) throw FileError("cannot create the folder of '" + path + "': " + code.message());
-  // Listed first: a file that is there and not listed would be taken for somebody's own.
+  // Listed first: an unlisted file would count as one of another origin.
   write_all(lock_, name + "\n", directory_ + "/" + kMarker);
   listed_.insert(name);
   return path;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose files lie in a run's folder: a run removes and replaces what runs wrote, nothing else.
+// Whose files are in a run's folder: a run removes and replaces what runs wrote, nothing else.
 #pragma once
 
 #include <set>
@@ -8,42 +8,41 @@
 
 namespace navvy::record {
 
-/// A folder that one run at a time owns.
+/// A folder of results that one run at a time owns.
 ///
-/// The file `navvy.run` in it is both lock and list: it is locked while the run lives, and names
-/// every file before it is written. What an earlier run listed moves to "<folder>.previous" when
-/// the next one begins, and is removed from there by the one after; files that no list names are
-/// never touched, whatever they are called.
+/// The file `navvy.run` in it is lock and list: it is locked while the run exists, and names every
+/// file before that file is written. When a run begins, the files that the previous run listed move
+/// to "<folder>.previous", and those that were there before are removed. Files that no list names
+/// are never touched.
 class RunFolder {
  public:
-  /// Takes the folder, making it and those above it if need be; nothing in it changes yet but for
-  /// the marker.
-  /// @param reads files that the run goes on from or reads; none may be among those that are about
-  /// to be removed
-  /// @throws InputError when another run owns it, when it or "<folder>.previous" holds a file of
-  /// somebody else where this run would write, or one of `reads`; FileError when it cannot be made
-  /// or written.
+  /// Locks the folder; makes it and its parents if necessary. Changes nothing but the marker file.
+  /// `reads` are files that the run reads, such as its scene. @throws InputError when another run
+  /// owns the folder, when the folder or "<folder>.previous" holds a file of another origin where
+  /// this run would write, or when one of `reads` would be removed; FileError when the folder
+  /// cannot be made or written.
   explicit RunFolder(const std::string& directory, const std::vector<std::string>& reads = {});
-  /// Unlocks. What was taken and not used is left as it was found: the marker and the folders that
-  /// were made go again.
+  /// Unlocks the folder. If no run began, removes the marker file and the folders that the
+  /// constructor made.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  /// Moves what the run before left to "<folder>.previous" and starts a new list. A kill in between
-  /// loses nothing: the next run goes on with the moving. @throws FileError.
+  /// Moves the results of the previous run to "<folder>.previous" and starts a new list. After a
+  /// kill in between, the next run continues the move. @throws FileError.
   void begin();
-  /// Path of the file `name`, "summary.json" or "frames/left_00001.png", listed as this run's from
-  /// now on.
-  /// @throws FileError when somebody else has put a file there since, or the list cannot be
-  /// written.
+  /// Adds a file to the list and returns its path. `name` is relative to the folder:
+  /// "summary.json", "frames/left_00001.png". Makes folders for it. @throws FileError when a file
+  /// of another origin exists there, or the list cannot be written; Error for a name that leads out
+  /// of the folder.
   std::string path(const std::string& name);
-  /// Without a slash at its end.
+  /// Returns the path of the folder, without a slash at its end.
   const std::string& directory() const { return directory_; }
 
-  /// Whether every run has a file of this name in its folder, or may have.
+  /// Returns true if runs write a file of this name into their folder.
   static bool writes(const std::string& name);
 
+  /// Name of the marker file.
   static constexpr const char* kMarker = "navvy.run";
 
  private:
@@ -56,16 +55,16 @@ class RunFolder {
   /// Opens and locks the list of `folder`. @throws InputError when a run holds it, FileError.
   Marker open_marker(const std::string& folder, bool make) const;
   void close_previous();
-  /// Unlocks; without a run that has begun, also removes what this object made.
+  /// Unlocks. If no run began, also removes what this object made.
   void leave();
 
   std::string directory_, previous_;
-  std::vector<std::string> made_;  ///< the folders that were not there before, the innermost first
-  bool unused_ = false;            ///< no run has written into the marker
-  bool begun_ = false;             ///< files may be written
+  std::vector<std::string> made_;  ///< folders that the constructor made, innermost first
+  bool unused_ = false;            ///< no run has written to the marker file
+  bool begun_ = false;             ///< `begin` was called
   int lock_ = -1, previous_lock_ = -1;
   std::set<std::string> listed_, previous_listed_;
-  bool previous_moving_ = false;  ///< an earlier move did not come to its end
+  bool previous_moving_ = false;  ///< an earlier move was interrupted
 };
 
 }  // namespace navvy::record

@@ -7,29 +7,32 @@
 
 namespace navvy::record {
 
-/// Of folders written here; grows when a file changes its meaning.
+/// Format of run folders. It grows when the meaning of a file changes.
 inline constexpr int kRunFormat = 1;
 
-/// What stands in a folder beside its results. The scene itself is the folder's scene.sdf, with
-/// every override and included file written out: `navvy run FOLDER/scene.sdf` repeats the run.
+/// Description of a run in its folder. The scene itself is scene.sdf, with all overrides and
+/// included files written out, so `navvy run FOLDER/scene.sdf` repeats the run.
 struct RunInfo {
+  /// Format of the folder.
   int format = kRunFormat;
-  std::string version;  ///< of Navvy
-  /// As typed, the program first; empty when no command line started the run.
+  /// Version of Navvy.
+  std::string version;
+  /// Command line as typed, the program first. Empty if no command line started the run.
   std::vector<std::string> command;
-  /// The file that was asked for, for people: scene.sdf is what ran.
+  /// Scene file that the user named.
   std::string scene;
-  std::string device;  ///< OpenCL device it ran on
+  /// OpenCL device of the run.
+  std::string device;
 };
 
-/// Version of this library, "0.1.0".
+/// Returns the version of this library, e.g. "0.1.0".
 std::string navvy_version();
 
-/// The file's text: JSON, keys sorted.
+/// Returns the text of run.json, with sorted keys.
 std::string run_json(const RunInfo& info);
 
-/// Reads FOLDER/run.json of any format up to kRunFormat. @throws FileError when there is none,
-/// InputError when it is no such file or of a later format.
+/// Reads FOLDER/run.json of any format up to kRunFormat. @throws FileError when it is missing,
+/// InputError when it is another file or has a later format.
 RunInfo read_run_info(const std::string& folder);
 
 }  // namespace navvy::record

@@ -14,11 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-/// Shares of the wall time spent stepping, by module; the rest is "other".
-/// They add up to one, so that what nobody measures shows as "other".
+/// Returns the fraction of wall time of each module. The remainder is "other", so they sum to 1.
 json time_shares(const session::Session& session, const RunStatus& status) {
   const sim::WallTimes share = session.world().wall_times();
-  // A run of no time at all divides by a hair.
+  // Avoids a division by zero in a run without steps.
   const double total = std::max(status.wall_time + status.render_time + status.record_time, 1e-9);
   json out;
   out["vehicle"] = share.vehicle / total;
@@ -27,14 +26,13 @@ json time_shares(const session::Session& session, const RunStatus& status) {
   out["control"] = session.control_time() / total;
   out["render"] = status.render_time / total;
   out["record"] = status.record_time / total;
-  // Shares of parts that overlap nothing.
   double known = 0;
   for (const auto& value : out) known += value.get<double>();
   out["other"] = std::max(0.0, 1 - known);
   return out;
 }
 
-/// What `now` has over `before` (null: nothing), term by term.
+/// Returns the difference between two energy accounts, term by term; `before` may be null.
 json soil_energy(const sim::SoilEnergy& now, const sim::SoilEnergy* before) {
   json out;
   for (std::size_t i = 0; i < now.size(); ++i)
@@ -42,7 +40,7 @@ json soil_energy(const sim::SoilEnergy& now, const sim::SoilEnergy* before) {
   return out;
 }
 
-/// One entry a cycle of any machine, in the order in which they ended.
+/// Returns an entry for each cycle of any machine, in the order in which they ended.
 json cycle_list(const session::Session& session) {
   json cycles = json::array();
   for (const session::Cycle& cycle : session.cycles())
@@ -59,8 +57,8 @@ json cycle_list(const session::Session& session) {
          {"force_peak_n", cycle.force_peak},
          {"draft_peak_n", cycle.draft_peak},
          {"uplift_peak_n", cycle.uplift_peak}});
-  // From the end of the cycle before, or from the start: together they are the run's up to the last
-  // one's end.
+  // The energy of a cycle counts from the end of the previous one, so the entries sum to the energy
+  // of the run up to the last cycle.
   const auto& ends = session.energy_at_ends();
   for (std::size_t i = 0; i < std::min(ends.size(), cycles.size()); ++i)
     if (ends[i])
@@ -69,7 +67,7 @@ json cycle_list(const session::Session& session) {
   return cycles;
 }
 
-/// The same of tips of beds.
+/// Returns an entry for each tip of a bed.
 json tip_list(const session::Session& session) {
   json tips = json::array();
   for (const session::BedTip& tip : session.tips())
@@ -83,10 +81,10 @@ json tip_list(const session::Session& session) {
   return tips;
 }
 
-/// What buckets and beds hold now, by "machine/shell".
+/// Returns the present payload of buckets and beds [kg], by "machine/shell".
 json carried(const session::Session& session) {
   json out = json::object();
-  // Blades and plates carry nothing worth a line.
+  // Blades and plates carry no payload.
   for (const sim::ToolHandle& tool : session.world().machines().tools())
     if (tool.is_bucket() || tool.is_bed())
       out[session.world().machines().at(tool.machine()).name() + "/" + tool.name()] =
@@ -94,11 +92,11 @@ json carried(const session::Session& session) {
   return out;
 }
 
-/// In integers as the books are kept; kilograms are for people.
+/// Returns the mass ledger. Its error is an exact integer; kilograms are for people.
 json ledger(const session::Session& session, const sim::ActivePlaces& active) {
   const sim::MassLedger sums = session.world().soil().mass_ledger();
   json soils = json::array();
-  // By soil, under the scene's names.
+  // One entry per soil, with its name in the scene.
   for (std::size_t i = 0; i < sums.columns.size(); ++i)
     soils.push_back({{"soil", session.world().description().soils[i].name},
                      {"columns_change_kg", kilograms(sums.columns[i])},
@@ -111,7 +109,7 @@ json ledger(const session::Session& session, const sim::ActivePlaces& active) {
   return {{"error_units", sums.error}, {"unit_kg", kMassQuantum}, {"soils", soils}};
 }
 
-/// The ground against its design; awake soil counts where it lies.
+/// Compares the ground with its design. Active soil counts where it is.
 json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
                        const heightfield::DesignSurface& design) {
   const heightfield::DesignComparison f = heightfield::against_design(
@@ -131,41 +129,45 @@ json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
 
 }  // namespace
 
-/// Keys are an interface: they are added to, never renamed (docs/reference/results.md lists them).
+/// The keys are an interface (docs/reference/results.md lists them): they may be added and never
+/// renamed.
 std::string summary_json(const session::Session& session, const RunStatus& status, bool with_hash) {
   const sim::World& world = session.world();
+  // One pass over the particles serves all that follows.
   const sim::ActivePlaces active = sim::active_places(world);
   const Earthwork earth = measure_earthwork(world, active.lying);
   const sim::SoilCounts counts = world.soil().counts();
   json out;
-  // What it was, how it stands, how fast it went.
+  // Scene, status and speed.
   out["schema_version"] = kSummarySchemaVersion;
   out["scenario"] = world.description().name;
   out["status"] = status.status;
-  // Absent unless something went wrong.
+  // Absent in a run without problems.
   if (!status.message.empty()) out["message"] = status.message;
+  // Results are bit-identical on one device only.
   out["device"] = session.device_name();
   out["steps"] = world.steps();
   out["step_s"] = world.dt();
   out["wall_time_s"] = status.wall_time;
   out["render_time_s"] = status.render_time;
   out["simulated_time_s"] = world.time();
-  // Of the time this process simulated, pictures and files apart.
+  // Counts the time that this process simulated, without pictures and files.
   out["real_time_factor"] =
       status.wall_time > 0 ? (world.time() - status.start_time) / status.wall_time : 0.0;
   out["time_share"] = time_shares(session, status);
   for (const auto& [stage, seconds] : world.soil().stage_times())
     out["soil_stage_s"][stage] = seconds;
-  // What the programs came to.
+  // Results of the programs.
   out["programs"] = program_list(session, status.status);
   out["cycles"] = session.cycles().size();
   out["cycle_list"] = cycle_list(session);
+  // The payload of each cycle at the lift out of the ground, for a quick look.
   out["payload_kg"] = json::array();
   for (const session::Cycle& cycle : session.cycles())
     out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
-  // What became of the ground.
+  // Results on the ground.
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;
   for (std::size_t i = 0; i < earth.soils.size(); ++i)
@@ -174,18 +176,18 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
                                 {"spoil_kg", earth.soils[i].spoil}});
   if (const heightfield::DesignSurface* design = session.design())
     out["design"] = design_comparison(world, active, *design);
-  // Of all machines together.
+  // Sum over all machines.
   out["energy_j"] = session.energy();
-  // Of the awake soil, when its account is kept.
+  // Energy account of the active soil, if it was opened.
   if (const auto energy = world.soil().energy())
     out["soil_energy_j"] = soil_energy(*energy, nullptr);
-  // Forces over all steps, not over telemetry's rows.
+  // Forces are evaluated in every step, not at the rate of telemetry.
   out["bucket_force_peak_n"] = session.force().peak;
   out["bucket_draft_peak_n"] = session.force().draft_peak;
   out["bucket_force_mean_n"] = session.force().mean();
   out["rock_force_peak_n"] = session.force().rock_peak;
   out["momentum_residual_max"] = session.force().residual_max;
-  // Counts of the solver, for those who size a device.
+  // Counts of the solver, e.g. to choose a device.
   out["particles_peak"] = counts.particles_peak;
   out["particle_steps"] = counts.particle_steps;
   out["shell_crossings"] = counts.shell_crossings;
@@ -194,7 +196,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["deposited_blocks"] = counts.deposited_blocks;
   out["frames"] = status.frames;
   out["mass_ledger"] = ledger(session, active);
-  // Null while it runs: the hash costs a pass over everything.
+  // Null while the run goes on, as the hash costs a pass over the state.
   out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
   return out.dump(2) + "\n";
 }

@@ -8,8 +8,7 @@ namespace navvy::record {
 
 namespace {
 
-/// Every row has the columns of the header: outputs, then machine phases as text, where a reader of
-/// numbers may stop.
+/// Returns the column names: outputs, then the phases of the machines as text.
 std::string header_of(const session::Session& session) {
   std::string header;
   for (const sim::Channel& channel : session.world().outputs()) {
@@ -29,8 +28,7 @@ Telemetry::Telemetry(const session::Session& session, std::string path)
       channels_(session.world().outputs().size()) {}
 
 std::string time_stamp(double time) {
-  // Twelve digits tell the shortest steps apart after a million seconds, the longest that a run may
-  // last.
+  // Twelve digits distinguish the shortest steps after a million seconds, the maximum duration.
   char text[32];
   return std::string(text,
                      static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.12g", time)));
@@ -38,11 +36,11 @@ std::string time_stamp(double time) {
 
 void Telemetry::sample() {
   const auto& world = session_.world();
-  // The first channel is the time.
+  // The first channel is time.
   row_ = time_stamp(world.outputs().get(0));
-  // Seven digits resolve a float of a few hundred metres to 0.1 mm.
+  // Seven digits resolve some hundred metres to 0.1 mm.
   char number[32];
-  // No stream: formatting is most of a row's cost.
+  // snprintf instead of a stream, as formatting is most of the cost of a row.
   for (std::size_t i = 1; i < channels_; ++i) {
     const int n =
         std::snprintf(number, sizeof number, ",%.7g", world.outputs().get(static_cast<int>(i)));

@@ -11,31 +11,30 @@
 
 namespace navvy::record {
 
-/// Simulated time [s] as text of at most twelve digits: two steps of one run never share a stamp.
+/// Returns simulated time [s] as text with at most twelve digits. Two steps of a run never share
+/// it.
 std::string time_stamp(double time);
 
-/// Appends a row for each sample (record/row_file.h): what it costs, in memory and on disk, does
-/// not grow with the run.
+/// Appends a row of all scalar outputs for each sample. Its cost does not grow with the run.
 ///
-/// The first line holds the channel names with units in brackets, then machine phases as text.
-/// Outputs that a sampler adds later are left out: add samplers first.
+/// The first line holds the channel names with units in brackets; the last columns are the phases
+/// of the machines, as text. Outputs that are added after the construction are left out.
 class Telemetry {
  public:
-  /// Writes nothing yet. The session must outlive it.
+  /// Prepares the file and writes nothing yet. Keeps a reference to `session`.
   Telemetry(const session::Session& session, std::string path);
-  /// One row of what the outputs say now. @throws FileError when many rows wait and the disk takes
-  /// none.
+  /// Adds a row with the present values. @throws FileError when waiting rows cannot be written.
   void sample();
-  /// Appends what waits to the file; at the `end` also waits until the disk has it. @throws
-  /// FileError.
+  /// Writes the waiting rows; with `end` also waits for the disk. @throws FileError.
   void checkpoint(bool end) { end ? file_.sync() : file_.flush(); }
+  /// Returns the number of rows.
   std::uint64_t rows() const { return file_.rows(); }
 
  private:
   const session::Session& session_;
   RowFile file_;
-  std::size_t channels_;  ///< outputs there were when the header was written
-  std::string row_;       ///< the one being made; kept, so that rows take no memory anew
+  std::size_t channels_;  ///< number of outputs in the header
+  std::string row_;       ///< buffer, reused by each row
 };
 
 }  // namespace navvy::record

@@ -11,8 +11,8 @@
 namespace navvy::session {
 namespace {
 
-/// Steps between looks at the load of a bucket: it changes slowly and costs a pass over the
-/// particles.
+/// Steps between two measurements of a bucket's payload, which changes slowly and costs a pass over
+/// the particles.
 constexpr std::uint64_t kPayloadInterval = 12;
 
 const scene::MachineInWorld& placed(const sim::World& world, int machine) {
@@ -40,14 +40,14 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
       op_(placed(world, machine).machine, placed(world, machine).program, machine_.name(),
           planners) {
   const scene::Machine& description = machine_.description();
-  // A machine digs with its first bucket and tips its first bed; the others are passive.
+  // A machine digs with its first bucket and tips its first bed. Others are passive.
   if (!description.buckets.empty()) bucket_.emplace(machine_, description.buckets[0]);
   if (!description.beds.empty()) bed_ = machine_.tool(description.beds[0].shell);
   for (std::size_t j = 0; j < description.joints.size(); ++j)
     joints_.push_back(machine_.joint(static_cast<int>(j)));
   for (std::size_t w = 0; w < description.wheels.size(); ++w)
     wheels_.push_back(machine_.wheel(static_cast<int>(w)));
-  // Sized once: observing takes no memory.
+  // Sized once, so that observing allocates no memory.
   seen_.joints.resize(joints_.size());
   seen_.ground = &world.ground();
   seen_.surface = &surface;
@@ -58,27 +58,26 @@ void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips
   if (taken_) return;
   const bool well = !op_.ended() || op_.done();
   observe(seen_);
-  // Time and step go in: operators have no clock of their own.
+  // Operators have no clock of their own.
   send(op_.update(seen_, world_.time(), world_.dt()));
   note_cycle(cycles);
   note_tip(tips);
-  // Told at once and not at the end of a run of hours.
-  if (well && op_.ended() && !op_.done()) log_warning(told(report(), name()));
+  // Logged at once: the end of a run may be hours away.
+  if (well && op_.ended() && !op_.done()) log_warning(report_line(report(), name()));
 }
 
-/// What a cab shows: gauges of the joints, where it stands, how hard the bucket is pushed and how
-/// full it is.
+/// Fills what a cab shows: joint positions, stance, the force on the bucket, and its payload.
 void OperatedMachine::observe(control::Observation& seen) const {
   for (std::size_t j = 0; j < joints_.size(); ++j) seen.joints[j] = joints_[j].state();
-  see_standing(world_, machine_, wheels_, seen);
-  // A machine without a bucket carries no load that a gauge would show.
+  observe_stance(world_, machine_, wheels_, seen);
+  // Without a bucket there is no load to show.
   if (!bucket_) return;
-  // Low-passed: an operator reacts to the push, not to single particles.
+  // The low-passed force, as an operator does not react to single particles.
   seen.force = bucket_->tool().smooth_force().norm();
   if (world_.steps() % kPayloadInterval == 0) seen.payload = bucket_->tool().payload();
 }
 
-/// A joint without a new command keeps its last one: operators speak only when something changes.
+/// Forwards the commands that changed. A joint without a new command keeps its last one.
 void OperatedMachine::send(const control::Command& command) {
   for (std::size_t j = 0; j < command.joints.size(); ++j)
     if (command.joints[j]) world_.commands().set(joints_[j], *command.joints[j]);
@@ -90,10 +89,11 @@ void OperatedMachine::send(const control::Command& command) {
       world_.commands().set_hitch(static_cast<int>(h), false);
 }
 
-/// Masses are taken at the moment of the event: what falls off on the way does not count as tipped.
+/// Measures masses at the moment of the event, so soil that falls off before does not count as
+/// tipped.
 void OperatedMachine::note_tip(std::vector<BedTip>& tips) {
   if (!bed_) return;
-  // Events are told once, in the step in which they happen.
+  // An event is reported only in the step in which it happens.
   const control::CycleEvent event = op_.event();
   if (event == control::CycleEvent::kTipStart)
     open_tip_ = BedTip{index(), world_.time(), 0, bed_->payload(), 0};
@@ -104,20 +104,17 @@ void OperatedMachine::note_tip(std::vector<BedTip>& tips) {
   open_tip_.reset();
 }
 
-/// A cycle is open from the first touch to the end of the dump; one that never ends is not counted.
+/// A cycle is open from the first touch to the end of the dump. One that never ends does not count.
 void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
   using control::CycleEvent;
-  // The same for digs.
   const CycleEvent event = op_.event();
   if (event == CycleEvent::kScoopStart) {
     open_ = Cycle{};
     open_->machine = index();
-    // Masses and forces of this cycle are filled in as it goes.
     open_->start = world_.time();
   }
-  // Without a bucket nothing is ever opened: only digs tell of scoops.
   if (!open_ || !bucket_) return;
-  // Peaks of the low-passed force are what a cylinder would feel.
+  // A cylinder is loaded by the low-passed force, not by impacts of single particles.
   const BucketLoad load = bucket_->load();
   open_->force_peak = std::max(open_->force_peak, load.whole);
   open_->draft_peak = std::max(open_->draft_peak, load.draft);
@@ -137,11 +134,11 @@ void OperatedMachine::note_cycle(std::vector<Cycle>& cycles) {
 }
 
 bool OperatedMachine::take() {
-  // For good: a program that came back would find its machine somewhere else.
+  // For good, as a program that went on later would find its machine somewhere else.
   if (std::exchange(taken_, true)) return false;
-  // Joints that the program never touched keep the command they have.
+  // Joints that the program never commanded keep their command.
   send(op_.stop());
-  // A cycle cut short has no end to report.
+  // A cycle that was cut short has no end to report.
   open_.reset();
   open_tip_.reset();
   return true;
@@ -149,9 +146,9 @@ bool OperatedMachine::take() {
 
 ProgramReport OperatedMachine::report() const {
   ProgramReport out{index(), op_.progress().steps, taken_, op_.reports(), op_.paths()};
-  // A program that has ended stands in its last report already.
+  // The last report of a program that has ended is complete.
   if (op_.ended()) return out;
-  // What was seen last is a step old, and nothing at all after a snapshot was loaded.
+  // The stored observation is a step old, and empty after a snapshot was loaded.
   control::Observation now = seen_;
   observe(now);
   out.list.push_back(op_.present(now, world_.time()));
@@ -159,15 +156,15 @@ ProgramReport OperatedMachine::report() const {
 }
 
 void OperatedMachine::visit(Archive& a) {
-  // Of what the operator saw only the load is older than a step.
+  // Of the observation only the payload is older than a step.
   a("payload", seen_.payload);
   a("open_cycle", open_);
   a("open_tip", open_tip_);
-  // Reports name their machine by its index, which readers of them take as it is.
+  // Readers of reports use the index of the machine without a check.
   const auto own = [&](const auto& open) { return !open || open->machine == machine_.index(); };
-  a.require(own(open_), "open_cycle", "names another machine");
-  a.require(own(open_tip_), "open_tip", "names another machine");
-  // The operator's state stands still once its machine is taken, but that may go anywhere.
+  a.require(own(open_), "open_cycle", "refers to another machine");
+  a.require(own(open_tip_), "open_tip", "refers to another machine");
+  // The operator's state no longer changes once its machine is taken.
   a("taken", taken_);
   a("operator", op_);
 }

@@ -17,11 +17,11 @@
 namespace navvy::session {
 namespace {
 
-constexpr double kUnderTip = 0.05;  // room that a bed's rim needs below the opening bucket [m]
+constexpr double kUnderTip = 0.05;  // clearance of a bed's rim below the opening bucket [m]
 
-/// The box round a bed, untipped, in its machine's base frame [m].
+/// Returns the bounding box of a bed that is not tipped, in its machine's base frame [m].
 Eigen::AlignedBox3d bed_box(const scene::Machine& machine, const scene::Bed& bed) {
-  // Shells are in link frames: both go to the base link at zero joint positions.
+  // Shells are in link frames; they are moved to the base link at zero joint positions.
   Eigen::AlignedBox3d out;
   const Pose X_BM = machine.links.at(0).X_ML.inverse();
   for (const scene::Shell& shell : machine.shells) {
@@ -33,7 +33,7 @@ Eigen::AlignedBox3d bed_box(const scene::Machine& machine, const scene::Bed& bed
   return out;
 }
 
-/// Looks for beds that stand too high below the point where a dig dumps. A warning: which of its
+/// Finds beds that are too high for the point where a dig dumps. A warning: which of its
 /// stations a truck stands at when the bucket comes is known only in the run.
 class BedCheck {
  public:
@@ -43,7 +43,7 @@ class BedCheck {
 
   std::vector<Fault> faults;
 
-  /// Every dig of this machine against the beds of all others.
+  /// Checks every dig of this machine against the beds of all others.
   void look(std::size_t digger) {
     const scene::MachineInWorld& placed = world_.machines[digger];
     for (std::size_t i = 0; i < placed.program.steps.size(); ++i)
@@ -57,23 +57,23 @@ class BedCheck {
   void look(const scene::MachineInWorld& digger, std::size_t step, const control::DumpPoint& dump,
             std::size_t other) {
     const scene::MachineInWorld& truck = world_.machines[other];
-    // Dump heights count from the ground under the dump point.
+    // Dump heights are measured from the ground under the dump point.
     const double ground = surface_.height(dump.at.x(), dump.at.y());
-    double rim = 0;  // highest over the ground at the dump point, of all stations
-    // Each place where the truck's program makes it stand, as any of them may be where it is
-    // loaded.
+    // Height of the highest rim above that ground, over all stations of the truck: it may be loaded
+    // at any of them.
+    double rim = 0;
     for (const scene::Bed& bed : truck.machine.beds) {
       const Eigen::AlignedBox3d box = bed_box(truck.machine, bed);
       for (const Pose& X_WB :
            control::stations(truck.machine, truck.program, X_WB_.at(other), surface_)) {
         Vec3 p_B = X_WB.inverse() * Vec3(dump.at.x(), dump.at.y(), X_WB.translation().z());
-        p_B.z() = box.center().z();  // in plan
-        // Only beds that stand under the dump point, seen from above.
+        // Only beds that are under the dump point in plan view.
+        p_B.z() = box.center().z();
         if (box.contains(p_B)) rim = std::max(rim, X_WB.translation().z() + box.max().z() - ground);
       }
     }
     if (rim <= 0 || rim + kUnderTip <= dump.height) return;
-    // Programs read from a file know the line of every step; those built in code do not.
+    // Programs from a file know the line of each step; those built in code do not.
     const int line = step < digger.program.lines.size() ? digger.program.lines[step] : 0;
     faults.push_back(
         {Fault::Severity::kWarning, world_.file, line,
@@ -99,7 +99,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
                                   const std::vector<Pose>& X_WB,
                                   const control::MakePathPlanner& planners) {
   std::vector<Fault> faults;
-  // Errors first: a dig out of reach is worse than one that drops its load too low.
+  // Errors come first, warnings follow.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), surface,
@@ -112,7 +112,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
   return faults;
 }
 
-/// Lays the ground as a run would, but looks at columns alone: before a run no soil lies loose.
+/// Makes the ground as a run does. Before a run there is no loose soil, so columns are enough.
 std::vector<Fault> check_programs(const scene::Scene& world,
                                   const control::MakePathPlanner& planners) {
   try {

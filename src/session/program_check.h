@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the programs of a scene can be carried out: asked by a session before it starts, and by
-// `navvy check`.
+// Checks that the programs of a scene can be carried out. A session asks before it starts, and so
+// does `navvy check`.
 #pragma once
 
 #include <vector>
@@ -13,16 +13,18 @@
 
 namespace navvy::session {
 
-/// Every target of every program that is out of reach (errors) and every dig that dumps too low
-/// over another machine's bed (warnings), with file and line. `X_WB` holds where the machines' base
-/// links stand in the world, one pose a machine; `surface` [m in W] is what digs and drives look
-/// at; `planners` is asked where a step needs paths. Throws nothing of its own.
+/// Returns an error for every target of a program that is out of reach, and a warning for every dig
+/// that dumps too low over the bed of another machine. Faults name file and line.
+///
+/// `X_WB` holds the pose of each machine's base link in W, in the order of the scene. `surface`
+/// gives the heights in W [m] that digs and drives refer to. `planners` makes path planners for
+/// steps that need paths. Throws nothing of its own.
 std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB,
                                   const control::MakePathPlanner& planners = {});
 
-/// The same for a scene that does not run: lays its ground (reads its map) and puts the machines on
-/// it. What is wrong with the ground is among the faults. Needs no device.
+/// Checks the programs of a scene that does not run: makes its ground (reads its map) and places
+/// the machines on it. Faults of the ground are returned, too. Needs no OpenCL device.
 std::vector<Fault> check_programs(const scene::Scene& world,
                                   const control::MakePathPlanner& planners = {});
 

@@ -37,7 +37,8 @@ void ForceStatistics::visit(Archive& a) {
   a("residual_max", residual_max);
 }
 
-std::string told(const ProgramReport& report, const std::string& name, const std::string& cut) {
+std::string report_line(const ProgramReport& report, const std::string& name,
+                        const std::string& cut) {
   const control::StepReport& last = report.last();
   std::array<char, 96> where{};
   std::snprintf(where.data(), where.size(), " (%.2f s, at %.2f, %.2f m)", last.end, last.place.x(),

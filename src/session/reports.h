@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the programs of a run came to: cycles, tips, forces, and how each ended.
+// Results of the programs of a run: cycles, tips, forces, and how each program ended.
 #pragma once
 
 #include <cstdint>
@@ -12,65 +12,89 @@
 
 namespace navvy::session {
 
-/// One scoop-swing-dump cycle of a machine; times [s] simulated, masses [kg] in the bucket. Opened
-/// by the first touch of a scoop, closed when the bucket is empty; payloads as they were at those
-/// moments.
+/// One dig-swing-dump cycle of a machine. It begins when a scoop first touches the ground and ends
+/// when the bucket is empty.
 struct Cycle {
-  int machine = 0;  ///< as in scene::Scene::machines
+  /// Index in scene::Scene::machines.
+  int machine = 0;
+  /// Simulated times of the first touch, the beginning of the curl, the lift out of the ground, the
+  /// beginning of the dump, and the end [s].
   double start = 0, curl = 0, lift_out = 0, dump_start = 0, end = 0;
+  /// Mass in the bucket at `lift_out` and at `dump_start` [kg].
   double payload_lift_out = 0, payload_dump = 0;
-  double force_peak = 0;  ///< largest low-passed soil force on the bucket [N]
-  double draft_peak = 0;  ///< largest of it against the lip's motion: what digging takes [N]
-  /// Largest of it upward since the curl began: the heel or back bears on the ground [N].
+  /// Maximum of the low-passed soil force on the bucket [N].
+  double force_peak = 0;
+  /// Maximum of its component against the motion of the cutting edge, the digging resistance [N].
+  double draft_peak = 0;
+  /// Maximum of its upward component since the curl began, when heel or floor push on the ground
+  /// [N].
   double uplift_peak = 0;
 
+  /// Visits every field.
   void visit(Archive& a);
 };
 
-/// One tip of a machine's bed; times [s] simulated, masses [kg].
+/// One tip of a machine's bed.
 struct BedTip {
+  /// Index in scene::Scene::machines.
   int machine = 0;
+  /// Simulated times [s].
   double start = 0, end = 0;
-  double payload_start = 0, payload_end = 0;  ///< in the bed
+  /// Mass in the bed at those times [kg].
+  double payload_start = 0, payload_end = 0;
 
+  /// Visits every field.
   void visit(Archive& a);
 };
 
-/// Soil force on buckets over all steps in contact.
-/// Beds do not count: what lies in them is a load.
+/// Statistics of the soil force on tools over all steps in contact. Beds do not count, as the soil
+/// in them is a load.
 struct ForceStatistics {
-  double peak = 0;        ///< of the low-passed force [N]
-  double draft_peak = 0;  ///< of its part against the motion of a bucket's lip [N]
-  double sum = 0;         ///< of |force| x steps in contact
+  /// Maximum of the low-passed force [N].
+  double peak = 0;
+  /// Maximum of its component against the motion of a bucket's cutting edge [N].
+  double draft_peak = 0;
+  /// Sum of the force's magnitude over `steps` [N].
+  double sum = 0;
+  /// Number of steps in contact; each tool in contact counts its own.
   std::uint64_t steps = 0;
-  double rock_peak = 0;     ///< of rock on any shell, low-passed [N]
-  double residual_max = 0;  ///< largest |momentum residual| / scale of a nodal solve
+  /// Maximum of the low-passed force of rock on any shell [N].
+  double rock_peak = 0;
+  /// Maximum of |momentum residual| / scale of a nodal solve [-].
+  double residual_max = 0;
+  /// Returns the mean force in contact [N]; 0 without contact.
   double mean() const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
 
+  /// Visits every field.
   void visit(Archive& a);
 };
 
-/// How the program of one machine stands, or ended.
+/// Status of the program of one machine, or its end.
 struct ProgramReport {
-  int machine = 0;     ///< as in scene::Scene::machines
-  int steps = 0;       ///< of the program
-  bool taken = false;  ///< by inputs, which drive the machine since then
-  /// Of every step that is over, and of the one that runs: its state is that of the program.
+  /// Index in scene::Scene::machines.
+  int machine = 0;
+  /// Number of steps of the program.
+  int steps = 0;
+  /// True if inputs took the machine from its program.
+  bool taken = false;
+  /// Reports of the completed steps and of the running one, whose state is that of the program.
   std::vector<control::StepReport> list;
-  /// Every path planned so far, in the order in which they were.
+  /// Planned paths, in the order of their planning.
   std::vector<control::PlannedPath> paths;
 
-  /// The step that the program is at, or ended with.
+  /// Returns the report of the running step, or of the one that the program ended with.
   const control::StepReport& last() const { return list.back(); }
-  /// The machine fell over by itself, or while inputs drove it: the last entry, of step 0, says so.
+  /// Returns true if the machine fell over while no program drove it. The last entry, of step 0,
+  /// has the details.
   bool fell() const { return last().step == 0; }
-  /// Inputs drive it and all is well: what became of the step that it was taken from nobody knows.
+  /// Returns true if inputs drive the machine and it stands. The state of its program is unknown.
   bool by_inputs() const { return taken && !fell(); }
 };
 
-/// "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s, at 3.20, 4.50)": one line for people.
-/// `name` is the machine's in the scene. `cut`: why a step that still ran has ended, where the run
-/// is over.
-std::string told(const ProgramReport& report, const std::string& name, const std::string& cut = "");
+/// Returns a report as a line for people: "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s,
+/// at 3.20, 4.50)". `name` is the machine's name in the scene. `cut` says why a running step has
+/// ended, if the run is over.
+std::string report_line(const ProgramReport& report, const std::string& name,
+                        const std::string& cut = "");
 
 }  // namespace navvy::session

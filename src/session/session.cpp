@@ -26,19 +26,19 @@
 namespace navvy::session {
 namespace {
 
-/// Soil that is still awake holds the end of the run up to this many settling times.
+/// Active soil delays the end of a run by at most this many settling times.
 constexpr double kLongestRest = 6;
 
 }  // namespace
 
-// The world first: everything else looks through handles into it.
+// The world comes first: all other members hold handles into it.
 struct Session::State {
   State(scene::Scene description, device::Device& device,
         const vehicle::PhysicsEngineFactory& make_engine)
       : world(std::move(description), device, make_engine),
         surface(world),
         device_name(device.info().name),
-        // Tools never change in number or order.
+        // The number and order of tools never change.
         tools(world.machines().tools()) {
     for (int m = 0; m < world.machines().count(); ++m)
       for (const scene::Bucket& bucket : world.machines().at(m).description().buckets)
@@ -46,30 +46,35 @@ struct Session::State {
     off_site.resize(static_cast<std::size_t>(world.machines().count()));
   }
 
-  // World, surface and handles are built in this order and refer to what stands above.
+  // Members are constructed in this order and refer to those above them.
   sim::World world;
   SeenSurface surface;
   std::string device_name;
-  std::vector<sim::ToolHandle> tools;  ///< all of the world
-  std::vector<BucketGauge> buckets;    ///< of all machines
+  /// All tools of the world.
+  std::vector<sim::ToolHandle> tools;
+  /// The buckets of all machines.
+  std::vector<BucketGauge> buckets;
   std::optional<heightfield::DesignSurface> design;
-  // In the order of the scene; machines without a program are not in it.
+  /// Machines with a program, in the order of the scene.
   std::vector<OperatedMachine> operated;
-  /// Every machine that can tip, watched while no program drives it.
+  /// All machines that can tip over; each is watched while no program drives it.
   std::vector<UncontrolledMachine> uncontrolled_machines;
-  /// By machine: that it was beyond the site's border has been told.
+  /// True for each machine whose leaving of the site has been logged.
   std::vector<bool> off_site;
-  // What programs came to.
+  // Results of the programs.
   std::vector<Cycle> cycles;
   std::vector<BedTip> tips;
-  std::vector<std::optional<sim::SoilEnergy>> energy_at_ends;  ///< of cycles, for people only
-  /// As the operators see them: at the start of the step.
+  /// Energy account at the end of each cycle. Not part of the state.
+  std::vector<std::optional<sim::SoilEnergy>> energy_at_ends;
+  /// State of all programs at the start of the step, as operators see them.
   OperatedMachine::Programs programs;
   ForceStatistics force;
-  double idle = 0;  ///< [s] since every program has ended
+  /// Simulated time since every program ended [s].
+  double idle = 0;
+  /// Wall time that operators took [s].
   double control_time = 0;
 
-  /// Of the machine's program; null without one.
+  /// Returns the machine with its operator; null if it has no program.
   const OperatedMachine* operated_by_program(int machine) const;
   void watch_uncontrolled_machines();
   void watch_border();
@@ -78,22 +83,22 @@ struct Session::State {
   void visit(Archive& a);
 };
 
-/// Over every step and not at telemetry's rate: peaks last milliseconds.
+/// Evaluates every step, not the rows of telemetry: peaks last milliseconds.
 void Session::State::note_forces() {
   for (const sim::ToolHandle& tool : tools) {
-    // Rock acts without soil, so before the question of contact.
+    // Rock acts without soil, so it is evaluated before the check for contact.
     force.rock_peak = std::max(force.rock_peak, tool.rock_force().norm());
     const sim::MomentumBalance balance = tool.momentum_balance();
-    // No contact in this step: no sample of the mean, either.
+    // Steps without contact do not count for the mean.
     if (!(balance.scale > 0)) continue;
-    // What lies in a bed is a load, no digging force.
+    // The soil in a bed is a load; its weight is no digging force.
     if (!tool.is_bed()) {
       force.peak = std::max(force.peak, tool.smooth_force().norm());
       force.sum += tool.force().norm();
-      // Each tool in contact counts a step of its own.
+      // Each tool in contact counts its own steps.
       ++force.steps;
     }
-    // Relative to the magnitudes that cancel in it: that is what rounding scales with.
+    // Rounding errors scale with the magnitudes that cancel in the residual.
     force.residual_max =
         std::max(force.residual_max, balance.residual.cwiseAbs().maxCoeff() / balance.scale);
     if (balance.scale_moment > 0)
@@ -110,7 +115,7 @@ const OperatedMachine* Session::State::operated_by_program(int machine) const {
   return nullptr;
 }
 
-/// Operators watch over their own machines, also when their programs are done.
+/// Operators watch their own machines, also after the end of their programs.
 void Session::State::watch_uncontrolled_machines() {
   for (UncontrolledMachine& one : uncontrolled_machines) {
     const OperatedMachine* program = operated_by_program(one.index());
@@ -118,9 +123,9 @@ void Session::State::watch_uncontrolled_machines() {
   }
 }
 
-/// Beyond the border the nearest column's height goes on and bears, but is no soil: what a machine
-/// does there must not be taken for a result. Told once a machine, of whichever link gets there
-/// first. Not saved: it drives nothing.
+/// Logs a warning when a machine leaves the site, once per machine. Beyond the border the height of
+/// the nearest column continues and carries loads, but there is no soil, so results there are not
+/// valid. This is not part of the state, as it decides nothing.
 void Session::State::watch_border() {
   const heightfield::Terrain& ground = world.ground();
   for (int m = 0; m < world.machines().count(); ++m) {
@@ -135,11 +140,11 @@ void Session::State::watch_border() {
       std::array<char, 96> place{};
       std::snprintf(place.data(), place.size(), "at (%.2f, %.2f) m, %.2f s", p.x(), p.y(),
                     world.time());
-      log_warning("'" + machine.name() + "' is beyond the site's border with its link '" +
+      log_warning("'" + machine.name() + "' has left the site with its link '" +
                   machine.description().links[l].name + "', " + place.data() +
-                  ": the ground goes on there at the border's height, but nothing digs into it; "
-                  "give the site a larger "
-                  "<size_m> or --size (said once a machine)");
+                  ": beyond the border the ground continues at the border's height, and nothing "
+                  "can dig into it; give the site a larger <size_m> or --size (logged once per "
+                  "machine)");
       break;
     }
   }
@@ -152,10 +157,10 @@ void Session::State::take_over(int machine) {
                " s: inputs drive it");
 }
 
-/// What is not the world's: reports first, then each operated machine.
+/// Visits all state beside the world: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
-  // Version 3: machines taken by inputs; 4: operators within, one visit drives hash, save and load;
-  // 5: their reports; 6: peaks of draft and back; 7: machines that no program drives are watched.
+  // Version 3 added machines taken by inputs; 4 operators; 5 their reports; 6 peaks of draft and
+  // uplift; 7 the watch over machines that no program drives.
   a.section("session", 7, [&] {
     a("cycles", cycles);
     a("tips", tips);
@@ -164,15 +169,15 @@ void Session::State::visit(Archive& a) {
       return report.machine >= 0 && report.machine < world.machines().count();
     };
     a.require(std::all_of(cycles.begin(), cycles.end(), known), "cycles",
-              "names a machine that the scene has not");
+              "refers to a machine that the scene does not have");
     a.require(std::all_of(tips.begin(), tips.end(), known), "tips",
-              "names a machine that the scene has not");
+              "refers to a machine that the scene does not have");
     a("force", force);
     a("idle", idle);
     // Programs may have been added to the scene since.
     a.constant("programs", operated.size(),
-               "the snapshot has another number of programs than the scene; use the scene it was "
-               "made with");
+               "the snapshot and the scene have different numbers of programs; use the scene that "
+               "the snapshot was made with");
     for (std::size_t i = 0; i < operated.size(); ++i) a.item(i, [&] { operated[i].visit(a); });
     for (std::size_t i = 0; i < uncontrolled_machines.size(); ++i)
       a.item(i, [&] { uncontrolled_machines[i].visit(a); });
@@ -185,15 +190,15 @@ Session::Session(scene::Scene description, device::Device& device,
     : state_(std::make_unique<State>(std::move(description), device, make_engine)) {
   State& s = *state_;
   std::vector<Pose> X_WB;
-  // Reach depends on where the machines stand on this very ground.
+  // The reach of a machine depends on where it stands on this ground.
   X_WB.reserve(s.world.description().machines.size());
   for (int m = 0; m < s.world.machines().count(); ++m)
     X_WB.push_back(s.world.machines().at(m).link(0).pose());
-  // A design that cannot be laid on this site is told now and not by the first who looks at it.
+  // A design that does not fit this site is refused now, not when it is first used.
   s.design = heightfield::make_design(s.world.description(), s.world.ground());
-  // Told before anything moves: a dig out of reach would otherwise show minutes into a run.
+  // Without this check a dig out of reach would only fail minutes into a run.
   std::vector<Fault> faults = check_programs(s.world.description(), s.surface, X_WB, planners);
-  // Bodies within each other would be thrown apart in the first step.
+  // Overlapping bodies would be thrown apart in the first step.
   for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB))
     faults.push_back(std::move(fault));
   for (Fault& fault : sim::check_buried(s.world.description(), X_WB, s.surface.terrain()))
@@ -203,8 +208,7 @@ Session::Session(scene::Scene description, device::Device& device,
   };
   if (std::any_of(faults.begin(), faults.end(), is_error)) throw InputError(std::move(faults));
   for (const Fault& fault : faults) log_warning(fault.text());
-  // Only sound programs get their operators. Machines without a program have none; inputs drive
-  // them, or nobody.
+  // Programs without errors get their operators. Machines without a program have none.
   for (int m = 0; m < s.world.machines().count(); ++m)
     if (s.world.machines().at(m).stability().free) s.uncontrolled_machines.emplace_back(s.world, m);
   for (int m = 0; m < s.world.machines().count(); ++m)
@@ -217,12 +221,12 @@ Session::~Session() = default;
 void Session::step() {
   State& s = *state_;
   {
-    // Deciding is timed apart from simulating.
+    // The time of operators is measured apart from that of the world.
     const Lap lap(s.control_time);
-    // Before any operator moves on: what they wait for is as it stood when the step began, whatever
-    // their order.
+    // Operators that wait for others see the programs as they were at the start of the step, so
+    // their order does not matter.
     for (const OperatedMachine& one : s.operated) s.programs[one.name()] = one.op().progress();
-    // A taken machine never ends by itself: whoever drives it ends the run.
+    // A machine that inputs drive never ends by itself: its controller ends the run.
     bool busy = false;
     for (OperatedMachine& one : s.operated) {
       busy = busy || one.taken() || one.busy();
@@ -230,12 +234,13 @@ void Session::step() {
     }
     s.watch_uncontrolled_machines();
     s.watch_border();
-    // Only an unbroken idle time counts; without programs the duration alone ends the run.
+    // The energy account of a cycle is that of the step in which the cycle ended.
     if (s.energy_at_ends.size() < s.cycles.size())
       s.energy_at_ends.resize(s.cycles.size(), s.world.soil().energy());
+    // Only uninterrupted idle time counts; without programs the duration alone ends the run.
     s.idle = busy || s.operated.empty() ? 0 : s.idle + s.world.dt();
   }
-  // The world steps with all commands of this instant; forces are of the step just taken.
+  // The world steps with the commands given above. Forces are those of this step.
   s.world.step();
   s.note_forces();
 }
@@ -248,9 +253,9 @@ void Session::keep_soil_energy() {
 }
 
 void Session::set(int input, double value) {
-  // Channels know their machine; one of none takes nobody from a program.
   const sim::Inputs& inputs = state_->world.inputs();
-  // A value that the world refuses takes no machine from its program.
+  // A value that the world refuses takes no machine from its program, and neither does an input
+  // that belongs to no machine.
   if (input >= 0 && static_cast<std::size_t>(input) < inputs.size() && std::isfinite(value))
     state_->take_over(inputs[static_cast<std::size_t>(input)].machine);
   state_->world.inputs().set(input, value);
@@ -259,9 +264,8 @@ void Session::set(const std::string& input, double value) {
   set(state_->world.inputs().index(input), value);
 }
 
-// Handles say which machine they are of.
 void Session::command(const sim::JointHandle& joint, const vehicle::JointInput& input) {
-  // First what may refuse: a refused command must not end the program.
+  // A refused command must not end the program, so it is checked first.
   state_->world.commands().require_valid(joint, input);
   state_->take_over(joint.machine());
   state_->world.commands().set(joint, input);
@@ -286,15 +290,14 @@ void Session::add(std::unique_ptr<sim::Sampler> sampler) { state_->world.add(std
 
 bool Session::done() const {
   const scene::Recording& recording = state_->world.description().recording;
-  // The ground left behind should be the whole of it: soil that still moves is given time to come
-  // to rest.
+  // Moving soil is given time to come to rest, so that the final ground contains it.
   const bool at_rest = state_->world.soil().counts().particles == 0 ||
                        state_->idle >= kLongestRest * recording.settle;
   const bool programs_over = state_->idle > 0 && state_->idle >= recording.settle && at_rest;
   return programs_over || time_is_over();
 }
 
-/// Half a step of slack: time is a product and may fall a hair short of the duration.
+/// Allows half a step of slack: time is step count x dt and may be rounded below the duration.
 bool Session::time_is_over() const {
   return state_->world.time() >=
          state_->world.description().recording.duration - 0.5 * state_->world.dt();
@@ -323,7 +326,6 @@ const heightfield::DesignSurface* Session::design() const {
   return state_->design ? &*state_->design : nullptr;
 }
 
-/// In words, for progress lines and telemetry.
 std::string Session::phase(int machine) const {
   for (const UncontrolledMachine& one : state_->uncontrolled_machines)
     if (one.index() == machine && one.fall()) return control::name_of(one.fall()->state);
@@ -367,7 +369,6 @@ const std::vector<std::optional<sim::SoilEnergy>>& Session::energy_at_ends() con
 const ForceStatistics& Session::force() const { return state_->force; }
 double Session::control_time() const { return state_->control_time; }
 
-/// Summed when asked: it is read at checkpoints only.
 double Session::energy() const {
   double sum = 0;
   for (int m = 0; m < state_->world.machines().count(); ++m)
@@ -375,12 +376,12 @@ double Session::energy() const {
   return sum;
 }
 
-/// Operators belong to the state: two runs in equal worlds part where their programs stand
-/// differently. The world comes first, whose head tells the scene.
+/// Operators belong to the state: equal worlds whose programs stand differently have different
+/// futures. The world comes first, as its head identifies the scene.
 void Session::visit(Archive& a) {
   a("world", state_->world);
   state_->visit(a);
-  // Another state may have the same number of steps: what the operators saw is not what is there.
+  // The loaded state may have the same step count, so the view of the ground must be dropped.
   if (a.loading()) state_->surface.forget();
 }
 
@@ -393,14 +394,14 @@ std::string Session::state_hash() const {
 
 std::vector<std::pair<std::string, std::string>> Session::hash_parts() const {
   std::vector<std::pair<std::string, std::string>> out = state_->world.hashes().parts();
-  // The last column, after all parts of the world.
+  // Operators come last, so that columns of hashes.csv keep their places.
   out.emplace_back("operators", hash_of(*state_).hex());
   return out;
 }
 
 namespace {
 
-/// What stands in a snapshot's file: what the run started from, then its state.
+/// Content of a snapshot file: the start parameters of the run, then its state.
 struct SnapshotContent {
   sim::SnapshotStart start;
   Session& session;
@@ -414,13 +415,12 @@ struct SnapshotContent {
 }  // namespace
 
 void Session::save(const std::string& path) const {
-  // In memory first: a disk that fills up leaves the old file. Saving only reads.
+  // The content is complete in memory before the file is replaced. Saving only reads the session.
   const SnapshotContent content{{world().start(), world().description().name},
                                 const_cast<Session&>(*this)};
   write_file_atomically(path, seal(saved(content)));
 }
 
-// Sections name themselves in messages; the file's name is added here.
 void Session::load(const std::string& path, bool anyway) {
   const std::vector<char> bytes = read_file(path);
   try {

@@ -19,18 +19,19 @@ struct DesignSurface;
 
 namespace navvy::session {
 
-/// A world and the operators that run the programs of its scene. A client of World like any other.
+/// A world and the operators that carry out the programs of its scene.
 ///
-/// A machine with a program is driven by its operator until an input of it is set here; from then
-/// on it is driven by inputs alone, for good. Machines without a program are driven by inputs from
-/// the start. Not thread-safe.
+/// An operator drives each machine that has a program, until an input of the machine is set through
+/// this class. From then on inputs alone drive it, for good. Machines without a program are driven
+/// by inputs from the start. The cost of a step is that of the world's step; operators add some
+/// microseconds, and a view of the ground where a step of a program needs one. Not thread-safe.
 class Session {
  public:
-  /// `planners` is asked for paths by programs with a step that needs them, as a rule
-  /// planner::path_planners().
-  /// @throws InputError listing every target of a program that is out of reach and all machines
-  /// that overlap, before anything moves; device::DeviceError for the device. `make_engine` makes
-  /// the world's physics engine, as for sim::World.
+  /// Builds the world of a scene and checks its programs. `planners` makes path planners for steps
+  /// that need paths, usually planner::path_planners(). `make_engine` makes the world's physics
+  /// engine, as for sim::World.
+  /// @throws InputError that lists all targets out of reach and all machines that overlap or start
+  /// in the ground; device::DeviceError for the device.
   Session(scene::Scene description, device::Device& device,
           const control::MakePathPlanner& planners = {},
           const vehicle::PhysicsEngineFactory& make_engine = {});
@@ -38,71 +39,79 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Operators decide, then the world takes one base step and its samplers look. @throws
-  /// SimulationError.
+  /// Advances by one base step: operators command their machines, the world steps, and samplers
+  /// that are due take a sample. @throws SimulationError with step, time and cause.
   void step();
-  /// True when every program has ended, done or not, and the settling time has passed, or the
-  /// scene's duration is over. A machine taken by inputs keeps the run from ending by its program.
+  /// Returns true if every program has ended, done or not, and the settling time has passed, or if
+  /// the scene's duration is over. A machine that inputs drive keeps the run from ending by
+  /// programs.
   bool done() const;
-  /// True when every program is done, or was taken by inputs, and no machine fell over: the run
-  /// came to what its scene asked for.
+  /// Returns true if every program is done or was taken by inputs, and no machine fell over.
   bool complete() const;
-  /// True when a step of some program fell short of its aim, which ended that program, or a machine
-  /// that no program drives fell over.
+  /// Returns true if a step of a program failed, which ends the program, or if a machine fell over
+  /// while no program drove it.
   bool fell_short() const;
 
-  /// Read only: what drives it goes through this session.
+  /// Returns the world, for reading. Commands go through this session.
   const sim::World& world() const;
-  /// As World's functions of the same names. The first of them that reaches a machine with a
-  /// program takes the machine from it: its joints stop, its drive brakes, then the value holds.
-  /// @throws InputError as World's.
+  /// Sets inputs and commands as World's functions of the same names do. The first of them that
+  /// reaches a machine with a program takes the machine from it: its joints stop, its drive brakes,
+  /// then the value holds. @throws InputError as World's functions do; the program then goes on.
   void set(int input, double value);
   void set(const std::string& input, double value);
   void command(const sim::JointHandle& joint, const vehicle::JointInput& input);
   void command(const sim::MachineHandle& machine, const vehicle::DriveInput& input);
   void brake(const sim::JointHandle& joint, bool on);
   void command(const sim::MachineHandle& machine, const vehicle::BaseInput& input);
-  /// Adds a sensor or a map; it looks at the world at once and then at its rate. @throws InputError
-  /// as World::add.
+  /// Adds a sampler, such as a sensor. It takes a sample at once and then at its rate.
+  /// @throws InputError as World::add does.
   void add(std::unique_ptr<sim::Sampler> sampler);
 
-  /// As the driver names it.
+  /// Returns the name of the OpenCL device, as its driver gives it.
   const std::string& device_name() const;
-  /// The scene's design on the columns of its site; null where it has none.
+  /// Returns the scene's design surface on the columns of the site; null if the scene has none.
   const heightfield::DesignSurface* design() const;
-  /// What the operator of this machine is at (control::Operator::phase); "idle" for a machine
-  /// without a program, "inputs" once it was taken from it, "tipped" or "buried" when either fell.
+  /// Returns the activity of a machine: the phase of its operator (control::Operator::phase),
+  /// "idle" without a program, "inputs" once inputs took it, "tipped" or "buried" after a fall.
   std::string phase(int machine) const;
-  /// How the programs stand, in the order of the machines. A program that still runs when the
-  /// duration is over is out of time. A machine that fell over without one has a report of no
-  /// steps. Costs a look at the surface where a step's account asks for it.
+  /// Returns how the programs stand, in the order of the machines. A program that still runs at the
+  /// end of the duration is out of time. A machine that fell over without a program has a report
+  /// with no steps. Costs a view of the ground if a step's report needs one.
   std::vector<ProgramReport> programs() const;
-  /// Closed ones, in the order in which they ended.
+  /// Returns the completed digging cycles, in the order in which they ended.
   const std::vector<Cycle>& cycles() const;
+  /// Returns the completed bed tips, in the order in which they ended.
   const std::vector<BedTip>& tips() const;
+  /// Returns force statistics over all steps so far.
   const ForceStatistics& force() const;
-  /// World::watch: a link's pose and velocities among the outputs. Not part of the state.
+  /// Adds pose and velocities of a link to the outputs (World::watch). Not part of the state.
   void watch(const std::string& link);
-  /// Keeps the soil's energy from now on: the world's, and that of each cycle. Not part of the
-  /// state.
+  /// Opens the account of the soil's energy, for the world and for each cycle. It changes no result
+  /// and makes the soil up to three times as slow. Not part of the state.
   void keep_soil_energy();
-  /// The soil's account when each cycle ended, in the order of cycles(); none for cycles before it
-  /// was opened.
+  /// Returns the soil's energy account at the end of each of cycles(); empty for cycles that ended
+  /// before the account was opened.
   const std::vector<std::optional<sim::SoilEnergy>>& energy_at_ends() const;
-  double energy() const;        ///< work of all machines' drives and cylinders [J]
-  double control_time() const;  ///< wall time [s]
+  /// Returns the work of the drives and cylinders of all machines [J].
+  double energy() const;
+  /// Returns the wall time that operators took [s].
+  double control_time() const;
 
-  /// The world, the operators and what they have come to, for core/saved_state.h. Loads into a
-  /// session of the same scene with the same samplers only; whatever throws leaves it of no use but
-  /// to be loaded again or destroyed.
+  /// Visits the world, the operators and their results (core/saved_state.h). Loads only into a
+  /// session of the same scene with the same samplers. After an exception the session can only be
+  /// loaded again or destroyed.
   void visit(Archive& a);
-  std::string state_hash() const;  ///< hex
-  /// World::hash_parts, then the operators.
+  /// Returns the hash of everything that determines the future of the run [hex]. Costs a pass over
+  /// the state.
+  std::string state_hash() const;
+  /// Returns name and hash [hex] of each part of the state: those of World::hash_parts, then
+  /// "operators".
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
-  /// Snapshot to and from a file; atomic. @throws FileError, InputError.
+  /// Writes a snapshot, atomically. @throws FileError.
   void save(const std::string& path) const;
-  /// @param anyway a snapshot of a scene with other parameters is loaded too; what differs goes to
-  /// the log
+  /// Loads a snapshot of the same scene. With `anyway` the scene's parameters may differ; the log
+  /// lists the differences. @throws FileError; InputError that names the damaged or differing part,
+  /// after which the session can only be loaded again or destroyed.
   void load(const std::string& path, bool anyway = false);
 
  private:

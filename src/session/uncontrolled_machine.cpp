@@ -6,9 +6,9 @@
 
 namespace navvy::session {
 
-void see_standing(const sim::World& world, const sim::MachineHandle& machine,
-                  const std::vector<sim::WheelHandle>& wheels, control::Observation& seen) {
-  // The base link stands for the machine, as in programs' coordinates.
+void observe_stance(const sim::World& world, const sim::MachineHandle& machine,
+                    const std::vector<sim::WheelHandle>& wheels, control::Observation& seen) {
+  // The base link represents the machine, as in the coordinates of programs.
   const vehicle::LinkState base = machine.link(0).state();
   seen.X_WB = base.X_WL;
   seen.v_WB = base.v_WL;
@@ -18,7 +18,7 @@ void see_standing(const sim::World& world, const sim::MachineHandle& machine,
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const vehicle::WheelState wheel = wheels[w].state();
     seen.tyre_force += wheel.force_W;
-    // The resting ground alone: soil in flight buries nobody.
+    // Only resting soil can bury a wheel; soil in flight cannot.
     const Vec3 top =
         wheel.X_WWheel.translation() + Vec3(0, 0, machine.description().wheels[w].radius);
     if (world.ground().sample(top.x(), top.y()) > top.z())
@@ -34,14 +34,14 @@ UncontrolledMachine::UncontrolledMachine(const sim::World& world, int machine)
 
 void UncontrolledMachine::look(bool by_inputs) {
   if (fall_) return;
-  see_standing(world_, machine_, wheels_, seen_);
+  observe_stance(world_, machine_, wheels_, seen_);
   std::string reason;
   const control::StepState state = watch_.look(seen_, world_.dt(), reason);
   if (!control::fell_short(state)) return;
   const double now = world_.time();
   fall_ = {0, by_inputs ? "inputs" : "idle", state, reason, now, now, seen_.X_WB.translation(), {}};
-  // Told at once and not at the end of a run of hours.
-  log_warning(told({index(), 0, by_inputs, {*fall_}, {}}, machine_.name()));
+  // Logged at once: the end of a run may be hours away.
+  log_warning(report_line({index(), 0, by_inputs, {*fall_}, {}}, machine_.name()));
 }
 
 void UncontrolledMachine::visit(Archive& a) {

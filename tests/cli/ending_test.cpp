@@ -105,7 +105,7 @@ TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
   const std::string scene =
       two_buckets(kWait, "<wait><duration_s>100000</duration_s></wait>", "100000");
   const pid_t child = begin({scene});
-  // Until the first program is done and a checkpoint tells so.
+  // Waits until a checkpoint reports the first program as done.
   const auto first_done = [&] {
     const nlohmann::json now = summary();
     return now.is_object() && now.at("programs").at(0).at("state") == "done";

@@ -116,7 +116,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
   EXPECT_NEAR(volume, 38.4, 3.84);
   EXPECT_GT(lying, 0.9 * 38.4);
   EXPECT_LT(volume - lying, 0);
-  // What a run's files cannot tell is unknown, and told.
+  // Layers that the files of a run do not contain are unknown and reported.
   for (const char* name : {"density", "soil", "disturbed_at"})
     EXPECT_TRUE(std::isnan(layer(path("end.npz"), name).at(7))) << name;
   EXPECT_EQ(run({"map", out(), "--format", "npz", "--out", path("end.npz")}), 0) << complained();
@@ -133,7 +133,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
                  path("state.npz")}),
             0);
   EXPECT_EQ(layer(path("end.npz"), "loose_depth"), layer(path("state.npz"), "loose_depth"));
-  EXPECT_EQ(layer(path("end.npz"), "awake"), layer(path("state.npz"), "awake"));
+  EXPECT_EQ(layer(path("end.npz"), "active"), layer(path("state.npz"), "active"));
   const std::vector<float> last = layer(path("end.npz"), "loose_depth");
   EXPECT_GT(std::count_if(last.begin(), last.end(), [](float depth) { return depth > 0; }), 60);
   // Beside the run's scene a snapshot needs no --scene.
@@ -198,7 +198,7 @@ TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
   EXPECT_EQ(run({"map", own, "--format", "npz", "--out", path("away.npz")}), 0) << complained();
   EXPECT_EQ(test_text(path("there.npz")), test_text(path("a.npz")));
   EXPECT_TRUE(std::filesystem::is_symlink(path("away.npz")));
-  // And the check of such a scene tells what its design is: 16 m2, from 9.x to 10.x, a metre below
+  // And the check of such a scene reports its design: 16 m2, from 9.x to 10.x, a metre below
   // the ground.
   EXPECT_EQ(run({"check", own}), 0) << said();
   EXPECT_NE(said().find("wanted.asc: 16 m2 of the site"), std::string::npos) << said();

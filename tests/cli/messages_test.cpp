@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says to slips on its command line and in scenes, and what it tells of what is
-// shipped.
+// Messages of the program about mistakes on its command line and in scenes, and about shipped data.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -137,7 +136,7 @@ TEST_F(Messages, OfAWrongSeedTakeOneLine) {
 TEST_F(Messages, CheckFindsShippedScenesByName) {
   EXPECT_EQ(run({"check", "trench", "bucket_path.sdf"}), 0) << said();
   expect_said("2 files checked: 0 errors, 0 warnings");
-  // The excavator stands, and how well is told without a device.
+  // The stance of the excavator is reported without a device.
   expect_said("'excavator' stands: tilt 0.");
   expect_said("within its feet");
 }

@@ -74,7 +74,7 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
       run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.3", "--out", out()}), 0)
       << complained();
   const auto summary = nlohmann::json::parse(text_of(out() + "/summary.json"));
-  // The path lasts 13 s: who asks for less gets that, with status 0, and is told what is missing.
+  // The path lasts 13 s. A shorter duration ends with status 0 and a report of the missing part.
   EXPECT_EQ(summary.at("status"), "incomplete");
   const nlohmann::json program = summary.at("programs").at(0);
   EXPECT_EQ(program.at("machine"), "bucket");
@@ -172,7 +172,7 @@ TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
   run({"check", unreachable});
   const std::string checked = said();
   EXPECT_EQ(run({"run", unreachable, "--no-render", "--quiet", "--out", out()}), 2);
-  // `check` also tells how the machine stands.
+  // `check` also reports how the machine stands.
   EXPECT_NE(checked.find(complained()), std::string::npos) << "check:\n"
                                                            << checked << "run:\n"
                                                            << complained();

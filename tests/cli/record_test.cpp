@@ -44,7 +44,7 @@ std::string scene(const std::string& records, const std::string& active = "") {
 }
 
 /// z of the vertices of a binary PLY, row by row from the least y: x y z as doubles first, then
-/// what its head tells.
+/// the content of its head.
 std::vector<float> heights_of_ply(const std::string& bytes) {
   const std::size_t begin = bytes.find("end_header\n") + 11;
   std::istringstream head(bytes.substr(0, begin));
@@ -318,7 +318,7 @@ TEST_F(Record, ABadPlaceOrLayerToPublishCostsNoEarlierResult) {
   ::getsockname(taken, reinterpret_cast<sockaddr*>(&address), &length);
   const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
       {{"--publish", "tcp:" + std::to_string(ntohs(address.sin_port))}, "cannot listen there"},
-      {{"--publish", "tcp:99999999"}, "no port from 0 to 65535"},
+      {{"--publish", "tcp:99999999"}, "is not a port from 0 to 65535"},
       {{"--publish", folder_ / "out"}, "already: patches are numbered from 1"},
       {{"--publish", folder_ / "s.sdf"}, "is there and no folder"},
       {{"--publish", folder_ / "maps", "--publish-layers", "elevtion"}, "elevation"}};

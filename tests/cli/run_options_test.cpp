@@ -33,7 +33,7 @@ class RunOptions : public test::ProgramRun {
 
 TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "5"}), 2);
-  expect_reported("the run lasts 0.05 s at most");
+  expect_reported("the run lasts at most 0.05 s");
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "-3"}), 2);
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "nan"}), 2);
   EXPECT_FALSE(std::filesystem::exists(snapshot()));
@@ -41,17 +41,17 @@ TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
   EXPECT_TRUE(std::filesystem::exists(snapshot()));
   // There is nothing behind it.
   EXPECT_EQ(short_run({"--resume", snapshot()}), 2);
-  expect_reported("nothing left to run");
+  expect_reported("nothing is left to run");
 }
 
 TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
   const std::string notes = (directory_ / "notes.txt").string();
   std::ofstream(notes) << "mine";
   EXPECT_EQ(short_run({"--snapshot", notes, "--snapshot-at", "0"}), 2);
-  expect_reported("is there and is no snapshot, so it stays");
+  expect_reported("exists and is no snapshot, so it is not replaced");
   EXPECT_EQ(test::text_of(notes), "mine");
   EXPECT_EQ(short_run({"--snapshot", out() + "/telemetry.csv", "--snapshot-at", "0"}), 2);
-  expect_reported("a name that the run gives to a file of its own");
+  expect_reported("is the name of a file that the run itself writes");
   EXPECT_FALSE(std::filesystem::exists(out()));
   // A snapshot takes the place of an older one, also beside the results.
   for (int i = 0; i < 2; ++i) {
@@ -92,7 +92,7 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   const std::string scene = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
   expect_reported("10 of 100 map cells on the site (10 %, 10 m2) have no height");
-  expect_reported("1e+38 is no ground's height, and the file does not declare it as nodata");
+  expect_reported("1e+38 cannot be a height of ground, and the file does not declare it as nodata");
   expect_reported("0 errors, 1 warning");
   // And what else was found in the map.
   expect_reported("source   Arc/Info ASCII Grid, 20 x 20 cells of 1 x 1 m");
@@ -101,7 +101,7 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   text.insert(text.find("1.5"), "NODATA_value 1e38\n");
   std::ofstream(map) << text;
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
-  EXPECT_EQ(said().find("is no ground's height"), std::string::npos) << said();
+  EXPECT_EQ(said().find("cannot be a height of ground"), std::string::npos) << said();
   expect_reported("declared as 1e+38: 10 of 100 cells on the site");
 }
 

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Takes bytes as the output of a controller: every line is obeyed or answered, until the bytes end.
-// Then the world steps once with the inputs that were set. One session serves all inputs; it
+// Then the world steps once with the inputs that were set. One simulation serves all inputs; it
 // returns to its start after each input that set something.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <string>
-#include <vector>
 
-#include "cli/control_stdio.h"
 #include "control/step_kinds.h"
 #include "core/error.h"
-#include "core/saved_state.h"
-#include "device/device.h"
+#include "link/control_stdio.h"
+#include "run/simulation.h"
 #include "scene_io/loader.h"
-#include "session/session.h"
 #include "target.h"
 
 namespace {
@@ -32,10 +29,8 @@ const char* const kScene =
 <navvy:program><wait><duration_s>1</duration_s></wait></navvy:program></model></world></sdf>)";
 
 struct Driven {
-  device::Device device;
-  session::Session session{
-      scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds()), device};
-  std::vector<char> start = saved(session);
+  run::Simulation simulation{
+      scene_io::load_scene_from_string(kScene, "fuzz/scene.sdf", control::step_kinds())};
   int input = ::memfd_create("input", 0);
 
   Driven() {
@@ -67,18 +62,18 @@ NAVVY_FUZZ_TARGET(control) {
   fuzz::hold(::ftruncate(STDIN_FILENO, 0) == 0);
   fuzz::hold(::pwrite(STDIN_FILENO, data, size, 0) == static_cast<ssize_t>(size));
   fuzz::hold(::lseek(STDIN_FILENO, 0, SEEK_SET) == 0);
-  cli::ControlStdio controller(
-      driven.session, 1, [] { return false; }, cli::ControlServices{{}, false});
+  link::ControlStdio controller(
+      driven.simulation, 1, [] { return false; }, link::ControlServices{false, false});
   while (controller.exchange()) {
   }
   // Only a line that names inputs changes the session; the others cost no step.
   if (std::string(reinterpret_cast<const char*>(data), size).find("inputs") == std::string::npos)
     return 0;
   try {
-    driven.session.step();
+    driven.simulation.step();
   } catch (const Error&) {
     // E.g. a joint that was commanded to 1e300.
   }
-  load_saved(driven.start, driven.session);
+  driven.simulation.reset();
   return 0;
 }

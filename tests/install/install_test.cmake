@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 cmake_minimum_required(VERSION 3.25)
-# cmake -DPROJECT=headers|modules|minimal|engine -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
+# cmake -DPROJECT=headers|modules|minimal|embedded|engine -DBINARY_DIR= -DSOURCE_DIR= -DCOMPILER= -DLAUNCHER= -DCORE_ONLY= -P install_test.cmake
 set(work ${BINARY_DIR}/install-test/${PROJECT})
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
@@ -22,7 +22,7 @@ if(count LESS 15)
 endif()
 
 # A foreign project: one source a header, one source a module, a copy of a folder
-# beside this file, or a copy of examples/minimal.
+# beside this file, or a copy of a folder of examples/.
 if(PROJECT MATCHES "headers|modules")
   set(sources "")
   foreach(header IN LISTS headers)
@@ -52,6 +52,16 @@ if(PROJECT STREQUAL "minimal")
   run(${work}/build/minimal)
   if(NOT output MATCHES "boom")
     message(FATAL_ERROR "the example did not say where the boom is:\n${output}")
+  endif()
+  message("${output}")
+endif()
+if(PROJECT STREQUAL "embedded")
+  run(${CMAKE_COMMAND} -E env NAVVY_DATA_DIR=${prefix}/share/navvy ${work}/build/embedded ${work}/out)
+  if(NOT output MATCHES "after the reset")
+    message(FATAL_ERROR "the example did not report the heights:\n${output}")
+  endif()
+  if(NOT EXISTS ${work}/out/summary.json OR NOT EXISTS ${work}/out/telemetry.csv)
+    message(FATAL_ERROR "the example did not record its run")
   endif()
   message("${output}")
 endif()

@@ -39,7 +39,7 @@ std::uint64_t bytes_written() {
   return 0;
 }
 
-/// A row as long as the trench's, told apart by its number.
+/// A row as long as that of the trench, identified by its number.
 std::string row_of(std::uint64_t number, std::size_t length = 760) {
   std::string row = std::to_string(number);
   row.resize(length, ',');
@@ -112,7 +112,7 @@ TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndContinuesWhenThereIsSpace) {
   file.add(row_of(0));
   file.sync();
   const std::string before = text_of(folder / "rows.csv");
-  // Room for half a row more: the system takes so much and refuses the rest.
+  // Space for half a row more: the system takes this much and refuses the rest.
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);

@@ -7,7 +7,8 @@ namespace navvy::session {
 namespace {
 
 TEST(BucketGauge, TakesAForceApartByTheMotionOfTheEdge) {
-  // The link turns about its origin at 1 rad/s, the lip 1.5 m ahead of it: it moves straight down.
+  // The link turns about its origin at 1 rad/s, the cutting edge 1.5 m ahead of it: it moves
+  // straight down.
   vehicle::LinkState link;
   link.w_WL = Vec3(0, 1, 0);
   const Vec3 p_tip(1.5, 0, 0);
@@ -16,7 +17,7 @@ TEST(BucketGauge, TakesAForceApartByTheMotionOfTheEdge) {
   EXPECT_DOUBLE_EQ(load.draft, 4000);
   EXPECT_DOUBLE_EQ(load.uplift, 4000);
 
-  // What pushes the lip on is no draft, a load no uplift.
+  // A force along the motion of the edge is no draft, and a load is no uplift.
   const BucketLoad carried = load_of(Vec3(0, 0, -4000), link, p_tip);
   EXPECT_DOUBLE_EQ(carried.draft, 0);
   EXPECT_DOUBLE_EQ(carried.uplift, 0);
@@ -31,7 +32,7 @@ TEST(BucketGauge, GivesNoDraftToAnEdgeAtRest) {
 }
 
 TEST(BucketGauge, TurnsTheEdgeWithItsLink) {
-  // Upright link: its x axis points up, so that a turn about y moves the lip along W's x.
+  // Upright link: its x axis points up, so that a turn about y moves the edge along W's x.
   vehicle::LinkState link;
   link.X_WL.linear() << 0, 0, -1, 0, 1, 0, 1, 0, 0;
   link.w_WL = Vec3(0, 2, 0);

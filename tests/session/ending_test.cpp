@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines with masses that do not get where their programs want them: told as what it is, and the
-// others go on.
+// Reports about machines that do not reach the targets of their programs.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -143,9 +142,9 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
   EXPECT_GT(session->world().outputs().get("parked/stability/tilt"), radians(40));
   EXPECT_GT(session->world().outputs().get("upwards/stability/margin"), 0.1);
   EXPECT_NEAR(session->world().outputs().get("upwards/stability/tilt"), radians(30), radians(4));
-  EXPECT_NE(told(reports[0], "parked").find("'parked' (idle): tipped: "), std::string::npos)
-      << told(reports[0], "parked");
-  // The fall outlives a snapshot, and is not told of twice.
+  EXPECT_NE(report_line(reports[0], "parked").find("'parked' (idle): tipped: "), std::string::npos)
+      << report_line(reports[0], "parked");
+  // The report of the fall survives a snapshot and is logged once.
   const auto resumed = make();
   load_saved(bytes, *resumed);
   while (resumed->world().time() < 3) resumed->step();
@@ -156,7 +155,7 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
 
 TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   const LogLines log;
-  const auto told = [&] {
+  const auto logged = [&] {
     std::vector<std::string> out;
     for (const std::string& line : log.lines())
       if (line.find("site's border") != std::string::npos) out.push_back(line);
@@ -170,12 +169,12 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   session.set("truck/drive/speed", 2);
   const auto x = [&] { return session.world().machines().at(0).link(0).pose().translation().x(); };
   session.step();
-  EXPECT_TRUE(told().empty()) << "both stand on it";
+  EXPECT_TRUE(logged().empty()) << "both stand on it";
   while (x() < 9 && session.world().time() < 10) session.step();
   ASSERT_GE(x(), 9);
-  ASSERT_EQ(told().size(), 1u);
-  EXPECT_NE(told()[0].find("'truck'"), std::string::npos) << told()[0];
-  EXPECT_NE(told()[0].find("size_m"), std::string::npos) << told()[0];
+  ASSERT_EQ(logged().size(), 1u);
+  EXPECT_NE(logged()[0].find("'truck'"), std::string::npos) << logged()[0];
+  EXPECT_NE(logged()[0].find("size_m"), std::string::npos) << logged()[0];
 }
 
 TEST(SessionEnd, WithoutSettlingComesAfterTheProgramAndNotBeforeIt) {

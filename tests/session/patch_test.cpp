@@ -62,7 +62,7 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnLedger) {
     EXPECT_GT(active[i], 0) << name;
     // Of about 700 kg in all: the scoop went through each
     EXPECT_GT(earth.soils[i].dug, 50) << name;
-    EXPECT_NEAR(kept, 1, 0.01) << name;  // crumbs that fell back into the cut are neither
+    EXPECT_NEAR(kept, 1, 0.01) << name;  // particles that fell back into the cut are neither
   }
 }
 

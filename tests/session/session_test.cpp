@@ -181,7 +181,7 @@ TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
   session->command(slide, {vehicle::JointMode::kVelocity, 0.5});
   EXPECT_EQ(session->phase(0), "inputs");
   run_to(*session, 0.1);
-  // A kinematic machine moves exactly as told.
+  // A kinematic machine moves exactly as commanded.
   EXPECT_NEAR(slide.position() - start, 0.5 * (session->world().time() - begun), 1e-9);
 }
 
@@ -227,7 +227,8 @@ TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   load_saved(bytes, *second);
   const sim::World& resumed = second->world();
   second->set("excavator/drive/steer", 0.2);
-  EXPECT_EQ(resumed.machines().at(0).drive().speed, 1.5);  // steering alone does not stop the machine
+  EXPECT_EQ(resumed.machines().at(0).drive().speed,
+            1.5);  // steering alone does not stop the machine
   EXPECT_EQ(resumed.machines().at(0).drive().steer, 0.2);
   EXPECT_FALSE(resumed.machines().at(0).drive().brake);
 }

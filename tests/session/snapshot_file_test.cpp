@@ -113,10 +113,10 @@ TEST_F(SnapshotFile, OfAnotherCohesionMassOrPlaceIsRefusedAndSaysWhatDiffers) {
       {"soil.cohesion_pa=8123", "soil[loam]/cohesion"},
       {"machine[bucket].x_m=0.05", "machine[bucket]/pose/place"},
   };
-  for (const auto& [setting, told] : changes) {
+  for (const auto& [setting, message] : changes) {
     const auto other = make("bucket_path.sdf", {kCoarse[0], setting});
     const std::string said = refusal(*other);
-    EXPECT_NE(said.find(told), std::string::npos) << setting << ": " << said;
+    EXPECT_NE(said.find(message), std::string::npos) << setting << ": " << said;
     EXPECT_NE(said.find("--resume-anyway"), std::string::npos) << said;
     EXPECT_EQ(refusal(*other, true), "") << setting;
     EXPECT_EQ(other->world().steps(), session->world().steps());

@@ -82,8 +82,8 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
       std::find_if(program.list.begin(), program.list.end(),
                    [](const control::StepReport& step) { return step.element == "dig"; });
   ASSERT_NE(reported_dig, program.list.end());
-  EXPECT_EQ(reported_dig->state, control::StepState::kDone) << told(program, "the machine");
-  EXPECT_TRUE(session.complete()) << told(program, "the machine");
+  EXPECT_EQ(reported_dig->state, control::StepState::kDone) << session::report_line(program, "the machine");
+  EXPECT_TRUE(session.complete()) << session::report_line(program, "the machine");
   EXPECT_FALSE(session.fell_short());
   EXPECT_NEAR(figure(*reported_dig, "depth_m"), dig.depth, 1e-12);
   // Half the depth was once called finished; half of the length is at least so deep.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/stop_signals.h"
+#include "run/stop_signals.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -8,46 +8,31 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <utility>
 
-#include "cli/exit_code.h"
 #include "device/kernel_cache.h"
 #include "record/crash_summary.h"
 
-namespace navvy::cli {
+namespace navvy::run {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// The first and the second are told apart from one that came twice: `timeout` and other wrappers
-// signal a process and then its group.
-constexpr int kTwice = 500;  // [ms]
+// Signals that are closer than this count as one [ms]: `timeout` and other wrappers signal a
+// process and then its group.
+constexpr int kTwice = 500;
 
 std::atomic<int> signals{0}, last{0};
 int wake[2] = {-1, -1};
 sigset_t before;
 
-[[noreturn]] void leave(bool again) {
-  record::write_crash_summary(
-      "interrupted",
-      again ? "stopped from outside a second time: what was not written by then is missing"
-            : "stopped from outside while the OpenCL driver was busy: it compiles kernels or does "
-              "not answer; results are those of the last checkpoint");
-  std::fputs(again ? "interrupted: by a second signal, nothing more is waited for\n"
-                   : "interrupted: the OpenCL driver is busy and is not waited for\n",
-             stderr);
-  device::abandon_kernel_cache();
-  _exit(kInterrupted);
-}
-
 }  // namespace
 
-// No handler of ours, and none of anybody else's: compilers inside drivers install their own, which
-// delete what they are writing before they pass the signal on, and the build then fails as if the
-// kernels were wrong. Blocked here, before any other thread is there to inherit it, the signals
-// wait for the one thread that asks for them.
-StopSignals::StopSignals() {
+// The signals are blocked here, before any other thread inherits the mask, and read from a file by
+// one thread. Handlers do not work: compilers inside drivers install their own, which delete the
+// files that they write and pass the signal on, and the build then fails as if the kernels were
+// wrong.
+StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
   signals = last = 0;
   if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
   sigset_t wanted;
@@ -59,7 +44,7 @@ StopSignals::StopSignals() {
   }
   pthread_sigmask(SIG_BLOCK, &wanted, &before);
   signals_ = signalfd(-1, &wanted, SFD_CLOEXEC | SFD_NONBLOCK);
-  // Without a file to wait on (none left) the signals do what they did before.
+  // If no file can be opened, the signals keep their default effect.
   if (signals_ < 0) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   watcher_ = std::thread([this] { watch(); });
 }
@@ -67,10 +52,9 @@ StopSignals::StopSignals() {
 StopSignals::~StopSignals() {
   over_ = true;
   const char byte = 0;
-  if (::write(wake[1], &byte, 1) < 0) over_ = true;  // the thread looks up by itself
+  if (::write(wake[1], &byte, 1) < 0) over_ = true;
   watcher_.join();
-  // The second of two at once may still be on its way, and would end the process by itself before
-  // its status is told.
+  // A second signal may still be pending and would end the process before it returns its status.
   if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
   for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
 }
@@ -84,12 +68,25 @@ std::string StopSignals::name() {
   return "";
 }
 
+/// Runs beside the thread of the run, which may hang in the driver, so it touches no object of the
+/// run. The kernel cache is left unfinished, as the driver may be writing to it.
+void StopSignals::leave(bool again) {
+  record::write_crash_summary(
+      "interrupted", again ? "stopped by a second signal: what was not written by then is missing"
+                           : "stopped by a signal while the OpenCL driver was busy: it compiles "
+                             "kernels or does not answer; results "
+                             "are those of the last checkpoint");
+  device::abandon_kernel_cache();
+  leave_(again ? "a second signal came: the run does not wait any longer"
+               : "the OpenCL driver is busy: the run does not wait for it");
+}
+
 void StopSignals::watch() {
   using Clock = std::chrono::steady_clock;
   Clock::time_point first{};
   while (!over_) {
     pollfd in[] = {{signals_, POLLIN, 0}, {wake[0], POLLIN, 0}};
-    // Asleep until a signal comes; from then on it looks often.
+    // Waits for a signal; after the first one it checks often.
     poll(in, 2, signals > 0 ? 50 : 1000);
     signalfd_siginfo what{};
     bool came = false;
@@ -106,4 +103,4 @@ void StopSignals::watch() {
   }
 }
 
-}  // namespace navvy::cli
+}  // namespace navvy::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/control_stdio.h"
+#include "link/control_stdio.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@
 #include "core/error.h"
 #include "sim/timing.h"
 
-namespace navvy::cli {
+namespace navvy::link {
 
 using nlohmann::json;
 
@@ -25,10 +25,11 @@ namespace {
 
 constexpr std::size_t kLongestName = 1000;
 constexpr std::string_view kSeverity = "error: ";
-constexpr int kPatience = 100;  // between two looks at `stop` [ms]
+// Interval at which `stop_` is asked while waiting [ms].
+constexpr int kPatience = 100;
 
-/// Brackets and braces that are open at once, strings apart; counted before the parser, which
-/// builds them all.
+/// Returns the maximum number of nested brackets and braces outside of strings. This is checked
+/// before the parser, which would build them all.
 int nesting(const std::string& line) {
   int depth = 0, deepest = 0;
   bool text = false;
@@ -46,44 +47,44 @@ int nesting(const std::string& line) {
   return deepest;
 }
 
+/// Returns the error of a line of inputs, with an example of a valid line.
 InputError fault(const std::string& element, const std::string& value, const std::string& rule) {
   return InputError(
       Fault{Fault::Severity::kError, "", 0, element, value, rule,
             R"(send one line such as {"inputs": {"ew180/boom_joint/velocity": 0.1}})"});
 }
 
-/// A line as the object it must be.
+/// Parses a line, which must be a JSON object.
 json parsed(const std::string& line) {
   if (nesting(line) > ControlStdio::kDeepestNesting)
     throw fault("line", shown(line),
                 "must nest at most " + std::to_string(ControlStdio::kDeepestNesting) + " deep");
-  // Without exceptions: a line that is no JSON is as much a fault as one of the wrong kind.
+  // The parser does not throw, so that both kinds of wrong lines get the same error.
   json in = json::parse(line, nullptr, false);
   if (!in.is_object()) throw fault("line", shown(line), "must be one JSON object");
   return in;
 }
 
-/// One line of text; bytes that are no UTF-8 are replaced.
+/// Returns a value as a line of text. Invalid UTF-8 is replaced.
 std::string line_of(const json& out) {
   return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
-/// The base step was made to divide the period; after a snapshot with another base step exchanges
-/// take the nearest step.
-ControlStdio::ControlStdio(session::Session& session, double rate, std::function<bool()> stop,
+/// The base step divides the period of the rate. After loading a snapshot with another base step,
+/// exchanges use the nearest step.
+ControlStdio::ControlStdio(run::Simulation& simulation, double rate, std::function<bool()> stop,
                            ControlServices services)
     : stop_(std::move(stop)),
-      session_(session),
-      world_(session.world()),
+      simulation_(simulation),
       rate_(rate),
-      requests_(session, rate, std::move(services)) {}
+      requests_(simulation, rate, services) {}
 
-/// The next line without its end. Every byte is looked at once, whatever the pieces that it comes
-/// in.
+/// Reads the next line, without its end. Looks at each byte once, in whatever pieces the line
+/// arrives.
 ControlStdio::Read ControlStdio::read_line(std::string& line) {
-  // Not through std::cin: a signal that comes just before a blocking read would be lost in it.
+  // Not by std::cin: a signal just before a blocking read would be missed.
   for (;;) {
     const std::size_t end = unread_.find('\n', scanned_);
     if (end != std::string::npos) {
@@ -94,13 +95,14 @@ ControlStdio::Read ControlStdio::read_line(std::string& line) {
       return Read::kLine;
     }
     scanned_ = unread_.size();
-    // Only its length is of interest from here on.
+    // The rest of a line that is too long is skipped.
     if (unread_.size() > kLongestLine) {
       skipping_ = true;
       unread_.clear();
       scanned_ = 0;
     }
-    if (ended_) {  // the last line may lack its end
+    // The last line may lack its end.
+    if (ended_) {
       line = std::exchange(unread_, "");
       scanned_ = 0;
       if (std::exchange(skipping_, false)) return Read::kTooLong;
@@ -109,7 +111,7 @@ ControlStdio::Read ControlStdio::read_line(std::string& line) {
     pollfd in{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&in, 1, kPatience);
     if (stop_()) return Read::kStopped;
-    // Nothing yet, or a signal: ask `stop` again.
+    // No input yet, or a signal: `stop_` is asked again.
     if (ready <= 0) continue;
     char bytes[65536];
     const ssize_t got = read(STDIN_FILENO, bytes, sizeof bytes);
@@ -121,14 +123,14 @@ ControlStdio::Read ControlStdio::read_line(std::string& line) {
   }
 }
 
-/// False when nobody reads any more, or `stop` said so while nobody read.
+/// Writes a line. Returns false if the reader is gone, or if `stop_` ends the wait for it.
 bool ControlStdio::say(const std::string& line) {
   for (std::size_t at = 0; at < line.size();) {
     pollfd out{STDOUT_FILENO, POLLOUT, 0};
     const int ready = poll(&out, 1, kPatience);
     if (stop_()) return false;
     if (ready <= 0) continue;
-    // A ready pipe takes so much without blocking.
+    // A ready pipe takes this many bytes without blocking.
     const ssize_t put =
         write(STDOUT_FILENO, line.data() + at, std::min<std::size_t>(line.size() - at, PIPE_BUF));
     if (put < 0 && (errno == EINTR || errno == EAGAIN)) continue;
@@ -141,28 +143,28 @@ bool ControlStdio::say(const std::string& line) {
   return true;
 }
 
+/// Sends time and all outputs.
 bool ControlStdio::say_outputs() {
   json out;
-  out["time"] = world_.time();
+  out["time"] = simulation_.time();
   json& values = out["outputs"];
-  for (std::size_t i = 0; i < world_.outputs().size(); ++i)
-    values[world_.outputs()[i].name] = world_.outputs().get(static_cast<int>(i));
+  for (std::size_t i = 0; i < simulation_.outputs().size(); ++i)
+    values[simulation_.outputs()[i].name] = simulation_.get(static_cast<int>(i));
   return say(line_of(out));
 }
 
 bool ControlStdio::answer(const json& request) {
   const json said = requests_.answer(request);
-  moved_ = moved_ || requests_.moved();
   if (!say(line_of(said))) return false;
-  // Inputs that follow belong to the state as it is now.
+  // The next inputs refer to the present state, so its outputs are sent again.
   return !requests_.moved() || say_outputs();
 }
 
-/// Outputs first, then inputs: the controller answers what it has just been told.
+/// Sends the outputs first, so that the controller can answer them.
 bool ControlStdio::exchange() {
-  if (!sim::sample_due(world_.steps(), world_.dt(), rate_)) return true;
+  if (!sim::sample_due(simulation_.world().steps(), simulation_.world().dt(), rate_)) return true;
   if (!say_outputs()) return false;
-  // Lock step: simulated time stands still until a usable answer is there.
+  // Simulated time stands still until a valid answer arrives.
   for (;;) {
     std::string line;
     const Read read = read_line(line);
@@ -179,9 +181,10 @@ bool ControlStdio::exchange() {
       if (!ControlRequests::is_request(in)) return obey(in);
       if (!answer(in)) return false;
     } catch (const Error& error) {
-      // A slip is the controller's to mend, which knows best what it meant.
+      // The controller may correct its mistake, so the run goes on.
       std::string text = error.what();
-      if (text.rfind(kSeverity, 0) == 0) text.erase(0, kSeverity.size());  // the key says so
+      // The key of the answer contains the severity.
+      if (text.rfind(kSeverity, 0) == 0) text.erase(0, kSeverity.size());
       if (!say(line_of({{"error", text}, {"line", lines_}}))) return false;
     }
   }
@@ -199,16 +202,17 @@ bool ControlStdio::obey(const json& in) {
     if (!in["inputs"].is_object())
       throw fault("inputs", shown(in["inputs"]), "must be an object of names and numbers");
     for (const auto& [name, value] : in["inputs"].items()) {
-      // No channel's name is so long, and looking for the nearest one costs time.
+      // No channel has such a long name, and a search for the nearest one would be slow.
       if (name.size() > kLongestName) throw fault(shown(name), shown(value), "is no input");
       if (!value.is_number() || !std::isfinite(value.get<double>()))
         throw fault(shown(name), shown(value), "must be a number");
-      // By name each time: controllers send few inputs, and the map is fast.
-      inputs.emplace_back(world_.inputs().index(name), value.get<double>());
+      // Inputs are looked up by name each time: controllers send few, and the look-up is fast.
+      inputs.emplace_back(simulation_.input(name), value.get<double>());
     }
   }
-  for (const auto& [input, value] : inputs) session_.set(input, value);
+  // Everything in the line is valid, so it takes effect as a whole.
+  for (const auto& [input, value] : inputs) simulation_.set(input, value);
   return !in.value("end", false);
 }
 
-}  // namespace navvy::cli
+}  // namespace navvy::link

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiment.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "core/edit_distance.h"
+#include "core/error.h"
+#include "core/math.h"
+#include "lab/soils.h"
+#include "scene/soil_values.h"
+#include "soil/scheme.h"
+
+namespace navvy::lab {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+InputError refused(const std::string& where, const std::string& value, const std::string& rule,
+                   const std::string& remedy) {
+  return InputError(Fault{Fault::Severity::kError, "", 0, where, value, rule, remedy});
+}
+
+const std::string kSchemePrefix = "scheme.";
+
+/// Returns true for a setting of the particle scheme, false for one of the soil.
+bool is_scheme_setting(const std::string& name) { return name.rfind(kSchemePrefix, 0) == 0; }
+
+/// Returns the number of a setting. All of the text must be the number: 0.02m is a mistake.
+double number_of(const std::string& name, const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data(), end, number);
+  if (failed != std::errc() || stop != end)
+    throw refused("--set " + name, text, "must be a number", "");
+  return number;
+}
+
+/// Sets a number of the soil by its name in scene files, in that file's unit.
+void set_value(scene::Soil& soil, const std::string& name, const std::string& text) {
+  std::vector<std::string> names;
+  for (const scene::SoilValue& value : scene::soil_values(soil)) {
+    names.emplace_back(value.name);
+    if (name != value.name) continue;
+    *value.value = number_of(name, text) * value.factor;
+    return;
+  }
+  throw refused("--set", name,
+                "must be a number of a soil, by its name in scene files, or scheme.NAME",
+                "did you mean '" + nearest_name(names, name) + "'?");
+}
+
+/// Returns the given value of an option in SI units; kNone when it was not given.
+double given(const Experiment& experiment, const std::string& name) {
+  const auto values = experiment.soil_values.find(name);
+  if (values == experiment.soil_values.end() || values->second.empty()) return kNone;
+  for (const SoilOption& option : soil_options())
+    if (name == option.name) return values->second.front() * option.factor;
+  return kNone;
+}
+
+/// Returns the shortest text that reads back as the same number.
+std::string exact_text(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+/// An axis, and how one of its values gets into an experiment of single values.
+struct Axis {
+  SweepAxis axis;
+  std::function<void(Experiment&, double)> put;
+};
+
+void add_geometry(std::vector<Axis>& axes, const Experiment& experiment, const Rig& rig) {
+  // In the rig's own order: the first axis is the one that pictures are drawn over.
+  for (const Parameter& parameter : rig.parameters) {
+    const std::string& name = parameter.name;
+    const auto written = experiment.geometry.find(name);
+    if (written == experiment.geometry.end()) continue;
+    const std::string where = "lab " + rig.name + " --" + name;
+    const std::vector<std::string> parts = listed(where, written->second);
+    if (parts.size() < 2) continue;
+    SweepAxis axis{name, parameter.unit, {}};
+    for (const std::string& part : parts) {
+      const std::optional<double> value = parameter.read(part);
+      if (!value) throw refused(where, part, parameter.rule(), "");
+      axis.values.push_back(*value);
+    }
+    axes.push_back(
+        {axis, [name](Experiment& one, double value) { one.geometry[name] = exact_text(value); }});
+  }
+}
+
+std::vector<Axis> axes_of(const Experiment& experiment, const Rig& rig) {
+  std::vector<Axis> axes;
+  add_geometry(axes, experiment, rig);
+  if (experiment.cells.size() > 1)
+    axes.push_back({{"cell", "m", experiment.cells},
+                    [](Experiment& one, double value) { one.cells = {value}; }});
+  for (const SoilOption& option : soil_options()) {
+    const auto values = experiment.soil_values.find(option.name);
+    if (values == experiment.soil_values.end() || values->second.size() < 2) continue;
+    axes.push_back({{option.name, "", values->second},
+                    [name = std::string(option.name)](Experiment& one, double value) {
+                      one.soil_values[name] = {value};
+                    }});
+  }
+  return axes;
+}
+
+/// Makes the setup of one run: every value of `experiment` is a single one.
+Setup setup_of(const Experiment& experiment, const Rig& rig, device::Device& device) {
+  Setup setup = default_setup(rig, device);
+  setup.soil = soil_of(experiment, experiment.soil.value_or(setup.soil));
+  for (const auto& [name, text] : experiment.settings)
+    if (is_scheme_setting(name))
+      soil::set_scheme_constant(setup.scheme, name.substr(kSchemePrefix.size()),
+                                number_of(name, text));
+  if (!experiment.cells.empty()) setup.cell = experiment.cells.front();
+  set_written(setup, experiment.geometry);
+  setup.energy = experiment.energy;
+  setup.progress = experiment.progress;
+  return setup;
+}
+
+}  // namespace
+
+const std::vector<SoilOption>& soil_options() {
+  using scene::Soil;
+  static const std::vector<SoilOption> table = {
+      {"phi-deg", "friction angle phi (plane strain) [deg]", &Soil::friction_angle, kDegree},
+      {"repose-deg", "angle of repose t instead of phi: sin phi = tan t [deg]", nullptr, kDegree},
+      {"cohesion-pa", "cohesion c, also the residual cohesion unless the soil's is lower [Pa]",
+       nullptr},
+      {"density", "bank density [kg/m3]", &Soil::bank_density},
+      {"young-pa", "Young's modulus, reduced for speed; by default at least 200 x cohesion [Pa]",
+       &Soil::young_modulus},
+      {"poisson", "Poisson's ratio [-]", &Soil::poisson},
+      {"swell", "loose volume / bank volume [-]", &Soil::swell},
+      {"dilatancy-deg", "dilatancy angle psi in bank state [deg]; needs a swell",
+       &Soil::dilatancy_angle, kDegree},
+      {"fast-phi-deg", "mu(I): friction angle of fast flow [deg]", &Soil::fast_friction_angle,
+       kDegree},
+      {"grain-m", "mu(I): grain diameter [m]", &Soil::grain_diameter},
+      {"inertial-number", "mu(I): inertial number at half the growth [-]", &Soil::inertial_number},
+      {"delta-deg", "friction angle of soil on tool [deg]", &Soil::tool_friction_angle, kDegree},
+      {"adhesion-pa", "adhesion of soil on tool [Pa]", &Soil::adhesion},
+  };
+  return table;
+}
+
+scene::Soil soil_of(const Experiment& experiment, scene::Soil soil) {
+  const double cohesion_before = soil.cohesion, residual_before = soil.residual_cohesion;
+  // An angle of repose first: a phi given beside it wins.
+  const double repose = given(experiment, "repose-deg");
+  if (!std::isnan(repose)) soil.friction_angle = friction_from_repose(repose);
+  const double cohesion = given(experiment, "cohesion-pa");
+  if (!std::isnan(cohesion)) {
+    const double before = std::exchange(soil.cohesion, cohesion);
+    // A residual cohesion that equalled the cohesion follows it, and it never exceeds it.
+    if (cohesion != before &&
+        (soil.residual_cohesion == before || soil.residual_cohesion > cohesion))
+      soil.residual_cohesion = cohesion;
+  }
+  for (const SoilOption& option : soil_options())
+    if (const double value = given(experiment, option.name);
+        option.value != nullptr && !std::isnan(value))
+      soil.*option.value = value;
+  for (const auto& [name, text] : experiment.settings)
+    if (!is_scheme_setting(name)) set_value(soil, name, text);
+  const auto is_set = [&](const std::string& name) {
+    return std::any_of(experiment.settings.begin(), experiment.settings.end(),
+                       [&](const auto& setting) { return setting.first == name; });
+  };
+  if (!is_set("loose_cohesion_pa")) scene::follow_residual_cohesion(soil, residual_before);
+  if (!is_set("young_modulus_pa") && std::isnan(given(experiment, "young-pa")))
+    scene::follow_cohesion(soil, cohesion_before);
+  return soil;
+}
+
+ExperimentPlan plan_of(const Rig& rig, const Experiment& experiment, device::Device& device) {
+  ExperimentPlan plan;
+  const std::vector<Axis> axes = axes_of(experiment, rig);
+  for (const Axis& one : axes) plan.axes.push_back(one.axis);
+  for (const std::vector<double>& at : combinations(plan.axes)) {
+    Experiment one = experiment;
+    for (std::size_t i = 0; i < at.size(); ++i) axes[i].put(one, at[i]);
+    plan.runs.push_back({at, setup_of(one, rig, device)});
+    check(rig, plan.runs.back().setup);
+  }
+  return plan;
+}
+
+}  // namespace navvy::lab

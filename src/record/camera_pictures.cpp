@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/camera_pictures.h"
+
+#include "core/edit_distance.h"
+#include "core/error.h"
+#include "render/renderer.h"
+#include "sim/frame_builder.h"
+
+namespace navvy::record {
+
+// The frame builder keeps the dense ground between pictures, the renderer its drawing context.
+struct CameraPictures::Context {
+  explicit Context(const sim::World& world) : frames(world) {}
+  sim::FrameBuilder frames;
+  render::Renderer renderer;
+};
+
+CameraPictures::CameraPictures(const sim::World& world) : world_(world) {}
+CameraPictures::~CameraPictures() = default;
+
+void CameraPictures::draw(const std::vector<const scene::Camera*>& cameras,
+                          const Receiver& receiver) {
+  if (cameras.empty()) return;
+  if (!context_) context_ = std::make_unique<Context>(world_);
+  const scene::Frame& frame = context_->frames.build();
+  for (const scene::Camera* camera : cameras)
+    receiver(*camera, context_->renderer.render(frame, context_->frames.camera(*camera)));
+}
+
+render::Image CameraPictures::draw(const std::string& camera) {
+  render::Image out;
+  std::vector<std::string> names;
+  for (const scene::Camera& one : world_.description().cameras) {
+    names.push_back(one.name);
+    if (one.name != camera) continue;
+    draw({&one}, [&](const scene::Camera&, const render::Image& image) { out = image; });
+    return out;
+  }
+  throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera,
+                         "the scene has no camera of this name",
+                         names.empty() ? "add a <navvy:camera>" : suggestion(camera, names)});
+}
+
+}  // namespace navvy::record

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run_end.h"
+
+namespace navvy::run {
+
+const char* name_of(EndReason reason) {
+  switch (reason) {
+    case EndReason::kComplete:
+      return "complete";
+    case EndReason::kFellShort:
+      return "fell_short";
+    case EndReason::kOutOfTime:
+      return "out_of_time";
+    case EndReason::kEndRequested:
+      return "end_requested";
+    case EndReason::kInterrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+// The summary knows three ends; its readers find the details in its list of programs.
+const char* status_of(EndReason reason) {
+  if (reason == EndReason::kInterrupted) return "interrupted";
+  return reason == EndReason::kComplete ? "finished" : "incomplete";
+}
+
+}  // namespace navvy::run

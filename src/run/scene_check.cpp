@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <utility>
+
+#include "core/math.h"
+#include "planner/map_path_planner.h"
+#include "record/map_recorder.h"
+#include "session/program_check.h"
+#include "sim/start_check.h"
+
+namespace navvy::run {
+namespace {
+
+/// Returns how a machine stands after its first second.
+std::string standing(const std::string& name, const vehicle::Stability& stands, bool falling) {
+  char text[160];
+  const double tilt = degrees(stands.tilt);
+  if (falling)
+    std::snprintf(text, sizeof text, "does not stand after a second: it is still falling");
+  else if (stands.margin == 0)
+    std::snprintf(text, sizeof text, "stands: tilt %.1f deg, on feet that span no area", tilt);
+  else
+    std::snprintf(text, sizeof text, "stands: tilt %.1f deg, centre of mass %.2f m %s its feet",
+                  tilt, std::abs(stands.margin), stands.margin > 0 ? "within" : "outside");
+  return "'" + name + "' " + text;
+}
+
+/// Splits a text into lines.
+void add_lines(std::vector<std::string>& lines, const std::string& text) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+}
+
+}  // namespace
+
+SceneCheck check_scene(const scene::Scene& scene) {
+  SceneCheck out;
+  // The test that a run makes before it starts.
+  out.faults = session::check_programs(scene, planner::path_planners());
+  for (Fault& fault : record::check_records(scene)) out.faults.push_back(std::move(fault));
+  // The machines settle for a second on resting soil, without a device.
+  sim::StartCheck start = sim::check_start(scene);
+  add_lines(out.notes, start.terrain);
+  add_lines(out.notes, start.design);
+  for (std::size_t m = 0; m < start.standing.size(); ++m)
+    if (start.standing[m].free)
+      out.notes.push_back(standing(scene.machines[m].name, start.standing[m], start.falling[m]));
+  // The check of the programs has reported a ground that cannot be made.
+  for (Fault& fault : start.faults)
+    if (std::none_of(out.faults.begin(), out.faults.end(),
+                     [&](const Fault& one) { return one.text() == fault.text(); }))
+      out.faults.push_back(std::move(fault));
+  return out;
+}
+
+}  // namespace navvy::run

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "link/control_requests.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "link/base64.h"
+#include "run/scene.h"
+
+namespace navvy::link {
+namespace {
+
+using nlohmann::json;
+
+std::string base64_of(const std::string& text) { return base64(std::as_bytes(std::span(text))); }
+
+/// Decodes base64 without checks.
+std::vector<char> decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<char> out;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    if ((count += 6) < 8) continue;
+    count -= 8;
+    out.push_back(static_cast<char>(bits >> count & 0xFF));
+  }
+  return out;
+}
+
+TEST(Base64, GivesTheTextsOfRfc4648) {
+  EXPECT_EQ(base64_of(""), "");
+  EXPECT_EQ(base64_of("f"), "Zg==");
+  EXPECT_EQ(base64_of("fo"), "Zm8=");
+  EXPECT_EQ(base64_of("foo"), "Zm9v");
+  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
+}
+
+TEST(ControlRequests, SendArraysWithStampShapeUnitAndFrame) {
+  run::Simulation simulation(run::test::bucket_scene(2), run::test::with_height_grid());
+  ControlRequests requests(simulation, 50);
+  ASSERT_TRUE(ControlRequests::is_request(json{{"arrays", true}}));
+  simulation.step(30);
+  const json answer = requests.answer({{"arrays", {"bucket/height_grid"}}});
+  const json& grid = answer.at("arrays").at("bucket/height_grid");
+  EXPECT_EQ(grid.at("type"), "float32");
+  EXPECT_EQ(grid.at("shape"), json({5, 5}));
+  EXPECT_EQ(grid.at("unit"), "m");
+  EXPECT_EQ(grid.at("frame"), "bucket/height_grid");
+  EXPECT_EQ(grid.at("quaternion_wxyz").size(), 4u);
+  const sim::ArrayView view = simulation.arrays().view("bucket/height_grid");
+  EXPECT_EQ(grid.at("sequence"), view.sequence());
+  EXPECT_EQ(grid.at("time"), view.time());
+  EXPECT_EQ(grid.at("position_m")[0], view.X_WF().translation().x());
+  const std::vector<char> bytes = decoded(grid.at("data_base64"));
+  ASSERT_EQ(bytes.size(), view.bytes().size());
+  EXPECT_EQ(std::memcmp(bytes.data(), view.bytes().data(), bytes.size()), 0);
+  EXPECT_EQ(requests.answer({{"arrays", true}}), answer);
+  EXPECT_EQ(requests.answer({{"arrays", json::array()}}).at("arrays"), json::object());
+  const json info = requests.answer({{"info", true}}).at("info");
+  EXPECT_EQ(info.at("arrays").at("bucket/height_grid").at("shape"), json({5, 5}));
+  EXPECT_FALSE(info.at("arrays").at("bucket/height_grid").contains("data_base64"));
+}
+
+TEST(ControlRequests, RefuseUnknownArraysWithTheNearestName) {
+  run::Simulation simulation(run::test::bucket_scene(2), run::test::with_height_grid());
+  ControlRequests requests(simulation, 50);
+  const auto refused = [&](const json& line) -> std::string {
+    try {
+      requests.answer(line);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refused({{"arrays", {"bucket/hight_grid"}}}).find("bucket/height_grid"),
+            std::string::npos);
+  EXPECT_NE(refused({{"arrays", 3}}).find("list of at most 1000 names"), std::string::npos);
+  EXPECT_NE(refused({{"arrays", {7}}}).find("must be a text"), std::string::npos);
+}
+
+TEST(ControlRequests, ResetReplacesTheStateOnce) {
+  run::Simulation simulation(run::test::bucket_scene(2));
+  ControlRequests requests(simulation, 50, {false, false});
+  const std::string start = simulation.state_hash();
+  simulation.step(5);
+  EXPECT_EQ(requests.answer({{"reset", true}}).at("reset").at("steps"), 0);
+  EXPECT_TRUE(requests.moved());
+  EXPECT_EQ(simulation.state_hash(), start);
+  EXPECT_EQ(simulation.replacements(), 1u);
+  EXPECT_THROW(requests.answer({{"save", "file"}}), InputError);
+  EXPECT_FALSE(requests.moved());
+  EXPECT_THROW(requests.answer({{"image", "side"}}), InputError);
+}
+
+}  // namespace
+}  // namespace navvy::link
