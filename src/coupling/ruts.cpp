@@ -71,7 +71,7 @@ void Ruts::press(const std::vector<LoadedTyre>& tyres, double interval) {
     bearing.follow(tyres[i].tyre, wheel, interval);
     press_wheel(tyres[i].tyre, wheel, bearing, interval);
   }
-  // Nothing can be laid down under a track or another tyre.
+  // Soil cannot be laid down under a track or another tyre.
   pushed_.deposit_down([this](int ix, int iy) {
     return ground_.held(ix, iy) ||
            under_.count(static_cast<std::int64_t>(iy) * ground_.nx() + ix) != 0;
@@ -117,7 +117,7 @@ void Ruts::press_wheel(const scene::Wheel& tyre, const vehicle::WheelState& whee
 void Ruts::press_patch(const Press& press, const Vec2& center, const Vec2& along, double aside) {
   const terramechanics::TyrePatch& patch = press.patch;
   const Vec2 across(-along.y(), along.x());
-  // At least one cell to either side, since the tyre senses the ground between those columns.
+  // Press at least one cell to either side, since the tyre senses the ground between those columns.
   const double half_width = std::max(0.5 * patch.width, ground_.cell());
   const double reach = std::hypot(patch.half_length, half_width);
   const Vec2i low = ground_.column_at(center.x() - reach, center.y() - reach);

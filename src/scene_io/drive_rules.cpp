@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "scene/drive_kinds.h"
 #include "scene_io/element_reader.h"
 
 namespace navvy::scene_io {
@@ -240,7 +241,7 @@ void finish_tracks(Element& model, scene::Machine& machine, Faults& faults) {
                    "a sprocket turns about y of the link that carries its track",
                    "write <xyz>0 1 0</xyz>, and turn that link so that x is ahead and z up");
     check_track(element, wheel, X_CM * (X_ML * Vec3(spin.X_LcJ.translation())), faults);
-    if (machine.has_drive && !std::holds_alternative<scene::DifferentialDrive>(machine.drive))
+    if (machine.has_drive && scene::differential_drive(machine.drive) == nullptr)
       faults.error(element, scene::drive_name(machine.drive),
                    "tracks steer by the difference of their speeds",
                    "use <navvy:drive type=\"differential\">");

@@ -65,10 +65,14 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
       faults.error(*joint, type,
                    "the type of a joint must be fixed, revolute, continuous, prismatic or ball");
     for (const char* end : {"parent", "child"}) {
-      if (!joint->FirstChildElement(end))
+      const Element* at = joint->FirstChildElement(end);
+      if (!at) {
         faults.error(*joint, "", std::string("needs an element <") + end + ">");
-      const bool world = std::string(end) == "parent" && child_text(*joint, end) == "world";
-      if (!world) require_name(*joint, end, "link or frame", ends, faults);
+        continue;
+      }
+      const bool world = std::string(end) == "parent" && text_of(*at) == "world";
+      if (!world && !text_of(*at).empty())
+        require_name(*at, text_of(*at), "link or frame of this name in the model", ends, faults);
     }
     const std::string parent = child_text(*joint, "parent");
     if (!parent.empty() && parent == child_text(*joint, "child"))

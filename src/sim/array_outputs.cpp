@@ -107,7 +107,7 @@ std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X
 void ArrayOutputs::visit(Archive& a) {
   const std::string rule =
       "the snapshot has other arrays than the world; add the same samplers, then load";
-  // As many arrays, under the same names, in the same order.
+  // The snapshot must hold as many arrays, under the same names, in the same order.
   a.constant("count", channels_.size(), rule);
   for (std::size_t i = 0; i < channels_.size(); ++i)
     a.item(i, [&] {

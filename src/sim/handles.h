@@ -4,9 +4,10 @@
 // `.joint("arm_joint").position()`, `.tool("bucket").force()`, `.wheel(0).state().slip`.
 //
 // A handle is a few words and copied freely. It is valid as long as its world lives and always
-// reads the present state, also after a snapshot was loaded. Handles only read: sim::Commands and
-// sim::Inputs drive, and Session's functions where a program may be running. Every look-up throws
-// InputError for a name or index that does not exist; for a name the message holds the nearest one.
+// reads the present state, also after a snapshot was loaded. Handles only read:
+// sim::MachineCommands and sim::Inputs drive, and Session's functions where a program may be
+// running. Every look-up throws InputError for a name or index that does not exist; for a name the
+// message holds the nearest one.
 #pragma once
 
 #include <cstdint>

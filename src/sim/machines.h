@@ -12,8 +12,8 @@ namespace navvy::sim {
 
 /// Finds the machines of a world, in the order of World::description().machines.
 ///
-/// A view of two words: copy it freely, as long as its world lives. Reads only; sim::Commands
-/// drives.
+/// A view of one pointer: copy it freely. Valid as long as its world lives. Reads only;
+/// sim::MachineCommands drives.
 class Machines {
  public:
   /// Refers to the parts of a world; World::machines makes it.

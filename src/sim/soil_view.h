@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world measures of its soil.
+// Measurements of the soil of a world.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,8 @@ struct WorldParts;
 
 /// Reads the soil of a world, as plain values (sim/world_measurements.h).
 ///
-/// A view of two words: copy it freely, as long as its world lives. Every function returns a copy.
+/// A view of one pointer: copy it freely. Valid as long as its world lives. Every function returns
+/// a copy.
 class SoilView {
  public:
   /// Refers to the parts of a world; World::soil makes it.

@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 #include "sim/array_outputs.h"
 #include "sim/channels.h"
-#include "sim/commands.h"
+#include "sim/machine_commands.h"
 #include "sim/machines.h"
 #include "sim/sampler.h"
 #include "sim/soil_view.h"
@@ -94,7 +94,7 @@ class World {
   /// Machines to read.
   Machines machines() const { return Machines(*parts_); }
   /// Machines to drive.
-  Commands commands() { return Commands(*parts_); }
+  MachineCommands commands() { return MachineCommands(*parts_); }
 
   /// Returns the resting ground. Loose soil lies beside it in soil().loose_soil().
   const heightfield::Ground& ground() const;

@@ -13,7 +13,7 @@ struct WorldParts;
 
 /// Hashes a world, to compare two runs.
 ///
-/// A view of two words: copy it freely, as long as its world lives.
+/// A view of one pointer: copy it freely. Valid as long as its world lives.
 class WorldHashes {
  public:
   /// Refers to the parts of a world; World::hashes makes it.

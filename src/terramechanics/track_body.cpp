@@ -208,7 +208,7 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   const bool idler_ahead = idler.p_C.x() > sprocket.p_C.x();
   gear.insert(gear.begin(), idler_ahead ? idler : sprocket);
   gear.push_back(idler_ahead ? sprocket : idler);
-  // As large as fits inside the track's loop.
+  // The discs are as large as fits inside the track's loop.
   const double large = std::max(gear[1].radius, std::min(idler.radius, sprocket.radius));
 
   std::vector<TrackStation> out;

@@ -21,7 +21,7 @@ PlacementCapability& require_placement(PhysicsEngine& engine, int machine) {
   throw InputError(
       Fault{Fault::Severity::kError, "", 0, "machine", std::to_string(machine),
             "forces move this machine, so its base cannot be placed",
-            "set <navvy:engine>kinematic</navvy:engine>, or command its joints and drive"});
+            "set <navvy:physics>kinematic</navvy:physics>, or command its joints and drive"});
 }
 
 HitchCapability& require_hitches(PhysicsEngine& engine) {
@@ -29,7 +29,7 @@ HitchCapability& require_hitches(PhysicsEngine& engine) {
   throw InputError(
       Fault{Fault::Severity::kError, "", 0, "hitch", "",
             "this physics engine cannot couple machines: a hitch needs dynamic machines",
-            "set <navvy:engine>dynamic</navvy:engine>, or place the machine by its pose"});
+            "set <navvy:physics>dynamic</navvy:physics>, or place the machine by its pose"});
 }
 
 std::vector<terramechanics::TrackPatch> track_patches(const PhysicsEngine& engine, int machine,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a world gets its physics engine. Names the engine's interface without including it.
+// Factory of a world's physics engine. Names the engine's interface without including it.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,8 @@ namespace navvy::vehicle {
 class PhysicsEngine;
 
 /// Makes an empty physics engine for `gravity` [m/s2, axes of W] and the contact materials of a
-/// scene. The world adds machines to it afterwards.
+/// scene. The world adds machines to it afterwards. Include vehicle/physics_engine.h where a factory
+/// is converted to this type.
 using PhysicsEngineFactory = std::function<std::unique_ptr<PhysicsEngine>(
     const Vec3& gravity, const scene::Materials& materials)>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What wheels and bodies are told of columns.
+// What wheels and bodies read of columns.
 #include "coupling/ground_view.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace navvy::coupling {
 namespace {
 
-/// Tells the same ground, but not how high it is at most.
+/// Returns the same ground without an upper bound of its heights.
 class WithoutHighest final : public terramechanics::GroundQuery {
  public:
   explicit WithoutHighest(const GroundView& view) : view_(view) {}

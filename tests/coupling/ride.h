@@ -38,7 +38,7 @@ inline scene::Soil shipped_soil(const std::string& name) {
   return {};
 }
 
-/// One machine on a bed; firm ground instead when told.
+/// One machine on a bed, or on firm ground.
 class Ride {
  public:
   Ride(const scene::Machine& machine, heightfield::Ground& ground, const Vec2& at,

@@ -205,7 +205,7 @@ TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
   ride.engine().set_drive(0, {0.8, 0, false});
   ride.run(4);
   EXPECT_GT(ride.place_of_base().x(), 4.5);
-  // Two driven wheels bear gravity, compaction and rolling: slip, but no wheel that digs itself in.
+  // Two driven wheels overcome gravity, compaction and rolling: slip, but no wheel that digs itself in.
   EXPECT_LT(ride.wheel(2).slip, 0.2);
 }
 

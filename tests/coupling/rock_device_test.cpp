@@ -14,7 +14,7 @@
 namespace navvy::coupling {
 namespace {
 
-/// A layer of less than two cells: one of four bears the front of the machine by itself [m].
+/// A layer of less than two cells: one of four carries the front of the machine by itself [m].
 constexpr double kDepth = 0.15;
 
 TEST(Rock, ABucketPressedThroughTheSoilRestsOnItAndLiftsTheMachine) {

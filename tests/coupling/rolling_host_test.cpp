@@ -25,7 +25,7 @@ scene::Wheel twin() {
   return wheel;
 }
 
-/// The ground as it is told to tyres, but for how deep they have sunk: none pushes soil ahead.
+/// The ground as tyres read it, without their sinkage: no tyre pushes soil ahead.
 class NotSunk final : public terramechanics::GroundQuery {
  public:
   explicit NotSunk(const GroundView& ground) : ground_(ground) {}
@@ -41,7 +41,7 @@ class NotSunk final : public terramechanics::GroundQuery {
   const GroundView& ground_;
 };
 
-/// A wheel that bears `kLoad`, free to rise and sink.
+/// A wheel under `kLoad`, free to rise and sink.
 class RolledTyre {
  public:
   explicit RolledTyre(heightfield::Ground& ground)

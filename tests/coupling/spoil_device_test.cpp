@@ -52,7 +52,7 @@ Vec3 base_place(const sim::World& world) {
   return world.machines().at(0).link(0).pose().translation();
 }
 
-/// A rectangle of loose, remoulded soil on the site, 0.15 m deep; in columns, or awake.
+/// A rectangle of loose, remoulded soil on the site, 0.15 m deep; in columns, or active.
 class Layer {
  public:
   Layer(sim::World& world, const Vec2& low, const Vec2& high)
@@ -73,7 +73,7 @@ class Layer {
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) {
         const Vec2 p = parts_.ground.origin() + parts_.ground.cell() * Vec2(ix + 0.5, iy + 0.5);
-        // Soil that a wheel pushed aside lies under what is awake.
+        // Soil that a wheel pushed aside is under the active soil.
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
         for (int w = 0; rests && w < 4; ++w)
           rests = (wheel_place(world_, w).head<2>() - p).norm() > around;

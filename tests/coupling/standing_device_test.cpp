@@ -16,7 +16,7 @@
 namespace navvy::coupling {
 namespace {
 
-/// 468 kg on 0.36 m2: loam bears ten times as much. `collision`: whether it also meets columns as
+/// 468 kg on 0.36 m2: loam supports ten times as much. `collision`: whether it also meets columns as
 /// bodies do.
 scene::Scene stone_on_loam(bool collision) {
   const std::string box =
@@ -43,7 +43,7 @@ TEST(Standing, AStoneWithAShellSinksNoMillimetreInTenSeconds) {
     device::Device device;
     sim::World world(scene, device);
     const auto height = [&] { return world.machines().at(0).link(0).pose().translation().z(); };
-    // Its soil is awake at first: it must stand on that, too. It fell by the weight of a step in
+    // Its soil is active at first: it must stand on that, too. It fell by the weight of a step in
     // every step once, 16 mm/s.
     while (world.time() < 1) world.step();
     const double active = height();

@@ -26,7 +26,7 @@ heightfield::Ground flat_loam() {
   return heightfield::Ground(std::move(setup));
 }
 
-/// 0.4 m of a belt of 0.6 m under `load` [N].
+/// 0.4 m of a track of 0.6 m under `load` [N].
 terramechanics::TrackPatch patch_at(double x, double y, double load) {
   return {Vec3(x, y, 0), Vec3::UnitX(), 0.4, 0.6, load};
 }
@@ -61,7 +61,7 @@ TEST(TrackRuts, RaiseTheirEdgesByTheLoadTheGroundCannotSupport) {
   TrackRuts ruts(ground, tyres);
   const Vec2i under = ground.column_at(3.2, 3.25), beside = ground.column_at(3.2, 3.55);
   const double before = ground.height(beside.x(), beside.y());
-  // 50 kPa the loam bears as a foundation, 0.5 MPa it does not.
+  // The loam supports 50 kPa as a foundation, but not 0.5 MPa.
   ruts.press({patch_at(3.2, 3.2, 12e3)}, kFar, true);
   EXPECT_EQ(ground.height(beside.x(), beside.y()), before);
   ruts.press({patch_at(3.2, 3.2, 120e3)}, kFar, true);
@@ -74,7 +74,7 @@ TEST(TrackRuts, RaiseTheirEdgesByTheLoadTheGroundCannotSupport) {
 }
 
 TEST(TrackRuts, PressTyresRutsOnlyByWhatTheyPressMoreAndTyresTheirs) {
-  // Wheels and belts of one lane: the deeper of the two is left, in either order.
+  // Wheels and tracks in one lane: the deeper rut of both remains, in either order.
   scene::Wheel wheel;
   vehicle::WheelState under_load;
   under_load.X_WWheel.translation() = Vec3(3.2, 3.2, 0.5);

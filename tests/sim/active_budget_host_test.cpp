@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil that starts awake is held against the budget of particles before memory is asked for.
+// The particle budget is checked against initially active soil before memory is allocated.
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
@@ -11,7 +11,7 @@
 namespace navvy::sim {
 namespace {
 
-/// A site of 24 by 24 m whose soil above `bottom` is awake in a square of this width.
+/// A site of 24 by 24 m with active soil above `bottom` in a square of this width.
 scene::Scene active_square(double width, double bottom, int budget) {
   const std::string w = std::to_string(width);
   return scene_io::load_scene_from_string(

@@ -237,7 +237,7 @@ TEST_F(ControllerChannels, OfACrawlerAreThoseOfADifferentialDrive) {
   EXPECT_GT(world.outputs().get("crawler/drive_right/spin"), 0);
   EXPECT_GT(world.outputs().get("crawler/pose/yaw"), 0.05);
   EXPECT_GT(world.outputs().get("crawler/drive_left/load"), 50e3);
-  // As one number: ruts, shear and belts are part of the state.
+  // As one number: ruts, shear and tracks are part of the state.
   World other(testing::load("paper/tracks.sdf"), device_);
   load_saved(saved(world), other);
   EXPECT_EQ(hash_of(other).digest(), hash_of(world).digest());

@@ -87,13 +87,13 @@ TEST(ParticleClipperTest, KeepsDrawnParticlesOffTheFacesOnTheirOwnSide) {
     EXPECT_GT(was * now, 0) << i << ": through the plate";
     EXPECT_GE(std::abs(now), std::abs(was) - 1e-5) << i << ": nearer than before";
     EXPECT_NEAR(particles.room[i], std::clamp(std::abs(now) - half, 0.0, kReach), 2e-5) << i;
-    // Where there is room enough it is left alone.
+    // With enough space it does not move.
     if (std::abs(was) - half > kGap + 1e-5) EXPECT_LE((p_T - before[i]).norm(), 1e-5) << i;
     moved += (p_T - before[i]).norm() > 1e-4 ? 1 : 0;
     close += particles.room[i] < kGap - 1e-4 ? 1 : 0;
   }
   EXPECT_GE(moved, before.size() / 2);
-  // Only in the narrowest corners plates leave less room.
+  // Only the narrowest corners between plates leave less space.
   EXPECT_LE(close, before.size() / 50);
 }
 

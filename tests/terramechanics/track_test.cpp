@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The law of a belt by itself: thrust against slip, standing still, resistance.
+// The law of a track by itself: thrust against slip, standing still, resistance.
 #include "terramechanics/track.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ scene::Wheel running_track() {
   return wheel;
 }
 
-/// Pressed by 5 mm, 50 kN, at this speed over the ground and of the belt [m/s].
+/// Pressed by 5 mm, 50 kN, at this speed over the ground and of the track [m/s].
 TrackMotion moving(double ground_speed, double track_speed) {
   TrackMotion motion;
   motion.X_WC = make_pose(0, 0, -0.005);
@@ -45,7 +45,7 @@ TrackMotion moving(double ground_speed, double track_speed) {
   return motion;
 }
 
-/// After the belt has gone by twice its length.
+/// After the track has moved by twice its length.
 TrackForce steady(const scene::Wheel& wheel, const TrackMotion& motion, const GroundQuery& ground) {
   TrackState state = TrackState::of(*wheel.track);
   TrackForce force;

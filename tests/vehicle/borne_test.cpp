@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose bodies that soil bears, and what rests on them.
+// Loose bodies supported by soil, and what rests on them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -86,7 +86,7 @@ TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
     engine->step(dt, ground);
     momentum.z() -= dt * kLower * kGravity;
     EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9)
-        << "what soil is told, step " << i;
+        << "what the soil reads, step " << i;
     // Pushes that come and go, with gaps, so that what is expected is wrong nearly always.
     if (i % 7 < 4) {
       const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)),

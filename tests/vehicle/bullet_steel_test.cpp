@@ -174,14 +174,14 @@ TEST(BulletSteel, ABucketTakesUpAStoneCarriesItAndSetsItDown) {
   mesh.kind = scene::Geometry::Kind::kMesh;
   mesh.mesh_file = boulder_mesh(folder, 0.34);
   engine->add_machine(body(500, mesh), make_pose(3, 0, 0.36));
-  // A low kerb, against which the lip is driven under the stone.
+  // A low kerb, against which the cutting edge is driven under the stone.
   scene::Machine kerb = block(Vec3(0.3, 2, 0.16), 1000);
   kerb.fixed_base = true;
   engine->add_machine(kerb, make_pose(3 + 0.29 + 0.15, 0, 0.08));
   const auto stone = [&] { return Vec3(engine->link(1, 0).X_WL.translation()); };
   const auto in_bucket = [&] { return Vec3(engine->link(0, 4).X_WL.inverse() * stone()); };
   const double flat_curl = radians(-56);
-  // The lip 0.756 m before the hinge and 0.31 m below it: down on the ground, under the stone,
+  // The cutting edge 0.756 m ahead of the hinge and 0.31 m below it: down on the ground, under the stone,
   // curled, up.
   crane.go({0, 1.6, 0.345, flat_curl}, 1);
   crane.go({0, 2.3, 0.345, flat_curl}, 3);

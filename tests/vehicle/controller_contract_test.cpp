@@ -54,7 +54,7 @@ class ControllerContract : public ::testing::TestWithParam<std::string> {
   void go(double duration) {
     run(*engine, flat(), duration, kStep, [this](double) { encoders->advance(*engine, 0); });
   }
-  /// Wheel speeds [rad/s], as motors of their own are told.
+  /// Commands wheel speeds [rad/s], as for motors of their own.
   void turn_wheels(double left, double right) {
     engine->set_joint(0, machine.joint_index(machine.wheels[0].joint),
                       {JointMode::kVelocity, left});

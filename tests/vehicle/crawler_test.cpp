@@ -49,7 +49,7 @@ class Crawlers : public ::testing::TestWithParam<std::string> {
     const LinkState base = engine->link(0, 0);
     return base.X_WL.linear().col(0).dot(base.v_WL);
   }
-  /// Speed of a belt over its rollers, 0 left, 1 right.
+  /// Speed of a track over its rollers, 0 left, 1 right.
   double running_track(int side) const {
     return engine->wheel(0, side).spin * machine.wheels[static_cast<std::size_t>(side)].radius;
   }
@@ -141,7 +141,7 @@ TEST_P(Crawlers, PullOnAFloorWithWhatTheirTracksGrip) {
       std::min(friction() * weight, scene::powertrain(machine.drive).tractive_force);
   print_value("pull on a firm floor / weight [-]", pull / weight,
               std::to_string(most / weight) + " +-3 %", "Coulomb");
-  // 3 %: the belts' own resistance is taken from what the motors give, not from what grips.
+  // 3 %: the tracks' own resistance reduces the motors' torque, not the grip.
   EXPECT_NEAR(pull, most, (most < friction() * weight ? 0.06 : 0.03) * most);
 }
 

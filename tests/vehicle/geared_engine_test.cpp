@@ -25,7 +25,7 @@ scene::CombustionEngine diesel() {
 
 int gear_of(const GearedEngine& engine) { return engine.state(0, 0, 0).gear; }
 
-/// In a gear that was told.
+/// In a commanded gear.
 GearedEngine in_gear(int gear, bool drives_pump = false) {
   GearedEngine engine(diesel(), drives_pump);
   engine.shift(gear, 0, 0, kStep);

@@ -70,7 +70,7 @@ TEST(JointBrake, HoldsWhateverTheJointCommand) {
   run(*rig.engine, flat(), 2, kStep);
   EXPECT_LT(std::abs(rig.angle(rig.swing)), radians(0.1));
   EXPECT_FALSE(rig.engine->joint(0, rig.swing).stalled);
-  // Let go, what it was told comes true.
+  // Once released, it follows its command.
   rig.engine->set_brake(0, rig.swing, false);
   run(*rig.engine, flat(), 2, kStep);
   EXPECT_GT(rig.angle(rig.swing), 0.5);

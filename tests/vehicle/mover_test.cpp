@@ -64,7 +64,7 @@ TEST(Mover, PushesAsFastAsItGoesAndLetsGoWhenItStops) {
   EXPECT_GT(both.place(0).x(), 2.995);
   EXPECT_LT(both.place(0).x(), 3.04);
   EXPECT_NEAR(both.place(0).y(), 0, 0.002);
-  // It is where it was told, whatever was in its way.
+  // It reached its target, whatever was in its way.
   EXPECT_NEAR(both.kinematic->link(0, 0).X_WL.translation().x(), 2, 1e-9);
 }
 

@@ -117,7 +117,7 @@ TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
     const CombustionEngineState state = rig.engine->power()->drive_engine(0);
     most = std::max(most, state.power);
     EXPECT_GE(state.speed, 100);
-    // 1 %: the torque was told for the speed at the step's start.
+    // 1 %: the torque was computed for the speed at the step's start.
     EXPECT_LE(rig.torque() * rig.carrier(), 1.01 * 0.9 * std::max(state.power, 1.0));
   });
   print_value("largest power of the engine [kW]", most / 1e3, "45 at most", "T w at 300 rad/s");

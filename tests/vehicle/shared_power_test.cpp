@@ -46,7 +46,7 @@ struct Powers {
   double pump = 0;    // the largest
   double drive = 0;   // likewise
   double speed = 0;   // at the end [m/s]
-  double shared = 0;  // largest of what the engine itself tells
+  double shared = 0;  // largest power that the engine itself reports
   std::uint64_t digest = 0;
 };
 

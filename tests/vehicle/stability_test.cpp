@@ -42,10 +42,10 @@ TEST(TippingLoad, IsTheMomentBalanceOverTheWeakestEdge) {
   const TippingLoad front = tipping_load(feet, centre, 18000, Vec2(8, 0));
   EXPECT_NEAR(front.load, 18000 * 1.5 / 5, 1e-9);
   EXPECT_TRUE(front.outward.isApprox(Vec2(1, 0)));
-  // Over a corner it goes over the edge that bears less.
+  // Over a corner it tips over the weaker edge.
   EXPECT_NEAR(tipping_load(feet, centre, 18000, Vec2(6, 4)).load,
               std::min(18000 * 1.5 / 3, 18000 * 0.6 / 3), 1e-9);
-  // Within the feet no load tips it; a machine that tips by itself bears none.
+  // Inside the feet no load tips it; a machine that tips by itself carries none.
   EXPECT_EQ(tipping_load(feet, centre, 18000, Vec2(2, 0)).load, kNoTippingLoad);
   EXPECT_EQ(tipping_load(feet, Vec2(1, 1.2), 18000, Vec2(2, 0)).load, 0);
   EXPECT_EQ(tipping_load({{0, 0}, {1, 0}}, Vec2(0.5, 0), 18000, Vec2(2, 0)).load, 0);
@@ -123,7 +123,7 @@ TEST(Stability, CountsABallAsAFootAndMakesNoneUp) {
     engine->step(1e-4, Below());
     return stability(robot, *engine, 0);
   };
-  // Two wheels span no area: it may balance, only its tilt tells.
+  // Two wheels span no area: it may balance, only its tilt counts.
   const Stability balances = standing(two_wheels(), 0);
   EXPECT_TRUE(balances.free);
   EXPECT_EQ(balances.margin, 0);
@@ -135,7 +135,7 @@ TEST(Stability, CountsABallAsAFootAndMakesNoneUp) {
   EXPECT_GT(stands.margin, 0.05);
   EXPECT_LT(stands.margin, 0.12);
   EXPECT_GT(standing(robot, radians(5)).margin, 0.04);
-  // A ball behind bears nothing of what is ahead.
+  // A ball behind carries no load ahead of the wheels.
   scene::Machine wrong = two_wheels();
   add_castor(wrong, 0.05, -0.3);
   EXPECT_LT(standing(wrong, 0).margin, -0.05);
@@ -184,7 +184,7 @@ TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
     const double edge = wheel.y() - 0.525 * std::sin(roll);
     const double expected = mass * (edge - centre.y()) / (rig.pin().y() - edge);
     EXPECT_NEAR(before.tipping_load, expected, 0.02 * expected);
-    // The load grows by 100 kg/s until the uphill wheels bear nothing.
+    // The load grows by 100 kg/s until the uphill wheels carry nothing.
     double load = 0, tipped = 0;
     testing::run(*rig.engine, rig.hill, 40, 2.0 / 600, [&](double) {
       if (tipped > 0) return;
@@ -204,7 +204,7 @@ TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
 TEST(Stability, LoadedMarginCountsWhatHangsOnTheArm) {
   for (const double angle : {0.0, radians(6)}) {
     Lifting rig(angle);
-    // Unloaded the ground bears the centre of mass.
+    // Unloaded, the centre of pressure is below the centre of mass.
     EXPECT_NEAR(rig.now().loaded_margin, rig.now().margin, 0.02);
     const double load = 600;
     testing::run(*rig.engine, rig.hill, 4, 1.0 / 600, [&](double) {

@@ -61,7 +61,7 @@ class TrackBodies : public ::testing::TestWithParam<std::string> {
   static double tilt(const PhysicsEngine& engine) {
     return std::acos(std::min(1.0, engine.link(0, 0).X_WL.linear()(2, 2)));
   }
-  /// Of the belts, from the machine's middle to what is foremost [m].
+  /// Distance from the machine's middle to the foremost point of the tracks [m].
   double reach() const {
     const scene::Track& track = *machine.wheels[0].track;
     return track.p_idler.x() + track.idler_radius + track.thickness;
@@ -93,7 +93,7 @@ TEST_P(TrackBodies, ACrawlerClimbsAKerb) {
 }
 
 TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndOnAcrossOne) {
-  // A beam that is shorter than the belt: for a while both ends hang over it.
+  // A beam that is shorter than the track: for a while both ends hang over it.
   const double kerb = excavator ? 0.15 : 0.03, length = 0.4 * reach();
   auto engine = put(Pose::Identity());
   engine->add_machine(block(Vec3(length, 8, kerb)), make_pose(1.5 * reach(), 0, 0.5 * kerb));
@@ -109,7 +109,7 @@ TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndOnAcrossOne) {
 }
 
 TEST_P(TrackBodies, ACrawlerStopsAtAWall) {
-  // Belts alone meet it: no link has a shape of its own. They grip less than lets the robot rear
+  // Tracks alone meet it: no link has a shape of its own. They grip less than lets the robot rear
   // up.
   for (scene::Link& link : machine.links) link.collisions.clear();
   for (scene::Wheel& wheel : machine.wheels) wheel.friction = 0.4;
@@ -124,7 +124,7 @@ TEST_P(TrackBodies, ACrawlerStopsAtAWall) {
   });
   print_value("reach at a wall [m]", farthest, std::to_string(wall - reach()),
               "the idler's front touches");
-  // What the springs of two belts give way under the thrust.
+  // Deflection of the springs of two tracks under the thrust.
   EXPECT_NEAR(farthest, wall - reach(), 0.15 * reach());
   EXPECT_LT(most, radians(15));
 }
@@ -162,7 +162,7 @@ TEST_P(TrackBodies, ACrawlerStandsOnADeckAndDrivesOnIt) {
   EXPECT_NEAR(height(*engine), 0.5, excavator ? 0.02 : 0.006);
   EXPECT_LT(tilt(*engine), radians(1));
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 1e-3);
-  // The deck bears it as the ground does.
+  // The deck carries it as the ground does.
   const auto on_ground = put(Pose::Identity());
   run(*on_ground, flat(), 3, kStep);
   EXPECT_NEAR(stability(machine, *engine, 0).loaded_margin,
@@ -193,7 +193,7 @@ TEST_P(TrackBodies, ACrawlerTurnsOnADeckAsOnAFloor) {
   const double deck = turned(true), floor = turned(false);
   print_value("turn on a deck [deg]", degrees(deck), std::to_string(degrees(floor)) + " +-15 %",
               "on a floor");
-  // Its belts end elsewhere: discs between the rollers bear, too.
+  // Its tracks end elsewhere: discs between the rollers carry load, too.
   EXPECT_NEAR(deck, floor, 0.15 * floor);
 }
 
@@ -216,7 +216,7 @@ TEST_P(TrackBodies, ATrackFeelsWhatLiesBetweenTwoRollers) {
 }
 
 TEST_P(TrackBodies, TrackAndBodyConserveMomentum) {
-  // Without weight and ground: a crawler flies against a crate that flies free, its belts running.
+  // Without weight and ground: a crawler flies against a crate that flies free, its tracks running.
   for (scene::Link& link : machine.links) link.collisions.clear();
   const double size = 1.2 * reach(), mass = weight / kGravity;
   auto engine = put(make_pose(0, 0, 50), Vec3::Zero());

@@ -16,7 +16,8 @@ void add_base_channels(const MachineChannels& out) {
     out.inputs.add({out.prefix + "pose/" + name, unit, meaning, out.machine.index()},
                    [&world = out.world, machine = out.machine, part](double value) {
                      vehicle::BaseInput command = machine.base();
-                     part(command) = std::clamp(value, -Commands::kFarthest, Commands::kFarthest);
+                     part(command) =
+                         std::clamp(value, -MachineCommands::kFarthest, MachineCommands::kFarthest);
                      command.duration = std::max(0.0, command.duration);
                      world.commands().set(machine, command);
                    });

@@ -102,7 +102,7 @@ JointLimits MachineJoints::limits(int joint) const {
     limits.speed_positive = std::min(limits.speed_positive, drive_rate_);
     limits.speed_negative = std::min(limits.speed_negative, drive_rate_);
   }
-  // At the present pose; the servo needs it to brake in time.
+  // The servo needs the inertia at the present pose to brake in time.
   limits.inertia = tree_.outward_inertia(joint);
   return limits;
 }

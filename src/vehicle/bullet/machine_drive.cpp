@@ -61,7 +61,7 @@ void MachineDrive::find_axles() {
   // Revolute joints inward of a wheel that neither spin nor steer let an axle oscillate, or a
   // caster swivel.
   for (const MachineWheel& wheel : wheels_.all())
-    // From the wheel's carrier inward, joint by joint, to the chassis.
+    // Walk from the wheel's carrier inward, joint by joint, to the chassis.
     for (int link = wheel.carrier_link; link > 0;) {
       int up = -1;
       for (std::size_t j = 0; j < machine_.joints.size(); ++j)
@@ -170,7 +170,7 @@ void MachineDrive::end_step(double dt) {
   for (std::size_t w = 0; w < shaft_.size(); ++w) {
     if (carrier_[w] == 0 || !turns_[w].on_line) continue;
     shaft_[w] += carrier_[w] * torque;
-    // As if it had been known before: the joint's effort and work are computed from it.
+    // Set it as if it had been known before: effort and work of the joint are computed from it.
     joints_[wheels_[w].spin_joint].demand.feed_forward += carrier_[w] * torque;
   }
 }
@@ -186,7 +186,7 @@ void MachineDrive::steer() {
 }
 
 void MachineDrive::lock_axles() {
-  // As the service brake of a wheeled excavator: the axle is locked for work and free for travel.
+  // Like the service brake of a wheeled excavator, lock the axle for work and free it for travel.
   for (const int joint : axles_)
     if (joints_[joint].driven)
       joints_[joint].servo.set({input_.brake ? JointMode::kVelocity : JointMode::kFree, 0});

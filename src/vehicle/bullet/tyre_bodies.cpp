@@ -19,7 +19,7 @@ Disc& TyreBodies::disc(std::size_t machine, std::size_t wheel, const scene::Whee
   if (discs_.size() <= machine) discs_.resize(machine + 1);
   if (discs_[machine].size() <= wheel) discs_[machine].resize(wheel + 1);
   std::optional<Disc>& out = discs_[machine][wheel];
-  // As wide as the contact strip and as large as the tyre.
+  // The disc is as wide as the contact strip and as large as the tyre.
   if (!out) {
     const double half = std::min(about.twin_spacing > 0 ? 0.5 * about.width : 0.25 * about.width,
                                  0.45 * about.radius);

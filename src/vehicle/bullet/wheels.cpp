@@ -63,7 +63,7 @@ MachineWheels::MachineWheels(const scene::Machine& machine, TreeBody& tree)
 
 // The carrier's motion, with the wheel's spin kept apart.
 terramechanics::TyreMotion MachineWheels::motion(const MachineWheel& wheel) const {
-  // From the carrier: the wheel's own link spins, and its pose has no forward direction.
+  // Use the carrier: the wheel's own link spins, and its pose has no forward direction.
   const LinkState carrier = tree_.link(wheel.carrier_link);
   terramechanics::TyreMotion motion;
   motion.X_WWheel = wheel_pose(carrier.X_WL, wheel.axis_C, wheel.center_C);

@@ -18,7 +18,7 @@ double across(const scene::LinkageDrive& drive, double left) {
   const Vec2 end = Vec2(0, 2 * half) + Eigen::Rotation2Dd(left) * straight;
   const double cosine = (end.squaredNorm() + a * a - t * t) / (2 * a * end.norm());
   const double open = std::acos(std::clamp(cosine, -1.0, 1.0));
-  // Of the two assemblies, the one that is continuous with straight wheels.
+  // Take the assembly that is continuous with straight wheels.
   const Vec2 from = Vec2(0, 2 * half) + straight;
   const double side = from.x() * mirrored.y() - from.y() * mirrored.x() < 0 ? -1 : 1;
   const double angle =

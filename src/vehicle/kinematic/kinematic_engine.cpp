@@ -24,7 +24,7 @@ struct Body {
   std::vector<JointInput> input;
   std::vector<double> q, qd;
   std::vector<std::uint8_t> braked;  // by joint
-  // By joint: a joint command has taken it over from the drive.
+  // Joints that a joint command has taken over from the drive.
   std::vector<std::uint8_t> taken;
   DriveInput drive;
   // Base inputs move it, not its drive.
@@ -51,7 +51,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     }
     Body body;
     body.machine = machine;
-    // From here on poses are those of the base link; the model frame only gives the start.
+    // All further poses are those of the base link; the model frame only gives the start.
     body.X_WB = X_WM * machine.links[0].X_ML;
     body.line = make_drive_line(machine);
     body.wheels = drive_wheels(machine);
@@ -149,7 +149,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     if (joint < 0) return state;
     const scene::Joint& spin = body.machine.joints[index(joint)];
     const LinkState& carrier = body.links[index(spin.parent)];
-    // From the carrier, with the spin joint at 0: the wheel's frame does not spin with it.
+    // Computed from the carrier with the spin joint at 0: the wheel's frame does not spin with it.
     state.X_WWheel = carrier.X_WL * joint_pose(body.machine, spin, 0) * spin.X_LcJ;
     state.v_W = carrier.v_WL +
                 carrier.w_WL.cross(state.X_WWheel.translation() - carrier.X_WL.translation());
@@ -231,7 +231,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
         wanted += dt * opened_speed(body, j, body.input[j].target);
       if (body.braked[j] != 0) wanted = body.q[j];
       if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
-      // At the joint's largest rate at once: no inertia, no valve.
+      // The joint reaches its largest rate at once: it has no inertia and no valve.
       const double most = joint.velocity * dt;
       const double next = std::clamp(wanted, body.q[j] - most, body.q[j] + most);
       body.qd[j] = (next - body.q[j]) / dt;

@@ -4,6 +4,7 @@
 #include "device/device.h"
 #include "particle_engine.h"
 #include "sim/world.h"
+#include "vehicle/physics_engine.h"
 
 namespace {
 

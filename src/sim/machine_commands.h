@@ -9,19 +9,19 @@ namespace navvy::sim {
 
 /// Drives the machines of a world. Every command holds until it is replaced.
 ///
-/// A view of two words: copy it freely, as long as its world lives. Every function throws
+/// A view of one pointer: copy it freely. Valid as long as its world lives. Every function throws
 /// InputError for a handle of another world or a value that is not finite, and then changes
 /// nothing.
-class Commands {
+class MachineCommands {
  public:
   /// Largest distance of a base from the origin along any axis [m].
   static constexpr double kFarthest = 1e6;
 
   /// Refers to the parts of a world; World::commands makes it.
-  explicit Commands(WorldParts& parts) : parts_(&parts) {}
+  explicit MachineCommands(WorldParts& parts) : parts_(&parts) {}
 
-  /// Commands a joint. A joint that a drive also moves returns to the drive with the drive's next
-  /// command.
+  /// Commands a joint. A joint that a drive also moves returns to the drive with the drive's
+  /// next command.
   void set(const JointHandle& joint, const vehicle::JointInput& input);
   /// Commands a drive. Has no effect on a machine without one.
   void set(const MachineHandle& machine, const vehicle::DriveInput& input);

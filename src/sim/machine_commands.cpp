@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/commands.h"
+#include "sim/machine_commands.h"
 
 #include <cmath>
 
@@ -25,7 +25,8 @@ void require_finite(const std::string& what, double value) {
 }  // namespace
 
 // A handle of another world may have indices that do not exist here.
-void Commands::require_valid(const JointHandle& joint, const vehicle::JointInput& input) const {
+void MachineCommands::require_valid(const JointHandle& joint,
+                                    const vehicle::JointInput& input) const {
   require_machine(joint.machine(), parts_->description);
   const auto& joints =
       parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine.joints;
@@ -38,7 +39,8 @@ void Commands::require_valid(const JointHandle& joint, const vehicle::JointInput
 }
 
 // Gears exist only for drives with a combustion engine.
-void Commands::require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const {
+void MachineCommands::require_valid(const MachineHandle& machine,
+                                    const vehicle::DriveInput& input) const {
   require_machine(machine.index(), parts_->description);
   require_finite("speed of the drive", input.speed);
   require_finite("steering of the drive", input.steer);
@@ -52,7 +54,8 @@ void Commands::require_valid(const MachineHandle& machine, const vehicle::DriveI
 }
 
 // Angles may exceed a turn; a position must be one that a site can have.
-void Commands::require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) const {
+void MachineCommands::require_valid(const MachineHandle& machine,
+                                    const vehicle::BaseInput& input) const {
   require_machine(machine.index(), parts_->description);
   for (int i = 0; i < 3; ++i) {
     require_finite("position of the base", input.p_W[i]);
@@ -68,13 +71,14 @@ void Commands::require_valid(const MachineHandle& machine, const vehicle::BaseIn
                            "give 0 to move within one step"});
   const scene::Machine& built = machine.description();
   if (!built.kinematic || built.fixed_base)
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "command", machine.name(),
-                           built.kinematic ? "its base is fixed" : "forces move this machine",
-                           "set <navvy:engine>kinematic</navvy:engine>, and leave its base free"});
+    throw InputError(
+        Fault{Fault::Severity::kError, "", 0, "command", machine.name(),
+              built.kinematic ? "its base is fixed" : "forces move this machine",
+              "set <navvy:physics>kinematic</navvy:physics>, and leave its base free"});
 }
 
 // Joints without a brake would ignore the command, so report it.
-void Commands::require_brake(const JointHandle& joint) const {
+void MachineCommands::require_brake(const JointHandle& joint) const {
   require_valid(joint, vehicle::JointInput{});
   const scene::Machine& machine =
       parts_->description.machines[static_cast<std::size_t>(joint.machine())].machine;
@@ -86,28 +90,28 @@ void Commands::require_brake(const JointHandle& joint) const {
 
 // Both engines number their machines on their own: the coupling maps a machine of the scene to its
 // engine and its index there.
-void Commands::set(const JointHandle& joint, const vehicle::JointInput& input) {
+void MachineCommands::set(const JointHandle& joint, const vehicle::JointInput& input) {
   require_valid(joint, input);
   const int m = joint.machine();
   parts_->coupling.engine(m).set_joint(parts_->coupling.index(m), joint.index(), input);
 }
-void Commands::set(const MachineHandle& machine, const vehicle::DriveInput& input) {
+void MachineCommands::set(const MachineHandle& machine, const vehicle::DriveInput& input) {
   require_valid(machine, input);
   const int m = machine.index();
   parts_->coupling.engine(m).set_drive(parts_->coupling.index(m), input);
 }
-void Commands::set(const MachineHandle& machine, const vehicle::BaseInput& input) {
+void MachineCommands::set(const MachineHandle& machine, const vehicle::BaseInput& input) {
   require_valid(machine, input);
   const int m = machine.index();
   const int index = parts_->coupling.index(m);
   vehicle::require_placement(parts_->coupling.engine(m), index).set_base(index, input);
 }
-void Commands::set_brake(const JointHandle& joint, bool on) {
+void MachineCommands::set_brake(const JointHandle& joint, bool on) {
   require_brake(joint);
   const int m = joint.machine();
   parts_->coupling.engine(m).set_brake(parts_->coupling.index(m), joint.index(), on);
 }
-void Commands::set_hitch(int hitch, bool closed) {
+void MachineCommands::set_hitch(int hitch, bool closed) {
   require_hitch(parts_->description, hitch);
   // Coupling refuses scenes with hitches on an engine without them, so the capability is there.
   parts_->dynamic->hitches()->set_hitch(hitch, closed);
