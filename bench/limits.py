@@ -42,7 +42,7 @@ def filled(path, head, piece, size, tail=""):
 
 
 def obj(path, size=SIZE):
-    """Vertices and faces of a bumpy sheet, as many as there is room for."""
+    """Vertices and faces of a bumpy sheet, as many as fit."""
     side, lines, written = 1000, [], 0
     row = 0
     with open(path, "w", encoding="ascii", buffering=1 << 20) as file:

@@ -3,7 +3,7 @@
 """Draws bench rows: plot.py ROWS.csv [MORE.csv ...] --out FOLDER leaves roofline.svg and scaling.svg.
 
 The roofline has operations per byte across and operations per second up; each device's roof is its measured copy
-bandwidth and its measured peak of fused multiply-adds. The scaling picture shows particle-steps per second against awake
+bandwidth and its measured peak of fused multiply-adds. The scaling picture shows particle-steps per second against active
 particles and, beside it, time against the site's area. Needs Debian's python3-matplotlib.
 """
 import argparse
@@ -98,7 +98,7 @@ def scaling(rows, path):
         if line:
             right.plot(*zip(*line), "o-", color=color, markersize=4, label=label)
     left.set_xscale("log")
-    left.set_xlabel("awake particles")
+    left.set_xlabel("active particles")
     left.set_ylabel("10$^6$ particle-steps per second")
     right.set_xscale("log")
     right.set_xlabel("site [km$^2$] at 0.1 m")

@@ -73,7 +73,7 @@ def native(rows):
 
 
 def scene(rows):
-    yield "scene", "mean particles awake", "least ms", "median ms", "real-time factor"
+    yield "scene", "mean active particles", "least ms", "median ms", "real-time factor"
     for row in rows:
         yield "`%s`" % row["bench"], row["particles"], number(row, "min_ms", form="%.0f"), \
             number(row, "median_ms", form="%.0f"), number(row, "real_time_factor")

@@ -16,14 +16,14 @@ import sys
 import zipfile
 
 LAYERS = ["elevation", "elevation_start", "target", "cut_fill", "slope", "step_height", "roughness", "traversability",
-          "loose_depth", "density", "soil", "disturbed_at", "awake"]
+          "loose_depth", "density", "soil", "disturbed_at", "active"]
 # Lowest and highest colour (None: of both maps), colours.
 RANGES = {
     "elevation": (-0.8, 1.2, "terrain"), "elevation_start": (-0.8, 1.2, "terrain"), "target": (-0.8, 1.2, "terrain"),
     "cut_fill": (-1.2, 1.2, "RdBu_r"), "slope": (0, 1.2, "magma_r"), "step_height": (0, 0.4, "magma_r"),
     "roughness": (0, 0.15, "magma_r"), "traversability": (0, 1, "RdYlGn"), "loose_depth": (0, None, "YlOrBr"),
     "density": (None, None, "cividis"), "soil": (-0.5, 1.5, "Pastel2"), "disturbed_at": (0, None, "viridis"),
-    "awake": (0, 1, "YlOrRd"),
+    "active": (0, 1, "YlOrRd"),
 }
 UNKNOWN = "#dcdcdc"
 PART = -10, 7, -9, 8.5  # of the site: least and greatest x, y [m]
@@ -102,14 +102,14 @@ def draw(folder, out, seconds):
         bar = figure.colorbar(shown, cax=figure.add_subplot(grid[row, column + 2]))
         bar.set_label("" if unit == "-" else unit, labelpad=2)
         bar.ax.tick_params(length=2, width=0.5, pad=1.5, labelsize=7)
-        if layer in ("soil", "awake"):
+        if layer in ("soil", "active"):
             bar.set_ticks([0, 1])
     note = figure.add_subplot(grid[rows - 1, 4:7])
     note.axis("off")
     note.text(0.04, 0.92, "Grey: unknown. x and y in m, columns of %g m, one colour bar for both.\n\n"
               "The excavator stands at x = -4 and digs towards itself, between\nx = 1.65 and 4.85; it tips its spoil "
               "at (-1.7, 5.9). At (-6, -6.5)\nlies a heap that was there before. Its tyres have left ruts.\n\n"
-              "loose_depth and awake: soil that still moves." % head["cell_m"],
+              "loose_depth and active: soil that still moves." % head["cell_m"],
               va="top", fontsize=9, linespacing=1.35)
     image = io.BytesIO()
     figure.savefig(image, dpi=100, format="png")

@@ -1,20 +1,23 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The documentation as one site: `./dev docs`.
+"""Builds the documentation as one site: `./dev docs`.
 
-  docs.py              renews generated tables and reference pages, checks links, builds build/docs/site
+  docs.py              renews generated tables and reference pages, checks links, builds the site
+                       build/docs/site
   docs.py --check      changes nothing: fails when a generated page is stale or a link leads nowhere
   docs.py --pages      checks links and tables made from CSV files, for which no program is needed
   docs.py selftest
 
-A page has a table of a CSV file beside or below it between two marks; the first row are the column headings:
+A page has a table of a CSV file beside or below it between two marks; the first row holds the
+column headings:
 
   <!-- generated: begin; csv: fuzz/totals.csv -->
   <!-- generated: end -->
 
-Reads README.md files and docs/ where they stand, so that the same pages read well on a code host and in the site. The
-site is made by Sphinx with MyST; the library's pages come from the headers through Doxygen and Breathe. Every warning
-is an error. Reference pages need a built navvy (build/release or build/ci) and are left alone without one.
+Reads README.md files and docs/ as they are, so the same pages read well on a code host and in the
+site. Sphinx with MyST makes the site; the library's pages come from the headers through Doxygen
+and Breathe. Every warning is an error. Reference pages need a built navvy (build/release or
+build/ci) and are left alone without one.
 """
 import collections
 import csv
@@ -33,16 +36,60 @@ import reference  # noqa: E402
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.path.join(ROOT, "build", "docs")
 RESULTS = "tests/validation/results.csv"
-# The navigation: caption, then pages in their order. A page that is missing is left out, one that is not here comes last.
+# The navigation: caption, then pages in their order. A missing page is left out; pages that are not
+# listed match the patterns of the last caption.
 NAVIGATION = [
     ("Start", ["README.md", "docs/getting_started.md", "docs/questions.md", "docs/glossary.md"]),
-    ("How-to", ["docs/howto/*.md"]),
-    ("Reference", ["docs/reference/scene.md", "docs/reference/*.md", "scenarios/README.md", "terrain/README.md",
-                   "src/map/README.md", "src/map/README.md"]),
-    ("Theory", ["docs/theory.md", "docs/soil.md", "docs/tools.md", "docs/exchange.md", "docs/machines.md", "docs/bibliography.md"]),
+    (
+        "How-to",
+        [
+            "docs/howto/%s.md" % name
+            for name in (
+                "soil",
+                "machine",
+                "site",
+                "controller",
+                "kernel_benchmark",
+                "maps",
+                "library",
+                "*",
+            )
+        ],
+    ),
+    (
+        "Reference",
+        [
+            "docs/reference/scene.md",
+            "docs/reference/*.md",
+            "scenarios/README.md",
+            "terrain/README.md",
+            "src/map/README.md",
+            "src/map/README.md",
+        ],
+    ),
+    (
+        "Theory",
+        [
+            "docs/theory.md",
+            "docs/soil.md",
+            "docs/tools.md",
+            "docs/exchange.md",
+            "docs/machines.md",
+            "docs/bibliography.md",
+        ],
+    ),
     ("Validation", ["docs/validation_summary.md", "docs/validation.md", "bench/README.md"]),
-    ("Development", ["CONTRIBUTING.md", "src/README.md", "kernels/README.md", "tests/README.md", "CHANGELOG.md",
-                     "tests/tolerances/known_deviations.md"]),
+    (
+        "Development",
+        [
+            "CONTRIBUTING.md",
+            "src/README.md",
+            "kernels/README.md",
+            "tests/README.md",
+            "CHANGELOG.md",
+            "tests/tolerances/known_deviations.md",
+        ],
+    ),
     ("C++ library", ["docs/api/*"]),
     ("Sources of data", ["vehicles/*/SOURCE.md", "*.md", "*/*.md", "*/*/*.md", "*/*/*/*.md"]),
 ]
@@ -57,10 +104,16 @@ LITERATURE = re.compile(r"\[((?:[A-Z][\w'-]+|ISO) \d{4,5})((?:[,:;][^\[\]]*)?)\]
 def pages():
     """All pages of the repository, relative to its root."""
     command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"]
-    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout.split("\n")
+    listed = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=False
+    ).stdout.split("\n")
     if not any(listed):  # no clone: an archive of the sources
-        listed = [os.path.relpath(os.path.join(folder, name), ROOT) for folder, _, names in os.walk(ROOT)
-                  for name in names if name.endswith(".md") and "/build" not in folder]
+        listed = [
+            os.path.relpath(os.path.join(folder, name), ROOT)
+            for folder, _, names in os.walk(ROOT)
+            for name in names
+            if name.endswith(".md") and "/build" not in folder
+        ]
     return sorted(path for path in set(listed) if path and os.path.exists(os.path.join(ROOT, path)))
 
 
@@ -129,7 +182,10 @@ def long_entries(changelog):
     wrong = []
     for number, line in enumerate(changelog.split("\n"), 1):
         if line.startswith("- ") and len(line) > 162:
-            wrong.append("CHANGELOG.md:%d: an entry has at most 160 characters, not %d" % (number, len(line) - 2))
+            wrong.append(
+                "CHANGELOG.md:%d: an entry has at most 160 characters, not %d"
+                % (number, len(line) - 2)
+            )
         elif line.startswith("  "):
             wrong.append("CHANGELOG.md:%d: an entry is one line" % number)
     return wrong
@@ -138,7 +194,10 @@ def long_entries(changelog):
 def csv_table(path):
     """Markdown of a CSV file."""
     with open(path, newline="", encoding="utf-8") as file:
-        rows = [[cell.replace("|", "\\|").replace("*_", "\\*_") for cell in row] for row in csv.reader(file)]
+        rows = [
+            [cell.replace("|", "\\|").replace("*_", "\\*_") for cell in row]
+            for row in csv.reader(file)
+        ]
     lines = ["| " + " | ".join(row) + " |" for row in rows]
     return lines[:1] + ["|" + "---|" * len(rows[0])] + lines[1:]
 
@@ -168,13 +227,17 @@ def csv_tables(all_pages, only_check):
             continue
         if only_check:
             good = False
-            print("%s: a table is not what its CSV file gives: `./dev docs` writes it" % page, file=sys.stderr)
+            print(
+                "%s: a table is not what its CSV file gives: `./dev docs` writes it" % page,
+                file=sys.stderr,
+            )
         else:
             write(os.path.join(ROOT, page), after)
     return good
 
 
 # --- the site
+
 
 def staged(page, text, all_pages):
     """A page as Sphinx reads it: links to other files become text, citations become links."""
@@ -202,7 +265,11 @@ def staged(page, text, all_pages):
     def literature(found):
         if page == "docs/bibliography.md":
             return found[0]
-        return "[\\[%s%s\\]](%s)" % (found[1], found[2], os.path.relpath("docs/bibliography.md", here or "."))
+        return "[\\[%s%s\\]](%s)" % (
+            found[1],
+            found[2],
+            os.path.relpath("docs/bibliography.md", here or "."),
+        )
 
     out, fenced = [], False
     for line in text.split("\n"):
@@ -225,7 +292,11 @@ def toctree(all_pages, api):
     for caption, patterns in NAVIGATION:
         entries = []
         for pattern in patterns:
-            some = [p for p in left if re.fullmatch(pattern.replace(".", r"\.").replace("*", "[^/]*"), p)]
+            some = [
+                p
+                for p in left
+                if re.fullmatch(pattern.replace(".", r"\.").replace("*", "[^/]*"), p)
+            ]
             entries += some
             left = [p for p in left if p not in some]
         if entries:
@@ -245,14 +316,20 @@ def run(*command, **more):
 
 
 def sphinx_python():
-    """The Python that has Sphinx: this one, or Debian's where another one comes first on the path."""
+    """Returns a Python that has Sphinx: this one, or Debian's."""
     for python in (sys.executable, "/usr/bin/python3"):
-        done = subprocess.run([python, "-c", "import sphinx, myst_parser, breathe, sphinx_rtd_theme"],
-                              capture_output=True, check=False)
+        done = subprocess.run(
+            [python, "-c", "import sphinx, myst_parser, breathe, sphinx_rtd_theme"],
+            capture_output=True,
+            check=False,
+        )
         if done.returncode == 0:
             return python
-    sys.exit("docs.py: Sphinx is missing: apt-get install python3-sphinx python3-myst-parser python3-breathe "
-             "python3-sphinx-rtd-theme doxygen")
+    sys.exit(
+        "docs.py: Sphinx is missing: apt-get install python3-sphinx python3-myst-parser "
+        "python3-breathe "
+        "python3-sphinx-rtd-theme doxygen"
+    )
 
 
 def doxygen():
@@ -260,9 +337,20 @@ def doxygen():
     folder = os.path.join(BUILD, "doxygen")
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    settings = read("docs/site/Doxyfile") + "\n".join([
-        "INPUT = src", "RECURSIVE = YES", "FILE_PATTERNS = *.h", "OUTPUT_DIRECTORY = " + folder,
-        "INPUT_FILTER = \"sed -E '/^ *\\/\\/\\//s/<([\\/A-Za-z])/\\&lt;\\1/g; s/@throws/Throws/g'\""]) + "\n"
+    settings = (
+        read("docs/site/Doxyfile")
+        + "\n".join(
+            [
+                "INPUT = src",
+                "RECURSIVE = YES",
+                "FILE_PATTERNS = *.h",
+                "OUTPUT_DIRECTORY = " + folder,
+                "INPUT_FILTER = \"sed -E '/^ *\\/\\/\\//s/<([\\/A-Za-z])/\\&lt;\\1/g; "
+                "s/@throws/Throws/g'\"",
+            ]
+        )
+        + "\n"
+    )
     path = os.path.join(folder, "Doxyfile")
     with open(path, "w", encoding="utf-8") as file:
         file.write(settings)
@@ -271,7 +359,7 @@ def doxygen():
 
 
 def declared(folder):
-    """What each header declares: {header: [(kind, qualified name, element)]} of documented classes and members."""
+    """Returns what each header declares: {header: [(kind, qualified name, element)]}."""
     out = collections.defaultdict(list)
     for path in sorted(glob.glob(os.path.join(folder, "*.xml"))):
         name = os.path.basename(path)
@@ -284,7 +372,11 @@ def declared(folder):
             if compound.get("kind") in ("class", "struct"):
                 place = compound.find("location")
                 parent = full.rpartition("::")[0]
-                nested = glob.glob(os.path.join(folder, "*" + parent.replace("_", "__").replace("::", "_1_1") + ".xml"))
+                nested = glob.glob(
+                    os.path.join(
+                        folder, "*" + parent.replace("_", "__").replace("::", "_1_1") + ".xml"
+                    )
+                )
                 inner = any(os.path.basename(n).startswith(("class", "struct")) for n in nested)
                 if place is not None and not inner and "<" not in full:
                     out[place.get("file")].append((compound.get("kind"), full, compound))
@@ -301,12 +393,19 @@ def text_of(element):
     return " ".join("".join(element.itertext()).split()) if element is not None else ""
 
 
+def escaped(text):
+    """Plain text for a page of reStructuredText."""
+    return re.sub(r"([\\`*|_])", r"\\\1", text)
+
+
 def api_pages(folder):
     """One page of reStructuredText for each module of src/ with public headers: {path: text}."""
     found, out = declared(folder), {}
     modules = collections.defaultdict(list)
     for header in sorted(found):
-        relative = header.partition("src/")[2] if header.startswith("/") else re.sub(r"^src/", "", header)
+        relative = (
+            header.partition("src/")[2] if header.startswith("/") else re.sub(r"^src/", "", header)
+        )
         if relative.count("/") == 1:
             modules[relative.partition("/")[0]].append((relative, found[header]))
     for module, headers in modules.items():
@@ -318,10 +417,19 @@ def api_pages(folder):
                 if kind in ("class", "struct"):
                     lines += [".. doxygen%s:: %s" % (kind, name), "   :members:", ""]
                 elif kind == "function" and (counts[name] > 1 or "operator" in name):
-                    # Overloads: as they stand, since Breathe finds them by their arguments only now and then.
-                    declaration = "%s %s%s" % (text_of(element.find("type")), name, element.findtext("argsstring") or "")
-                    lines += ["``%s``" % html.unescape(declaration.strip()), "",
-                              "   " + (text_of(element.find("briefdescription")) or "See the header."), ""]
+                    # Overloads as text: Breathe does not find all of them by their arguments.
+                    declaration = "%s %s%s" % (
+                        text_of(element.find("type")),
+                        name,
+                        element.findtext("argsstring") or "",
+                    )
+                    lines += [
+                        "``%s``" % html.unescape(declaration.strip()),
+                        "",
+                        "   "
+                        + escaped(text_of(element.find("briefdescription")) or "See the header."),
+                        "",
+                    ]
                 elif kind in ("function", "enum", "typedef"):
                     lines += [".. doxygen%s:: %s" % (kind, name), ""]
         out["docs/api/%s.rst" % module] = "\n".join(lines) + "\n"
@@ -330,7 +438,12 @@ def api_pages(folder):
 
 def build_site(all_pages):
     source, site = os.path.join(BUILD, "source"), os.path.join(BUILD, "site")
-    shutil.rmtree(source, ignore_errors=True)
+    for folder in (
+        source,
+        site,
+        os.path.join(BUILD, "doctrees"),
+    ):  # Breathe trips over headers that are gone
+        shutil.rmtree(folder, ignore_errors=True)
     folder = doxygen()
     api = api_pages(folder)
     for page in all_pages:
@@ -349,13 +462,30 @@ def build_site(all_pages):
     shutil.copy(os.path.join(ROOT, "docs/site/conf.py"), source)
     shutil.copytree(os.path.join(ROOT, "docs/site/static"), os.path.join(source, "static"))
     version = re.search(r"project\(navvy VERSION ([\d.]+)", read("CMakeLists.txt"))
-    environment = dict(os.environ, NAVVY_DOCS_XML=folder, NAVVY_DOCS_VERSION=version[1] if version else "")
-    shutil.rmtree(site, ignore_errors=True)
-    run(sphinx_python(), "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-d", os.path.join(BUILD, "doctrees"),
-        source, site, env=environment)
-    write(os.path.join(site, "index.html"),
-          '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url=docs/README.html">'
-          '<title>Navvy</title><a href="docs/README.html">Navvy</a>\n')
+    environment = dict(
+        os.environ, NAVVY_DOCS_XML=folder, NAVVY_DOCS_VERSION=version[1] if version else ""
+    )
+    run(
+        sphinx_python(),
+        "-m",
+        "sphinx",
+        "-q",
+        "-W",
+        "--keep-going",
+        "-b",
+        "html",
+        "-d",
+        os.path.join(BUILD, "doctrees"),
+        source,
+        site,
+        env=environment,
+    )
+    write(
+        os.path.join(site, "index.html"),
+        '<!doctype html><meta charset="utf-8">'
+        '<meta http-equiv="refresh" content="0; url=docs/README.html">'
+        '<title>Navvy</title><a href="docs/README.html">Navvy</a>\n',
+    )
     return site
 
 
@@ -367,15 +497,22 @@ def write(path, text):
 
 def generated(only_check):
     """Tables and reference pages: writes them, or tells which are stale. True if all are good."""
+
     def table(script, *arguments):
         done = subprocess.run([sys.executable, script] + list(arguments), cwd=ROOT, check=False)
         return done.returncode == 0
 
     tests, bench = "tests/validation/table.py", "bench/table.py"
     good = table(tests, "check" if only_check else "write", RESULTS, "docs/validation.md")
-    good &= table(tests, "check-summary" if only_check else "summary", RESULTS, "docs/validation_summary.md")
+    good &= table(
+        tests, "check-summary" if only_check else "summary", RESULTS, "docs/validation_summary.md"
+    )
     good &= table(bench, "check" if only_check else "write", "bench/README.md")
-    built = [p for p in ("build/release", "build/ci") if os.path.exists(os.path.join(ROOT, p, "src/cli/navvy"))]
+    built = [
+        p
+        for p in ("build/release", "build/ci")
+        if os.path.exists(os.path.join(ROOT, p, "src/cli/navvy"))
+    ]
     if built:
         good &= reference.write(reference.find_program(), only_check)
     else:
@@ -388,9 +525,16 @@ def selftest():
     assert slug("In a machine's `model`") == "in-a-machines-model"
     assert anchors("# A b\n```\n# no\n```\n## A b\n") == {"a-b", "a-b-1"}
     pages_here = ["docs/soil.md", "docs/bibliography.md", "README.md"]
-    text = staged("README.md", "[docs/soil.md, yield] and [Klar 2016]; [code](src/x.h), `[docs/soil.md]`", pages_here)
-    assert text == "[soil, yield](docs/soil.md#yield) and [\\[Klar 2016\\]](docs/bibliography.md); code (`src/x.h`), " \
-                   "`[docs/soil.md]`", text
+    text = staged(
+        "README.md",
+        "[docs/soil.md, yield] and [Klar 2016]; [code](src/x.h), `[docs/soil.md]`",
+        pages_here,
+    )
+    assert (
+        text == "[soil, yield](docs/soil.md#yield) and [\\[Klar 2016\\]](docs/bibliography.md); "
+        "code (`src/x.h`), "
+        "`[docs/soil.md]`"
+    ), text
 
 
 def main(arguments=None):

@@ -19,6 +19,7 @@ constexpr std::size_t kCells = 216;
 /// As kMaxDrift of src/soil/soil_particles.h.
 constexpr double kMostDrift = 0.75;
 
+/// Returns the constants of the law, the same number in every lane.
 LawSoil law_of(const scene::Soil& soil, double cell) {
   const soil::LawConstants law = soil::law_constants(soil, cell);
   LawSoil out;
@@ -41,6 +42,7 @@ struct SortKey {
   }
 };
 
+/// Returns the key of a particle; `index` breaks ties, so the order is that of the ids.
 SortKey sort_key(const soil::Particle& p, std::size_t index) {
   SortKey key;
   key.index = index;
@@ -63,6 +65,7 @@ NativeSoil::NativeSoil(const scene::Soil& soil, double cell, double ground)
       openings_(kCells) {}
 
 void NativeSoil::insert(const std::vector<soil::Particle>& particles) {
+  // Ids number the particles in the order of their insertion.
   std::vector<soil::Particle> all = this->particles();
   for (soil::Particle p : particles) {
     p.id = static_cast<std::uint32_t>(all.size());
@@ -95,6 +98,7 @@ std::vector<soil::Particle> NativeSoil::particles() const {
 }
 
 void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
+  // One sort of small keys; the particles follow once.
   std::vector<SortKey> keys;
   keys.reserve(particles.size());
   std::array<int, 3> low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
@@ -110,6 +114,8 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
     window_[a] = soil::kBlockCells * low[a];
     nodes_[a] = soil::kBlockCells * (high[a] - low[a] + 1) + 2 + 2 * kMargin;
   }
+  // A dense grid over the box of the blocks. The solver has a sparse one; for a compact heap the
+  // difference is small.
   row_ = static_cast<std::size_t>(nodes_[0]);
   rows_ = static_cast<std::size_t>(nodes_[1]);
   grid_.assign(row_ * rows_ * static_cast<std::size_t>(nodes_[2]), Float4{});
@@ -161,6 +167,7 @@ void NativeSoil::append(const soil::Particle& p) {
 }
 
 bool NativeSoil::sum_openings(const ParticleBlock& particle_block) {
+  // Most blocks have no opened soil and skip the sums.
   bool open = false;
   const std::size_t packs = (particle_block.count + kLanes - 1) / kLanes;
   for (std::size_t n = 0; n < packs && !open; ++n) {
@@ -193,14 +200,19 @@ bool NativeSoil::sum_openings(const ParticleBlock& particle_block) {
   return true;
 }
 
+std::size_t NativeSoil::first_node(const Weights& w, std::size_t l,
+                                   const ParticleBlock& particle_block) const {
+  int base[3];
+  for (std::size_t a = 0; a < 3; ++a) base[a] = w.base[a][l] + particle_block.corner[a] + kMargin;
+  return node(base);
+}
+
 void NativeSoil::scatter(const ParticleBlock& particle_block, float dt, bool hold) {
   const LawSoil law = law_of(soil_, static_cast<double>(cell_));
   const float dx = cell_, inv_density = static_cast<float>(1 / soil_.bank_density);
   const auto mixing = static_cast<float>(static_cast<double>(dt) / soil::kScheme.mixing_strain);
   const auto most = static_cast<float>(soil::most_mixing(static_cast<double>(dt)));
   const bool open = sum_openings(particle_block);
-  const int corner[3] = {particle_block.corner[0] + kMargin, particle_block.corner[1] + kMargin,
-                         particle_block.corner[2] + kMargin};
   for (std::size_t first = 0; first < particle_block.count; first += kLanes) {
     Pack& pack = packs_[particle_block.first + first / kLanes];
     const std::size_t lanes = std::min(kLanes, particle_block.count - first);
@@ -226,15 +238,15 @@ void NativeSoil::scatter(const ParticleBlock& particle_block, float dt, bool hol
     Lanes a[9], p[3];
     affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, hold ? 0.0f : 1.0f, dt, dx,
                     p, a);
+    // From one array per component to one vector per particle: momentum and mass at the base node,
+    // and their increments along each axis.
     Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
     turn(p[0], p[1], p[2], mass, start);
     turn(a[0], a[3], a[6], Lanes{}, ax);
     turn(a[1], a[4], a[7], Lanes{}, ay);
     turn(a[2], a[5], a[8], Lanes{}, az);
     for (std::size_t l = 0; l < lanes; ++l) {
-      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1],
-                           w.base[2][l] + corner[2]};
-      Float4* layer = grid_.data() + node(base);
+      Float4* layer = grid_.data() + first_node(w, l, particle_block);
       Four plane = start[l];
       for (int k = 0; k < 3; ++k, layer += row_ * rows_, plane += az[l]) {
         Four row = plane;
@@ -255,6 +267,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   const float fall = static_cast<float>(kGravity) * dt, empty = static_cast<float>(kMassQuantum);
   std::size_t n = 0;
   for (int z = 0; z < nodes_[2]; ++z) {
+    // Layers up to the held margin over the ground do not move, as in the solver.
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
     const bool held = above <= static_cast<float>(soil::kScheme.held_margin);
     const float per_free_fraction = 1 / free_fraction_above(above);
@@ -264,6 +277,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
       if (mass > empty && !held) {
         node *= INVERSE_MASS(mass);
         node[2] -= fall;
+        // Within a transfer the scatter adds changes of momentum only, so the velocity is updated.
         if (hold) node += velocity_[n];
       } else {
         node = Float4{};
@@ -276,15 +290,13 @@ void NativeSoil::update_grid(float dt, bool hold) {
 
 float NativeSoil::gather(const ParticleBlock& particle_block, float dt) {
   const float dx = cell_;
-  const auto cell = static_cast<double>(cell_);
+  const auto cell = static_cast<double>(dx);
   const double part = std::min(1.0, static_cast<double>(dt) / transfer_length_);
   const auto full = static_cast<float>(soil::packed_mass(soil_.bank_density, cell));
   const auto filled = static_cast<float>(soil::filled_mass(soil_.bank_density, cell));
   const auto closing = static_cast<float>(soil::kScheme.closing_share * part);
   const auto spread = static_cast<float>(static_cast<double>(dt) / soil::kScheme.crowding_strain);
   const auto most = static_cast<float>(soil::kScheme.max_crowding_displacement * part);
-  const int corner[3] = {particle_block.corner[0] + kMargin, particle_block.corner[1] + kMargin,
-                         particle_block.corner[2] + kMargin};
   Lanes fastest{};
   for (std::size_t first = 0; first < particle_block.count; first += kLanes) {
     Pack& pack = packs_[particle_block.first + first / kLanes];
@@ -292,9 +304,7 @@ float NativeSoil::gather(const ParticleBlock& particle_block, float dt) {
     Weights w(pack.x[0], pack.x[1], pack.x[2]);
     Four v[kLanes]{}, mx[kLanes]{}, my[kLanes]{}, mz[kLanes]{};
     for (std::size_t l = 0; l < lanes; ++l) {
-      const int base[3] = {w.base[0][l] + corner[0], w.base[1][l] + corner[1],
-                           w.base[2][l] + corner[2]};
-      const Float4* layer = velocity_.data() + node(base);
+      const Float4* layer = velocity_.data() + first_node(w, l, particle_block);
       Four sum{}, sum_x{}, sum_y{}, sum_z{};
       for (int k = 0; k < 3; ++k, layer += row_ * rows_) {
         Four plane{}, plane_x{}, plane_y{};
@@ -314,6 +324,7 @@ float NativeSoil::gather(const ParticleBlock& particle_block, float dt) {
       v[l] = sum, mx[l] = sum_x, my[l] = sum_y, mz[l] = sum_z;
     }
     // v, C = 4/dx^2 sum w v (x_i - x_p)^T, moved += dt v, and a separation where soil is crowded.
+    // The fourth component is mass per free fraction.
     Lanes u[4], m[4], c[9], lean[3];
     unturn(v, u);
     const Four* moments[3] = {mx, my, mz};
@@ -342,6 +353,7 @@ void NativeSoil::step(double dt) {
   const auto cell = static_cast<double>(cell_);
   const bool hold = interval_.holds(dt, transfer_length_, cell, 0, kGravity);
   if (!hold) end_transfer();
+  // Sorting only keeps memory accesses local; results do not depend on it except by rounding.
   if (drift_ > kMostDrift) sort(particles());
   std::fill(grid_.begin(), grid_.end(), Float4{});
   for (const ParticleBlock& particle_block : particle_blocks_)
@@ -354,6 +366,7 @@ void NativeSoil::step(double dt) {
 }
 
 void NativeSoil::end_transfer() {
+  // Particles take over the displacement of the transfer.
   drift_ += interval_.motion;
   interval_ = {};
   for (Pack& pack : packs_)

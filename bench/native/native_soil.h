@@ -15,6 +15,8 @@
 
 namespace navvy::bench {
 
+struct Weights;
+
 /// Steps soil of one kind. Built for speed with the flags of this machine; never part of the
 /// installed library.
 class NativeSoil {
@@ -61,6 +63,10 @@ class NativeSoil {
   void end_transfer();
   /// Returns the fastest velocity component.
   float gather(const ParticleBlock& particle_block, float dt);
+  /// Returns the first of the nodes around lane `l` of a pack of the block.
+  std::size_t first_node(const Weights& weights, std::size_t l,
+                         const ParticleBlock& particle_block) const;
+  /// Returns the index of a node, x fastest.
   std::size_t node(const int* base) const {
     return static_cast<std::size_t>(base[0]) +
            row_ * (static_cast<std::size_t>(base[1]) + rows_ * static_cast<std::size_t>(base[2]));

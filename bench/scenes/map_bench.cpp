@@ -23,6 +23,7 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <thread>
@@ -251,23 +252,28 @@ class Reader {
   std::thread thread_;
 };
 
-void measure_trench(double seconds) {
-  if (!asked("map_trench:whole") && !asked("map_trench:publish") && !asked("map_trench:wire"))
-    return;
-  constexpr double kRate = 10;
-  device::Device device;
-  session::Session session(
-      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds()),
-      device);
-  const sim::World& world = session.world();
-  map::UpdateFeed feed(map::options_for(world.description(), world.ground(), map::default_layers(),
-                                        session.design()));
-  link::MapPublisher publisher(feed, "tcp:0", map::default_layers());
-  Reader reader(publisher.port());
-  std::map<std::uint64_t, double> step_ends;
+/// Measurements of a run that publishes its map.
+struct TrenchRun {
+  /// Wall time of each update [s], and processor time of all [s].
   std::vector<double> publishing;
-  std::uint64_t changed = 0;
   double spent = 0;
+  /// End of the step of each update that had changes, by the update's number [s].
+  std::map<std::uint64_t, double> step_ends;
+  /// Columns over all updates.
+  std::uint64_t changed = 0;
+  /// Wall and processor time of the run [s].
+  double whole = 0, processor = 0;
+  std::uint64_t steps = 0;
+  double simulated = 0;
+  std::string hash;
+};
+
+/// Steps the session for `seconds` of simulated time and publishes the map ten times a second.
+TrenchRun run_trench(session::Session& session, device::Device& device, map::UpdateFeed& feed,
+                     double seconds) {
+  constexpr double kRate = 10;
+  TrenchRun run;
+  const sim::World& world = session.world();
   // The whole map is sent before the run, as `navvy run --publish` does.
   std::uint64_t last =
       feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped))->sequence;
@@ -281,56 +287,86 @@ void measure_trench(double seconds) {
     const Stopwatch watch;
     const map::UpdateFeed::Update update =
         feed.publish(sim::terrain_view(world, heightfield::SurfaceKind::kMapped));
-    publishing.push_back(watch.seconds());
-    spent += thread_seconds() - before;
+    run.publishing.push_back(watch.seconds());
+    run.spent += thread_seconds() - before;
     // Without changes, nothing is sent.
     if (update->sequence == last) continue;
     last = update->sequence;
-    step_ends[last] = end_of_step;
-    changed += static_cast<std::uint64_t>(update->changed);
+    run.step_ends[last] = end_of_step;
+    run.changed += static_cast<std::uint64_t>(update->changed);
   }
   device.finish();
+  run.whole = whole.seconds();
+  run.processor = bench::processor_seconds() - began;
+  run.steps = world.steps();
+  run.simulated = world.time();
+  run.hash = session.state_hash();
+  return run;
+}
+
+/// Returns the time from the end of each step to the arrival of its patch [s]. A late reader got
+/// one patch for several updates; the patch of the last one counts for all of them.
+std::vector<double> delays(const TrenchRun& run, const std::map<std::uint64_t, double>& arrivals) {
+  std::vector<double> out;
+  for (const auto& [sequence, end] : run.step_ends)
+    if (const auto at = arrivals.lower_bound(sequence); at != arrivals.end())
+      out.push_back(at->second - end);
+  if (out.empty()) throw Error("map_bench: no patch arrived");
+  return out;
+}
+
+void print_trench(const device::Device& device, const TrenchRun& run,
+                  const std::vector<double>& late) {
   bench::Row all, publish, wire;
-  all.timing.best = all.timing.median = whole.seconds();
-  all.timing.processor = bench::processor_seconds() - began;
-  feed.close();
-  reader.join();
   all.bench = "map_trench:whole";
-  all.steps = world.steps();
-  all.simulated = world.time();
-  all.hash = session.state_hash();
+  all.timing.best = all.timing.median = run.whole;
+  all.timing.processor = run.processor;
+  all.steps = run.steps;
+  all.simulated = run.simulated;
+  all.hash = run.hash;
   all.timing.runs = 1;
   // The sum, to give a share of the whole.
-  double sum = 0;
-  for (const double one : publishing) sum += one;
+  const double sum = std::accumulate(run.publishing.begin(), run.publishing.end(), 0.0);
   publish.bench = "map_trench:publish";
   publish.timing.best = publish.timing.median = sum;
   publish.timing.runs = 1;
-  publish.timing.processor = spent;
-  publish.steps = publishing.size();
+  publish.timing.processor = run.spent;
+  publish.steps = run.publishing.size();
   // Columns per update.
-  publish.particles = step_ends.empty() ? 0 : changed / step_ends.size();
-  publish.simulated = world.time();
-  // A late reader got one patch for several updates; the patch of the last one counts for all of
-  // them.
-  std::vector<double> late;
-  for (const auto& [sequence, end] : step_ends)
-    if (const auto at = reader.arrivals().lower_bound(sequence); at != reader.arrivals().end())
-      late.push_back(at->second - end);
-  if (late.empty()) throw Error("map_bench: no patch arrived");
+  publish.particles = run.step_ends.empty() ? 0 : run.changed / run.step_ends.size();
+  publish.simulated = run.simulated;
   wire.bench = "map_trench:wire";
   wire.steps = late.size();
   wire.timing = bench::timing_of(late, {});
-  if (asked(all.bench)) bench::print(device.info(), all);
-  if (asked(publish.bench)) bench::print(device.info(), publish);
-  if (asked(wire.bench)) bench::print(device.info(), wire);
+  for (const bench::Row& row : {all, publish, wire})
+    if (asked(row.bench)) bench::print(device.info(), row);
   std::fprintf(stderr,
                "trench, %.3g s: publishing took %.3g s of %.4g s, %.2g %% (of processor %.3g s of "
                "%.4g s, %.2g %%); "
                "patches came %.3g ms after their step (median), %.3g ms at most, %zu of %zu\n",
-               world.time(), sum, all.timing.best, 100 * sum / all.timing.best, spent,
-               all.timing.processor, 100 * spent / all.timing.processor, 1e3 * wire.timing.median,
-               1e3 * wire.timing.best * (1 + wire.timing.spread), late.size(), step_ends.size());
+               run.simulated, sum, run.whole, 100 * sum / run.whole, run.spent, run.processor,
+               100 * run.spent / run.processor, 1e3 * wire.timing.median,
+               1e3 * wire.timing.best * (1 + wire.timing.spread), late.size(),
+               run.step_ends.size());
+}
+
+/// Measures a session that digs a trench and publishes its map to a reader over TCP.
+void measure_trench(double seconds) {
+  if (!asked("map_trench:whole") && !asked("map_trench:publish") && !asked("map_trench:wire"))
+    return;
+  device::Device device;
+  session::Session session(
+      scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds()),
+      device);
+  const sim::World& world = session.world();
+  map::UpdateFeed feed(map::options_for(world.description(), world.ground(), map::default_layers(),
+                                        session.design()));
+  link::MapPublisher publisher(feed, "tcp:0", map::default_layers());
+  Reader reader(publisher.port());
+  const TrenchRun run = run_trench(session, device, feed, seconds);
+  feed.close();
+  reader.join();
+  print_trench(device, run, delays(run, reader.arrivals()));
 }
 
 }  // namespace
@@ -341,9 +377,10 @@ int main(int argc, char** argv) {
     // The trench: arrival and the first buckets.
     const double seconds = argc > 2 ? std::atof(argv[2]) : 45;
     if (argc > 3 || !(seconds > 0)) {
-      std::fprintf(stderr,
-                   "usage: map_bench [NAME [SECONDS]]   rows whose name holds NAME; trench for so "
-                   "long (45)\n");
+      std::fprintf(
+          stderr,
+          "usage: map_bench [NAME [SECONDS]]   rows whose name contains NAME; trench for so "
+          "long (45)\n");
       return 2;
     }
     measure_queries();

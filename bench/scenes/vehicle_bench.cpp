@@ -178,7 +178,7 @@ void measure_case(const Case& what) {
 
 int main(int argc, char** argv) {
   if (argc > 2) {
-    std::fprintf(stderr, "usage: vehicle_bench [NAME]   rows whose name holds NAME\n");
+    std::fprintf(stderr, "usage: vehicle_bench [NAME]   rows whose name contains NAME\n");
     return 2;
   }
   const std::string wanted = argc > 1 ? argv[1] : "";

@@ -14,6 +14,9 @@ static inline int near_node(int near, int n) { return near * BLOCK_NODES + n; }
 static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4); }
 
 // Loads field s (0 front, 1 back) of one near node. Returns false when the node has no contact.
+// i: index of the node in the near arrays. place: the node [cells of G]. dx: cell [m]. field:
+// velocity [m/s] and mass [kg] of this field. only: index of the tool that is solved for, -1: all
+// tools. On success `node` holds everything that the impulse depends on except the tool's twist.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
                              global const float4* field, global const int* split,
                              global const int* node_tool, global const NodeShell* shell,
@@ -24,6 +27,7 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   if (!(v.w > MASS_QUANTUM)) return false;
   global const Tool* tool = tools + node_tool[i];
   if (tool->active == 0 || (only >= 0 && only != node_tool[i])) return false;
+  // Both fields use the distance to the plate's middle surface: the back field sees it mirrored.
   const float sign = s == 0 ? 1.0f : -1.0f;
   const float clearance = sign * shell[i].distance - tool->half_thickness, inset = shell[i].inset;
   node->share = contact_share(clearance, inset, &reach);
@@ -34,18 +38,23 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   node->mu = surface[i].friction * tool->friction;
   const float free_fraction =
       fmax(mean_of(kernel_share((float4)(clearance))), SCHEME(min_free_fraction));
+  // Soil at the node / soil that would fill the free part of its kernel in the bank [-].
   const float fill = v.w * surface[i].inv_density / (dx * dx * dx * free_fraction);
   const float3 down = (float3)(reach.down_x, reach.down_y, reach.down_z);
   node->settling = contact_settling(clearance, fill, dot(node->n, down), &reach);
+  // Adhesion is an impulse per step: stress x area x dt, as contact_stick returns it.
   node->stick = 0.0f;
   if (surface[i].adhesion > 0.0f) {
     const float adhesion = surface[i].adhesion * tool->adhesion * contact_touch(fill);
     node->stick = contact_stick(adhesion, contact_area(clearance, inset, &reach), &reach);
   }
+  // Lever arm from the tool's origin [m]. Both points are relative to the window corner, so that no
+  // digits are lost far from the site's origin.
   node->r = dx * (convert_float3(place - 4 * vload3(0, tool->window)) - vload3(0, tool->origin));
   return true;
 }
 
+// Arguments that the contact kernels share: the list of near blocks, and the arrays of near nodes.
 #define BLOCK_ARGS global const int* restrict near_list, global const int4* restrict keys
 #define NODE_ARGS                                                                         \
   global const float4 *restrict before0, global const float4 *restrict before1,           \
@@ -74,6 +83,7 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   const float3 j = contact_impulse(&node, vload3(0, tool->twist), vload3(1, tool->twist),
                                    reach.opening, &branch);
   if (!branch.acts) return;
+  // The sums are of impulses on soil; the tool gets the opposite ones.
   const float3 l = cross(node.r, j);
   sums->wrench[0] += l.x;
   sums->wrench[1] += l.y;
@@ -100,6 +110,7 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
 // Solves one Newton iteration of F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K. W is the
 // inverse mass of the tool.
 static inline void solve_twist(global Tool* tool, const ContactSums* total) {
+  // Augmented matrix of the system; the sums hold the upper triangle of K only.
   float a[6][7], stiff[6][6];
   for (int i = 0, k = 0; i < 6; ++i)
     for (int j = i; j < 6; ++j) stiff[i][j] = stiff[j][i] = total->stiffness[k++];
@@ -130,6 +141,7 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
 }
 
 // Result of contact and resting ground for one near node, see contact_apply.
+// Everything in it is in the order front, back.
 typedef struct NodeResult {
   // Velocity and mass per free volume that particles see, by field.
   float4 seen[2];
@@ -137,6 +149,9 @@ typedef struct NodeResult {
   int changed;
 } NodeResult;
 
+// Applies the final impulses to both fields of a node, then the resting ground. near, n: as in
+// add_sums. ground: floor of the node's block. The record has velocities before and after contact,
+// but before the ground's hold, so that the host can sum the impulses on tools.
 static inline NodeResult apply_contact(int near, int n, int3 key, global const BlockFloor* ground,
                                        NODE_ARGS) {
   const int i = near_node(near, n);
@@ -148,6 +163,7 @@ static inline NodeResult apply_contact(int near, int n, int3 key, global const B
   for (int s = 0; s < 2; ++s) {
     const float4 v = s == 0 ? before0[i] : before1[i];
     // Velocity and normal impulse.
+    // Without contact, before and after are equal bits: the host skips such records.
     float4 after = (float4)(v.xyz, 0.0f);
     ContactNode node;
     if (LOAD_NODE(&node)) {

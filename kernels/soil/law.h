@@ -159,10 +159,10 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   const real damped = fmax(pressure - SCHEME(volume_damping) * soil->viscosity * trace, 0.0f);
-  const real felt = pressure > 0.0f ? damped : pressure;
-  sigma[0] = s[0] + eta2 * dxx - felt;
-  sigma[1] = s[1] + eta2 * dyy - felt;
-  sigma[2] = s[2] + eta2 * dzz - felt;
+  const real applied = pressure > 0.0f ? damped : pressure;
+  sigma[0] = s[0] + eta2 * dxx - applied;
+  sigma[1] = s[1] + eta2 * dyy - applied;
+  sigma[2] = s[2] + eta2 * dzz - applied;
   sigma[3] = s[3] + eta2 * dxy;
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;

@@ -24,6 +24,8 @@ typedef struct Place {
 // and y of the lower left and of the upper right corner of the site, in the same frame.
 static inline Place place_of(float x, float y, float z, float4 site) {
   const int3 base = convert_int3_rtn((float3)(x, y, z) - 0.5f);
+  // Between two re-bins a particle drifts by less than a block, so one step to a neighbour is
+  // enough.
   const int3 d = select(select((int3)(0), (int3)(1), base > 3), (int3)(-1), base < 0);
   const bool outside = x < site.x || x >= site.z || y < site.y || y >= site.w;
   const int3 cell_in_block = clamp(base - 4 * d, 0, 3);

@@ -20,6 +20,8 @@ typedef struct Closest {
   ints feature;
 } Closest;
 
+// Updates `best` with the edge from a to a + ab for the points p, all from the same corner [cells].
+// Features: `feature` inside the edge, `corner_a` and `corner_b` at its ends.
 static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature,
                                 int corner_a, int corner_b, Closest* best) {
   const float inv = 1.0f / dot(ab, ab);
@@ -30,6 +32,8 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   const real d2 = dx * dx + dy * dy + dz * dz;
   const ints which =
       select(select((ints)(feature), (ints)(corner_b), t >= 1.0f), (ints)(corner_a), t <= 0.0f);
+  // Of equal distances the first is kept, so the result depends on the order of the candidates,
+  // which is ascending.
   const ints nearer = d2 < best->distance2;
   best->distance2 = select(best->distance2, d2, nearer);
   best->x = select(best->x, cx, nearer);
@@ -53,6 +57,7 @@ static inline void closest_triangle(real px, real py, real pz,
   const float reach = far + triangle->radius;
   const real ox = px - centre.x, oy = py - centre.y, oz = pz - centre.z;
   if (!some(ox * ox + oy * oy + oz * oz < reach * reach)) return;
+  // A point whose foot is inside the triangle is closest to the face; else to an edge or corner.
   const float3 ma = cross(n, b - a), mb = cross(n, c - b), mc = cross(n, a - c);
   const ints inside = ((px - a.x) * ma.x + (py - a.y) * ma.y + (pz - a.z) * ma.z >= 0.0f) &
                       ((px - b.x) * mb.x + (py - b.y) * mb.y + (pz - b.z) * mb.z >= 0.0f) &
@@ -81,6 +86,7 @@ static inline real segment_distance2(real px, real py, real pz, float3 a, float3
 // tool count.
 static inline real inset2_of(real px, real py, real pz, ints tool, global const ShellRim* rims,
                              int count) {
+  // A tool without free edges, such as a closed body, has an infinite inset.
   real inset2 = INFINITY;
   for (int r = 0; r < count; ++r) {
     const real e2 =
@@ -103,6 +109,7 @@ static inline void query(real x, real y, real z, int3 key, global const ShellTri
   best->x = best->y = best->z = 0.0f;
   best->feature = -1;
   for (int i = begin; i < end; ++i) {
+    // Triangles of different tools have different window corners; the points follow.
     const float3 shift = convert_float3(4 * (key - window_of(tools, triangles[list[i]].tool)));
     closest_triangle(x + shift.x, y + shift.y, z + shift.z, triangles, list[i], far, best);
   }

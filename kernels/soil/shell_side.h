@@ -28,6 +28,8 @@ static inline int split_of(bool rim, float phi, float band) {
   return rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2;
 }
 
+// Returns the data of a near node for the contact: normal to the front, signed distance and inset
+// [cells].
 static inline NodeShell node_shell_of(float3 normal, float phi, float inset) {
   const NodeShell out = {{normal.x, normal.y, normal.z}, phi, inset, {0.0f, 0.0f, 0.0f}};
   return out;
@@ -59,6 +61,7 @@ static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feat
   int tool = -1;
   if (feature >= 0 && distance2 < 4.0f * band * band) {
     tool = triangles[feature >> 3].tool;
+    // From the block's corner to the window corner of the tool, as the closest point.
     const float3 here = convert_float3(4 * (key - window_of(tools, tool))) + x;
     resolve(triangles, feature, here - closest, distance2, &phi, &normal, &rim);
   }
@@ -66,10 +69,14 @@ static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feat
   const bool same_tool = old_side > 0 && (old_side - 1) / 2 == tool;
   if (!rim && fabs(phi) < band) {
     const bool other_plate = (phi < 0.0f) != behind_before && fabs(phi) > SCHEME(contact_max_depth);
+    // Inside the band a particle keeps the side that it had; a particle that has just entered gets
+    // the side of its sign.
     out.side = same_tool && !other_plate ? old_side : 1 + 2 * tool + (phi < 0.0f ? 1 : 0);
     const float s = (out.side & 1) == 0 ? -1.0f : 1.0f;
     const float depth = tools[tool].half_thickness - s * phi;
     if (depth > 0.0f) {
+      // A limited push: soil that a fast plate has overrun returns within some transfers, without a
+      // jump.
       out.push = fmin(depth, longest_push);
       out.x += s * out.push * normal;
       // Still behind the middle of the plate.

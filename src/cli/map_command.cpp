@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy map`: layers of a site as a file, from a run's folder, a snapshot or a scene.
+// `navvy map`: writes layers of a site to a file, from the folder of a run, a snapshot or a scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -32,16 +32,18 @@
 namespace navvy::cli {
 namespace {
 
+/// Options of the command line.
 struct MapCommand {
   std::string from, layers, format, out, scene, device;
   bool start = false, paths = false;
-  double slope_deg = 0, step = 0, roughness = 0, window = 0;  ///< 0: the map's own
+  /// Limits of traversability; 0 means that the map uses its own.
+  double slope_deg = 0, step = 0, roughness = 0, window = 0;
 };
 
-/// What a map is made of, and how far it can know.
+/// Source of a map, which decides what can be known.
 enum class From { kScene, kRun, kSnapshot };
 
-/// A file that is read must not be written over, whatever it is called.
+/// Refuses an output that would overwrite an input, whatever its name.
 void require_apart(const MapCommand& options, const formats::MapFormat& format,
                    const std::vector<std::string>& reads) {
   for (const std::string& to : formats::files_of(format, options.out))
@@ -52,13 +54,13 @@ void require_apart(const MapCommand& options, const formats::MapFormat& format,
                                "name another file"});
 }
 
-/// What a map of `scene` is made from, beside `others`.
+/// Returns the files that a map of `scene` is made from, besides `others`.
 std::vector<std::string> reads_of(const scene::Scene& scene, std::vector<std::string> others) {
   others.insert(others.end(), {scene.file, scene.ground.file, scene.design.file});
   return others;
 }
 
-/// Whether no column of a layer has a value. Ends at the first one that has.
+/// Returns true when no column of a layer has a value. Stops at the first one that has.
 bool unknown_everywhere(const map::TerrainMap& map, map::MapLayer layer) {
   if (!map.has(layer)) return true;
   constexpr int kSide = map::LayerTiles::kSide;
@@ -89,8 +91,8 @@ std::pair<std::string, std::string> why_unknown(map::LayerNeeds needs, From from
   return {"no column of the site has a value", "look at the site's map with navvy check"};
 }
 
-/// Refuses what would be a folder of zeros; warns of each layer that was asked for by name and
-/// tells nothing. The names of those that came with the format and tell nothing are returned.
+/// Refuses a format that would be empty, and warns of each layer named by the user that is unknown
+/// everywhere. Returns the names of unknown layers that the format added by default.
 std::string look_for_unknown(const MapCommand& options, const formats::MapFormat& format,
                              const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                              From from) {
@@ -98,7 +100,7 @@ std::string look_for_unknown(const MapCommand& options, const formats::MapFormat
   if (format.needs_design && map.has(map::MapLayer::kTarget) &&
       unknown_everywhere(map, map::MapLayer::kTarget))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--format", format.name,
-                           "says what is to be dug, and the scene has no design",
+                           "holds the soil to be dug, but the scene has no design",
                            "add a <navvy:design> to the scene"});
   for (const map::MapLayer layer : layers) {
     if (!unknown_everywhere(map, layer)) continue;
@@ -114,24 +116,25 @@ std::string look_for_unknown(const MapCommand& options, const formats::MapFormat
   return unknown;
 }
 
-/// With the same table of steps as a run: a scene's program is checked, though none is run here.
+/// Loads a scene with the step table of a run: its program is checked, although it does not run
+/// here.
 scene::Scene load(const std::string& file) {
   return scene_io::load_scene(file, control::step_kinds());
 }
 
-/// The scene that a run's folder holds. @throws InputError when `folder` is none.
+/// Returns the scene file in the folder of a run. @throws InputError when there is none.
 std::string scene_of(const std::filesystem::path& folder, const std::string& asked) {
   const std::string file = (folder / "scene.sdf").string();
   if (std::filesystem::is_regular_file(file)) return file;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked,
-                         "no scene.sdf lies in '" + folder.string() + "'",
+                         "there is no scene.sdf in '" + folder.string() + "'",
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
 }
 
 map::MapOptions map_options(const MapCommand& options, std::vector<map::MapLayer> layers,
                             const scene::Scene& scene, const heightfield::Terrain& site,
                             const heightfield::DesignSurface* design = nullptr) {
-  // A picture of any layer has the surface's shade.
+  // A picture of any layer is shaded by the surface.
   layers.push_back(map::MapLayer::kElevation);
   map::MapOptions out = map::options_for(scene, site, std::move(layers), design);
   // Zero stands for "not given".
@@ -142,7 +145,8 @@ map::MapOptions map_options(const MapCommand& options, std::vector<map::MapLayer
   return out;
 }
 
-/// The state of a snapshot, with its awake soil: needs the device, as particles live there.
+/// Makes the map of a snapshot with its active soil. Needs the device, because particles live
+/// there.
 map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat& format,
                             const std::vector<map::MapLayer>& layers) {
   const std::string scene =
@@ -151,7 +155,7 @@ map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat&
           : scene_io::find_scene(options.scene);
   const scene::Scene described = load(scene);
   require_apart(options, format, reads_of(described, {options.from}));
-  // Particles are restored as a run would go on from them.
+  // The session restores particles as a run would resume from them.
   device::Device device(options.device);
   session::Session session(described, device, planner::path_planners());
   session.load(options.from);
@@ -162,14 +166,16 @@ map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat&
   return maker.map();
 }
 
+/// A map and its source.
 struct Made {
   map::TerrainMap map;
   From from;
 };
 
+/// Makes the map of whatever the user named.
 Made read(const MapCommand& options, const formats::MapFormat& format,
           const std::vector<map::MapLayer>& layers) {
-  // What it is tells itself: a folder, a file with a snapshot's head, or else a scene.
+  // The name is a folder, a file with the header of a snapshot, or else a scene.
   const std::filesystem::path from(options.from);
   if (std::filesystem::is_directory(from)) {
     const scene::Scene scene = load(scene_of(from, options.from));
@@ -188,7 +194,7 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
 }
 
 int map(const MapCommand& options) {
-  // Cheap questions first: names and the place of the result.
+  // Names and the output path are checked before anything expensive.
   const formats::MapFormat& format = formats::format_named(options.format);
   const std::vector<map::MapLayer> layers =
       options.layers.empty() ? format.by_default : map::layers_named(options.layers);
@@ -212,12 +218,12 @@ int map(const MapCommand& options) {
     format.write_with_lines(made, layers, options.out, lines);
   else
     format.write(made, layers, options.out);
-  // One line that says what was written.
+  // Prints one line about the result.
   std::string names;
   for (const map::MapLayer layer : layers)
     names += (names.empty() ? "" : ",") + map::info(layer).name;
   char when[40] = "";
-  // A run's files do not tell it.
+  // The files of a run do not hold the time.
   if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
   if (!unknown.empty()) names += "; unknown everywhere: " + unknown;
   std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(),
@@ -225,7 +231,7 @@ int map(const MapCommand& options) {
   return kOk;
 }
 
-/// What --help tells of layers and formats, from their own tables.
+/// Returns the list of layers and formats for --help, from their tables.
 std::string footer() {
   std::string out = "Layers:\n";
   char line[160];
@@ -250,7 +256,7 @@ std::string footer() {
 }  // namespace
 
 void add_map(CLI::App& app, Action& action) {
-  // Outlives the parse in the action.
+  // The action keeps it alive after parsing.
   auto options = std::make_shared<MapCommand>();
   CLI::App* command = app.add_subcommand(
       "map", "write layers of a site for planners: GeoTIFF, NPZ, nav2, PLY, pictures");
@@ -260,19 +266,19 @@ void add_map(CLI::App& app, Action& action) {
           "a run's folder (the ground at its end), a snapshot, or a scene (the untouched site)")
       ->required();
   command->add_option("--layers", options->layers,
-                      "names separated by commas; without it what the format is made for");
+                      "names separated by commas; without it the default layers of the format");
   command->add_option("--format", options->format, "see below")->required();
   command
       ->add_option("--out", options->out,
                    "the file or folder to write; replaced whole or not at all")
       ->required();
-  command->add_flag("--start", options->start, "of a run: the ground at its start");
+  command->add_flag("--start", options->start, "for a run: the ground at its start");
   command->add_flag("--paths", options->paths,
-                    "of a run with a go_to: draw its planned paths on a hillshade or relief");
+                    "for a run with a go_to: draw its planned paths on a hillshade or relief");
   command->add_option("--scene", options->scene,
-                      "of a snapshot: its scene; without it scene.sdf beside the snapshot");
+                      "for a snapshot: its scene; without it scene.sdf beside the snapshot");
   command->add_option("--device", options->device,
-                      "of a snapshot: the OpenCL device, as in `navvy run`");
+                      "for a snapshot: the OpenCL device, as in `navvy run`");
   const auto limit = [&](const char* name, double& to, const char* meaning) {
     command->add_option(name, to, meaning)->check(above_zero);
   };
@@ -283,7 +289,7 @@ void add_map(CLI::App& app, Action& action) {
   limit("--roughness-limit", options->roughness,
         "rms roughness that is not traversable [m] (the machine's, else 0.1)");
   limit("--window", options->window,
-        "half the side of the square that step and roughness look at [m] (likewise, 0.2)");
+        "half the side of the square used for step and roughness [m] (the machine's, else 0.2)");
   command->footer(footer());
   command->callback([options, &action] { action = [options] { return map(*options); }; });
 }

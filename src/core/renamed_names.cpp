@@ -57,6 +57,10 @@ const std::vector<RenamedName>& renamed_names() {
        "navvy:"
        "engine",
        "navvy:physics", "0.4"},
+      {NameKind::kLayer,
+       "aw"
+       "ake",
+       "active", "0.4"},
   };
   return rows;
 }

@@ -24,6 +24,8 @@ MapFormat mcap_format();
 MapFormat bag_format();
 MapFormat ply_format();
 
+// A list instead of formats that register themselves: linkers drop unused objects of static
+// libraries.
 const std::vector<MapFormat>& all_formats() {
   static const std::vector<MapFormat> table = {
       geotiff_format(),   npz_format(),    nav2_format(), nav2_scale_format(),

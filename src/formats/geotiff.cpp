@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDAL stays where it is: this hands bands to heightfield's writer.
+// Passes the layers to heightfield's writer, which is the only place with GDAL, as bands that are
+// computed row by row.
 #include "core/error.h"
 #include "formats/formats.h"
 #ifdef NAVVY_WITH_GDAL
@@ -12,7 +13,7 @@ namespace {
 void write_geotiff(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                    const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
-  // Rows by rows: nothing is copied whole.
+  // Rows are copied piece by piece; no layer is copied whole.
   std::vector<heightfield::MapBand> bands;
   for (const map::MapLayer layer : layers)
     bands.push_back({map::info(layer).name, map::info(layer).unit,

@@ -15,6 +15,7 @@ using map::MapLayer;
 /// Most values of one piece: 16 MiB.
 constexpr std::int64_t kPieceValues = std::int64_t{1} << 22;
 
+// JSON, because readers in any language can parse it and keys can be added.
 std::string header_of(const map::MapUpdate& update, const std::vector<MapLayer>& layers) {
   const map::TerrainMap& map = update.map;
   nlohmann::ordered_json head = {{"format", 1},

@@ -8,13 +8,13 @@ namespace navvy::formats {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "numbers are written as they lie in memory");
+              "numbers are written in the byte order of memory");
 
 std::string header(const char* descr, int nx, int ny) {
-  // A dictionary as Python prints it.
+  // The header is a dictionary as Python prints it.
   std::string dict = std::string("{'descr': '") + descr + "', 'fortran_order': False, 'shape': (" +
                      std::to_string(ny) + ", " + std::to_string(nx) + "), }";
-  // Magic, version and length count too; the data begin at a multiple of 64.
+  // The data begin at a multiple of 64 bytes, counting magic, version and length.
   dict.append(63 - (10 + dict.size()) % 64, ' ');
   dict += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);
@@ -23,6 +23,7 @@ std::string header(const char* descr, int nx, int ny) {
   return out + dict;
 }
 
+// The numbers follow the header without a gap.
 std::string with_header(const char* descr, std::span<const std::byte> data, int nx, int ny) {
   std::string out = header(descr, nx, ny);
   out.append(reinterpret_cast<const char*>(data.data()), data.size());

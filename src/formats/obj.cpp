@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ: vertices are known column centres, row by row from least y. The format has no
-// place for layers.
+// Wavefront OBJ: the vertices are the centres of known columns, row by row from least y. The format
+// cannot hold layers.
 #include <charconv>
 #include <cstdint>
 
@@ -11,13 +11,14 @@
 namespace navvy::formats {
 namespace {
 
-/// The shortest text that reads back to the same number.
+/// Appends the shortest text that reads back to the same number.
 template <class T>
 void append(std::string& to, T value) {
   char text[32];
   to.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
+// Text in one pass: an unknown column has no vertex, and faces only join known ones.
 void write_obj(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                const std::string& path) {
   if (layers.size() != 1 || !map::info(layers[0]).height())
@@ -34,7 +35,7 @@ void write_obj(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
     for (int ix = 0; ix < nx; ++ix, ++i) {
       const auto k = static_cast<std::size_t>(i);
       if (z[k] != z[k]) continue;
-      // Numbered from 1.
+      // OBJ numbers vertices from 1.
       vertex[k] = ++count;
       text += "v ";
       append(text, map.origin().x() + map.cell() * (ix + 0.5));
@@ -53,7 +54,7 @@ void write_obj(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
     }
     text += '\n';
   };
-  // Counter-clockwise from above, as in the PLY.
+  // Faces are counter-clockwise from above, as in the PLY.
   for (int iy = 0; iy + 1 < ny; ++iy)
     for (int ix = 0; ix + 1 < nx; ++ix) {
       const auto k = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +

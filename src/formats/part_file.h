@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file too large to be held, written piece by piece.
+// A file too large for memory, written piece by piece.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,22 @@
 
 namespace navvy::formats {
 
-/// Writes beside `path` and takes its place when it is whole; until then, and where anything fails,
+/// Writes beside `path` and replaces it when the file is complete. Until then, and after any error,
 /// the old file stands.
 class PartFile {
  public:
-  /// @throws FileError naming path and cause, as do all of these; also for what is there and is no
-  /// plain file.
+  /// Opens the partial file.
+  /// @throws FileError naming path and cause, as all functions here do; also for a path that exists
+  /// and is not a plain file.
   explicit PartFile(const std::string& path);
-  /// Removes what was not committed.
+  /// Removes a file that was not committed.
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
+  /// Appends bytes.
   void write(const void* data, std::size_t count);
+  /// Closes the file and replaces the old one.
   void commit();
 
  private:

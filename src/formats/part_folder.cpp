@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rename cannot take the place of a folder that holds something, so the two are exchanged.
+// A rename cannot replace a folder that holds files, so the two folders are exchanged.
 #include "formats/part_folder.h"
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
   throw FileError("cannot write the folder '" + path + "': " + cause);
 }
 
-/// Absolute, without dots and a slash at its end; behind links.
+/// Returns the absolute path without dots and without a slash at its end, with links followed.
 fs::path target_of(const std::string& path) {
   const auto clean = [](const fs::path& p) {
     const fs::path out = fs::absolute(p).lexically_normal();
@@ -31,11 +31,11 @@ fs::path target_of(const std::string& path) {
   return clean(followed(clean(path).string()));
 }
 
-/// Where it is written: `target`.part/, which holds one folder.
+/// Returns the folder `target`.part/, in which the new folder is written.
 fs::path part_of(const fs::path& target) { return target.string() + ".part"; }
 
-/// All that lies in `folder` must be one of `files`, what a kill left of its writing, or a folder
-/// on the way to one.
+/// Checks that everything in `folder` is one of `files`, a partial file that a kill left, or a
+/// folder above one.
 void require_ours(const std::string& path, const fs::path& folder,
                   const std::vector<std::string>& files) {
   std::error_code code;
@@ -51,10 +51,9 @@ void require_ours(const std::string& path, const fs::path& folder,
       return fs::is_regular_file(found) && (name == file || name == file + ".part");
     });
     if (!ours)
-      throw InputError(Fault{
-          Fault::Severity::kError, path, 0, "map", name,
-          "lies in the folder '" + folder.string() + "' and is no file that this format writes",
-          "name a new folder, or move what lies there away"});
+      throw InputError(Fault{Fault::Severity::kError, path, 0, "map", name,
+                             "in the folder '" + folder.string() + "' is not a file of this format",
+                             "name a new folder, or move the other files away"});
   }
   if (code) fail(path, code.message());
 }
@@ -70,11 +69,12 @@ std::vector<std::string> within(const std::string& folder, const std::vector<std
 
 std::string folder_name(const std::string& path) { return target_of(path).filename().string(); }
 
+// Both places are checked before anything is written.
 void require_folder(const std::string& path, const std::vector<std::string>& files) {
   const fs::path target = target_of(path);
   if (!target.has_filename()) fail(path, "it has no name");
   require_ours(path, target, files);
-  // What a kill left, or another process writes now.
+  // The partial folder may hold files that a kill left, or that another process writes now.
   require_ours(path, part_of(target), within(target.filename().string(), files));
 }
 
@@ -91,21 +91,23 @@ PartFolder::PartFolder(const std::string& path, std::vector<std::string> files)
   if (code) fail(path_, code.message());
 }
 
+// Errors are ignored here, because destructors must not throw.
 PartFolder::~PartFolder() {
   std::error_code ignored;
   fs::remove_all(part_, ignored);
 }
 
+// Exchanging is atomic: at every moment one complete folder has the name.
 void PartFolder::commit() {
-  // Somebody may have put something there while it was written.
+  // Another process may have added files while this one was writing.
   require_ours(path_, target_, files_);
   std::error_code code;
   if (!fs::exists(target_, code)) {
     fs::rename(place_, target_, code);
   } else if (::renameat2(AT_FDCWD, place_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) !=
              0) {
-    // Some file systems exchange nothing: for a moment neither is there, and a kill then leaves
-    // both in the part.
+    // Some file systems cannot exchange folders. For a moment neither is in place then, and a kill
+    // leaves both in the partial folder.
     if (errno != EINVAL && errno != ENOSYS) fail(path_, std::strerror(errno));
     const fs::path old = part_ / (target_.filename().string() + ".old");
     fs::rename(target_, old, code);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hillshade and colours of a layer, one pixel a column, north up.
+// Hillshade, and colours of a layer: one pixel per column, north up.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,15 +16,15 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
-/// Brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN where a
-/// neighbour is missing.
+/// Returns the brightness 0..1 of column (ix, iy) under a sun in the north-west, 45 deg high; NaN
+/// where the column is unknown.
 double shade(const map::TerrainMap& map, map::MapLayer surface, int ix, int iy) {
   const auto z = [&](int x, int y) {
     return static_cast<double>(
         map.at(surface, std::clamp(x, 0, map.nx() - 1), std::clamp(y, 0, map.ny() - 1)));
   };
   const auto slope = [&](double before, double here, double after) {
-    // Beside a hole the known side alone.
+    // Beside an unknown column the known side alone counts.
     if (before != before) return (after - here) / map.cell();
     if (after != after) return (here - before) / map.cell();
     return (after - before) / (2 * map.cell());
@@ -32,12 +32,12 @@ double shade(const map::TerrainMap& map, map::MapLayer surface, int ix, int iy) 
   const double here = z(ix, iy);
   const Vec3 n = Vec3(-slope(z(ix - 1, iy), here, z(ix + 1, iy)),
                       -slope(z(ix, iy - 1), here, z(ix, iy + 1)), 1);
-  // Its direction in W: x is east, y north.
+  // Direction of the sun in W: x is east, y is north.
   const Vec3 sun = Vec3(-1, 1, std::sqrt(2.0)).normalized();
   return here == here ? std::clamp(n.normalized().dot(sun), 0.0, 1.0) : here;
 }
 
-/// Between the colours of `stops`, evenly spaced, at 0 <= t <= 1.
+/// Interpolates between the colours of `stops`, evenly spaced, at 0 <= t <= 1.
 Colour between(const std::vector<Colour>& stops, double t) {
   const double at = std::clamp(t, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
@@ -74,6 +74,7 @@ std::pair<double, double> range_of(map::LayerType type, const std::vector<float>
   return type == map::LayerType::kDifference ? std::pair{-most, most} : std::pair{low, high};
 }
 
+// A picture shows one layer; hillshade also needs a height.
 void require_one(const char* format, const std::vector<map::MapLayer>& layers,
                  const std::string& path, bool fits) {
   if (layers.size() == 1 && fits) return;
@@ -86,9 +87,10 @@ void require_one(const char* format, const std::vector<map::MapLayer>& layers,
       "ask for one picture a layer, or for a GeoTIFF"});
 }
 
-/// Which line lies over a column: the plan's number, 0 for none; empty where there are none.
+/// Number of the line over each column, 0 for none; empty where there are no lines.
 using Overlay = std::vector<std::uint8_t>;
 
+// Draws lines three columns wide, so that they stay visible when the picture is scaled down.
 Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& lines) {
   if (lines.empty()) return {};
   Overlay out(static_cast<std::size_t>(map.rect().area()));
@@ -100,7 +102,7 @@ Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& 
           out[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx()) +
               static_cast<std::size_t>(ix)] = static_cast<std::uint8_t>(1 + (plan - 1) % 4);
   };
-  // Later ones over earlier ones; places lie closer than a column or are joined by half columns.
+  // Later lines cover earlier ones. Steps of half a column close the gaps between places.
   for (const map::MapLine& line : lines)
     for (std::size_t i = 0; i < line.places.size(); ++i) {
       const Vec2& from = line.places[i == 0 ? 0 : i - 1];
@@ -111,13 +113,13 @@ Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& 
   return out;
 }
 
-/// `colour(ix, iy, out)` says whether the column is known.
+/// Writes a picture. `colour(ix, iy, out)` returns false where the column is unknown.
 template <class Paint>
 void write_picture(const map::TerrainMap& map, const std::string& path, const Overlay& overlay,
                    const Paint& colour) {
   static const std::array<Colour, 4> inks = {Colour{0.85, 0.10, 0.10}, Colour{0.10, 0.35, 0.90},
                                              Colour{0.05, 0.60, 0.25}, Colour{0.60, 0.20, 0.75}};
-  // The picture's first row is the northern edge.
+  // The first row of the picture is the northern edge.
   std::vector<std::uint8_t> pixels;
   pixels.reserve(4 * static_cast<std::size_t>(map.rect().area()));
   for (int iy = map.ny() - 1; iy >= 0; --iy)
@@ -146,6 +148,7 @@ void write_hillshade_with_lines(const map::TerrainMap& map,
   });
 }
 
+// The colours run over the range of the whole map, so that one picture uses all of them.
 void write_relief_with_lines(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                              const std::string& path, const std::vector<map::MapLine>& lines) {
   require_one("relief", layers, path, true);
@@ -156,7 +159,7 @@ void write_relief_with_lines(const map::TerrainMap& map, const std::vector<map::
     const double value = static_cast<double>(map.at(layer, ix, iy));
     if (!(value == value)) return false;
     rgb = between(stops_of(map::info(layer).type), (value - least) / span);
-    // The surface below shows through; level ground keeps its colour.
+    // The surface shades the colours; level ground keeps its colour.
     const double light = shade(map, map::MapLayer::kElevation, ix, iy) / std::sqrt(0.5);
     for (double& c : rgb) c *= light == light ? 0.45 + 0.55 * light : 1;
     return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary little-endian PLY: vertices are known column centres, row by row from least y.
+// Binary little-endian PLY: the vertices are the centres of known columns, row by row from least y.
 #include <cstdint>
 #include <cstring>
 
@@ -10,7 +10,7 @@
 namespace navvy::formats {
 namespace {
 
-/// Appends a number as it lies in memory, little-endian.
+/// Appends the bytes of a number, little-endian.
 template <class T>
 void put(std::vector<char>& to, T value) {
   char bytes[sizeof(T)];
@@ -18,6 +18,7 @@ void put(std::vector<char>& to, T value) {
   to.insert(to.end(), bytes, bytes + sizeof value);
 }
 
+// Vertices and faces are collected apart, because the header needs both counts.
 void write_ply(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                const std::string& path) {
   const int nx = map.nx(), ny = map.ny();
@@ -25,7 +26,7 @@ void write_ply(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
     throw InputError(Fault{Fault::Severity::kError, path, 0, "ply",
                            std::to_string(map.rect().area()) + " columns", "at most 10^8",
                            "ask for a GeoTIFF"});
-  // Dense copies: the whole file is made in memory before it is written.
+  // Dense copies suffice: the whole file is built in memory before it is written.
   const std::vector<float> z = map.copy(map::MapLayer::kElevation);
   std::vector<std::vector<float>> values;
   for (const map::MapLayer layer : layers) values.push_back(map.copy(layer));
@@ -38,7 +39,7 @@ void write_ply(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
       const auto k = static_cast<std::size_t>(i);
       if (z[k] != z[k]) continue;
       vertex[k] = count++;
-      // In doubles: a site may lie far from W's origin.
+      // Doubles, because a site may be far from the origin of W.
       put(vertices, map.origin().x() + map.cell() * (ix + 0.5));
       put(vertices, map.origin().y() + map.cell() * (iy + 0.5));
       put(vertices, static_cast<double>(z[k]));
@@ -50,7 +51,7 @@ void write_ply(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
     for (const std::int32_t corner : {a, b, c}) put(faces, corner);
     ++triangles;
   };
-  // Counter-clockwise from above; the diagonal runs from least to greatest x and y.
+  // Faces are counter-clockwise from above; the diagonal runs from least to greatest x and y.
   for (int iy = 0; iy + 1 < ny; ++iy)
     for (int ix = 0; ix + 1 < nx; ++ix) {
       const auto k = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
@@ -59,7 +60,7 @@ void write_ply(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
       triangle(vertex[k], vertex[k + 1], vertex[up + 1]);
       triangle(vertex[k], vertex[up + 1], vertex[up]);
     }
-  // Counts are known only now.
+  // The header comes first in the file, but needs the counts.
   std::string head =
       "ply\nformat binary_little_endian 1.0\ncomment metres in the world's frame, z up\nelement "
       "vertex " +

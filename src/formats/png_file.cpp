@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libpng's simple interface, sized for a picture at a time.
+// Uses libpng's simplified interface on whole pictures.
 #include "formats/png_file.h"
 
 #include <png.h>
@@ -24,7 +24,7 @@ std::vector<char> png_bytes(PixelKind kind, int width, int height,
   constexpr png_uint_32 kFormats[] = {0, PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB,
                                       PNG_FORMAT_RGBA};
   png.format = kFormats[static_cast<int>(kind)];
-  // A bound that libpng gives for any content, so that it writes once.
+  // libpng gives an upper bound for any content, so that one call suffices.
   std::vector<char> out(PNG_IMAGE_PNG_SIZE_MAX(png));
   png_alloc_size_t size = out.size();
   if (png_image_write_to_memory(&png, out.data(), &size, 0, pixels.data(), 0, nullptr) == 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels as PNG bytes.
+// Encodes pixels as PNG.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace navvy::formats {
 
-/// Bytes of a pixel, in PNG's order.
+/// Channels of a pixel in the order of PNG; the value is their number.
 enum class PixelKind { kGray = 1, kGrayAlpha = 2, kRgb = 3, kRgba = 4 };
 
-/// 8 bits a channel, top row first, rows without padding. @throws Error when the bytes do not fill
-/// the picture.
+/// Returns a PNG with 8 bits per channel, from rows without padding, top row first. @throws Error
+/// when the bytes do not fill the picture.
 std::vector<char> png_bytes(PixelKind kind, int width, int height,
                             const std::vector<std::uint8_t>& pixels);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map of one instant as a bag: what a planner that subscribes gets once.
+// The map of one instant as a bag, which a subscribing planner receives once.
 #include <cstdio>
 
 #include "core/file.h"
@@ -17,7 +17,7 @@ void write(ros::Bag& bag, const map::TerrainMap& map, const std::vector<map::Map
   bag.close();
 }
 
-/// SQLite's journal is there as long as it writes.
+/// Returns the files of a bag; the journal of SQLite exists only while it writes.
 std::vector<std::string> bag_files(const std::string& name) {
   return {"metadata.yaml", name + "_0.db3", name + "_0.db3-journal"};
 }
@@ -29,7 +29,8 @@ void write_mcap(const map::TerrainMap& map, const std::vector<map::MapLayer>& la
     const auto bag = ros::make_mcap(part);
     write(*bag, map, layers);
   } catch (...) {
-    std::remove(part.c_str());  // a full disk is not to stay full of halves
+    // A full disk must not keep partial files.
+    std::remove(part.c_str());
     throw;
   }
   commit_file(path);

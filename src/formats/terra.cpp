@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of NumPy arrays as excavation planners of the Terra kind take: one map, number 1, of
-// small whole numbers.
+// A folder of NumPy arrays for excavation planners like Terra: one map, number 1, of small
+// integers.
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kFolders[] = {"images", "occupancy", "dumpability", "distance"};
 constexpr const char* kImage = "img_1.npy";
 
-/// Along one line: for each place i the least of (i - k)^2 + f[k] [Felzenszwalb 2012].
+/// Computes the least of (i - k)^2 + f[k] for each place i of a line [Felzenszwalb 2012].
 void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
   const int n = static_cast<int>(f.size());
   std::vector<int> at(f.size());
@@ -48,12 +48,13 @@ void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
   }
 }
 
-/// Metres from each column's centre to that of the nearest marked one; -1 where none is.
+/// Returns the distance [m] from the centre of each column to that of the nearest marked one; -1
+/// where none is marked.
 std::vector<float> distances(const std::vector<std::int8_t>& marked, int nx, int ny, double cell) {
   const double far = std::numeric_limits<double>::infinity();
   std::vector<double> square(marked.size());
   for (std::size_t k = 0; k < marked.size(); ++k) square[k] = marked[k] != 0 ? 0 : far;
-  // Along x, then along y of what that gave.
+  // A pass along x, then one along y over its result.
   const auto pass = [&](int lines, int length, std::size_t line_step, std::size_t step) {
     std::vector<double> f(static_cast<std::size_t>(length)), out(f.size());
     for (int l = 0; l < lines; ++l) {
@@ -74,30 +75,32 @@ std::vector<float> distances(const std::vector<std::int8_t>& marked, int nx, int
 }
 
 std::vector<std::string> terra_files(const std::string& name) {
-  (void)name;  // all are called alike
+  // Folders of every name hold the same files.
+  (void)name;
   std::vector<std::string> out;
   for (const char* folder : kFolders) out.push_back(std::string(folder) + "/" + kImage);
   return out;
 }
 
+// The arrays are computed completely before the folder is made, so that an error leaves nothing
+// behind.
 void write_terra(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                  const std::string& path) {
   for (const map::MapLayer needed :
        {map::MapLayer::kTarget, map::MapLayer::kElevation, map::MapLayer::kTraversability})
     if (!map.has(needed))
       throw InputError(Fault{Fault::Severity::kError, path, 0, "terra", map::info(needed).name,
-                             "is needed and was not asked for", "leave --layers out"});
+                             "is needed but was not named", "omit --layers"});
   (void)layers;
   std::vector<std::int8_t> dig, target, occupied, dumpable;
   const std::vector<float> z = map.copy(map::MapLayer::kElevation),
                            wanted = map.copy(map::MapLayer::kTarget),
                            good = map.copy(map::MapLayer::kTraversability);
-  // What the ground is off its design by less than a twentieth of a column's edge is as good as
-  // done.
+  // A deviation below a twentieth of a column edge counts as finished.
   const double least = 0.05 * map.cell();
   for (std::size_t k = 0; k < z.size(); ++k) {
     const double rise = static_cast<double>(z[k]) - static_cast<double>(wanted[k]);
-    // Comparisons with an unknown height are false: neutral.
+    // Comparisons with an unknown height are false, so such columns are neutral.
     const std::int8_t aim = rise > least    ? std::int8_t{-1}
                             : rise < -least ? std::int8_t{1}
                                             : std::int8_t{0};

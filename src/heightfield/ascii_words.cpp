@@ -18,6 +18,7 @@
 namespace navvy::heightfield {
 namespace {
 
+// The keys of the format may be in upper or lower case.
 std::string lower(std::string_view text) {
   std::string word(text);
   for (char& c : word)
@@ -25,6 +26,7 @@ std::string lower(std::string_view text) {
   return word;
 }
 
+// Returns true for the keys that GDAL knows.
 bool is_key(std::string_view word) {
   static const char* const keys[] = {
       "ncols", "nrows", "xllcorner",    "yllcorner", "xllcenter", "yllcenter", "cellsize",
@@ -33,7 +35,7 @@ bool is_key(std::string_view word) {
   return std::any_of(std::begin(keys), std::end(keys), [&](const char* key) { return low == key; });
 }
 
-/// As the system's library and Windows write them.
+/// Recognises NaN and infinity as the C library and Windows write them.
 bool is_not_finite(std::string_view word) {
   if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.remove_prefix(1);
   const std::string low = lower(word);
@@ -44,8 +46,8 @@ bool is_not_finite(std::string_view word) {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// [+-]digits[.digits], as nearly every height is written: to know that costs a fifth of reading
-/// it.
+/// Recognises [+-]digits[.digits], the form of nearly every height, at a fifth of the cost of
+/// parsing it.
 bool is_plain_number(std::string_view word) {
   std::size_t at = !word.empty() && (word.front() == '-' || word.front() == '+') ? 1 : 0,
               digits = 0;
@@ -58,6 +60,7 @@ bool is_plain_number(std::string_view word) {
   return digits > 0 && at == word.size();
 }
 
+// Tries the cheap form first, which nearly every height has.
 bool is_number(std::string_view word) {
   if (is_plain_number(word)) return true;
   std::string text(word);
@@ -66,20 +69,20 @@ bool is_number(std::string_view word) {
   if (!text.empty() && text.front() == '+') ++first;
   double value = 0;
   const auto [end, failed] = std::from_chars(first, text.data() + text.size(), value);
-  // Out of double's range is a number all the same; the reader judges heights.
+  // A value outside the range of double is still a number; the reader judges heights.
   const bool read = failed == std::errc() || failed == std::errc::result_out_of_range;
   return (read && end == text.data() + text.size()) || is_not_finite(word);
 }
 
-/// Words of a file with their lines.
+/// Splits a file into words with their lines.
 class Words {
  public:
   explicit Words(const std::string& path)
       : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
     if (!file_) throw FileError("cannot read '" + path + "': " + std::strerror(errno));
   }
-  /// False at the end. Of a word that is no number for its length alone the rest is left out. It
-  /// lies in the buffer, and is good until the next call.
+  /// Reads the next word; returns false at the end. A word that is too long for a number is
+  /// truncated. The word lies in the buffer and is valid until the next call.
   bool next(std::string_view& word, std::int64_t& line) {
     word = {};
     do {
@@ -89,7 +92,7 @@ class Words {
     line = line_;
     word = rest_of_word();
     if (at_ < held_ || word.empty()) return !word.empty();
-    // It goes on in the next piece of the file.
+    // The word continues in the next piece of the file.
     long_.clear();
     do {
       long_ += word.substr(
@@ -102,13 +105,13 @@ class Words {
   }
 
  private:
-  /// What there is of it in the buffer.
+  /// Returns the part of the word that the buffer holds.
   std::string_view rest_of_word() {
     const std::size_t from = at_;
     while (at_ < held_ && !is_space(buffer_[at_])) ++at_;
     return {buffer_.data() + from, at_ - from};
   }
-  /// Replaces the buffer, which has been read to its end. False at the end of the file.
+  /// Refills the buffer, which has been read to its end; returns false at the end of the file.
   bool refill() {
     held_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
     at_ = 0;
@@ -132,11 +135,12 @@ class Words {
                          "correct the map: what is not known is the NODATA_value"});
 }
 
+// Reads only as many words as the grid has cells: text behind them is ignored, as GDAL does.
 void look_through(const std::string& path, std::int64_t numbers) {
   Words words(path);
   std::string_view word;
   std::int64_t line = 0, seen = 0;
-  // The header: keys with their values, until a number stands where a key would.
+  // The header consists of keys with their values, up to a number in the place of a key.
   while (words.next(word, line) && is_key(word)) {
     const bool order = lower(word) == "byteorder";  // its value is a word
     if (!words.next(word, line)) return;

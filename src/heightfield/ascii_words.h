@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in an ESRI ASCII grid where numbers should.
+// Finds text in an ESRI ASCII grid where numbers are expected.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace navvy::heightfield {
 
-/// Looks through the header and the first `numbers` heights for what is neither a key of the format
-/// nor a number: GDAL reads such a word as 0 m and says nothing. Every spelling that GDAL takes is
-/// a number, decimal commas and "nan" too. The file is read in pieces; one beyond the limit of
-/// core/limits.h is refused.
+/// Checks the header and the first `numbers` heights of the file for words that are neither a key
+/// of the format nor a number. GDAL would silently read such a word as 0 m. Every spelling that
+/// GDAL accepts is a number, including decimal commas and "nan". Reads the file in pieces; refuses
+/// a file beyond the limit of core/limits.h.
 /// @throws InputError naming file, line and word.
 void check_words(const std::string& path, std::int64_t numbers);
 

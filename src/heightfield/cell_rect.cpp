@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeping a list of rectangles short without covering much that nobody asked for.
+// Keeps a list of rectangles short without covering many columns that no one added.
 #include "heightfield/cell_rect.h"
 
 #include <algorithm>
@@ -8,25 +8,25 @@
 namespace navvy::heightfield {
 namespace {
 
-// Columns of the union that are in neither: what a reader of the list would renew for nothing.
+// Columns of the union that are in neither: a reader of the list would renew them for nothing.
 std::int64_t added_area(const CellRect& a, const CellRect& b) {
   CellRect both = a;
   both.include(b);
   return both.area() - a.area() - b.area() + a.cut(b).area();
 }
 
-// Of an entry without a partner: more than any union adds.
+// Cost of an entry without a partner: more than any union adds.
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-// May turn out empty, even turned round; `empty` knows.
+// The result may be empty or inverted; `empty` handles both.
 CellRect CellRect::cut(const CellRect& other) const {
   return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1),
           std::min(y1, other.y1)};
 }
 
-// An empty rectangle has no place, so it neither adds nor pulls.
+// An empty rectangle has no place, so it changes nothing.
 void CellRect::include(const CellRect& other) {
   if (other.empty()) return;
   if (empty()) {
@@ -39,7 +39,8 @@ void CellRect::include(const CellRect& other) {
   y1 = std::max(y1, other.y1);
 }
 
-// Both directions in one pass: an entry that came or grew may be the better partner of others.
+// Updates both directions in one pass: an entry that was added or grew may be a better partner for
+// others.
 void RectList::find_partner(std::size_t i) {
   entries_[i].added = kNone;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
@@ -50,11 +51,11 @@ void RectList::find_partner(std::size_t i) {
   }
 }
 
-// Who was bound to i looks around anew; who was bound to the last entry follows it to its new
-// place.
+// Entries whose partner was i search for a new one; entries whose partner was the last one follow
+// it to its new place.
 void RectList::erase(std::size_t i) {
   const std::size_t last = entries_.size() - 1;
-  // By their places after the move.
+  // Indices after the move.
   std::vector<std::size_t> lonely;
   for (std::size_t k = 0; k < last; ++k) {
     const Entry& entry = entries_[k == i ? last : k];
@@ -67,10 +68,12 @@ void RectList::erase(std::size_t i) {
   for (const std::size_t k : lonely) find_partner(k);
 }
 
+// Completes larger rectangles first, because that covers nothing in excess; unites only when the
+// list is full.
 void RectList::add(const CellRect& rect) {
   if (rect.empty()) return;
-  // What makes a full rectangle with the new one becomes part of it; that may open the way for
-  // others.
+  // Rectangles that complete a larger one with the new rectangle become part of it, which may allow
+  // further unions.
   CellRect grown = rect;
   for (std::size_t i = 0; i < entries_.size();) {
     if (added_area(entries_[i].rect, grown) > 0) {
@@ -84,15 +87,15 @@ void RectList::add(const CellRect& rect) {
   entries_.push_back({grown, 0, kNone});
   find_partner(entries_.size() - 1);
   if (entries_.size() <= kMost) return;
-  // The pair whose union costs its readers least. Both leave and the union comes in like any other,
-  // so that it too can complete a larger rectangle.
+  // The pair whose union costs its readers least is removed, and the union is added like any other
+  // rectangle, so that it too can complete a larger one.
   const auto least =
       std::min_element(entries_.begin(), entries_.end(),
                        [](const Entry& a, const Entry& b) { return a.added < b.added; });
   const auto a = static_cast<std::size_t>(least - entries_.begin()), b = least->partner;
   CellRect united = entries_[a].rect;
   united.include(entries_[b].rect);
-  // From the back, so that the first index stays valid.
+  // Removed from the back, so that the first index stays valid.
   erase(std::max(a, b));
   erase(std::min(a, b));
   add(united);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two views are told apart by the tiles they do not share, and those column by column.
+// Two views differ only in tiles that they do not share; those are compared column by column.
 #include "heightfield/change_follower.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace navvy::heightfield {
 namespace {
 
-/// One tile of a view, whether it was ever written to or not.
+/// One tile of a view, touched or not.
 class TileFace {
  public:
   TileFace(const SurfaceTile* tile, const StartHeights& start, int tx, int ty, TileHeights& buffer)
@@ -19,7 +19,7 @@ class TileFace {
         x0_(tx * kTileSide),
         y0_(ty * kTileSide) {}
 
-  /// Whether a whole row of the tile has the same bits; most rows do, and are passed over by this.
+  /// Returns true when a whole row of the tile is bit-identical, which holds for most rows.
   bool same_row(const TileFace& other, int y) const {
     const auto i = static_cast<std::size_t>(y * kTileSide);
     if (tile_ == nullptr || other.tile_ == nullptr || tile_->loose || other.tile_->loose)
@@ -37,8 +37,8 @@ class TileFace {
   }
 
  private:
-  // Fields by value, whether stored or implied: a column dug and refilled with the same soil is no
-  // change.
+  // Compares fields by value, whether stored or implied: a column that was dug and refilled with
+  // the same soil has not changed.
   std::uint16_t soil(std::size_t i, int x, int y) const {
     const std::uint16_t soil = tile_ != nullptr ? tile_->soil[i] : kSoilAsAtStart;
     return soil != kSoilAsAtStart ? soil : site_.surface_soil(x0_ + x, y0_ + y);
@@ -56,8 +56,8 @@ class TileFace {
   int x0_, y0_;
 };
 
-/// Adds the runs of columns that differ, row by row; the list puts equal runs of neighbouring rows
-/// together.
+/// Adds the runs of columns that differ, row by row; the list unites equal runs of neighbouring
+/// rows.
 void compare(const TileFace& a, const TileFace& b, const CellRect& tile, RectList& out) {
   for (int iy = tile.y0; iy < tile.y1; ++iy) {
     if (a.same_row(b, iy - tile.y0)) continue;
@@ -66,7 +66,7 @@ void compare(const TileFace& a, const TileFace& b, const CellRect& tile, RectLis
         ++ix;
         continue;
       }
-      // From here on to the end of the run.
+      // Extends to the end of the run.
       const int first = ix;
       while (ix < tile.x1 && !a.same(b, ix - tile.x0, iy - tile.y0)) ++ix;
       out.add({first, iy, ix, iy + 1});
@@ -76,17 +76,19 @@ void compare(const TileFace& a, const TileFace& b, const CellRect& tile, RectLis
 
 }  // namespace
 
+// Squares, tiles, rows and columns are compared in this order, so that equal parts cost one
+// comparison each.
 std::vector<CellRect> ChangeFollower::take(const TerrainView& view) {
   RectList out;
-  // Grounds of one site share its description; any other means another surface to start from.
+  // Grounds of one site share its description; another description means another initial surface.
   const bool same_site = seen_ && seen_->start_->shared_site() == view.start_->shared_site();
   if (!same_site) {
     out.add(view.site_rect());
     seen_ = view;
     return out.rects();
   }
-  // Tiles are shared between views until they are written to: equal pointers mean equal columns,
-  // and a whole square of 1024 tiles is passed over at once.
+  // Views share tiles until they are written: equal pointers mean equal columns, and a whole square
+  // of 1024 tiles is skipped at once.
   const SurfaceTable &old = seen_->table_, &now = view.table_;
   TileHeights buffer;
   for (std::size_t s = 0; s < now.squares(); ++s) {
@@ -99,7 +101,7 @@ std::vector<CellRect> ChangeFollower::take(const TerrainView& view) {
         if (before == after) continue;
         const CellRect tile{tx * kTileSide, ty * kTileSide, (tx + 1) * kTileSide,
                             (ty + 1) * kTileSide};
-        // At most one of the two is untouched, so one buffer does.
+        // At most one of the two is untouched, so one buffer suffices.
         compare({before, *view.start_, tx, ty, buffer}, {after, *view.start_, tx, ty, buffer},
                 tile.cut(view.site_rect()), out);
       }

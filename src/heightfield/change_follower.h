@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who keeps a copy of the terrain and renews only what changed.
+// Finds what changed between two views of a terrain.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,21 @@
 
 namespace navvy::heightfield {
 
-/// Tells one client what changed between the views it was shown. One per client; it keeps the last
-/// view.
+/// Reports to one client what changed between the views it has seen. Each client has its own
+/// follower, which holds the last view.
 ///
-/// Two views are compared by the tiles they share, so the answer needs no cursor and is as right
-/// after a snapshot was loaded, after a long pause or from one `Surface` to the other as it is from
-/// step to step. Costs about 1 us, and 3 to 6 us a tile that was written to in between.
+/// Two views are compared by the tiles they share. The answer therefore needs no cursor and is
+/// equally correct after a snapshot was loaded, after a long pause, or when the client changes to
+/// another SurfaceKind. A call costs about 1 us, plus 3 to 6 us for each tile that was written in
+/// between.
 class ChangeFollower {
  public:
-  /// Rectangles, at most RectList::kMost, that hold every column whose height, soil, density state
-  /// or loose depth differs from the view of the last call; empty when there is none. The whole
-  /// site the first time and for a view of another site. May tell some columns that did not change,
-  /// where many rectangles were united.
+  /// Returns at most RectList::kMost rectangles that cover every column whose height, soil, density
+  /// state or loose depth differs from the view of the last call; none when nothing differs.
+  /// Returns the whole site the first time and for a view of another site. May include columns that
+  /// did not change, where many rectangles were united.
   std::vector<CellRect> take(const TerrainView& view);
-  /// Makes the next answer the whole site.
+  /// Makes the next call return the whole site.
   void forget() { seen_.reset(); }
 
  private:

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who asks often gets exact answers, who asks seldom a bounding one, and nobody has to be known by
-// name.
+// Frequent readers get exact answers and rare ones a bounding rectangle, without registration.
 #include "heightfield/change_log.h"
 
 #include <algorithm>
 
 #include "core/archive.h"
 
-// A full log is 48 KiB, which is saved and hashed in one run: a number of 8 bytes and four of 4
-// leave no gap.
+// A full log has 48 KiB and is saved and hashed in one run: a number of 8 bytes and four of 4 leave
+// no padding.
 static_assert(sizeof(navvy::heightfield::ChangeLog::Edit) ==
               sizeof(std::uint64_t) + 4 * sizeof(int));
 template <>
@@ -17,14 +16,14 @@ inline constexpr bool navvy::kPlain<navvy::heightfield::ChangeLog::Edit> = true;
 namespace navvy::heightfield {
 namespace {
 
-// Memory bound (64 KiB) against exactness: some seconds of digging keep their rectangles
+// Compromise between memory (64 KiB) and exactness: some seconds of digging keep their rectangles.
 constexpr std::size_t kMostEdits = 2048;
 
 }  // namespace
 
 void ChangeLog::add(int ix, int iy) {
   ++sequence_;
-  // The same column edited again (take then put, layer by layer) extends its own entry.
+  // Another edit of the same column (take then put, layer by layer) extends its entry.
   if (!edits_.empty()) {
     const CellRect& r = edits_.back().rect;
     if (r.x0 == ix && r.y0 == iy && r.x1 == ix + 1 && r.y1 == iy + 1) {
@@ -32,8 +31,8 @@ void ChangeLog::add(int ix, int iy) {
       return;
     }
   }
-  // Full: pairs in the older half are united, which frees a quarter at once and keeps the cost per
-  // edit constant.
+  // A full list unites pairs in its older half, which frees a quarter at once and keeps the cost
+  // per edit constant.
   if (edits_.size() == kMostEdits) {
     for (std::size_t i = 0; i < kMostEdits / 4; ++i) {
       Edit united = edits_[2 * i];
@@ -48,7 +47,7 @@ void ChangeLog::add(int ix, int iy) {
 
 CellRect ChangeLog::since(std::uint64_t sequence, const CellRect& everything) const {
   if (sequence > sequence_) return everything;
-  // From the newest back, as questions are mostly about the last step.
+  // Searches from the newest entry back, because most queries concern the last step.
   CellRect rect;
   for (auto edit = edits_.rbegin(); edit != edits_.rend() && edit->last > sequence; ++edit)
     rect.include(edit->rect);
@@ -62,11 +61,12 @@ bool ChangeLog::lies_in(const CellRect& site) const {
   });
 }
 
+// Checks what a file could hold and no log can: order, empty rectangles, numbers above the total.
 void ChangeLog::visit(Archive& a) {
   a("sequence", sequence_);
   a("edits", edits_);
   if (!a.loading()) return;
-  // A longer list would never be shortened, and a question to an unsorted one would stop too early.
+  // A longer list would never be shortened, and a query of an unsorted one would stop too early.
   std::uint64_t before = 0;
   bool good = edits_.size() <= kMostEdits;
   for (const Edit& edit : edits_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which columns changed after which sequence number.
+// Records which columns changed after which sequence number.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,32 @@ class Archive;
 
 namespace navvy::heightfield {
 
-/// A bounded list of edits, oldest first. Recent edits keep their own rectangle; when the list is
-/// full, neighbours in its older half are united, so a question about long ago gets a bounding
-/// superset. Adding costs amortised O(1).
+/// A bounded list of edits, oldest first. Recent edits keep their own rectangle. When the list is
+/// full, neighbours in its older half are united, so that a query about the distant past returns a
+/// bounding superset. Adding an edit costs amortised O(1).
 class ChangeLog {
  public:
-  /// Counts one edit of column (ix, iy). Edits of the same column in a row share an entry.
+  /// Records one edit of column (ix, iy). Consecutive edits of one column share an entry.
   void add(int ix, int iy);
-  /// Number of edits so far.
+  /// Returns the number of edits so far.
   std::uint64_t sequence() const { return sequence_; }
-  /// Rectangle changed after `sequence`; `everything` when `sequence` lies in the future (a
-  /// snapshot was loaded).
+  /// Returns the rectangle that changed after `sequence`, or `everything` when `sequence` lies in
+  /// the future, as it does after a snapshot was loaded.
   CellRect since(std::uint64_t sequence, const CellRect& everything) const;
 
-  /// Whether all edits lie in `site`; for who loads a log.
+  /// Returns true when all edits lie in `site`. Loading code checks a log with it.
   bool lies_in(const CellRect& site) const;
 
-  /// All of it, as the soil's next look at what changed depends on it. @throws InputError for edits
-  /// that no log has.
+  /// Visits the whole log, because the next exchange of the soil depends on it.
+  /// @throws InputError for edits that no log can hold.
   void visit(Archive& a);
 
+  /// One or several consecutive edits.
   struct Edit {
-    std::uint64_t last = 0;  ///< newest sequence number in here
-    CellRect rect;           ///< never empty
+    /// Newest sequence number of the entry.
+    std::uint64_t last = 0;
+    /// Columns of the entry; never empty.
+    CellRect rect;
   };
 
  private:

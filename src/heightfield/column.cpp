@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers are cut, put down and pressed in whole units of mass: what leaves one column arrives in
-// another to the last unit, whatever rounding its thickness suffers.
+// Layers are cut, added and compacted in whole units of mass: soil that leaves one column arrives
+// in another to the last unit, whatever rounding its thickness suffers.
 #include "heightfield/column.h"
 
 #include <algorithm>
@@ -12,19 +12,20 @@
 namespace navvy::heightfield {
 namespace {
 
-// Layers whose specific volume agrees this well are one layer.
+// Layers whose specific volumes agree this well are merged.
 constexpr float kSameSpecificVolume = 1e-3f;
-// ... and whose plastic shear does: cohesion over this span of the remoulding law differs by less
-// than a fifth.
+// The same for plastic shear: cohesion over this span of the remoulding law differs by less than a
+// fifth.
 constexpr float kSameShear = 0.05f;
-// Shear beyond which the soil is remoulded for good, so that differences mean nothing any more.
+// Beyond this shear the soil is fully remoulded, and differences have no effect.
 constexpr float kFullShear = 4.0f;
-// Less than this of a drop is what the subtraction of doubles left of it, and less than a unit of
-// mass is thick [m].
+// A smaller rest of a drop is rounding error of doubles, and thinner than a unit of mass [m].
 constexpr double kNoDrop = 1e-9;
-// Past this many layers alike neighbours are united. tuned: Ground.StaysShortUnderEndlessEdits
+// With more layers than this, similar neighbours are united. tuned:
+// Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
+// Returns true for layers that behave alike, so that merging them changes nothing of note.
 bool alike(const SoilLayer& a, const SoilLayer& b) {
   return a.soil == b.soil &&
          std::abs(a.specific_volume - b.specific_volume) <= kSameSpecificVolume &&
@@ -32,18 +33,18 @@ bool alike(const SoilLayer& a, const SoilLayer& b) {
              kSameShear;
 }
 
-// Adds b to a: masses and volumes are summed, shear is the mass mean.
+// Adds b to a: masses and volumes add, shear is the mass mean.
 void unite(SoilLayer& a, const SoilLayer& b) {
-  // Volume is what neighbours feel, so volumes add; shear is a memory of the material and goes with
-  // the mass.
+  // Volume acts on neighbours, so volumes add; shear is a memory of the material and follows the
+  // mass.
   const double ma = static_cast<double>(a.mass), mb = static_cast<double>(b.mass), m = ma + mb;
   a.specific_volume = static_cast<float>((ma * a.specific_volume + mb * b.specific_volume) / m);
   a.plastic_shear = static_cast<float>((ma * a.plastic_shear + mb * b.plastic_shear) / m);
   a.mass += b.mass;
 }
 
-// Unites the two neighbours of one soil that differ least; leaves a column of ever-changing soils
-// alone.
+// Unites the two neighbours of one soil that differ least; does nothing in a column whose soils
+// alternate.
 void shorten(Column& column) {
   std::size_t best = column.size();
   float least = std::numeric_limits<float>::infinity();
@@ -63,7 +64,7 @@ void shorten(Column& column) {
 
 // Splits layer `i` so that `top` [m] of it becomes layer i + 1.
 void split(Column& column, std::size_t i, double top, const UnitThickness& unit) {
-  // By rounded mass; the two halves sum to what was there.
+  // Masses are rounded; the two halves sum to the whole.
   SoilLayer upper = column[i];
   upper.mass = std::llround(top / (static_cast<double>(upper.specific_volume) * unit[upper.soil]));
   upper.mass = std::clamp<std::int64_t>(upper.mass, 0, column[i].mass);
@@ -75,12 +76,12 @@ void split(Column& column, std::size_t i, double top, const UnitThickness& unit)
 void press(Column& column, double drop, double zone, float min_specific_volume,
            const UnitThickness& unit) {
   for (std::size_t i = column.size(); i-- > 0 && drop > kNoDrop;) {
-    // Only a thick layer is split: the next pass of the same wheel finds its zone already cut out.
+    // Splits only a thick layer: the next pass of the same wheel finds its zone cut already.
     if (thickness(column[i], unit) > 1.5 * zone) {
       split(column, i, zone, unit);
       ++i;
     }
-    // From the surface down, until the drop is used up or everything is as dense as it gets.
+    // Works from the surface down, until the drop is used up or all soil has its greatest density.
     SoilLayer& layer = column[i];
     if (layer.mass == 0 || layer.specific_volume <= min_specific_volume) continue;
     const double old = thickness(layer, unit);
@@ -91,7 +92,7 @@ void press(Column& column, double drop, double zone, float min_specific_volume,
                                 : static_cast<float>(layer.specific_volume * (target / old));
     drop -= old - target;
   }
-  // A split may have left nothing of a layer, and splits of many passes add up.
+  // A split may leave an empty layer, and the splits of many passes add up.
   std::erase_if(column, [](const SoilLayer& layer) { return layer.mass == 0; });
   while (column.size() > kMostLayers) {
     const std::size_t before = column.size();
@@ -104,7 +105,7 @@ void press(Column& column, double drop, double zone, float min_specific_volume,
 
 void take_above(Column& column, double height, const UnitThickness& unit,
                 std::vector<SoilLayer>& taken) {
-  // The first layer that reaches above the height is the one to cut.
+  // Cuts the first layer that reaches above the height.
   double bottom = 0;
   std::size_t i = 0;
   while (i < column.size()) {
@@ -114,7 +115,7 @@ void take_above(Column& column, double height, const UnitThickness& unit,
     ++i;
   }
   if (i == column.size()) return;
-  // The layer that is cut keeps its rounded share; the rest is what is taken, so no unit is lost.
+  // The cut layer keeps its rounded share and the rest is taken, so that no unit is lost.
   SoilLayer& cut = column[i];
   const double share =
       (height - bottom) / (static_cast<double>(cut.specific_volume) * unit[cut.soil]);
@@ -128,6 +129,7 @@ void take_above(Column& column, double height, const UnitThickness& unit,
   column.resize(kept > 0 ? i + 1 : i);
 }
 
+// Merging on the way in keeps columns short: soil is put back in small amounts.
 void put(Column& column, const SoilLayer& layer) {
   if (!column.empty() && alike(column.back(), layer)) {
     unite(column.back(), layer);
@@ -137,10 +139,10 @@ void put(Column& column, const SoilLayer& layer) {
   if (column.size() > kMostLayers) shorten(column);
 }
 
+// Walks down through the zone and then through deeper soil, until the drop is used up.
 void compact(Column& column, double drop, double zone, float min_specific_volume,
              const UnitThickness& unit) {
-  // Splits may take several times the layers that are left in the end, and a column would keep that
-  // room.
+  // Splits may need several times the capacity of the final layers, which the column would keep.
   thread_local Column work;
   work = column;
   press(work, drop, zone, min_specific_volume, unit);

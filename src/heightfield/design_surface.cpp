@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three kinds of design come to one: heights at column centres.
+// All three kinds of design are converted to heights at column centres.
 #include "heightfield/design_surface.h"
 
 #include <algorithm>
@@ -28,13 +28,14 @@ bool known(float value) { return value == value; }
   throw InputError(Fault{Fault::Severity::kError, file, line, "navvy:design", value, rule, remedy});
 }
 
+// Returns the centre of a column in W [m].
 Vec2 centre(const Terrain& site, int ix, int iy) {
   return site.origin() + site.cell() * Vec2(ix + 0.5, iy + 0.5);
 }
 
-/// Columns whose centres may lie in a box of W.
+/// Returns the columns whose centres may lie in a box in W.
 CellRect columns_in(const Terrain& site, const Vec2& low, const Vec2& high) {
-  // Clamped as doubles: a surface may reach far beyond any site.
+  // Clamped as doubles, because a surface may reach far beyond any site.
   const Vec2 most(site.nx(), site.ny());
   const Vec2 a =
       ((low - site.origin()) / site.cell()).array().floor().max(0).min(most.array()).matrix();
@@ -44,10 +45,12 @@ CellRect columns_in(const Terrain& site, const Vec2& low, const Vec2& high) {
           static_cast<int>(b.y())};
 }
 
+// Returns a surface without heights.
 DesignSurface nowhere(const CellRect& rect) {
   return {rect, std::vector<float>(static_cast<std::size_t>(rect.area()), kNone)};
 }
 
+// Returns the height of a column for writing.
 float& value(DesignSurface& design, int ix, int iy) {
   const CellRect& r = design.rect;
   return design.z[static_cast<std::size_t>(iy - r.y0) * static_cast<std::size_t>(r.x1 - r.x0) +
@@ -56,19 +59,20 @@ float& value(DesignSurface& design, int ix, int iy) {
 
 // --- Triangles.
 
-/// Where W lies in the coordinates of surveyors, in metres.
+/// Place of W in survey coordinates, in metres.
 Vec3 to_survey(const GroundSetup& setup) {
   return {setup.easting * setup.file_unit - setup.origin.x(),
           setup.northing * setup.file_unit - setup.origin.y(), setup.height_offset};
 }
 
-/// The EPSG code of the element whose bracket stands at `open`, not of what lies in it; 0: none.
+/// Returns the EPSG code of the element whose bracket is at `open`, ignoring nested elements; 0 if
+/// there is none.
 int code_of(const std::string& wkt, std::size_t open) {
   int depth = 0;
   bool quoted = false;
   for (std::size_t i = open; i < wkt.size(); ++i) {
     const char c = wkt[i];
-    // A quote in a name is doubled.
+    // Quotes in names are doubled.
     if (c == '"') quoted = !quoted;
     if (quoted) continue;
     if (depth == 1 && std::isalnum(static_cast<unsigned char>(wkt[i - 1])) == 0 &&
@@ -80,8 +84,8 @@ int code_of(const std::string& wkt, std::size_t open) {
   return 0;
 }
 
-/// EPSG codes that name the plane coordinates of a WKT2: that of its projected CRS, which may be
-/// part of a compound one, and then that of the compound.
+/// Returns the EPSG codes of the plane coordinates of a WKT2: that of its projected CRS, which may
+/// be part of a compound one, and then that of the compound.
 std::vector<int> codes_of(const std::string& wkt) {
   std::vector<int> out;
   const std::size_t projected = wkt.find("PROJCRS[");
@@ -100,12 +104,14 @@ void warn(const scene::Tin& tin, const std::string& value, const std::string& ru
       Fault{Fault::Severity::kWarning, tin.file, 0, "navvy:design", value, rule, remedy}.text());
 }
 
+// Refuses a TIN in another CRS. Where one side has no code it can only warn.
 void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
   const std::vector<int> site = codes_of(setup.crs_wkt);
   if (tin.epsg != 0 && site.empty())
     warn(tin, epsg_text(tin.epsg),
-         setup.crs_wkt.empty() ? "the site has no CRS, so nobody knows whether the two count alike"
-                               : "the CRS of the site's map has no EPSG code to compare with",
+         setup.crs_wkt.empty()
+             ? "the site has no CRS, so it is unknown whether both use the same coordinates"
+             : "the CRS of the site's map has no EPSG code to compare with",
          "give the ground's map its code: gdal_translate -a_srs EPSG:CODE IN OUT.tif; a procedural "
          "site counts in W");
   if (site.empty()) return;
@@ -118,7 +124,7 @@ void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
          "export both in one coordinate system");
 }
 
-/// The two feet differ by two parts in a million: nothing on the site, metres at coordinates of
+/// The two feet differ by two parts in a million: nothing on the site, but metres at coordinates of
 /// millions.
 void warn_of_feet(const scene::Tin& tin, const GroundSetup& setup) {
   const double off = std::abs(tin.metres / setup.file_unit - 1);
@@ -130,15 +136,16 @@ void warn_of_feet(const scene::Tin& tin, const GroundSetup& setup) {
                 off * Vec2(setup.easting, setup.northing).norm() * setup.file_unit);
   warn(
       tin, "",
-      std::string(units) + ": US survey feet and international feet lie " + apart + " m apart here",
+      std::string(units) + ": US survey feet and international feet are " + apart + " m apart here",
       "if the coordinates are the same numbers, correct linearUnit (USSurveyFoot or foot)");
 }
 
+// Converts the corners to W once, and then walks the columns under each triangle.
 DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   const GroundSetup& setup = site.setup();
   require_same_crs(tin, setup);
   warn_of_feet(tin, setup);
-  // W's numbers are small: triangles are held there.
+  // Triangles are stored in W, whose numbers are small.
   const Vec3 shift = to_survey(setup);
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (const auto& face : tin.faces)
@@ -154,7 +161,7 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
     };
     const Vec3 a = corner(0), b = corner(1) - a, c = corner(2) - a;
     const double twice = b.x() * c.y() - b.y() * c.x();
-    // A sliver that is upright or a line covers no column.
+    // A vertical or degenerate sliver covers no column.
     if (!(std::abs(twice) > 0)) continue;
     const Vec2 from = Vec2::Zero().cwiseMin(b.head<2>()).cwiseMin(c.head<2>()) + a.head<2>();
     const Vec2 to = Vec2::Zero().cwiseMax(b.head<2>()).cwiseMax(c.head<2>()) + a.head<2>();
@@ -164,7 +171,7 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
         const Vec2 p = centre(site, ix, iy) - a.head<2>();
         const double u = (p.x() * c.y() - p.y() * c.x()) / twice,
                      v = (b.x() * p.y() - b.y() * p.x()) / twice;
-        // A centre on an edge belongs to both faces, which agree there; rounding may not open a
+        // A centre on an edge belongs to both faces, which agree there; rounding must not open a
         // seam.
         if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
         value(out, ix, iy) = static_cast<float>(a.z() + u * b.z() + v * c.z());
@@ -196,6 +203,7 @@ struct Nearest {
   Vec2 place;           ///< there
 };
 
+// Finds the nearest point on the edge of a polygon, and whether p is inside (even-odd rule).
 Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
   Nearest out;
   double least = INFINITY;
@@ -207,7 +215,7 @@ Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
       least = (p - q).squaredNorm();
       out.place = q;
     }
-    // Edges that cross the ray from p towards +x.
+    // Counts the edges that cross the ray from p towards +x.
     if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + edge.x() * (p.y() - a.y()) / edge.y())
       out.inside = !out.inside;
   }
@@ -215,7 +223,7 @@ Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
   return out;
 }
 
-/// One area on the columns of a rectangle; kNone where it says nothing.
+/// One area on the columns of a rectangle; kNone where it has no height.
 DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const CellRect& rect,
                       double floor, DesignSurface& floors) {
   DesignSurface sides = nowhere(rect);
@@ -232,13 +240,14 @@ DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const 
       } else if (!upright) {
         const double z = base + (pit ? 1 : -1) * at.distance * rise,
                      ground = site.start_height(ix, iy);
-        // Sides end in daylight.
+        // Sides end where they meet the ground.
         if (pit ? z < ground : z > ground) value(sides, ix, iy) = static_cast<float>(z);
       }
     }
   return sides;
 }
 
+// Returns true when sides reach an edge of the rectangle that is not an edge of the site.
 bool touches_edge(const DesignSurface& design, const CellRect& whole) {
   const CellRect& r = design.rect;
   for (int iy = r.y0; iy < r.y1; ++iy)
@@ -250,7 +259,7 @@ bool touches_edge(const DesignSurface& design, const CellRect& whole) {
   return false;
 }
 
-/// Adds an area: floors lie over what was there, sides only where they cut deeper or fill higher.
+/// Adds an area: floors replace earlier heights, sides only where they cut deeper or fill higher.
 void add_area(const scene::DesignArea& area, const std::string& file, const Terrain& site,
               DesignSurface& out) {
   Vec2 low = area.polygon[0], high = low;
@@ -262,7 +271,7 @@ void add_area(const scene::DesignArea& area, const std::string& file, const Terr
              span_text(site.origin(), site.origin() + site.cell() * Vec2(site.nx(), site.ny())),
          "begin the polygon with a corner on the site");
   const double floor = site.start_height(first.x(), first.y()) - area.depth;
-  // How far sides reach depends on the ground there: look farther until they end.
+  // The reach of sides depends on the ground there, so the search widens until they end.
   double reach = std::abs(area.depth) / std::tan(area.batter) + 2 * site.cell();
   for (;; reach *= 2) {
     const Vec2 margin = Vec2::Constant(reach);
@@ -287,6 +296,7 @@ void add_area(const scene::DesignArea& area, const std::string& file, const Terr
   }
 }
 
+// Later areas lie over earlier ones, in the order of the file.
 DesignSurface of_areas(const scene::Scene& scene, const Terrain& site) {
   DesignSurface out;
   for (const scene::DesignArea& area : scene.design.areas) add_area(area, scene.file, site, out);
@@ -317,6 +327,7 @@ std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrai
 #endif
 }
 
+// One pass over the columns with a design; columns without one do not count.
 DesignComparison against_design(const Terrain& ground, const DesignSurface& design) {
   DesignComparison out;
   const double square = ground.cell() * ground.cell();

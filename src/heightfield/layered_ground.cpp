@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Columns and their changes. Reading what can be seen of them stands in terrain.cpp, storing them
-// in tiles.cpp, what can be done to one of them in column.cpp; here they are checked, changed,
-// counted and saved.
+// Checks, changes, counts and saves columns. terrain.cpp reads their visible state, tiles.cpp
+// stores them, column.cpp changes a single one.
 #include "heightfield/layered_ground.h"
 
 #include <algorithm>
@@ -19,11 +18,11 @@
 namespace navvy::heightfield {
 namespace {
 
-// Rut zone: the top two cells carry most of a tyre's compaction. tuned:
+// Rut zone: the top two cells carry most of the compaction by a tyre. tuned:
 // Ground.CompactsTheTopFirstAndKeepsMass
 constexpr double kCompactionCells = 2.0;
 
-/// Collects what is wrong with a setup, so that one message tells all of it.
+/// Collects all faults of a setup, so that one message reports them.
 class SetupCheck {
  public:
   void require(bool good, const std::string& element, const std::string& value,
@@ -38,7 +37,7 @@ class SetupCheck {
   std::vector<Fault> faults_;
 };
 
-// Every layer must name a soil and have a thickness; of the last one the thickness does not count.
+// Every layer must name a soil and have a thickness; that of the last layer does not count.
 void check_layers(const Ground::Setup& setup, const std::vector<scene::GroundLayer>& layers,
                   SetupCheck& check) {
   check.require(!layers.empty(), "ground/layers", "", "needs at least one layer",
@@ -54,10 +53,10 @@ void check_layers(const Ground::Setup& setup, const std::vector<scene::GroundLay
   }
 }
 
-// The setup as it came, or one error with every fault.
+// Returns the setup unchanged, or throws one error with every fault.
 Ground::Setup checked(Ground::Setup setup) {
   SetupCheck check;
-  // Columns are numbered with int; 2^30 a side would be 100 000 km of 0.1 m cells.
+  // Columns are numbered with int; 2^30 per side would be 100 000 km of 0.1 m cells.
   const int most = 1 << 30;
   check.require(setup.nx > 0 && setup.nx <= most && setup.ny > 0 && setup.ny <= most, "ground/size",
                 std::to_string(setup.nx) + " x " + std::to_string(setup.ny) + " columns",
@@ -66,7 +65,7 @@ Ground::Setup checked(Ground::Setup setup) {
                 std::to_string(setup.cell), "must be a finite length > 0 m");
   check.require(std::isfinite(setup.datum) && setup.origin.allFinite(), "ground/origin", "",
                 "datum and origin must be finite");
-  // What the source answers is checked column by column when it is asked.
+  // The answers of the source are checked column by column on reading.
   check.require(setup.surface != nullptr, "ground/surface", "", "a source of heights is needed");
   check.require(!setup.soils.empty() && setup.soils.size() < 65536, "ground/soils",
                 std::to_string(setup.soils.size()), "needs 1 to 65535 soils");
@@ -94,32 +93,33 @@ Ground::Ground(Setup setup)
     : Terrain(
           std::make_shared<StartHeights>(std::make_shared<StartSite>(checked(std::move(setup))))),
       state_(std::make_unique<State>(start_->shared_site())) {}
-// Defined where State is known.
+// Defined here, where State is complete.
 Ground::~Ground() = default;
 Ground::Ground(Ground&&) noexcept = default;
 Ground& Ground::operator=(Ground&&) noexcept = default;
 
 std::size_t Ground::touched_tiles() const { return state_->tiles.touched().size(); }
 
+// Writing outside the site is an error of the caller; reading there is allowed.
 void Ground::require_inside(int ix, int iy) const {
   if (!contains(ix, iy))
     throw Error("Ground: column (" + std::to_string(ix) + ", " + std::to_string(iy) +
                 ") is outside the site of " + std::to_string(nx()) + " x " + std::to_string(ny()));
 }
 
-// After every change of a column's layers.
+// Called after every change of the layers of a column.
 void Ground::changed(int ix, int iy) {
   state_->tiles.update_surface(ix, iy, table_, *start_);
   state_->changes.add(ix, iy);
   sequence_ = state_->changes.sequence();
-  // Reading may not throw remembered heights away, as others may be reading them; here nobody is,
-  // and views keep theirs alive.
+  // Reading must not discard cached heights, as others may be reading them. Here no one else reads,
+  // and views keep their tiles.
   if (start_->worn()) start_ = std::make_shared<StartHeights>(start_->shared_site());
 }
 
 TerrainView Ground::view(double time) const {
-  // Marks tiles as shared, which is why views are taken one at a time; readers of the ground do not
-  // mind.
+  // Marks tiles as shared, which is why views are taken one at a time; readers of the ground are
+  // not affected.
   const std::lock_guard lock(state_->view);
   table_.freeze();
   return TerrainView(*this, time);
@@ -127,7 +127,7 @@ TerrainView Ground::view(double time) const {
 
 void Ground::column(int ix, int iy, std::vector<SoilLayer>& out) const {
   require_inside(ix, iy);
-  // Only changed columns are stored; all others are what the source says.
+  // Only changed columns are stored; the source computes all others.
   const Column* found = state_->tiles.find_column(ix, iy);
   if (found != nullptr)
     out = *found;
@@ -148,7 +148,7 @@ std::vector<SoilLayer> Ground::layers(int ix, int iy) const {
 
 void Ground::take_above(int ix, int iy, double z, std::vector<SoilLayer>& taken) {
   require_inside(ix, iy);
-  // Nothing above: the column must not even be touched. Also where z is no number.
+  // There is nothing above: the column must not even be touched. This includes z that is NaN.
   if (!(z < height(ix, iy))) return;
   heightfield::take_above(state_->tiles.touch_column(ix, iy), z - datum(), state_->tiles.unit(),
                           taken);
@@ -157,8 +157,7 @@ void Ground::take_above(int ix, int iy, double z, std::vector<SoilLayer>& taken)
 
 void Ground::put(int ix, int iy, const SoilLayer& layer) {
   require_inside(ix, iy);
-  // Nothing is put down often, by exchanges that round to no unit; worse than nothing is a fault of
-  // the caller.
+  // Exchanges that round to no unit often add nothing; a negative mass is an error of the caller.
   if (layer.mass == 0) return;
   if (layer.mass < 0 || layer.soil >= setup().soils.size() ||
       !std::isfinite(layer.specific_volume) || !(layer.specific_volume > 0) ||
@@ -172,10 +171,10 @@ void Ground::put(int ix, int iy, const SoilLayer& layer) {
 
 void Ground::compact_to(int ix, int iy, double height_wanted, float min_specific_volume) {
   require_inside(ix, iy);
-  // Ruts ask for any height; only what lies below the surface is work.
+  // Ruts request any height; only soil above it takes work.
   const double drop = height(ix, iy) - height_wanted;
   if (!(drop > 0) || !(min_specific_volume > 0)) return;
-  // Pressed by so much, not to that height: the drop is what the law of ruts gave.
+  // Pressed by this distance and not to that height: the rut law gives the drop.
   compact(state_->tiles.touch_column(ix, iy), drop, kCompactionCells * cell(), min_specific_volume,
           state_->tiles.unit());
   changed(ix, iy);
@@ -185,13 +184,13 @@ void Ground::hold(std::set<std::int64_t> columns) {
   const auto place = [&](std::int64_t key) {
     return Vec2i(static_cast<int>(key % nx()), static_cast<int>(key / nx()));
   };
-  // Keys ascend, so the first and the last tell of all.
+  // Keys ascend, so checking the first and the last suffices.
   if (!columns.empty() &&
       (*columns.begin() < 0 || *columns.rbegin() >= static_cast<std::int64_t>(nx()) * ny()))
     throw Error("Ground::hold: a column is outside the site of " + std::to_string(nx()) + " x " +
                 std::to_string(ny()));
-  // Nothing of them has changed but what may happen to them; whoever looks at changes asks for no
-  // more.
+  // The columns themselves have not changed, but what may happen to them has; readers of changes
+  // need no more.
   for (const std::int64_t key : state_->held)
     if (columns.count(key) == 0) state_->changes.add(place(key).x(), place(key).y());
   sequence_ = state_->changes.sequence();
@@ -210,7 +209,7 @@ bool Ground::held(int ix, int iy) const {
 }
 
 std::vector<std::int64_t> Ground::mass_change() const {
-  // Exact integers: the ledger of a run must come out at zero, not near it.
+  // Integers are exact: the ledger of a run must be zero, not nearly zero.
   std::vector<std::int64_t> sum = state_->tiles.start_mass();
   for (std::int64_t& mass : sum) mass = -mass;
   for (const auto& [key, tile] : state_->tiles.touched())
@@ -224,7 +223,7 @@ CellRect Ground::changed_since(std::uint64_t sequence) const {
 }
 
 CellRect Ground::touched_rect() const {
-  // Whole tiles, cut at the site's edge.
+  // Whole tiles, clipped at the edge of the site.
   CellRect rect;
   for (const auto& [key, tile] : state_->tiles.touched()) {
     const int x = static_cast<int>(key % state_->tiles.tiles_x()) * kTileSide;
@@ -234,6 +233,7 @@ CellRect Ground::touched_rect() const {
   return rect;
 }
 
+// The order of the fields is part of the snapshot format.
 void Ground::visit(Archive& a) {
   const Setup& s = setup();
   a.section("ground", 3, [&] {
@@ -242,15 +242,15 @@ void Ground::visit(Archive& a) {
     a.constant("ny", s.ny, kRule);
     a.constant("cell", s.cell, kRule);
     a.constant("datum", s.datum, kRule);
-    // Layers only: heights and start columns follow from them and from the source.
+    // Layers suffice: heights and initial columns follow from them and from the source.
     a("tiles", state_->tiles);
     a("held", state_->held);
     const std::int64_t columns = static_cast<std::int64_t>(nx()) * ny();
     a.require(
         state_->held.empty() || (*state_->held.begin() >= 0 && *state_->held.rbegin() < columns),
-        "held", "a column lies beside the site");
-    // Number and list of edits as well, so that who continues the run sees the same changes as who
-    // never stopped.
+        "held", "a column is off the site");
+    // Includes the number and the list of edits, so that a resumed run sees the same changes as one
+    // that never stopped.
     a("changes", state_->changes);
     a.require(state_->changes.lies_in(site_rect()), "changes", "an edit is outside the site");
   });

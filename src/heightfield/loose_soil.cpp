@@ -5,8 +5,9 @@
 #include <tuple>
 
 namespace navvy::heightfield {
+// Sorts the grains by column and height, and stacks them from below.
 LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
-  // Soil beyond the site's edge has no column to lie on.
+  // Soil beyond the edge of the site has no column to rest on.
   std::erase_if(grains,
                 [&](const LooseGrain& grain) { return !columns.contains(grain.ix, grain.iy); });
   std::sort(grains.begin(), grains.end(), [](const LooseGrain& a, const LooseGrain& b) {
@@ -15,7 +16,7 @@ LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
   const double area = columns.cell() * columns.cell(), gap = kLooseGap * columns.cell();
   for (std::size_t i = 0; i < grains.size();) {
     const LooseGrain& first = grains[i];
-    // One column: from its resting surface up.
+    // Stacks the grains of one column from its resting surface up.
     const double bottom = columns.height(first.ix, first.iy);
     Column column{first.ix, first.iy, bottom, 0, 0, 1};
     for (; i < grains.size() && grains[i].ix == first.ix && grains[i].iy == first.iy; ++i) {
@@ -26,7 +27,7 @@ LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
       grains_.push_back(grains[i]);
     }
     column.depth = column.top - bottom;
-    // Where all of it is in the air, one sees the column.
+    // Where all of it is in the air, the column itself is visible.
     if (column.depth > 0) columns_.push_back(column);
   }
 }

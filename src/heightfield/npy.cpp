@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header is a Python dictionary as text: its three keys are looked for by name and nothing is
+// The header is a Python dictionary as text: its three keys are found by name, and nothing is
 // evaluated.
 #include "heightfield/npy.h"
 
@@ -34,7 +34,7 @@ constexpr std::array<TypeRow, 6> kTypes = {{{"<f4", NpyType::kFloat32, 4},
                                             {"<u2", NpyType::kUint16, 2},
                                             {"|u1", NpyType::kUint8, 1}}};
 
-/// A header being read: throws with its file and the place in it.
+/// Parses a header; faults name the file and the place in it.
 struct Header {
   std::string path;
   std::string text;
@@ -44,7 +44,7 @@ struct Header {
                          const std::string& remedy) const {
     throw InputError(Fault{Fault::Severity::kError, path, 0, "npy " + key, value, rule, remedy});
   }
-  /// What stands behind 'key': without blanks; up to the end of the header.
+  /// Returns the text after 'key', without blanks, up to the end of the header.
   std::string after(const std::string& key) const {
     const std::size_t found = text.find("'" + key + "'");
     std::size_t from =
@@ -57,6 +57,7 @@ struct Header {
   }
 };
 
+// Only little-endian types of one number are maps.
 const TypeRow& type_of(const Header& header) {
   const std::string value = header.after("descr");
   for (const TypeRow& row : kTypes)
@@ -67,10 +68,10 @@ const TypeRow& type_of(const Header& header) {
       "numpy.save(PATH, array.astype('<f4'))");
 }
 
-/// The two lengths of "(7, 13), ...".
+/// Parses the two lengths of "(7, 13), ...".
 void read_shape(const Header& header, NpyGrid& grid) {
   const std::string value = header.after("shape");
-  const std::string told =
+  const std::string found =
       value.substr(0, value.find(')') == std::string::npos ? 40 : value.find(')') + 1);
   std::array<int, 2> sides = {};
   const char* p = value.data();
@@ -85,13 +86,13 @@ void read_shape(const Header& header, NpyGrid& grid) {
   }
   while (sound && p != end && (*p == ' ' || *p == ',')) ++p;
   if (!sound || p == end || *p != ')')
-    header.fail("shape", told, "a map has two axes, rows and columns, none of them empty",
+    header.fail("shape", found, "a map has two axes, rows and columns, none of them empty",
                 "save one map: numpy.save(PATH, array[..., 0])");
   grid.rows = sides[0];
   grid.columns = sides[1];
 }
 
-/// Cuts magic, version and header off the front of `bytes`.
+/// Removes magic, version and header from the front of `bytes`.
 Header take_header(const std::string& path, std::vector<char>& bytes) {
   Header header{path, "", 0};
   const auto byte = [&](std::size_t i) {
@@ -102,7 +103,8 @@ Header take_header(const std::string& path, std::vector<char>& bytes) {
   header.at = kMagicBytes + 2 + (long_length ? 4 : 2);
   if (bytes.size() < header.at || std::memcmp(bytes.data(), kMagic, kMagicBytes) != 0 ||
       (!long_length && bytes[kMagicBytes] != 1))
-    header.fail("byte 0", "", "is no NPY of version 1 to 3", "write the file with numpy.save");
+    header.fail("byte 0", "", "is not an NPY file of version 1 to 3",
+                "write the file with numpy.save");
   std::size_t length = byte(8) + 256 * byte(9);
   if (long_length) length += (byte(10) << 16) + (byte(11) << 24);
   if (length > kMostHeader || header.at + length > bytes.size())
@@ -116,12 +118,14 @@ Header take_header(const std::string& path, std::vector<char>& bytes) {
 
 }  // namespace
 
+// Decides by content and not by the ending of the name.
 bool is_npy_file(const std::string& path) {
   char head[kMagicBytes] = {};
   std::ifstream(path, std::ios::binary).read(head, sizeof head);
   return std::memcmp(head, kMagic, kMagicBytes) == 0;
 }
 
+// The size is checked against the header before the numbers are used.
 NpyGrid read_npy(const std::string& path) {
   NpyGrid grid;
   try {
@@ -135,10 +139,12 @@ NpyGrid read_npy(const std::string& path) {
   grid.type = type.type;
   const std::string order = header.after("fortran_order");
   if (order.rfind("False", 0) != 0)
-    header.fail("fortran_order", order.substr(0, order.find(',')), "rows must lie after each other",
+    header.fail("fortran_order", order.substr(0, order.find(',')),
+                "rows must follow each other (C order)",
                 "numpy.save(PATH, numpy.ascontiguousarray(array))");
   read_shape(header, grid);
-  // In double: the product of a damaged header's numbers may not fit an integer.
+  // Computed in double, because the product of the numbers of a damaged header may not fit an
+  // integer.
   const double wanted =
       static_cast<double>(grid.rows) * grid.columns * static_cast<double>(type.bytes);
   if (wanted != static_cast<double>(grid.bytes.size()))

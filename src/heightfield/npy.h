@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NumPy's NPY as a map: one array of two axes, rows of the map after each other.
+// Reads NumPy's NPY as a map: one array with two axes, whose rows are the rows of the map.
 #pragma once
 
 #include <string>
@@ -7,24 +7,26 @@
 
 namespace navvy::heightfield {
 
-/// What NPY calls '<f4', '<f8', '<i2', '<i4', '<u2' and '|u1': all that maps are kept in.
-/// Little-endian, as we are.
+/// Element types that maps come in: '<f4', '<f8', '<i2', '<i4', '<u2' and '|u1'; all little-endian.
 enum class NpyType { kFloat32, kFloat64, kInt16, kInt32, kUint16, kUint8 };
 
-/// An array as it stands in the file.
+/// The array as the file holds it.
 struct NpyGrid {
+  /// Type of the elements.
   NpyType type = NpyType::kFloat32;
+  /// Size of the array.
   int rows = 0, columns = 0;
-  std::vector<char> bytes;  ///< rows x columns numbers, the columns of row 0 first
+  /// rows x columns numbers, the columns of row 0 first.
+  std::vector<char> bytes;
 };
 
-/// Whether the file begins as every NPY does. False where it cannot be read.
+/// Returns true when the file begins like an NPY file; false also when it cannot be read.
 bool is_npy_file(const std::string& path);
 
-/// Reads all of it.
-/// @throws InputError naming file, offset in it or key, value and remedy: for Fortran order,
-/// another type, other than two axes, a size that is not that of the shape, a header that is none,
-/// or more bytes than core/limits.h allows.
+/// Reads the whole file.
+/// @throws InputError naming file, offset or key, value and remedy: for Fortran order, another
+/// type, other than two axes, a size that differs from the shape, a broken header, or more bytes
+/// than core/limits.h allows.
 NpyGrid read_npy(const std::string& path);
 
 }  // namespace navvy::heightfield

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of a scene as heights. Everything here is a function of place and of the feature's own
-// numbers: no tables, no state, so tiles can be made in any order and by any thread.
+// Shapes of a scene as heights. Every function depends on the place and the numbers of the feature
+// only: there are no tables and no state, so tiles can be made in any order and by any thread.
 #include "heightfield/procedural.h"
 
 #include <algorithm>
@@ -13,16 +13,16 @@ namespace {
 
 using scene::GroundFeature;
 
-// Random number in [-0.5, 0.5) that belongs to a lattice point.
+// Returns the random number in [-0.5, 0.5) of a lattice point.
 double lattice(std::int64_t i, std::int64_t j, std::uint64_t seed) {
-  // Two rounds, one a coordinate, so that neighbours on the lattice have nothing in common.
+  // Two rounds, one per coordinate, decorrelate neighbours on the lattice.
   Random random(seed ^ (static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15ULL));
   Random second(random.next() ^ (static_cast<std::uint64_t>(j) * 0xc2b2ae3d27d4eb4fULL));
   return second.uniform() - 0.5;
 }
 
-// Value noise with continuous curvature, in [-0.5, 0.5)
-// [Perlin 2002, "Improving noise", the quintic fade].
+// Value noise with continuous curvature, in [-0.5, 0.5) [Perlin 2002, "Improving noise", the
+// quintic fade].
 double value_noise(double x, double y, std::uint64_t seed) {
   const double fx = std::floor(x), fy = std::floor(y);
   const auto i = static_cast<std::int64_t>(fx), j = static_cast<std::int64_t>(fy);
@@ -33,16 +33,16 @@ double value_noise(double x, double y, std::uint64_t seed) {
   return (1 - v) * low + v * high;
 }
 
-// Two octaves; a wave is two lattice steps long. The second one is turned so that the lattice does
-// not show.
+// Two octaves; a wave is two lattice steps long. The second octave is rotated so that the lattice
+// stays invisible.
 double hills(const GroundFeature& f, double along, double across) {
   const double x = 2 * along / f.length, y = 2 * across / f.length;
   return f.height * (0.75 * value_noise(x, y, f.seed) +
                      0.25 * value_noise(1.6 * x + 1.2 * y, 1.6 * y - 1.2 * x, ~f.seed));
 }
 
-// The floor is flat; outside it the walls lean from the distance to the floor's rectangle, which
-// rounds their corners.
+// The floor is flat. Outside it the walls rise with the distance to the rectangle of the floor,
+// which rounds their corners.
 double trench(const GroundFeature& f, double along, double across) {
   const double du = std::max(std::abs(along) - f.length / 2, 0.0),
                dv = std::max(std::abs(across) - f.width / 2, 0.0);
@@ -60,7 +60,7 @@ double bank(const GroundFeature& f, double left) {
                                std::max(f.height, 0.0));
 }
 
-// Height that one feature adds at W (x, y) [m].
+// Returns the height that one feature adds at W (x, y) [m].
 double shape(const GroundFeature& f, double friction_angle, double x, double y) {
   const double c = std::cos(f.yaw), s = std::sin(f.yaw), dx = x - f.center.x(),
                dy = y - f.center.y();
@@ -83,8 +83,8 @@ double shape(const GroundFeature& f, double friction_angle, double x, double y) 
   return 0;
 }
 
-// A bound, not the minimum: bedrock lies below it by the depth of the scene, so a little too low
-// does no harm.
+// A bound suffices: bedrock lies below it by the depth of the scene, so a slightly low value is
+// harmless.
 double lowest(const GroundFeature& f, const Vec2& min, const Vec2& max) {
   switch (f.kind) {
     case GroundFeature::Kind::kSlope: {
@@ -113,12 +113,13 @@ ProceduralSurface::ProceduralSurface(const scene::StartGround& ground, double fr
     : base_(ground.surface), friction_angle_(friction_angle), features_(ground.features) {}
 
 double ProceduralSurface::operator()(double x, double y) const {
-  // Summed in the order of the file, so that two builds agree to the bit.
+  // Summed in the order of the file, so that two builds are bit-identical.
   double z = base_;
   for (const GroundFeature& feature : features_) z += shape(feature, friction_angle_, x, y);
   return z;
 }
 
+// Bounds each shape by itself; the sum of the bounds is a bound of the sum.
 double ProceduralSurface::lower_bound(const Vec2& min, const Vec2& max) const {
   double z = base_;
   for (const GroundFeature& feature : features_) z += lowest(feature, min, max);

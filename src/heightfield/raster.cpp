@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A map at its own resolution. It is kept as read and interpolated for each column, instead of
-// being resampled to columns at once: a map of 1 m under columns of 0.1 m is a hundredth of their
-// number.
+// A map keeps its own resolution and is interpolated for each column instead of being resampled: a
+// map of 1 m under columns of 0.1 m has a hundredth of their number.
 #include "heightfield/raster.h"
 
 #include <algorithm>
@@ -21,12 +20,13 @@ double HeightRaster::mean(double x, double y, double edge) const {
   return mean_of_samples(*this, x, y, edge, [&](double px, double py) { return sample(px, py); });
 }
 
+// Breadth first from the known cells, so that a gap is filled from its nearest ones.
 GapFill fill_gaps(HeightRaster& raster) {
   GapFill result;
   result.gaps =
       std::count_if(raster.z.begin(), raster.z.end(), [](float z) { return std::isnan(z); });
   if (result.gaps == 0) return result;  // as most maps are
-  // From the known cells inwards, ring by ring, each cell queued once.
+  // Works from the known cells inwards, ring by ring; each cell is queued once.
   std::vector<std::int64_t> ring, next;
   std::vector<char> queued(raster.z.size(), 0);
   const auto queue_gaps_around = [&](std::int64_t i, std::vector<std::int64_t>& out) {
@@ -42,7 +42,7 @@ GapFill fill_gaps(HeightRaster& raster) {
   };
   for (std::size_t i = 0; i < raster.z.size(); ++i)
     if (!std::isnan(raster.z[i])) queue_gaps_around(static_cast<std::int64_t>(i), ring);
-  // Each ring sees only the ring before it, so the result does not depend on the order of the
+  // Each ring depends on the ring before only, so the result does not depend on the order of the
   // cells.
   std::vector<float> values;
   while (!ring.empty()) {
@@ -62,7 +62,7 @@ GapFill fill_gaps(HeightRaster& raster) {
 }
 
 SlopeRange slopes(const HeightRaster& raster, double limit) {
-  // Tangents, as an angle is needed of three of them only.
+  // Compares tangents, because only three values need an angle.
   std::vector<float> tangents;
   for (int iy = 0; iy + 1 < raster.ny; ++iy)
     for (int ix = 0; ix + 1 < raster.nx; ++ix) {
@@ -71,7 +71,7 @@ SlopeRange slopes(const HeightRaster& raster, double limit) {
     }
   SlopeRange range;
   if (tangents.empty()) return range;
-  // Enough order for the median; the rest need not be sorted.
+  // A partial sort suffices for the median.
   const auto middle = tangents.begin() + static_cast<std::ptrdiff_t>(tangents.size() / 2);
   std::nth_element(tangents.begin(), middle, tangents.end());
   range.median = std::atan(*middle);

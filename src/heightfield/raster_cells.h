@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is computed from a few cells of a map, the same for maps that are held and for those read by
-// windows. A raster here has nx, ny, cell_x, cell_y, x0, y0 as HeightRaster has them.
+// Functions of a few cells of a map, shared by maps in memory and maps that are read in windows. A
+// raster here has nx, ny, cell_x, cell_y, x0, y0 like HeightRaster.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,12 @@
 
 namespace navvy::heightfield {
 
-/// A soil cell averages at most this many map cells a side; finer maps are sampled that densely.
+/// Largest number of map cells per side that a soil cell averages; finer maps are sampled that
+/// densely.
 inline constexpr int kMostSamples = 16;
 
-/// Bilinear height [m]. `corners(ix, iy, jx, jy, z)` fills z with cells (ix, iy), (jx, iy), (ix,
-/// jy), (jx, jy), where jx and jy are ix and iy or one more.
+/// Returns the bilinear height [m]. `corners(ix, iy, jx, jy, z)` fills z with cells (ix, iy), (jx,
+/// iy), (ix, jy), (jx, jy), where jx and jy are ix and iy or one more.
 template <class Raster, class Corners>
 double bilinear(const Raster& raster, double x, double y, const Corners& corners) {
   // Outside the outermost centres the nearest value: a site may reach half a cell beyond them.
@@ -25,8 +26,8 @@ double bilinear(const Raster& raster, double x, double y, const Corners& corners
   return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);
 }
 
-/// Mean of `sample(x, y)` over a square of `edge` [m] round (x, y): one sample where the map is
-/// coarser than that.
+/// Returns the mean of `sample(x, y)` over a square of `edge` [m] around (x, y): one sample where
+/// the map is coarser than that.
 template <class Raster, class Sample>
 double mean_of_samples(const Raster& raster, double x, double y, double edge,
                        const Sample& sample) {
@@ -43,8 +44,8 @@ double mean_of_samples(const Raster& raster, double x, double y, double edge,
   return sum / (sx * sy);
 }
 
-/// Mean of the known among the eight neighbours of a gap, diagonal ones by 1 / sqrt 2; NaN when
-/// there is none. `at(ix, iy)` is a cell, NaN where it is not known.
+/// Returns the mean of the known cells among the eight neighbours of a gap, diagonal ones weighted
+/// by 1 / sqrt 2; NaN when none is known. `at(ix, iy)` returns a cell, NaN where it is not known.
 template <class Raster, class At>
 float mean_of_neighbours(const Raster& raster, int ix, int iy, const At& at) {
   double sum = 0, weights = 0;
@@ -62,7 +63,8 @@ float mean_of_neighbours(const Raster& raster, int ix, int iy, const At& at) {
   return static_cast<float>(sum / weights);
 }
 
-/// Tangent of the mean gradient of the 2 x 2 cells a (least x and y), b, c (larger y), d.
+/// Returns the tangent of the mean gradient of the 2 x 2 cells a (least x and y), b, c (larger y),
+/// d.
 template <class Raster>
 float tangent(const Raster& raster, double a, double b, double c, double d) {
   return static_cast<float>(

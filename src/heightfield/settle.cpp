@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Relaxation by pairs: wherever two neighbours differ by more than repose allows, half of the
-// excess moves. It is not how soil slides; it finds a surface near the given one that the running
-// simulation leaves alone.
+// excess moves. This is not how soil slides; it finds a nearby surface that the running simulation
+// does not move.
 #include "heightfield/settle.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace navvy::heightfield {
 namespace {
 
-// Pair (a, b): half of the excess drop moves from the higher to the lower column.
+// Moves half of the excess drop of a pair (a, b) from the higher to the lower column.
 bool exchange(double& a, double& b, double most, double tolerance) {
   const double drop = a - b;
   const double excess = std::abs(drop) - most;
@@ -24,17 +24,16 @@ bool exchange(double& a, double& b, double most, double tolerance) {
 }  // namespace
 
 int settle(DenseSurface& surface, double repose, int most_sweeps) {
-  // In heights, not angles: one comparison a pair.
+  // Compares heights instead of angles: one comparison per pair.
   const double most = std::tan(repose) * surface.cell, tolerance = 0.02 * most;
   const auto rows = static_cast<std::size_t>(surface.ny);
-  // Only rows in which or beside which something moved are looked at again, between the columns
-  // that moved.
+  // Revisits only rows in or next to which soil moved, between the columns that moved.
   struct Span {
     int x0, x1;
   };
   std::vector<Span> active(rows, Span{0, surface.nx});
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    // Wide enough for the columns whose drops the move has changed: the pair and its neighbours.
+    // Covers the columns whose drops the move has changed: the pair and its neighbours.
     std::vector<Span> next(rows, Span{surface.nx, 0});
     bool moved = false;
     const auto wake = [&](int ix, int iy) {
@@ -59,7 +58,7 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
         }
       }
     }
-    // Nothing moved, so nothing would.
+    // Nothing moved, so further sweeps would not either.
     if (!moved) return sweep;
     active = std::move(next);
   }

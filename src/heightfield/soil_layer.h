@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a column is made of.
+// The layers of a column.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,17 @@ namespace navvy::heightfield {
 
 /// One soil layer of a column. Its thickness is mass x specific_volume / (bank_density x cell^2).
 struct SoilLayer {
-  std::uint16_t soil = 0;     ///< index into the scene's soils
-  std::int64_t mass = 0;      ///< in kMassQuantum
-  float specific_volume = 1;  ///< volume / bank volume: 1 = bank, up to the soil's swell
-  float plastic_shear = 0;    ///< accumulated, for remoulded cohesion [-]
+  /// Index into the soils of the scene.
+  std::uint16_t soil = 0;
+  /// Mass [kMassQuantum].
+  std::int64_t mass = 0;
+  /// Volume over bank volume: 1 in the bank, up to the swell of the soil.
+  float specific_volume = 1;
+  /// Accumulated plastic shear, which decides the remoulded cohesion [-].
+  float plastic_shear = 0;
 };
 
-/// Layers from the bottom up.
+/// The layers of a column, bottom first.
 using Column = std::vector<SoilLayer>;
 
 }  // namespace navvy::heightfield

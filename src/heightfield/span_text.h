@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rectangle of coordinates as text, for messages.
+// A rectangle of coordinates as text for messages.
 #pragma once
 
 #include <cstdio>
@@ -9,9 +9,9 @@
 
 namespace navvy::heightfield {
 
-/// "x 0.000 .. 12.500, y -3.000 .. 4.000".
+/// Returns a text such as "x 0.000 .. 12.500, y -3.000 .. 4.000".
 inline std::string span_text(const Vec2& low, const Vec2& high) {
-  // Room for four numbers as long as a double may be.
+  // Space for four numbers as long as a double may be.
   char text[1400];
   std::snprintf(text, sizeof text, "x %.3f .. %.3f, y %.3f .. %.3f", low.x(), high.x(), low.y(),
                 high.y());

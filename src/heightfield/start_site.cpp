@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The untouched site and the memory of its heights. Most of a large site is never touched, and
-// wheels, soil and pictures ask for the same part of it over and over: that part is remembered, by
-// tile, whoever asks first.
+// The untouched site and the cache of its heights. Most of a large site is never touched, and
+// wheels, soil and pictures read the same part repeatedly: that part is cached by tile on first
+// use.
 #include "heightfield/start_site.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace navvy::heightfield {
 
 StartSite::StartSite(GroundSetup setup) : setup_(std::move(setup)) {
-  // Soils, stacks and patches are resolved once, as columns are asked for by the million.
+  // Soils, stacks and patches are resolved once, because millions of columns are read.
   for (const scene::Soil& soil : setup_.soils)
     unit_.push_back(kMassQuantum / (soil.bank_density * setup_.cell * setup_.cell));
   stack_ = make_stack(setup_.layers);
@@ -33,19 +33,20 @@ StartSite::Stack StartSite::make_stack(const std::vector<scene::GroundLayer>& la
 }
 
 const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
-  // Most sites have none.
+  // Most sites have no patches.
   if (patches_.empty()) return stack_;
   const double x = setup_.origin.x() + (ix + 0.5) * setup_.cell,
                y = setup_.origin.y() + (iy + 0.5) * setup_.cell;
-  // Where patches overlap the last one counts, as if it had been laid over the others.
+  // Where patches overlap the last one counts, as if laid over the others.
   for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch)
     if (x >= patch->x0 && x < patch->x1 && y >= patch->y0 && y < patch->y1) return patch->stack;
   return stack_;
 }
 
+// The layers come from the description alone, so that every call gives the same ones.
 void StartSite::column(int ix, int iy, Column& out) const {
   const double surface = setup_.surface(ix, iy);
-  // Only now: a surface may be made of another site's, whose heights work in the same column of
+  // Cleared only now: a surface may be made from another site, whose heights use the same column of
   // this thread.
   out.clear();
   if (!std::isfinite(surface))
@@ -54,30 +55,31 @@ void StartSite::column(int ix, int iy, Column& out) const {
                            std::to_string(surface), "a height must be a finite number",
                            "repair the height source"});
   const Stack& stack = stack_at(ix, iy);
-  // The last layer reaches down to bedrock, whatever its thickness says.
+  // The last layer reaches down to bedrock, whatever its thickness.
   double rest = surface - setup_.datum;
   for (std::size_t i = 0; i < stack.size() && rest > 0; ++i) {
-    // Rounded to whole units of mass here and never again.
+    // Rounded to whole units of mass here, and never again.
     const bool last = i + 1 == stack.size();
     const double part = last ? rest : std::min(rest, stack[i].thickness);
     const std::int64_t mass = std::llround(part / unit_[stack[i].soil]);
     if (mass > 0) out.push_back({stack[i].soil, mass, 1.0f, 0.0f});
     rest -= part;
   }
-  // Described from the surface down, kept from the bottom up.
+  // Described from the surface down, stored from the bottom up.
   std::reverse(out.begin(), out.end());
 }
 
+// The height is summed from rounded masses and can differ from the source by half a mass unit.
 double StartSite::height(int ix, int iy) const {
-  // From the layers, as for every other column, so that what was dug and put back has the same
-  // bits. One column a thread, kept for its memory only.
+  // Computed from the layers like every other column, so that soil that was dug and put back gives
+  // a bit-identical height. One column per thread is kept for its capacity.
   thread_local Column column_of_thread;
   column(ix, iy, column_of_thread);
   return setup_.datum + column_height(column_of_thread, unit_);
 }
 
 void StartSite::heights(int tx, int ty, TileHeights& out) const {
-  // Columns beyond the site's edge repeat the last one inside, so a tile is always full.
+  // Columns beyond the edge of the site repeat the last one inside, so that a tile is always full.
   for (int y = 0; y < kTileSide; ++y)
     for (int x = 0; x < kTileSide; ++x) {
       const int ix = tx * kTileSide + x, iy = ty * kTileSide + y;
@@ -91,15 +93,16 @@ void StartSite::heights(int tx, int ty, TileHeights& out) const {
     }
 }
 
+// Walks the description only; the masses are not needed.
 std::uint16_t StartSite::surface_soil(int ix, int iy) const {
   const Stack& stack = stack_at(ix, iy);
-  // A layer may be given as nothing thick, to be left out without renaming the others.
+  // A layer may have thickness zero, to omit it without renaming the others.
   for (const StackLayer& layer : stack)
     if (layer.thickness > 0) return layer.soil;
   return stack.back().soil;
 }
 
-// An empty table: a pointer for every 1024 x 1024 columns.
+// An empty table has one pointer per 1024 x 1024 columns.
 StartHeights::StartHeights(std::shared_ptr<const StartSite> site)
     : site_(std::move(site)),
       groups_x_((site_->tiles_x() + kTileSide - 1) / kTileSide),
@@ -107,7 +110,7 @@ StartHeights::StartHeights(std::shared_ptr<const StartSite> site)
               static_cast<std::size_t>((site_->tiles_y() + kTileSide - 1) / kTileSide)) {}
 
 StartHeights::~StartHeights() {
-  // Nobody reads any more, so plain loads do.
+  // No one reads any more, so plain loads suffice.
   for (const auto& slot : groups_) {
     const Group* group = slot.load(std::memory_order_relaxed);
     if (group == nullptr) continue;
@@ -118,7 +121,7 @@ StartHeights::~StartHeights() {
 
 const TileHeights* StartHeights::fill(int tx, int ty) const {
   if (tiles_.load(std::memory_order_relaxed) >= kMostTiles) return nullptr;
-  // Computed before anything is published: the source may throw half way.
+  // Computed before anything is published, because the source may throw.
   auto heights = std::make_unique<TileHeights>();
   site_->heights(tx, ty, *heights);
   std::atomic<Group*>& slot = groups_[group_of(tx, ty)];
@@ -126,12 +129,11 @@ const TileHeights* StartHeights::fill(int tx, int ty) const {
   if (group == nullptr) {
     auto fresh = std::make_unique<Group>();
     for (auto& tile : *fresh) tile.store(nullptr, std::memory_order_relaxed);
-    // Where another thread was first, its group is the one; `group` then names it.
+    // If another thread was faster, its group is used; `group` then points to it.
     if (slot.compare_exchange_strong(group, fresh.get(), std::memory_order_acq_rel))
       group = fresh.release();
   }
-  // The same for the tile. Two threads computed the same numbers, so it does not matter whose are
-  // kept.
+  // The same for the tile. Two threads compute the same numbers, so either copy may stay.
   const TileHeights* known = nullptr;
   std::atomic<const TileHeights*>& place = (*group)[tile_in_group(tx, ty)];
   if (!place.compare_exchange_strong(known, heights.get(), std::memory_order_acq_rel)) return known;
@@ -139,8 +141,9 @@ const TileHeights* StartHeights::fill(int tx, int ty) const {
   return heights.release();
 }
 
+// The table is full: this column is computed at every query.
 double StartHeights::single(int ix, int iy) const {
-  // Counted, as many of these mean that the table remembers the wrong part of the site.
+  // Counted, because many such reads mean that the table caches the wrong part of the site.
   computed_.fetch_add(1, std::memory_order_relaxed);
   return site_->height(ix, iy);
 }

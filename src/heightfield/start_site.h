@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The untouched site: what every column was at the start, computed on demand.
+// The untouched site: the initial state of every column, computed on demand.
 #pragma once
 
 #include <array>
@@ -13,55 +13,58 @@
 
 namespace navvy::heightfield {
 
-/// Columns are kept and shared in squares of 32 x 32.
+/// Columns are stored and shared in tiles of 32 x 32.
 inline constexpr int kTileSide = 32;
 inline constexpr int kTileColumns = kTileSide * kTileSide;
-/// Place of a column in its tile, x fastest.
+/// Returns the place of a column in its tile, x fastest.
 inline int index_in_tile(int ix, int iy) { return (iy % kTileSide) * kTileSide + ix % kTileSide; }
 
-/// Heights [m] in W of the 1024 columns of a tile, x fastest. Columns beyond the site's edge repeat
-/// the last one inside.
+/// Heights [m] in W of the 1024 columns of a tile, x fastest. Columns beyond the edge of the site
+/// repeat the last one inside.
 using TileHeights = std::array<double, kTileColumns>;
 
 /// Columns of the untouched site as a pure function of place. Immutable; several threads may read
 /// it.
 class StartSite {
  public:
-  /// The setup must be a checked one, see Ground.
+  /// Takes a setup that was checked as Ground does.
   explicit StartSite(GroundSetup setup);
 
+  /// Returns the setup.
   const GroundSetup& setup() const { return setup_; }
-  /// Metres of thickness that one mass unit makes, by soil.
+  /// Returns the thickness [m] of one mass unit, by soil.
   const UnitThickness& unit() const { return unit_; }
-  /// Tiles along x and y; the last ones may reach beyond the site.
+  /// Returns the number of tiles along x and y; the last ones may reach beyond the site.
   int tiles_x() const { return (setup_.nx + kTileSide - 1) / kTileSide; }
   int tiles_y() const { return (setup_.ny + kTileSide - 1) / kTileSide; }
 
-  /// Layers of column (ix, iy) of the site, bottom first. @throws InputError where the source is
-  /// not finite.
+  /// Computes the layers of column (ix, iy) of the site, bottom first.
+  /// @throws InputError where the source is not finite.
   void column(int ix, int iy, Column& out) const;
-  /// Surface in W [m]; costs a call of the source. @throws like `column`.
+  /// Returns the height of the surface in W [m]; costs a call of the source. @throws as `column`.
   double height(int ix, int iy) const;
-  /// All heights of tile (tx, ty); 1024 calls of the source.
+  /// Computes all heights of tile (tx, ty) with 1024 calls of the source.
   void heights(int tx, int ty, TileHeights& out) const;
-  /// Index of the uppermost soil; where there is bedrock only, of the soil that would lie there.
+  /// Returns the index of the uppermost soil; where there is bedrock only, the soil that the
+  /// description names first.
   std::uint16_t surface_soil(int ix, int iy) const;
 
  private:
+  // One soil of a stack.
   struct StackLayer {
     std::uint16_t soil;
     double thickness;  // [m]
   };
-  // A description of a column: how thick each soil is.
-  using Stack = std::vector<StackLayer>;  // from the surface down
-  // A rectangle [m] in W with another stack than the rest of the site.
+  // Description of a column from the surface down: the thickness of each soil.
+  using Stack = std::vector<StackLayer>;
+  // A rectangle in W [m] with another stack than the rest of the site.
   struct Patch {
     double x0, y0, x1, y1;
     Stack stack;
   };
-  /// Soils by index instead of name.
+  /// Replaces the names of soils by their indices.
   Stack make_stack(const std::vector<scene::GroundLayer>& layers) const;
-  /// The description that holds for a column.
+  /// Returns the description of a column.
   const Stack& stack_at(int ix, int iy) const;
 
   GroundSetup setup_;
@@ -70,33 +73,35 @@ class StartSite {
   std::vector<Patch> patches_;
 };
 
-/// Heights of the untouched site, remembered by tile.
+/// Heights of the untouched site, cached by tile.
 ///
-/// Any number of threads may read at a time: a tile is computed by who asks first and then never
-/// changes or moves. At most kMostTiles (16 MiB) are remembered; other columns are computed one by
-/// one at every question, until the owner replaces a table that is `worn`.
+/// Any number of threads may read at a time: the first reader of a tile computes it, and then it
+/// never changes or moves. At most kMostTiles (16 MiB) are cached. All other columns are computed
+/// one by one at every query, until the owner replaces a table that is `worn`.
 class StartHeights {
  public:
+  /// Largest number of cached tiles.
   static constexpr int kMostTiles = 2048;
 
-  /// Nothing is computed until it is asked for.
+  /// Makes an empty table; nothing is computed until it is asked for.
   explicit StartHeights(std::shared_ptr<const StartSite> site);
   ~StartHeights();
   StartHeights(const StartHeights&) = delete;
   StartHeights& operator=(const StartHeights&) = delete;
 
-  /// Where the heights come from. Views and grounds of one site share it, which tells that they
-  /// belong together.
+  /// Returns the source of the heights. Views and grounds of one site share it, which shows that
+  /// they belong together.
   const StartSite& site() const { return *site_; }
   const std::shared_ptr<const StartSite>& shared_site() const { return site_; }
 
-  /// Height of column (ix, iy) of the site [m].
+  /// Returns the height of column (ix, iy) of the site in W [m].
   double height(int ix, int iy) const {
     const TileHeights* heights = tile(ix / kTileSide, iy / kTileSide);
     return heights != nullptr ? (*heights)[static_cast<std::size_t>(index_in_tile(ix, iy))]
                               : single(ix, iy);
   }
-  /// The remembered heights of a tile, filled in now if there is room; null when there is none.
+  /// Returns the cached heights of a tile and computes them now if there is space; null when there
+  /// is none.
   const TileHeights* tile(int tx, int ty) const {
     const Group* group = groups_[group_of(tx, ty)].load(std::memory_order_acquire);
     const TileHeights* heights =
@@ -104,19 +109,19 @@ class StartHeights {
                          : group->at(tile_in_group(tx, ty)).load(std::memory_order_acquire);
     return heights != nullptr ? heights : fill(tx, ty);
   }
-  /// Heights of a tile for a pass over the whole site: what is not remembered goes to `buffer` and
-  /// is not kept.
+  /// Returns the heights of a tile for a pass over the whole site. A tile that is not cached is
+  /// computed into `buffer` and not kept.
   const TileHeights& passing(int tx, int ty, TileHeights& buffer) const;
 
-  /// So many columns had to be computed one by one that a new table pays: about as many as it can
-  /// hold an eighth of.
+  /// Returns true when so many columns were computed one by one that a new table pays: about an
+  /// eighth of what a table can hold.
   bool worn() const {
     return computed_.load(std::memory_order_relaxed) > kMostTiles / 8 * kTileColumns;
   }
 
  private:
-  // Tiles are found through groups of 32 x 32 pointers, so a 1 km2 site costs 800 bytes until it is
-  // read.
+  // Groups of 32 x 32 pointers lead to the tiles, so that a site of 1 km2 costs 800 bytes until it
+  // is read.
   using Group = std::array<std::atomic<const TileHeights*>, kTileColumns>;
   std::size_t group_of(int tx, int ty) const {
     return static_cast<std::size_t>(ty / kTileSide) * static_cast<std::size_t>(groups_x_) +
@@ -125,10 +130,10 @@ class StartHeights {
   static std::size_t tile_in_group(int tx, int ty) {
     return static_cast<std::size_t>(index_in_tile(tx, ty));
   }
-  /// Computes a tile and puts it in its place, unless the table is full (null) or another thread
-  /// was faster (theirs).
+  /// Computes a tile and stores it. Returns null when the table is full, and the other tile when
+  /// another thread was faster.
   const TileHeights* fill(int tx, int ty) const;
-  /// Computes one column that is not remembered.
+  /// Computes one column that is not cached.
   double single(int ix, int iy) const;
 
   std::shared_ptr<const StartSite> site_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copy on write in two steps, squares of tiles and tiles. Whether something is shared is not read
-// off a count of owners, which other threads change, but off a mark that only the writing thread
-// sets and reads.
+// Copy on write in two steps, squares of tiles and tiles. Sharing is not derived from a reference
+// count, which other threads change, but from a mark that only the writing thread sets and reads.
 #include "heightfield/surface_table.h"
 
 namespace navvy::heightfield {
@@ -19,7 +18,7 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
   if (!square) {
     square = std::make_shared<Square>();
   } else if (square->frozen) {
-    // Copies go on seeing the old square; its tiles stay shared until they are written to.
+    // Copies keep the old square; its tiles stay shared until they are written.
     square = std::make_shared<Square>(*square);
     square->frozen = false;
   }
@@ -31,7 +30,7 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
     tile = std::make_shared<SurfaceTile>(*tile);
     tile->frozen = false;
   } else {
-    // Filled before it is put in its place: the source of heights may throw.
+    // Filled before it is stored, because the source of heights may throw.
     auto fresh = std::make_shared<SurfaceTile>();
     auto heights = std::make_shared<TileHeights>();
     const TileHeights& found = start.passing(tx, ty, *heights);
@@ -46,8 +45,9 @@ SurfaceTile& SurfaceTable::own(int tx, int ty, const StartHeights& start) {
   return *tile;
 }
 
+// Only tiles that were written since the last call need a mark.
 void SurfaceTable::freeze() const {
-  // All else is shared already.
+  // Everything else is shared already.
   for (const Place& place : written_) {
     Square& square = *squares_[square_of(place.tx, place.ty)];
     square.frozen = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface of the tiles that differ from the untouched site, shared between a live ground and
-// the views of it.
+// its views.
 #pragma once
 
 #include <array>
@@ -12,66 +12,70 @@
 
 namespace navvy::heightfield {
 
-/// Says of a column that its surface soil is the untouched site's.
+/// Marks a column whose surface soil is that of the untouched site.
 inline constexpr std::uint16_t kSoilAsAtStart = 0xFFFF;
 
-/// What can be seen of the 1024 columns of a tile, x fastest.
+/// The visible state of the 1024 columns of a tile, x fastest.
 struct SurfaceTile {
-  /// Surface in W [m], loose soil included where there is any.
+  /// Height of the surface in W [m], with loose soil where there is any.
   TileHeights height;
-  /// Of the uppermost layer; kSoilAsAtStart.
+  /// Soil of the uppermost layer, or kSoilAsAtStart.
   std::array<std::uint16_t, kTileColumns> soil;
-  /// Of the uppermost layer: volume / bank volume.
+  /// Volume over bank volume of the uppermost layer.
   std::array<float, kTileColumns> specific_volume;
-  std::shared_ptr<const TileHeights> start;  ///< W [m] of the untouched site
-  /// Depth of loose soil [m]; null: there is none.
+  /// Height of the untouched site in W [m].
+  std::shared_ptr<const TileHeights> start;
+  /// Depth of loose soil [m]; null where there is none.
   std::shared_ptr<std::array<float, kTileColumns>> loose;
-  bool frozen = false;  ///< shared with a copy of the table; only who writes asks for it
+  /// True when a copy of the table shares the tile; only the writer asks for it.
+  bool frozen = false;
 };
 
-/// A sparse table of surface tiles that is cheap to copy: copies share tiles, and who writes to a
-/// shared one first makes its own (14 KiB). A copy costs 1.6 kB a km2 of 0.1 m columns, however
-/// much was dug.
+/// A sparse table of surface tiles that is cheap to copy. Copies share tiles; a writer first makes
+/// its own copy of a shared tile (14 KiB). Copying the table costs 1.6 kB per km2 of 0.1 m columns,
+/// however much was dug.
 ///
-/// One thread writes. Copies made after `freeze` may be read by any thread, also while the original
-/// is written to.
+/// One thread writes. Any thread may read copies made after `freeze`, also while the original is
+/// written to.
 class SurfaceTable {
  public:
-  /// Of an untouched site.
+  /// Makes the table of an untouched site.
   explicit SurfaceTable(const StartSite& site);
 
-  /// The tile, null where the site is untouched.
+  /// Returns the tile, or null where the site is untouched.
   const SurfaceTile* find(int tx, int ty) const {
     const Square* square = squares_[square_of(tx, ty)].get();
     return square != nullptr ? square->tiles[static_cast<std::size_t>(index_in_tile(tx, ty))].get()
                              : nullptr;
   }
-  /// The tile to write to, made from the untouched site where there is none.
+  /// Returns the tile for writing, made from the untouched site where there is none.
   SurfaceTile& own(int tx, int ty, const StartHeights& start);
-  /// Marks everything as shared. To be called before a copy that lives on; costs what was written
-  /// since the last call.
+  /// Marks all tiles as shared. Must be called before the table is copied for others; costs what
+  /// was written since the last call.
   void freeze() const;
-  /// Back to the untouched site; copies keep what they have.
+  /// Returns to the untouched site. Copies keep their tiles.
   void clear();
 
-  // For who compares two tables: they differ in no tile of a square for which both give the same
+  // For comparing two tables: they agree in all tiles of a square for which both return the same
   // pointer.
   std::size_t squares() const { return squares_.size(); }
-  /// Identity of a square of 32 x 32 tiles, null while it is untouched; not to be followed.
+  /// Returns the identity of a square of 32 x 32 tiles; null while it is untouched. It must not be
+  /// dereferenced.
   const void* square(std::size_t s) const { return squares_[s].get(); }
-  /// Coordinates of the first tile of a square of 32 x 32.
+  /// Returns the coordinates of the first tile of a square of 32 x 32.
   int first_tx(std::size_t s) const { return static_cast<int>(s) % squares_x_ * kTileSide; }
   int first_ty(std::size_t s) const { return static_cast<int>(s) / squares_x_ * kTileSide; }
   int tiles_x() const { return tiles_x_; }
   int tiles_y() const { return tiles_y_; }
 
  private:
-  // Pointers to tiles stand in squares that are shared like the tiles themselves: a copy of the
-  // table copies one pointer for every 1024 tiles.
+  // Squares hold the pointers to tiles and are shared like the tiles themselves: copying the table
+  // copies one pointer per 1024 tiles.
   struct Square {
     std::array<std::shared_ptr<SurfaceTile>, kTileColumns> tiles;
     bool frozen = false;
   };
+  // Coordinates of a tile.
   struct Place {
     int tx, ty;
   };
@@ -81,7 +85,8 @@ class SurfaceTable {
   }
   int tiles_x_, tiles_y_, squares_x_;
   std::vector<std::shared_ptr<Square>> squares_;
-  mutable std::vector<Place> written_;  // tiles that are this table's alone
+  // Tiles that belong to this table alone.
+  mutable std::vector<Place> written_;
 };
 
 }  // namespace navvy::heightfield

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading of the surface, for live grounds and for views. Between column centres it is bilinear
-// over the dual cells, whose corners are four column centres; beyond the outermost centres it goes
-// on level.
+// Reads the surface of live grounds and views. Between column centres it is bilinear over the dual
+// cells, whose corners are four column centres; beyond the outermost centres it continues level.
 #include "heightfield/terrain.h"
 
 #include <algorithm>
@@ -11,18 +10,17 @@
 namespace navvy::heightfield {
 namespace {
 
-// Like std::clamp, but a NaN gives `low` instead of an undefined conversion later.
+// Like std::clamp, but NaN becomes `low` instead of an undefined conversion later.
 double bounded(double value, double low, double high) {
   return value > low ? std::min(value, high) : low;
 }
 
-// Smallest t in [0, range] with f0 + f1 t + f2 t^2 <= 0, negative when there is none.
+// Returns the smallest t in [0, range] with f0 + f1 t + f2 t^2 <= 0; negative when there is none.
 double first_root(double f0, double f1, double f2, double range) {
   // Already at or below the surface.
   if (f0 <= 0) return 0;
   const double end = f0 + (f1 + f2 * range) * range;
   // Roots by the form that does not cancel [Press 2007].
-  // Rays mostly come down, so a root in the range is the rule.
   const double discriminant = f1 * f1 - 4 * f2 * f0;
   if (discriminant >= 0) {
     const double q = -0.5 * (f1 + std::copysign(std::sqrt(discriminant), f1));
@@ -47,6 +45,7 @@ Vec2i Terrain::column_at(double x, double y) const {
           static_cast<int>(bounded(std::floor((y - origin().y()) / cell()), -far, far))};
 }
 
+// A touched tile keeps the initial heights beside the present ones.
 double Terrain::start_height(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
@@ -55,10 +54,11 @@ double Terrain::start_height(int ix, int iy) const {
                          : start_->height(ix, iy);
 }
 
+// A tile stores the soil only where it differs from the start.
 std::uint16_t Terrain::surface_soil(int ix, int iy) const {
   ix = std::clamp(ix, 0, nx() - 1);
   iy = std::clamp(iy, 0, ny() - 1);
-  // Most columns of a touched tile still show the soil they always had.
+  // Most columns of a touched tile still show their initial soil.
   const SurfaceTile* tile = table_.find(ix / kTileSide, iy / kTileSide);
   const std::uint16_t soil = tile != nullptr
                                  ? tile->soil[static_cast<std::size_t>(index_in_tile(ix, iy))]
@@ -98,12 +98,13 @@ void Terrain::corners(int ix, int iy, double z[4]) const {
       return;
     }
   }
-  // At the seams of tiles and of the site, column by column.
+  // At the seams of tiles and at the edge of the site, column by column.
   z[0] = height(ix, iy), z[1] = height(ix + 1, iy);
   z[2] = height(ix, iy + 1), z[3] = height(ix + 1, iy + 1);
 }
 
-// Dual cell that holds W (x, y) and the position in it, 0..1; far outside the site the last one.
+// Finds the dual cell that holds W (x, y) and the position in it, 0..1; far outside the site the
+// last one.
 void Terrain::locate(double x, double y, int& ix, int& iy, double& u, double& v) const {
   const double gx = bounded((x - origin().x()) / cell() - 0.5, -1, nx());
   const double gy = bounded((y - origin().y()) / cell() - 0.5, -1, ny());
@@ -122,7 +123,7 @@ double Terrain::sample(double x, double y) const {
 }
 
 Vec3 Terrain::normal(double x, double y) const {
-  // Slopes of the bilinear patch at this very point, not of the cell's middle.
+  // Slopes of the bilinear patch at this point, not at the middle of the cell.
   int ix, iy;
   double u, v, z[4];
   locate(x, y, ix, iy, u, v);
@@ -132,6 +133,7 @@ Vec3 Terrain::normal(double x, double y) const {
   return Vec3(-dx, -dy, 1).normalized();
 }
 
+// Finds each tile once and reads its rows without a look-up per column.
 double Terrain::highest(const CellRect& rect) const {
   double out = -std::numeric_limits<double>::infinity();
   if (rect.empty()) return out;
@@ -159,13 +161,13 @@ void Terrain::copy_heights(const CellRect& rect, std::vector<float>& out) const 
   if (rect.empty()) return;
   out.resize(static_cast<std::size_t>(rect.x1 - rect.x0) *
              static_cast<std::size_t>(rect.y1 - rect.y0));
-  // Tile by tile, so that each untouched one is computed once, and none pushes out what wheels and
-  // soil ask for.
+  // Goes tile by tile, so that each untouched tile is computed once and none displaces those that
+  // wheels and soil read.
   TileHeights buffer;
   const auto tile_of = [](int i, int n) { return std::clamp(i, 0, n - 1) / kTileSide; };
   for (int ty = tile_of(rect.y0, ny()); ty <= tile_of(rect.y1 - 1, ny()); ++ty)
     for (int tx = tile_of(rect.x0, nx()); tx <= tile_of(rect.x1 - 1, nx()); ++tx) {
-      // The tiles at the edge of the site also answer for what lies outside.
+      // The tiles at the edge of the site also stand for columns outside it.
       const int last_tx = (nx() - 1) / kTileSide, last_ty = (ny() - 1) / kTileSide;
       const int x0 = tx == 0 ? rect.x0 : std::max(rect.x0, tx * kTileSide);
       const int x1 = tx == last_tx ? rect.x1 : std::min(rect.x1, (tx + 1) * kTileSide);
@@ -194,8 +196,8 @@ double Terrain::ray(const Vec3& p, const Vec3& d, double range) const {
   const auto exit_of = [&](double g, double dg, int i) {
     return dg > 0 ? (i + 1 - g) / dg : dg < 0 ? (i - g) / dg : infinity;
   };
-  // Walk the dual cells between column centres; in each the surface is bilinear and the ray's
-  // height above it a quadratic in t. Cells are entered and left at the lines between column
+  // Walks the dual cells between column centres. In each the surface is bilinear, and the height of
+  // the ray above it is a quadratic in t. Cells are entered and left at the lines between column
   // centres.
   double t0 = 0;
   while (t0 < range) {
@@ -207,10 +209,10 @@ double Terrain::ray(const Vec3& p, const Vec3& d, double range) const {
     const double u = gx + dx * t0 - ix, v = gy + dy * t0 - iy;
     const double f0 = p.z() + d.z() * t0 - (z[0] + b * u + c * v + e * u * v);
     const double f1 = d.z() - b * dx - c * dy - e * (u * dy + v * dx), f2 = -e * dx * dy;
-    // The height above the surface is f0 + f1 t + f2 t^2 from the entry on.
+    // The height above the surface is f0 + f1 t + f2 t^2, counted from the entry.
     const double hit = first_root(f0, f1, f2, t1 - t0);
     if (hit >= 0) return t0 + hit;
-    // Through a corner both move on.
+    // Through a corner both indices move on.
     if (tx <= ty) ix += dx > 0 ? 1 : -1;
     if (ty <= tx) iy += dy > 0 ? 1 : -1;
     t0 = std::max(t1, t0);

@@ -3,6 +3,7 @@
 
 namespace navvy::heightfield {
 
+// Copies only tiles with loose soil; all others stay shared with the ground.
 TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const {
   TerrainView out = *this;
   out.surface_ = surface;
@@ -11,7 +12,7 @@ TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const
     // write to.
     SurfaceTile& tile = out.table_.own(column.ix / kTileSide, column.iy / kTileSide, *out.start_);
     const auto i = static_cast<std::size_t>(index_in_tile(column.ix, column.iy));
-    // Most tiles have no loose soil and carry no depths.
+    // Most tiles have no loose soil and store no depths.
     if (!tile.loose) {
       tile.loose = std::make_shared<std::array<float, kTileColumns>>();
       tile.loose->fill(0);
@@ -21,7 +22,7 @@ TerrainView TerrainView::with(const LooseSoil& loose, SurfaceKind surface) const
     tile.specific_volume[i] = column.specific_volume;
     (*tile.loose)[i] = static_cast<float>(column.depth);
   }
-  // From here on this view is as unchangeable as the one it came from.
+  // From here on this view is immutable like the one it came from.
   out.table_.freeze();
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terrain of one instant, which never changes.
+// The terrain at one instant, which never changes.
 #pragma once
 
 #include "heightfield/loose_soil.h"
@@ -9,20 +9,22 @@ namespace navvy::heightfield {
 
 class Ground;
 
-/// A copy of a ground's surface at one instant, for any number of threads to read while the ground
-/// goes on changing.
+/// An immutable copy of a ground's surface at one instant. Any number of threads may read it while
+/// the ground changes.
 ///
-/// Taken by `Ground::view`. It shares its tiles with the ground and with other views, so copying
-/// one costs microseconds and keeping one costs the tiles that changed since (14 KiB each). May
-/// outlive the ground.
+/// `Ground::view` makes it. It shares its tiles with the ground and with other views, so that
+/// copying one costs microseconds and keeping one costs the tiles that changed since (14 KiB each).
+/// It may outlive the ground.
 class TerrainView final : public Terrain {
  public:
-  double time() const { return time_; }             ///< [s], as told when it was taken
-  SurfaceKind surface() const { return surface_; }  ///< what its heights are those of
+  /// Returns the time that it was stamped with [s].
+  double time() const { return time_; }
+  /// Returns the kind of surface that its heights describe.
+  SurfaceKind surface() const { return surface_; }
 
-  /// The same instant as one sees it: height, soil and density state are those of the loose soil
-  /// where some lies. Costs a copy of every tile on which there is any. `surface` says which of the
-  /// loose soil was handed in.
+  /// Returns the same instant with loose soil: height, soil and density state are those of the
+  /// loose soil where some rests. `surface` says which loose soil was passed in. Costs a copy of
+  /// every tile that has any.
   TerrainView with(const LooseSoil& loose, SurfaceKind surface = SurfaceKind::kWithLooseSoil) const;
 
  private:

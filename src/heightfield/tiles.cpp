@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Storage of layers: a map of touched tiles for walks in a fixed order, and pointers in groups for
-// finding one at once.
+// Storage of layers: a map of touched tiles for walks in a fixed order, and groups of pointers for
+// direct access.
 #include "heightfield/tiles.h"
 
 #include <algorithm>
@@ -12,21 +12,21 @@
 namespace navvy::heightfield {
 namespace {
 
-/// No column of a ground reaches as high above its rock [m]; one of a snapshot that does would wake
-/// to more soil than memory holds.
+/// No column of a ground is higher above its rock [m]; activating one of a snapshot that is would
+/// need more memory than exists.
 constexpr double kMostHeight = 3e4;
 
-/// The changed columns of a tile as they are hashed and saved: field after field, as a Layer has
-/// gaps and a tile of plain runs takes a fifth of the time that its numbers take one by one.
+/// The changed columns of a tile as they are hashed and saved: field by field, because a SoilLayer
+/// has padding, and arrays take a fifth of the time of single numbers.
 struct TileColumns {
   std::vector<std::uint16_t> place;   // of the columns in the tile
   std::vector<std::uint32_t> layers;  // how many each has
-  // Of the layers, bottom first, one column after the other.
+  // Fields of the layers, bottom first, one column after the other.
   std::vector<std::uint16_t> soil;
   std::vector<std::int64_t> mass;
   std::vector<float> specific_volume, plastic_shear;
 
-  /// From a tile; what was there goes.
+  /// Copies a tile; earlier content is replaced.
   void take(const Tile& tile);
   void visit(Archive& a) {
     a("place", place);
@@ -36,13 +36,14 @@ struct TileColumns {
     a("specific_volume", specific_volume);
     a("plastic_shear", plastic_shear);
   }
-  /// Refuses what no ground of `soils` soils has.
+  /// Refuses values that no ground with `soils` soils can have.
   void check(Archive& a, std::size_t soils) const;
-  /// Replaces the layers of a column by those of the one numbered `c`, which begin at `layer`;
-  /// moves that on.
+  /// Replaces the layers of a column by those of column number `c`, which begin at `layer`, and
+  /// advances that.
   void give(std::size_t c, std::size_t& layer, Column& column) const;
 };
 
+// Arrays of one field each keep their capacity between tiles.
 void TileColumns::take(const Tile& tile) {
   std::size_t all = 0, next = 0;
   for (const Column& column : tile.columns) all += column.size();
@@ -67,6 +68,7 @@ void TileColumns::take(const Tile& tile) {
   }
 }
 
+// A snapshot may be damaged, so every number is checked before it is used.
 void TileColumns::check(Archive& a, std::size_t soils) const {
   const auto all = [](const auto& list, const auto& good) {
     return std::all_of(list.begin(), list.end(), good);
@@ -106,7 +108,7 @@ Tiles::Tiles(std::shared_ptr<const StartSite> site)
 }
 
 Tile* Tiles::find_tile(int tx, int ty) const {
-  // Two steps without a search: soil asks for columns in its innermost loops.
+  // Two steps without a search: the soil reads columns in its innermost loops.
   const auto& group = groups_[group_of(tx, ty)];
   return group ? (*group)[static_cast<std::size_t>(index_in_tile(tx, ty))] : nullptr;
 }
@@ -134,11 +136,12 @@ const Column* Tiles::find_column(int ix, int iy) const {
   return slot < 0 ? nullptr : &tile->columns[static_cast<std::size_t>(slot)];
 }
 
+// The initial mass is counted once, when the column starts to differ.
 Column& Tiles::touch_column(int ix, int iy) {
   Tile& tile = touch_tile(ix / kTileSide, iy / kTileSide);
   std::int16_t& slot = tile.slot[static_cast<std::size_t>(index_in_tile(ix, iy))];
   if (slot < 0) {
-    // Made before a slot is taken: the source may throw.
+    // Made before a slot is taken, because the source may throw.
     Column column;
     site_->column(ix, iy, column);
     for (const SoilLayer& layer : column) start_mass_[layer.soil] += layer.mass;
@@ -149,12 +152,12 @@ Column& Tiles::touch_column(int ix, int iy) {
 }
 
 void Tiles::update_surface(int ix, int iy, SurfaceTable& table, const StartHeights& start) const {
-  // Height, soil and density state together, so that a view never shows half an edit.
+  // Height, soil and density state change together, so that a view never shows half an edit.
   const Column& column = *find_column(ix, iy);
   SurfaceTile& surface = table.own(ix / kTileSide, iy / kTileSide, start);
   const auto i = static_cast<std::size_t>(index_in_tile(ix, iy));
   surface.height[i] = site_->setup().datum + column_height(column, unit());
-  // A column dug down to bedrock still shows the soil that lay there.
+  // A column dug down to bedrock shows the soil that was there.
   surface.soil[i] = column.empty() ? kSoilAsAtStart : column.back().soil;
   surface.specific_volume[i] = column.empty() ? 1.0f : column.back().specific_volume;
 }
@@ -169,6 +172,7 @@ void Tiles::update_surfaces(SurfaceTable& table, const StartHeights& start) cons
   }
 }
 
+// Goes tile by tile with one buffer.
 void Tiles::visit(Archive& a) {
   if (a.loading()) clear();
   const std::uint64_t count = a.size("tiles", touched_.size());
@@ -193,7 +197,7 @@ void Tiles::visit(Archive& a) {
         // The last tiles of a row or column reach beyond the site.
         a.require(ix < site_->setup().nx && iy < site_->setup().ny, "place",
                   "a column is outside the site");
-        // Touching it counts its start mass; its layers are those that were saved.
+        // Touching it counts its initial mass; its layers are the saved ones.
         Column& column = touch_column(ix, iy);
         columns.give(c, layer, column);
         a.require(column_height(column, unit()) < kMostHeight, "layers",
@@ -204,7 +208,7 @@ void Tiles::visit(Archive& a) {
 }
 
 void Tiles::clear() {
-  // Groups hold pointers into the map, so they go with it.
+  // Groups hold pointers into the map, so they are cleared with it.
   touched_.clear();
   for (auto& group : groups_) group.reset();
   std::fill(start_mass_.begin(), start_mass_.end(), 0);

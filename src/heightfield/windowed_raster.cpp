@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Windows overlap by one row and one column, so that the four cells of a bilinear height lie in one
-// of them. Each thread remembers the last few that it looked at, and asks for the lock only when it
-// needs another.
+// window. Each thread remembers its last few windows and takes the lock only for another one.
 #include "heightfield/windowed_raster.h"
 
 #include <algorithm>
@@ -23,10 +22,10 @@ namespace {
 
 /// Rows that a pass over the map reads at once: whole blocks of most files.
 constexpr int kPassRows = 256;
-/// Bits of a float that a histogram of tangents leaves out: 2^23 counters, 32 MB.
+/// Bits of a float that a histogram of tangents omits: 2^23 counters, 32 MB.
 constexpr int kLeftOut = 8;
 
-/// StateHash::bytes of an array that comes in parts.
+/// Computes StateHash::bytes of an array that comes in parts.
 class HashInParts {
  public:
   explicit HashInParts(std::uint64_t size) { hash_.value(size); }
@@ -52,6 +51,7 @@ class HashInParts {
   bool waits_ = false;
 };
 
+// Numbers are never reused, so that the memory of a thread cannot mistake one map for another.
 std::uint64_t next_number() {
   static std::atomic<std::uint64_t> number{0};
   return ++number;
@@ -69,7 +69,8 @@ struct WindowedRaster::Window {
 };
 
 struct WindowedRaster::Cache {
-  const std::uint64_t number = next_number();  // tells this map's windows in the memory of threads
+  // Identifies the windows of this map in the memory of threads.
+  const std::uint64_t number = next_number();
   std::mutex mutex;
   std::unordered_map<std::int64_t, std::shared_ptr<const Window>> windows;
   std::deque<std::int64_t> order;  // as they came in
@@ -84,6 +85,7 @@ WindowedRaster::WindowedRaster(const HeightRaster& frame, Source source, int sid
 
 WindowedRaster::~WindowedRaster() = default;
 
+// Gaps are sorted, so a binary search within the row finds one.
 std::int64_t WindowedRaster::gap_at(int ix, int iy) const {
   if (row_begin_.empty()) return -1;
   const auto begin = gaps_.begin() + row_begin_[static_cast<std::size_t>(iy)];
@@ -93,6 +95,7 @@ std::int64_t WindowedRaster::gap_at(int ix, int iy) const {
   return found != end && *found == wanted ? found - gaps_.begin() : -1;
 }
 
+// Reads from the file and then overwrites the gaps.
 void WindowedRaster::read(const CellRect& cells, float* out) const {
   source_(cells, out);
   if (row_begin_.empty()) return;
@@ -138,7 +141,7 @@ const WindowedRaster::Window& WindowedRaster::window(int ix, int iy) const {
   Recent& place = recent[next];
   next = (next + 1) % recent.size();
   place = {cache_->number, key, found};
-  // The oldest goes; who looks at it still has it.
+  // Removes the oldest; threads that use it still hold it.
   if (cache_->order.size() > kMostWindows) {
     cache_->windows.erase(cache_->order.front());
     cache_->order.pop_front();
@@ -157,8 +160,7 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
     row_begin_[static_cast<std::size_t>(iy)] =
         std::lower_bound(gaps_.begin(), gaps_.end(), static_cast<std::int64_t>(iy) * frame_.nx) -
         gaps_.begin();
-  // Windows that come in meanwhile have gaps where cells are not filled yet: gaps are asked for
-  // here first.
+  // Windows read meanwhile have gaps where cells are not filled yet: gaps are looked up here first.
   const auto at = [&](int x, int y) {
     const std::int64_t gap = gap_at(x, y);
     return gap >= 0 ? filled_[static_cast<std::size_t>(gap)] : window(x, y).at(x, y);
@@ -167,7 +169,7 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
     const std::int64_t cell = gaps_[static_cast<std::size_t>(gap)];
     return std::pair{static_cast<int>(cell % frame_.nx), static_cast<int>(cell / frame_.nx)};
   };
-  // Ring by ring as heightfield::fill_gaps does; each sees only those before it.
+  // Ring by ring as heightfield::fill_gaps does; each ring depends on earlier ones only.
   std::vector<std::int64_t> ring, next;
   std::vector<char> queued(gaps_.size(), 0);
   const auto value = [&](std::int64_t gap) {
@@ -196,11 +198,12 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
     ring.swap(next);
     ++result.farthest;
   }
-  // Windows of the time before are wrong in their gaps; a new number makes threads forget theirs.
+  // Earlier windows are wrong in their gaps; a new number makes threads discard theirs.
   cache_ = std::make_unique<Cache>();
   return result;
 }
 
+// Slopes go into a histogram, because the tangents of a large map do not fit in memory.
 WindowedRaster::Summary WindowedRaster::summary(double limit) const {
   Summary out;
   const auto nx = static_cast<std::size_t>(frame_.nx);
@@ -211,7 +214,7 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
   const double steep = std::tan(limit);
   std::uint64_t tangents = 0, above = 0;
   out.least = INFINITY, out.most = -INFINITY;
-  // One row more than the strip, the last of the strip before.
+  // One row more than the strip: the last row of the strip before.
   std::vector<float> rows(nx * (kPassRows + 1));
   for (int y0 = 0; y0 < frame_.ny; y0 += kPassRows) {
     const int count = std::min(kPassRows, frame_.ny - y0);
@@ -234,7 +237,7 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
         least = std::min(least, t);
         most = std::max(most, t);
         above += static_cast<double>(t) > steep ? 1 : 0;
-        // Floats that are not negative are ordered as their bits.
+        // Non-negative floats are ordered like their bits.
         ++counts[std::bit_cast<std::uint32_t>(t) >> kLeftOut];
         ++tangents;
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A map of more cells than are held at once: read in windows when its columns are asked for.
+// A map with more cells than fit in memory, read in windows on demand.
 #pragma once
 
 #include <cstdint>
@@ -12,61 +12,68 @@
 
 namespace navvy::heightfield {
 
-/// What a HeightRaster is, of any size: its columns have the same bits. Any number of threads may
-/// ask it.
+/// A HeightRaster of any size, with bit-identical columns. Any number of threads may query it.
 ///
-/// Holds at most kMostWindows windows of kSide x kSide cells (128 MiB), those that came in last,
-/// and what its gaps were filled with. A height costs 20 ns more than from a HeightRaster where its
-/// window is there, a read where it is not.
+/// Holds at most kMostWindows windows of kSide x kSide cells (128 MiB), the most recently read
+/// ones, and the values of filled gaps. A height costs 20 ns more than from a HeightRaster where
+/// its window is in memory, else a read from the file.
 class WindowedRaster {
  public:
+  /// Edge of a window in cells.
   static constexpr int kSide = 256;
+  /// Largest number of windows in memory.
   static constexpr std::size_t kMostWindows = 512;
 
-  /// Fills `out` with the heights [m] of some cells, x fastest, NaN in gaps: a pure function,
+  /// Fills `out` with the heights [m] of some cells, x fastest, NaN in gaps. A pure function,
   /// called by one thread at a time. @throws InputError where the file cannot be read.
   using Source = std::function<void(const CellRect& cells, float* out)>;
 
-  /// Of `frame` size, cells and place count; its z is empty. `side` is for tests.
+  /// Uses size, cell and place of `frame`, whose z is empty. `side` is for tests.
   WindowedRaster(const HeightRaster& frame, Source source, int side = kSide);
   ~WindowedRaster();
   WindowedRaster(const WindowedRaster&) = delete;
   WindowedRaster& operator=(const WindowedRaster&) = delete;
 
-  /// As heightfield::fill_gaps. `gaps` are the cells without a height, iy * nx + ix, ascending. To
-  /// be called once, before anything else is asked; costs 30 bytes a gap.
+  /// Fills gaps as heightfield::fill_gaps does. `gaps` are the cells without a height, iy * nx +
+  /// ix, ascending. Must be called once, before any other query; costs 30 bytes per gap.
   GapFill fill_gaps(std::vector<std::int64_t> gaps);
 
-  /// What one pass over all cells tells.
+  /// Results of one pass over all cells.
   struct Summary {
-    float least = 0, most = 0;  ///< [m]
-    SlopeRange slope;           ///< as heightfield::slopes; the median to 1 part in 30 000
-    /// What StateHash::bytes makes of all z and StateHash::value of the frame behind them.
+    /// Range of the heights [m].
+    float least = 0, most = 0;
+    /// Slopes as heightfield::slopes computes them; the median to 1 part in 30 000.
+    SlopeRange slope;
+    /// Hash of all z by StateHash::bytes, followed by the frame by StateHash::value.
     std::uint64_t hash = 0;
   };
-  /// Reads the whole map once. No gaps may be left.
+  /// Reads the whole map once. No gaps may be left. `limit` is a slope [rad].
   Summary summary(double limit) const;
 
-  /// As HeightRaster::mean.
+  /// Returns the mean height as HeightRaster::mean does [m].
   double mean(double x, double y, double edge) const;
 
  private:
+  // A block of cells in memory.
   struct Window;
   struct Cache;
-  /// The window that holds cell (ix, iy) as its first ones do; valid until this thread asks for
+  /// Returns the window whose first cells include (ix, iy); valid until this thread asks for
   /// another.
   const Window& window(int ix, int iy) const;
-  /// Cells with what gaps were filled with.
+  /// Reads cells with the values of filled gaps.
   void read(const CellRect& cells, float* out) const;
-  /// Number in gaps_ of a cell; -1 where it is none.
+  /// Returns the number of a cell in gaps_; -1 where it is no gap.
   std::int64_t gap_at(int ix, int iy) const;
 
   HeightRaster frame_;
   Source source_;
   int side_, across_;
-  std::vector<std::int64_t> gaps_;       // ascending
-  std::vector<std::int64_t> row_begin_;  // of each row, the first of its gaps; empty without gaps
-  std::vector<float> filled_;            // one for each gap
+  // Cells without a height, ascending.
+  std::vector<std::int64_t> gaps_;
+  // Number of the first gap of each row; empty without gaps.
+  std::vector<std::int64_t> row_begin_;
+  // Height of each filled gap.
+  std::vector<float> filled_;
   std::unique_ptr<Cache> cache_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that waits for readers, and one for each of them: how slow a reader is, only its own
-// thread knows.
+// One thread accepts readers, and each reader has a thread of its own, so that a slow reader delays
+// no other.
 #include "link/map_publisher.h"
 
 #include <arpa/inet.h>
@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often a waiting thread looks whether it shall end [s].
+/// Interval at which a waiting thread checks whether it must end [s].
 constexpr double kGlance = 0.2;
 
 [[noreturn]] void refuse(const std::string& place, const std::string& rule,
@@ -43,7 +43,7 @@ constexpr double kGlance = 0.2;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "--publish", place, rule, remedy});
 }
 
-/// "tcp:5005" or "tcp:0.0.0.0:5005" as an address.
+/// Parses "tcp:5005" or "tcp:0.0.0.0:5005".
 sockaddr_in address_of(const std::string& place) {
   std::string host = "127.0.0.1", port = place.substr(4);
   if (const std::size_t colon = port.rfind(':'); colon != std::string::npos) {
@@ -55,14 +55,14 @@ sockaddr_in address_of(const std::string& place) {
   unsigned number = 0;
   const auto [end, failed] = std::from_chars(port.data(), port.data() + port.size(), number);
   if (port.empty() || failed != std::errc() || end != port.data() + port.size() || number > 65535)
-    refuse(place, "no port from 0 to 65535", "e.g. tcp:5005");
+    refuse(place, "is not a port from 0 to 65535", "e.g. tcp:5005");
   if (inet_pton(AF_INET, host.c_str(), &out.sin_addr) != 1)
-    refuse(place, "no numeric IPv4 address", "e.g. tcp:0.0.0.0:5005 for every interface");
+    refuse(place, "is not a numeric IPv4 address", "e.g. tcp:0.0.0.0:5005 for every interface");
   out.sin_port = htons(static_cast<std::uint16_t>(number));
   return out;
 }
 
-/// A socket that listens; its port goes to `port`.
+/// Opens a socket that listens, and writes its port to `port`.
 int listening(const std::string& place, int& port) {
   sockaddr_in address = address_of(place);
   const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -81,18 +81,18 @@ int listening(const std::string& place, int& port) {
   return file;
 }
 
-/// A folder that is there has nothing in it.
+/// Checks that the folder is new or empty.
 void require_folder(const std::string& place) {
-  if (place.empty()) refuse(place, "names no folder", "a new folder, or tcp:PORT");
-  // "udp:5005" is meant as an address; whoever wants a folder of that name writes "./udp:5005".
+  if (place.empty()) refuse(place, "does not name a folder", "a new folder, or tcp:PORT");
+  // "udp:5005" is meant as an address; for a folder of that name users write "./udp:5005".
   const std::size_t colon = place.find(':');
   if (colon != std::string::npos && colon > 0 && place.find('/') == std::string::npos)
-    refuse(place, "is no address that is known",
+    refuse(place, "is not a known kind of address",
            "tcp:PORT or tcp:HOST:PORT; for a folder ./" + place);
   std::error_code failed;
   const fs::file_status there = fs::status(place, failed);
   if (!fs::exists(there)) return;
-  if (!fs::is_directory(there)) refuse(place, "is there and no folder", "name a new folder");
+  if (!fs::is_directory(there)) refuse(place, "exists and is not a folder", "name a new folder");
   const fs::directory_iterator entries(place, failed);
   if (failed) refuse(place, "cannot be read: " + failed.message(), "name a new folder");
   if (entries != fs::directory_iterator())
@@ -104,7 +104,8 @@ void require_folder(const std::string& place) {
 
 bool is_address(const std::string& place) { return place.rfind("tcp:", 0) == 0; }
 
-/// A reader whose machine is gone without a word is noticed, too: after about a minute.
+/// Makes the system notice a reader whose machine disappeared without closing, after about a
+/// minute.
 void watch_connection(int file) {
   const int yes = 1, idle = 30, every = 10, times = 3;
   ::setsockopt(file, SOL_SOCKET, SO_KEEPALIVE, &yes, sizeof yes);
@@ -113,7 +114,7 @@ void watch_connection(int file) {
   ::setsockopt(file, IPPROTO_TCP, TCP_KEEPCNT, &times, sizeof times);
 }
 
-/// Whether the other end has said nothing of going away.
+/// Returns false when the other end has closed its direction.
 bool is_there(int file) {
   pollfd ask{file, POLLRDHUP, 0};
   return ::poll(&ask, 1, 0) <= 0;
@@ -128,25 +129,28 @@ struct MapPublisher::State {
   std::vector<map::MapLayer> layers;
   std::string folder;
   int listener = -1, port = 0;
-  mutable std::mutex mutex;  // of `fault`
+  // Protects `fault`.
+  mutable std::mutex mutex;
   std::string fault;
   struct Reader {
     std::thread thread;
     std::atomic<bool> done{false};
   };
-  std::list<Reader> readers;  // of the thread that accepts, then of the one that ends it
+  // Used by the accepting thread, and after its end by the thread that joined it.
+  std::list<Reader> readers;
   std::thread main;
 
   void serve_files();
   void accept_readers();
-  /// Ends the threads of readers that are gone.
+  /// Joins the threads of readers that are gone.
   void sweep();
   void serve(int file, std::atomic<bool>& done);
   bool send_all(int file, const char* bytes, std::size_t count, double& waited) const;
-  /// Piece by piece; whole or not there. @throws FileError.
+  /// Writes a patch piece by piece; the file is complete or absent. @throws FileError.
   void write_patch(const std::string& path, const map::MapUpdate& update) const;
-  /// Updates one after the other until the feed is closed and nothing is left; `deliver` says false
-  /// to end, and so does `alive`, which is asked while there is nothing to deliver.
+  /// Delivers updates one after the other until the feed is closed and nothing is left. `deliver`
+  /// returns false to end it, and so does `alive`, which is called while there is nothing to
+  /// deliver.
   template <class Deliver, class Alive>
   void follow(const Deliver& deliver, const Alive& alive);
 };
@@ -154,7 +158,7 @@ struct MapPublisher::State {
 template <class Deliver, class Alive>
 void MapPublisher::State::follow(const Deliver& deliver, const Alive& alive) {
   for (std::uint64_t seen = 0;;) {
-    // Asked before, so that what was published before the end still goes out.
+    // Checked before the wait, so that updates published before the end still go out.
     const bool last = feed.closed();
     const map::UpdateFeed::Update update = feed.wait(seen, kGlance);
     if (update != nullptr) {
@@ -166,6 +170,7 @@ void MapPublisher::State::follow(const Deliver& deliver, const Alive& alive) {
   }
 }
 
+// A folder that cannot be written ends the thread; the run reports the cause at its next update.
 void MapPublisher::State::serve_files() {
   std::uint64_t number = 0;
   const auto attempt = [&](const auto& write) {
@@ -174,7 +179,7 @@ void MapPublisher::State::serve_files() {
       return true;
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex);
-      // The first cause is what the user reads.
+      // Users read the first cause.
       if (fault.empty()) fault = error.what();
       return false;
     }
@@ -187,10 +192,11 @@ void MapPublisher::State::serve_files() {
         return attempt([&] { write_patch((fs::path(folder) / name).string(), update); });
       },
       [] { return true; });
-  // Also after a fault: whoever reads is not to wait for ever.
+  // Written also after a fault, so that readers do not wait for ever.
   attempt([&] { write_file_atomically((fs::path(folder) / kEnd).string(), ""); });
 }
 
+// A reader never sees half a patch.
 void MapPublisher::State::write_patch(const std::string& path, const map::MapUpdate& update) const {
   formats::PartFile file(path);
   formats::send_patch(update, layers, [&](const char* bytes, std::size_t count) {
@@ -200,15 +206,15 @@ void MapPublisher::State::write_patch(const std::string& path, const map::MapUpd
   file.commit();
 }
 
-/// False when the reader is gone, or too slow at the end; `waited` counts how long it kept us since
-/// then [s].
+/// Returns false when the reader is gone, or too slow at the end. `waited` counts the time it took
+/// since then [s].
 bool MapPublisher::State::send_all(int file, const char* bytes, std::size_t count,
                                    double& waited) const {
   Stopwatch lap;
   for (std::size_t at = 0; at < count;) {
     pollfd out{file, POLLOUT, 0};
     const int ready = ::poll(&out, 1, static_cast<int>(1000 * kGlance));
-    // While the run goes on a reader may take all the time it wants.
+    // While the run goes on a reader may take as long as it wants.
     waited = feed.closed() ? waited + lap.seconds() : 0;
     lap.restart();
     if (waited > kPatience) return false;
@@ -221,6 +227,7 @@ bool MapPublisher::State::send_all(int file, const char* bytes, std::size_t coun
   return true;
 }
 
+// A reader that connects starts from map number 0 and so gets a whole map first.
 void MapPublisher::State::serve(int file, std::atomic<bool>& done) {
   const int yes = 1;
   ::setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
@@ -233,12 +240,13 @@ void MapPublisher::State::serve(int file, std::atomic<bool>& done) {
     follow([&](const map::MapUpdate& update) { return formats::send_patch(update, layers, sink); },
            [&] { return is_there(file); });
   } catch (const std::exception&) {
-    // No memory for its patch: this reader is let go, and may come back.
+    // There is no memory for its patch: the reader is dropped and may connect again.
   }
   ::close(file);
   done = true;
 }
 
+// Runs in the accepting thread, so that no reader joins itself.
 void MapPublisher::State::sweep() {
   readers.remove_if([](Reader& reader) {
     if (!reader.done) return false;
@@ -247,8 +255,9 @@ void MapPublisher::State::sweep() {
   });
 }
 
+// Poll with a timeout, because closing the listener from another thread would not wake `accept`.
 void MapPublisher::State::accept_readers() {
-  // Told once until somebody got in again: a reader that tries for ever would fill the log.
+  // Logged once until a reader is accepted again: one that retries for ever would fill the log.
   bool told = false;
   const auto tell = [&told](const std::string& what) {
     if (!std::exchange(told, true)) log_warning(what);
@@ -261,14 +270,13 @@ void MapPublisher::State::accept_readers() {
     const int file = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
     if (file < 0) {
       if (errno == EINTR || errno == EAGAIN || errno == ECONNABORTED) continue;
-      tell(std::string("a reader of the map cannot be let in: ") + std::strerror(errno));
-      // It goes on waiting in the queue, and the next look would find it at once.
+      tell(std::string("a reader of the map cannot be accepted: ") + std::strerror(errno));
+      // The connection stays in the queue, and the next poll would find it at once.
       std::this_thread::sleep_for(std::chrono::duration<double>(kGlance));
       continue;
     }
     if (readers.size() >= kMostReaders) {
-      tell("a reader of the map was turned away: " + std::to_string(kMostReaders) +
-           " are connected");
+      tell("a reader of the map was refused: " + std::to_string(kMostReaders) + " are connected");
       ::close(file);
       continue;
     }
@@ -279,7 +287,7 @@ void MapPublisher::State::accept_readers() {
     } catch (const std::system_error& error) {
       readers.pop_back();
       ::close(file);
-      tell(std::string("a reader of the map cannot be let in: ") + error.what());
+      tell(std::string("a reader of the map cannot be accepted: ") + error.what());
     }
   }
 }
@@ -305,14 +313,15 @@ MapPublisher::~MapPublisher() { finish(); }
 
 void MapPublisher::require_place(const std::string& place) {
   int port = 0;
-  // Taken and let go: what is free now is free in a minute but for a rare race, which the making
-  // tells.
+  // The port is released again. Another process could take it before the publisher starts, which
+  // its constructor then reports.
   if (is_address(place))
     ::close(listening(place, port));
   else
     require_folder(place);
 }
 
+// The feed is closed first: the threads deliver what is left and end by themselves.
 void MapPublisher::finish() {
   State& s = *state_;
   s.feed.close();

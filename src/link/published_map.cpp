@@ -11,6 +11,7 @@ namespace navvy::link {
 
 namespace {
 
+// An empty list stands for the default layers.
 std::vector<map::MapLayer> layers_of(const PublishOptions& options) {
   return options.layers.empty() ? map::default_layers() : map::layers_named(options.layers);
 }
@@ -47,6 +48,7 @@ void PublishedMap::observe() {
   check();
 }
 
+// Readers see the new state at once and not only at the next moment of the rate.
 void PublishedMap::restart() {
   feed_.restart();
   publish();
@@ -54,7 +56,7 @@ void PublishedMap::restart() {
 }
 
 void PublishedMap::finish() {
-  // The end need not be a moment of the rate.
+  // The end may fall between two moments of the rate.
   publish();
   publisher_->finish();
   check();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run's map for other processes: what `navvy run --publish` asks for.
+// The map of a run for other processes, as `navvy run --publish` asks for it.
 #pragma once
 
 #include <optional>
@@ -11,34 +11,40 @@
 
 namespace navvy::link {
 
-/// What the command line says of it.
+/// Options of the command line.
 struct PublishOptions {
-  std::string place;   ///< as link::MapPublisher takes it; empty: nothing is published
-  std::string layers;  ///< names separated by commas; empty: all
-  double rate = 10;    ///< updates per simulated second
+  /// Place as MapPublisher takes it; empty: nothing is published.
+  std::string place;
+  /// Names separated by commas; empty: the default layers.
+  std::string layers;
+  /// Updates per simulated second [1/s].
+  double rate = 10;
 };
 
-/// Asks, before anything of an earlier run is touched, what a PublishedMap would fail at.
-/// @throws InputError for layers or a place that are none, or a place that is taken.
+/// Checks the options before anything of an earlier run is touched.
+/// @throws InputError for unknown layers, an invalid place or one that is in use.
 void require_publishable(const PublishOptions& options);
 
-/// Publishes the map of a session as often as asked for, from its making on, and that of its end.
+/// Publishes the map of a session at its rate, from its construction on, and the map of the end.
 class PublishedMap {
  public:
-  /// The session must outlive it. @throws InputError for layers or a place that are none, FileError
-  /// as the MapPublisher.
+  /// The session must outlive it. @throws InputError for unknown layers or an invalid place,
+  /// FileError as MapPublisher.
   PublishedMap(const PublishOptions& options, const session::Session& session);
-  /// Called after each step. @throws FileError for what ended the writing.
+  /// Publishes when an update is due. Must be called after each step. @throws FileError for what
+  /// ended the writing.
   void observe();
-  /// Called when the session was put into another state: readers get it at once, as a whole map.
-  /// @throws as `observe`.
+  /// Publishes the new state at once, as a whole map. Must be called when the session was put into
+  /// another state. @throws as `observe`.
   void restart();
-  /// Publishes the state of the end, waits until readers have it (MapPublisher::finish) and ends.
-  /// Nothing is published after it. @throws FileError for a patch that could not be written.
+  /// Publishes the final state, waits until readers have it (MapPublisher::finish) and ends.
+  /// Nothing is published afterwards. @throws FileError for a patch that could not be written.
   void finish();
 
  private:
+  /// Publishes the present state.
   void publish();
+  /// @throws FileError for the fault of the publisher, if there is one.
   void check() const;
 
   const sim::World& world_;

@@ -73,11 +73,13 @@ float SiteColumns::target(int ix, int iy) const {
                 static_cast<std::size_t>(ix)];
 }
 
+// Loosening and compaction change the volume of a mass, so density falls as specific volume rises.
 float SiteColumns::density(int ix, int iy) const {
   const double bank = view_.setup().soils[view_.surface_soil(ix, iy)].bank_density;
   return static_cast<float>(bank / static_cast<double>(view_.specific_volume(ix, iy)));
 }
 
+// The heights are copied on first use: layers that need none pay nothing.
 float ColumnBlock::elevation(int ix, int iy) const {
   if (z_.empty()) site_.view().copy_heights(rect_, z_);
   const auto width = static_cast<std::size_t>(rect_.x1 - rect_.x0);
@@ -85,6 +87,8 @@ float ColumnBlock::elevation(int ix, int iy) const {
             static_cast<std::size_t>(ix - rect_.x0)];
 }
 
+// A layer without tiles costs nothing, so only the layers that are asked for and those that they
+// are computed from get any. A layer that the site cannot know gets tiles without a source.
 TerrainMap make_map(const std::shared_ptr<const SiteColumns>& site, std::uint64_t sequence) {
   const heightfield::TerrainView& view = site->view();
   const MapOptions& options = site->options();

@@ -27,10 +27,13 @@ struct MapOptions {
 /// number of threads may read. A source that knows less than a view overrides the functions.
 class SiteColumns {
  public:
+  /// Describes the site as `view` shows it.
   SiteColumns(heightfield::TerrainView view, std::shared_ptr<const MapOptions> options);
   virtual ~SiteColumns() = default;
 
+  /// Returns the view of the site.
   const heightfield::TerrainView& view() const { return view_; }
+  /// Returns the options of the map.
   const MapOptions& options() const { return *options_; }
   /// Returns false where layers with these needs are unknown in every column.
   virtual bool knows(LayerNeeds needs) const;
@@ -64,6 +67,7 @@ class ColumnBlock {
   ColumnBlock(const SiteColumns& site, const heightfield::CellRect& rect)
       : site_(site), rect_(rect) {}
 
+  /// Returns the state of the site.
   const SiteColumns& site() const { return site_; }
   /// Returns the height of the surface of a column of the rectangle in W [m].
   float elevation(int ix, int iy) const;

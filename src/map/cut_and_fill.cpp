@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The polygon is cut to a row of columns, and that to each column: areas by the shoelace formula,
-// which stays right where clipping leaves edges that run to and fro.
+// The polygon is clipped to a row of columns, and the result to each column. The shoelace formula
+// gives the areas; it stays right where clipping leaves edges that run back and forth.
 #include "map/cut_and_fill.h"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 
 using Polygon = std::vector<Vec2>;
 
-/// Appends to `out` the part of `in` with sign * (coordinate - line) >= 0 along `axis`
-/// [Sutherland 1974].
+/// Appends to `out` the part of `in` with sign * (coordinate - line) >= 0 along `axis` [Sutherland
+/// 1974].
 void clip(const Polygon& in, int axis, double line, double sign, Polygon& out) {
   out.clear();
   for (std::size_t i = 0; i < in.size(); ++i) {
@@ -33,7 +33,7 @@ void clip(const Polygon& in, int axis, double line, double sign, Polygon& out) {
   }
 }
 
-/// Signed, above 0 counter-clockwise.
+/// Returns the signed area, positive for counter-clockwise polygons.
 double area(const Polygon& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -44,7 +44,7 @@ double area(const Polygon& polygon) {
   return twice / 2;
 }
 
-/// Adds `share` [m2] of one column.
+/// Adds `share` [m2] of one column to the sum.
 void add(const TerrainMap& map, MapLayer reference, int ix, int iy, double share, CutFill& sum) {
   const double rise =
       static_cast<double>(map.at(MapLayer::kElevation, ix, iy)) - map.at(reference, ix, iy);
@@ -64,6 +64,7 @@ void add(const TerrainMap& map, MapLayer reference, int ix, int iy, double share
   sum.active += std::min(rise, static_cast<double>(map.at(MapLayer::kLooseDepth, ix, iy))) * share;
 }
 
+// Refuses polygons without an area and references that are not heights, before any column is read.
 void require_valid(std::span<const Vec2> polygon, MapLayer reference) {
   const auto fault = [](const std::string& value, const char* rule, const char* remedy) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, "polygon", value, rule, remedy});
@@ -72,13 +73,14 @@ void require_valid(std::span<const Vec2> polygon, MapLayer reference) {
     fault(std::to_string(polygon.size()) + " corners", "at least three", "add corners");
   for (const Vec2& corner : polygon)
     if (!corner.allFinite())
-      fault("a corner that is no number", "finite coordinates in W", "mend it");
+      fault("a corner that is not finite", "finite coordinates in W", "correct it");
   if (!info(reference).height() || reference == MapLayer::kElevation)
     fault(info(reference).name, "elevation_start or target as reference", "pick one of them");
 }
 
 }  // namespace
 
+// Rows are cut first: a column then only clips the few edges that cross its row.
 CutFill cut_and_fill(const TerrainMap& map, std::span<const Vec2> polygon, MapLayer reference) {
   require_valid(polygon, reference);
   // In columns about the site's corner, where borders are whole numbers.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cut and fill in a polygon.
+// Cut and fill volumes in a polygon.
 #pragma once
 
 #include <span>
@@ -9,26 +9,31 @@
 
 namespace navvy::map {
 
-/// What an area holds against a reference surface, all in W. `fill` counts the soil as it lies.
+/// Volumes between the ground and a reference surface over an area. `fill` is in the present state
+/// of the soil.
 struct CutFill {
-  double area = 0;  ///< of the polygon on known columns [m2]
-  /// Of the polygon where elevation or reference is unknown, or outside the site [m2].
+  /// Area of the polygon on known columns [m2].
+  double area = 0;
+  /// Area where elevation or reference is unknown, or outside the site [m2].
   double unknown_area = 0;
-  /// Reference above elevation: bank volume, where the reference was bank [m3].
+  /// Volume by which the reference lies above the elevation: bank volume where the reference was
+  /// bank [m3].
   double cut = 0;
-  double fill = 0;  ///< elevation above reference, as it lies [m3]
-  /// Of that as bank, by density at the surface; NaN where the map lacks density or soil [m3].
+  /// Volume by which the elevation lies above the reference, in its present state [m3].
+  double fill = 0;
+  /// The same as bank volume, by the density at the surface; NaN where the map lacks density or
+  /// soil [m3].
   double fill_bank = 0;
-  /// Of `fill`, what still lies as particles; NaN where the map lacks loose_depth [m3].
+  /// Part of `fill` that consists of particles; NaN where the map lacks loose_depth [m3].
   double active = 0;
 };
 
-/// Elevation against `reference` (kElevationStart: what was moved; kTarget: what the design still
-/// wants) over a simple polygon in W (x, y) [m], closed by itself, wound either way, not
-/// necessarily convex. A column counts with the share of its square that lies within, exactly.
-/// Costs some 20 ns a column within, more at the border.
-/// @throws InputError for fewer than three corners, one that is not finite, or a reference that is
-/// no height.
+/// Integrates elevation minus `reference` (kElevationStart: soil moved; kTarget: soil still to be
+/// moved) over a simple polygon in W (x, y) [m]. The polygon is closed implicitly, may be wound
+/// either way and need not be convex. A column counts with the exact share of its square inside the
+/// polygon. Costs some 20 ns per column inside, more at the border.
+/// @throws InputError for fewer than three corners, a corner that is not finite, or a reference
+/// that is not a height.
 CutFill cut_and_fill(const TerrainMap& map, std::span<const Vec2> polygon,
                      MapLayer reference = MapLayer::kElevationStart);
 

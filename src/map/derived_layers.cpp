@@ -12,13 +12,14 @@
 namespace navvy::map {
 namespace {
 
-// Columns; a window of 129 x 129 costs a tenth of a millisecond a column
+// Largest window [columns to each side]: one of 129 x 129 costs a tenth of a millisecond per
+// column.
 constexpr int kWidestReach = 64;
 
-/// NaN is the one number that differs from itself.
+/// Returns false for NaN, the one number that differs from itself.
 bool known(float value) { return value == value; }
 
-/// Height gained per column along one axis; NaN where neither neighbour is known.
+/// Returns the height gained per column along one axis; NaN where neither neighbour is known.
 double gradient(float before, float here, float after) {
   const auto z = static_cast<double>(here);
   if (known(before) && known(after))
@@ -30,10 +31,12 @@ double gradient(float before, float here, float after) {
 
 }  // namespace
 
+// The minimum guards against the overflow of a window that is huge or not finite.
 int TraversabilityLimits::reach(double cell) const {
   return std::clamp(static_cast<int>(std::lround(std::min(window / cell, 1e6))), 1, kWidestReach);
 }
 
+// The largest window bounds the cost of an update.
 void TraversabilityLimits::require_valid(double cell) const {
   const auto check = [](const char* name, double value, double most, const char* remedy) {
     if (std::isfinite(value) && value > 0 && value <= most) return;
@@ -61,9 +64,11 @@ float slope_at(const ElevationPatch& patch, int ix, int iy) {
   return steep == steep ? static_cast<float>(std::atan(steep)) : kUnknown;
 }
 
+// A step is a height between neighbours, so the window takes the largest of many small differences
+// and never the range over a long slope.
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   if (!known(patch.at(ix, iy))) return kUnknown;
-  // Each pair once, from its column with less x or y; the greatest of them depends on no order.
+  // Visits each pair once, from its column with less x or y; the maximum depends on no order.
   float most = 0;
   for (int y = iy - reach; y <= iy + reach; ++y)
     for (int x = ix - reach; x <= ix + reach; ++x) {
@@ -77,6 +82,7 @@ float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   return most;
 }
 
+// A plane has no roughness at any slope, because the residuals count from the fitted plane.
 float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   const float centre = patch.at(ix, iy);
   if (!known(centre)) return kUnknown;
@@ -95,11 +101,12 @@ float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach) {
   sxz -= sx * sz / n, syz -= sy * sz / n, szz -= sz * sz / n;
   const double det = sxx * syy - sxy * sxy;
   if (!(det > 1e-9 * sxx * syy)) return kUnknown;
-  // Fewer than three known columns, or all in one line, bear no plane: refused above.
+  // Fewer than three known columns, or all in one line, determine no plane: refused above.
   const double a = (sxz * syy - syz * sxy) / det, b = (syz * sxx - sxz * sxy) / det;
   return static_cast<float>(std::sqrt(std::max(szz - a * sxz - b * syz, 0.0) / n));
 }
 
+// The mean ranks ground that is drivable; a single limit that is reached makes it undrivable.
 float traversability(float slope, float step_height, float roughness,
                      const TraversabilityLimits& limits) {
   // Added in this order always. A good slope does not make up for a step that is too high.
@@ -116,6 +123,7 @@ float traversability(float slope, float step_height, float roughness,
   return bad ? 0.0f : static_cast<float>(sum / 3);
 }
 
+// The three values below are kept, because traversability needs them again.
 float Surround::slope() {
   if (!slope_) slope_ = slope_at(patch_, ix_, iy_);
   return *slope_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers that follow from elevation alone: pure functions of the columns nearby, so that updating a
-// part of a map gives the same bits as computing all of it.
+// part of a map is bit-identical to computing all of it.
 #pragma once
 
 #include <algorithm>
@@ -70,6 +70,7 @@ class Surround {
            int reach)
       : patch_(patch), limits_(limits), ix_(ix), iy_(iy), reach_(reach) {}
 
+  /// Returns the limits of the map.
   const TraversabilityLimits& limits() const { return limits_; }
   /// Angle from the horizontal [rad].
   float slope();

@@ -7,6 +7,7 @@
 
 #include "core/edit_distance.h"
 #include "core/error.h"
+#include "core/renamed_names.h"
 #include "map/column_block.h"
 #include "map/derived_layers.h"
 
@@ -116,8 +117,8 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .needs = LayerNeeds::kHistory,
        // A change of any of these stamps the column.
        .from = {kElevation, kSoil, kDensity, kLooseDepth}},
-      {.layer = kAwake,
-       .name = "awake",
+      {.layer = kActive,
+       .name = "active",
        .unit = "-",
        .meaning = "1 where the soil may still move",
        .type = LayerType::kFlag,
@@ -174,10 +175,13 @@ const std::array<LayerInfo, kMapLayers>& layers() {
   return table;
 }
 
+// There are few layers, and names are looked up once per command or request.
 MapLayer layer_named(const std::string& name) {
+  // Earlier releases had other names for some layers.
+  const std::string current = current_name(NameKind::kLayer, name);
   std::vector<std::string> names;
   for (const LayerInfo& each : layers()) {
-    if (each.name == name) return each.layer;
+    if (each.name == current) return each.layer;
     names.push_back(each.name);
   }
   throw InputError(Fault{Fault::Severity::kError, "", 0, "layer", name,

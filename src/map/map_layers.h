@@ -42,7 +42,7 @@ enum class MapLayer : std::uint8_t {
   /// Simulated time of the last observed change [s]; unknown where none was observed.
   kDisturbedAt,
   /// 1 where the soil may still move, 0 where it is at rest.
-  kAwake,
+  kActive,
   /// Elevation minus elevation at the start [m].
   kChange,
   /// Components of the unit upward normal in W.
@@ -89,6 +89,7 @@ enum class LayerNeeds : std::uint8_t {
 
 /// One row of the table: a layer and the rule that computes it.
 struct LayerInfo {
+  /// Enumerator of the layer.
   MapLayer layer;
   /// Name in files, options and messages, such as "step_height".
   std::string name;
@@ -96,6 +97,7 @@ struct LayerInfo {
   std::string unit;
   /// One line for people.
   std::string meaning;
+  /// Meaning of its numbers.
   LayerType type;
   /// The layer is NaN (kUnknown) in every column where this is missing. Formats without NaN write
   /// their own nodata value.

@@ -18,13 +18,15 @@ using heightfield::CellRect;
 MapMaker::MapMaker(MapOptions options)
     : options_(std::make_shared<const MapOptions>(std::move(options))) {}
 
-// By size and place: the follower itself tells sites of one size apart, and then names the whole of
-// the new one.
+// Compares size and place only: the follower recognises another site of one size by itself, and
+// then reports the whole of it.
 bool MapMaker::is_of(const heightfield::TerrainView& view) const {
   return map_ && map_->nx() == view.nx() && map_->ny() == view.ny() &&
          map_->cell() == view.cell() && map_->origin() == view.origin();
 }
 
+// Sorts the rows of the layers by their rule once, so that an update does not test each of them in
+// every column.
 void MapMaker::start(const heightfield::TerrainView& view) {
   map_ = make_map(std::make_shared<const SiteColumns>(view, options_), 0);
   of_column_.clear();
@@ -46,6 +48,7 @@ bool MapMaker::set(MapLayer layer, int ix, int iy, float value) {
   return !tiles.empty() && tiles.set(ix, iy, value == value ? value : kUnknown, edition_);
 }
 
+// Blocks bound the memory of an update of the whole site.
 void MapMaker::update_columns(const SiteColumns& site, const CellRect& rect) {
   const auto now = static_cast<float>(site.view().time());
   for_each_block(rect, [&](const CellRect& part) {
@@ -63,6 +66,7 @@ void MapMaker::update_columns(const SiteColumns& site, const CellRect& rect) {
   });
 }
 
+// A column that two rectangles share is computed twice, with the same result.
 void MapMaker::update_derived(const CellRect& rect) {
   for_each_block(rect, [&](const CellRect& block) {
     // Elevation is read from the map and not from the view: values follow from the floats that the
@@ -75,16 +79,17 @@ void MapMaker::update_derived(const CellRect& rect) {
   });
 }
 
+// The first view only sets the source of the tiles. Later ones write what changed.
 const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& view) {
   const bool first = !is_of(view);
   if (first) {
     forget();
     start(view);
   }
-  // From here on tiles are written to, copies of those that a map holds.
+  // Writes of this update go to copies of the tiles that a map holds.
   ++edition_;
   const std::vector<CellRect> rects = follower_.take(view);
-  // The first map is what its source says of this view.
+  // The source of the first map computes it from this view.
   if (first) {
     changed_ = rects;
     map_->time_ = view.time();
@@ -93,14 +98,14 @@ const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& vi
   }
   const SiteColumns site(view, options_);
   for (const CellRect& rect : rects) update_columns(site, rect);
-  // What a derived value looks at reaches beyond the column; the lists unite what overlaps much.
+  // A derived value depends on columns around it; the list unites rectangles that overlap much.
   heightfield::RectList around;
   const int reach = options_->limits.reach(view.cell());
   for (const CellRect& rect : rects) around.add(grown(rect, reach).cut(view.site_rect()));
   changed_ = around.rects();
   if (!of_surround_.empty())
     for (const CellRect& rect : changed_) update_derived(rect);
-  // Last: an error on the way leaves the stamp of the map before.
+  // Done last, so that an error above leaves the stamp of the map before.
   map_->time_ = view.time();
   map_->sequence_ = ++updates_;
   return changed_;
@@ -112,13 +117,14 @@ void MapMaker::forget() {
 }
 
 TerrainMap MapMaker::map() {
-  if (!map_) throw Error("MapMaker::map: no view was shown yet; call update first");
+  if (!map_) throw Error("MapMaker::map: there is no view yet; call update first");
   TerrainMap out = *map_;
-  // What is written from now on is not this map's.
+  // Later writes go to copies, so that this map never changes.
   ++edition_;
   return out;
 }
 
+// A map without tiles in memory computes exactly the rectangle, block by block.
 std::vector<float> layer_values(const heightfield::TerrainView& view, MapLayer layer,
                                 const CellRect& rect, const MapOptions& options) {
   MapOptions wanted = options;

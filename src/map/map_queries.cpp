@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface is bilinear over dual cells, whose corners are four column centres, as
-// heightfield::Terrain has it.
+// The surface is bilinear over dual cells, whose corners are four column centres, as in
+// heightfield::Terrain.
 #include "map/map_queries.h"
 
 #include <algorithm>
@@ -10,23 +10,24 @@
 namespace navvy::map {
 namespace {
 
-/// A dual cell, the place in it (0..1), and its corner heights.
+/// A dual cell, a place in it (u, v in 0..1), and the heights of its corners.
 struct Patch {
   double u = 0, v = 0;
-  /// At (0,0), (1,0), (0,1), (1,1); NaN where a corner that counts is unknown.
+  /// Heights at (0,0), (1,0), (0,1), (1,1); NaN where a corner that counts is unknown.
   std::array<double, 4> z{};
   double height() const {
     return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);
   }
 };
 
-/// Whether W (x, y) is on the site, its edge included; false for what is no number.
+/// Returns true when W (x, y) is on the site, its edge included; false for NaN.
 bool on_site(const TerrainMap& map, double x, double y) {
   const Vec2& low = map.origin();
   const Vec2 high = low + map.cell() * Vec2(map.nx(), map.ny());
   return x >= low.x() && y >= low.y() && x <= high.x() && y <= high.y();
 }
 
+// Clamping continues the surface level beyond the outermost centres.
 void corners(const TerrainMap& map, int ix, int iy, std::array<double, 4>& z) {
   // Beyond the outermost centres the surface goes on level.
   const int x0 = std::clamp(ix, 0, map.nx() - 1), x1 = std::clamp(ix + 1, 0, map.nx() - 1);
@@ -37,7 +38,7 @@ void corners(const TerrainMap& map, int ix, int iy, std::array<double, 4>& z) {
   z = {at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)};
 }
 
-/// Of a place on the site.
+/// Returns the dual cell around a place on the site.
 Patch patch_at(const TerrainMap& map, double x, double y) {
   const double gx = (x - map.origin().x()) / map.cell() - 0.5,
                gy = (y - map.origin().y()) / map.cell() - 0.5;
@@ -50,14 +51,14 @@ Patch patch_at(const TerrainMap& map, double x, double y) {
   return patch;
 }
 
-/// Slopes of the surface along x and y.
+/// Returns the slopes of the surface along x and y.
 Vec2 gradient(const Patch& p, double cell) {
   return Vec2((1 - p.v) * (p.z[1] - p.z[0]) + p.v * (p.z[3] - p.z[2]),
               (1 - p.u) * (p.z[2] - p.z[0]) + p.u * (p.z[3] - p.z[1])) /
          cell;
 }
 
-/// Least value of f0 + f1 t + f2 t^2 over 0 <= t <= end.
+/// Returns the least value of f0 + f1 t + f2 t^2 over 0 <= t <= end.
 double least(double f0, double f1, double f2, double end) {
   double low = std::min(f0, f0 + (f1 + f2 * end) * end);
   // The bottom of an upright parabola.
@@ -70,6 +71,8 @@ double least(double f0, double f1, double f2, double end) {
 
 }  // namespace
 
+// A value belongs to the square of its column and is not interpolated: an index or a flag cannot
+// be.
 float value(const TerrainMap& map, MapLayer layer, double x, double y) {
   if (!on_site(map, x, y)) return kUnknown;
   const Vec2 g = (Vec2(x, y) - map.origin()) / map.cell();
@@ -89,11 +92,14 @@ std::optional<Vec3> normal(const TerrainMap& map, double x, double y) {
   return Vec3(-g.x(), -g.y(), 1).normalized();
 }
 
+// Uses the gradient of the bilinear surface at the place itself.
 double slope(const TerrainMap& map, double x, double y) {
   if (!on_site(map, x, y)) return static_cast<double>(kUnknown);
   return std::atan(gradient(patch_at(map, x, y), map.cell()).norm());
 }
 
+// Walks the dual cells that the segment crosses. Within one cell the height of the segment above
+// the bilinear surface is a quadratic, whose minimum is exact.
 Sight line_of_sight(const TerrainMap& map, const Vec3& p, const Vec3& q) {
   if (!p.allFinite() || !q.allFinite()) return Sight::kUnsure;
   // t runs from 0 at p to 1 at q; the site is convex, so the segment is on it where both ends are.

@@ -21,18 +21,18 @@ namespace {
 
 using heightfield::Ground;
 
-/// Height that two roundings to whole quanta of mass may make [m]: 2^-24 kg are 1e-8 m of any soil
+/// Height [m] that two roundings to whole quanta of mass may make: 2^-24 kg are 1e-8 m of any soil
 /// in columns of 0.05 m.
 constexpr double kQuanta = 1e-7;
 
-/// The site again, with its surface from `file`. A run writes its whole site, so the file's cells
-/// are the columns.
+/// Builds the site again with its surface from `file`. A run writes its whole site, so the cells of
+/// the file are the columns.
 Ground reread(const scene::Scene& scene, const Ground& start, const std::string& file) {
   scene::Scene end = scene;
   end.ground.file = file;
   end.ground.has_at = end.ground.at_is_local = false;
   end.ground.size = start.cell() * Vec2(start.nx(), start.ny());
-  // As they lay, also where they were steeper than repose.
+  // Heights are taken as they are, also where they were steeper than repose.
   end.ground.steep = scene::SteepGround::kHold;
   end.ground.features.clear();
   Ground ground = heightfield::make_ground(end);
@@ -45,7 +45,7 @@ Ground reread(const scene::Scene& scene, const Ground& start, const std::string&
   throw InputError(Fault{Fault::Severity::kError, file, 0, "map",
                          std::to_string(b.nx) + " x " + std::to_string(b.ny),
                          "the scene's site has " + std::to_string(a.nx) + " x " +
-                             std::to_string(a.ny) + " columns, or lies elsewhere",
+                             std::to_string(a.ny) + " columns, or is elsewhere",
                          "a run's folder holds both: scene.sdf and terrain_end.tif"});
 }
 
@@ -96,12 +96,14 @@ class RunColumns final : public SiteColumns {
   std::unordered_map<int, std::vector<float>> tiles_;
 };
 
+/// Returns the limits of the first machine that gives some.
 TraversabilityLimits limits_for(const scene::Scene& scene) {
   for (const scene::MachineInWorld& placed : scene.machines)
     if (placed.machine.traversability.given) return limits_of(placed.machine);
   return {};
 }
 
+/// Returns true when one of the layers needs this knowledge.
 bool any_needs(const std::vector<MapLayer>& layers, LayerNeeds needs) {
   return std::any_of(layers.begin(), layers.end(),
                      [&](MapLayer layer) { return info(layer).needs == needs; });
@@ -114,6 +116,7 @@ TraversabilityLimits limits_of(const scene::Machine& machine) {
   return {own.slope, own.step_height, own.roughness, own.window};
 }
 
+// Clients that have the design pass it, because computing it again costs a pass over the site.
 MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site,
                        std::vector<MapLayer> layers, const heightfield::DesignSurface* design) {
   MapOptions out{std::move(layers), limits_for(scene), {}};
@@ -131,6 +134,8 @@ TerrainMap map_of_site(const Ground& site, const MapOptions& options) {
   return maker.map();
 }
 
+// The file holds rounded heights. A column whose difference from the start is within the rounding
+// keeps the exact height of the start, so that untouched ground shows no cut and no fill.
 TerrainMap map_of_run(const scene::Scene& scene, const Ground& start,
                       const std::string& terrain_end, const MapOptions& options) {
   if (!std::filesystem::is_regular_file(terrain_end))

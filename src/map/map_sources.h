@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What maps of a scene hold, and maps of what is not running: a site, and what a run left.
+// Maps of a scene that is not running: of its untouched site, and of what a run left.
 #pragma once
 
 #include <string>
@@ -12,27 +12,28 @@
 
 namespace navvy::map {
 
-/// What a machine can drive on: as its file gives it (navvy:traversability), or the defaults.
+/// Returns the limits that the machine's file gives (navvy:traversability), or the defaults.
 TraversabilityLimits limits_of(const scene::Machine& machine);
-/// Options of maps with `layers`: the limits of the first machine of the scene that gives some
-/// (navvy:traversability), else the defaults; where a layer asks for it the scene's design surface
-/// on the columns of `site`, made here unless somebody has it already. @throws InputError as
-/// heightfield::make_design.
+/// Returns options for maps with `layers`: the limits of the first machine of the scene that gives
+/// some (navvy:traversability), else the defaults, and where a layer needs it the design surface of
+/// the scene on the columns of `site`. `design`, when given, is used instead of computing it again.
+/// @throws InputError as heightfield::make_design.
 MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site,
                        std::vector<MapLayer> layers,
                        const heightfield::DesignSurface* design = nullptr);
 
-/// A site that nobody has touched. Needs no OpenCL device, and computes columns when the map is
-/// read.
+/// Returns the map of an untouched site. Needs no OpenCL device and computes columns when the map
+/// is read.
 TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options);
 
-/// The ground at the end of a run of `scene` that began on `start`, from the heights that the run
-/// wrote (`terrain_end.tif`): elevation and what follows from it, elevation_start, target, and of
-/// its band `loose_depth` what lies loose, and so awake: nothing where the run wrote no such band,
-/// as all of its soil rested. The file tells neither soil nor density, nor when a column changed:
-/// those are unknown. Columns that did not change have the start's very heights; others are rounded
-/// as the file rounds them. The time is unknown, NaN.
-/// @throws FileError when the file is missing, InputError when it is no map of that site.
+/// Returns the map of the ground at the end of a run of `scene` that began on `start`, from the
+/// heights that the run wrote (`terrain_end.tif`). It has elevation and the layers that follow from
+/// it, elevation_start and target. The band `loose_depth` of the file gives loose_depth and active;
+/// a run whose soil had all come to rest writes no such band, and both are 0 then. Soil, density
+/// and the time of changes are unknown, because the file does not hold them. Columns that did not
+/// change have exactly the heights of the start; others are rounded as in the file. The time of the
+/// map is NaN.
+/// @throws FileError when the file is missing, InputError when it belongs to another site.
 TerrainMap map_of_run(const scene::Scene& scene, const heightfield::Ground& start,
                       const std::string& terrain_end, const MapOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles that maps share, those that are computed when somebody asks, and dense copies for writers.
+// Tiles that maps share, tiles that are computed on demand, and dense copies for writers.
 #include "map/terrain_map.h"
 
 #include <algorithm>
@@ -14,8 +14,7 @@ namespace navvy::map {
 
 using heightfield::CellRect;
 
-/// Filled in by const calls: atomic, and never changed once set. Shared by all maps that have the
-/// source.
+/// Filled in by const calls: atomic, and never changed once set. All maps with the source share it.
 struct LayerTiles::Asked {
   Asked(MapLayer l, std::shared_ptr<const LayerSource> s, std::size_t tiles)
       : layer(l), source(std::move(s)), values(tiles) {}
@@ -36,6 +35,7 @@ LayerTiles::LayerTiles(int nx, int ny, MapLayer layer, std::shared_ptr<const Lay
   if (source) asked_ = std::make_shared<const Asked>(layer, std::move(source), tiles_.size());
 }
 
+// Beyond the edge of the site a tile is unknown.
 void LayerTiles::compute(std::size_t tile, Values& to) const {
   const int x0 = static_cast<int>(tile % static_cast<std::size_t>(across_)) * kSide;
   const int y0 = static_cast<int>(tile / static_cast<std::size_t>(across_)) * kSide;
@@ -46,12 +46,14 @@ void LayerTiles::compute(std::size_t tile, Values& to) const {
                          kSide);
 }
 
+// A written tile replaces one that was computed by the source.
 const float* LayerTiles::present(std::size_t tile) const {
   if (tiles_[tile]) return tiles_[tile]->values.data();
   const Values* asked = asked_ ? asked_->values[tile].load(std::memory_order_acquire) : nullptr;
   return asked != nullptr ? asked->data() : nullptr;
 }
 
+// Lock-free: readers in many threads must not wait for each other.
 const float* LayerTiles::ask(std::size_t tile) const {
   if (const float* known = present(tile)) return known;
   // Computed before it is published: the source may throw half way.
@@ -72,18 +74,20 @@ const float* LayerTiles::passing(int tx, int ty, Values& buffer) const {
   return buffer.data();
 }
 
+// Tiles that no one wrote to are the same if both maps have the same source.
 bool LayerTiles::shares(const LayerTiles& other, int tx, int ty) const {
   const std::size_t tile = tile_of(tx * kSide, ty * kSide);
   return tiles_[tile] == other.tiles_[tile] && (tiles_[tile] || asked_ == other.asked_);
 }
 
+// Copy on write: the maps taken in earlier editions keep their tiles.
 bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   const std::size_t number = tile_of(ix, iy), at = place(ix, iy);
-  std::shared_ptr<Tile>& tile = tiles_[number];
+  std::shared_ptr<WrittenTile>& tile = tiles_[number];
   const float* known = present(number);
   // From its source at once: who writes one column of a tile writes more.
   if (known == nullptr && asked_) {
-    auto fresh = std::make_shared<Tile>();
+    auto fresh = std::make_shared<WrittenTile>();
     compute(number, fresh->values);
     fresh->edition = edition;
     tile = std::move(fresh);
@@ -94,7 +98,7 @@ bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   if (!tile || tile->edition != edition) {
     // A map of an earlier edition may hold it; how many do is not asked, as their threads may drop
     // it this moment.
-    auto fresh = std::make_shared<Tile>();
+    auto fresh = std::make_shared<WrittenTile>();
     if (known != nullptr)
       std::copy(known, known + fresh->values.size(), fresh->values.begin());
     else
@@ -106,6 +110,7 @@ bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   return true;
 }
 
+// Views have the size of a tile even at the edge of the site, so that callers need no special case.
 LayerTiles::View LayerTiles::view(int tx, int ty) const {
   // All tiles of which nothing is known look at this one.
   static const Values unknown = [] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps share their tiles, so an update is a few pointers: publishing copies nothing and readers
-// lock for a moment only.
+// Maps share their tiles, so an update is a few pointers: publishing copies nothing, and readers
+// hold the lock only briefly.
 #include "map/update_feed.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using heightfield::CellRect;
 
-/// Counts the columns of one tile of which any layer differs.
+/// Counts the columns of one tile in which any layer differs.
 class TileComparison {
  public:
   TileComparison(const TerrainMap& a, const TerrainMap& b) : a_(a), b_(b) {
@@ -55,6 +55,7 @@ class TileComparison {
   std::array<bool, std::tuple_size_v<LayerTiles::Values>> differs_{};
 };
 
+// Overlaps count twice; the result is an upper bound.
 std::int64_t area_of(const std::vector<CellRect>& rects) {
   std::int64_t area = 0;
   for (const CellRect& rect : rects) area += rect.area();
@@ -74,6 +75,7 @@ std::int64_t count_changed(const TerrainMap& before, const TerrainMap& after) {
 
 UpdateFeed::UpdateFeed(MapOptions options) : maker_(std::move(options)) {}
 
+// The map is made before the lock is taken: readers wait for a few pointers only.
 UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
   const Update before = latest();
   const std::uint64_t number = before ? before->sequence + 1 : 1;
@@ -115,6 +117,8 @@ UpdateFeed::Update UpdateFeed::latest() const {
   return latest_;
 }
 
+// Unites the rectangles of the missed updates. If the oldest of them is gone, everything counts as
+// changed.
 UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
   if (!latest_ || latest_->sequence == seen) return nullptr;
   if (latest_->since == seen && seen != 0) return latest_;
@@ -129,7 +133,7 @@ UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
     if (known && step.sequence > seen)
       for (const CellRect& rect : step.rects) all.add(rect);
   out.rects = all.rects();
-  // A column may have changed in several of them: what is told is an upper bound.
+  // A column may have changed in several of them, so the count is an upper bound.
   out.changed = known ? std::min(area_of(out.rects), out.map.rect().area()) : out.map.rect().area();
   out.merged = known;
   return std::make_shared<const MapUpdate>(std::move(out));
@@ -140,6 +144,7 @@ UpdateFeed::Update UpdateFeed::since(std::uint64_t seen) const {
   return since_locked(seen);
 }
 
+// The answer is computed under the lock, so that no update is missed between waiting and reading.
 UpdateFeed::Update UpdateFeed::wait(std::uint64_t seen, double seconds) const {
   std::unique_lock<std::mutex> lock(mutex_);
   Update out;
@@ -155,6 +160,7 @@ void UpdateFeed::subscribe(std::function<void(const Update&)> reader) {
   readers_.push_back(std::move(reader));
 }
 
+// Subscribers are dropped, because they may refer to objects that are destroyed next.
 void UpdateFeed::close() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -12,11 +12,12 @@
 namespace navvy::planner {
 namespace {
 
-/// A rectangle about its middle, in its own axes.
+/// A rectangle in its own axes around its centre.
 struct Box {
   Vec2 middle;
   Vec2 half;
-  Vec2 ax;  ///< its x axis, unit
+  /// Unit vector of its x axis.
+  Vec2 ax;
   Vec2 local(const Vec2& p) const {
     const Vec2 d = p - middle;
     return {ax.dot(d), ax.x() * d.y() - ax.y() * d.x()};
@@ -26,11 +27,11 @@ struct Box {
     const Vec2 a = half.x() * ax, b = half.y() * ay;
     return {middle - a - b, middle + a - b, middle + a + b, middle - a + b};
   }
-  /// Distance of a point; 0 inside.
+  /// Returns the distance of a point; 0 inside.
   double distance(const Vec2& p) const { return (local(p).cwiseAbs() - half).cwiseMax(0).norm(); }
 };
 
-/// Whether some line along an axis of `a` separates the two.
+/// Returns true when a line along an axis of `a` separates the two.
 bool apart(const Box& a, const Box& b) {
   Vec2 low = Vec2::Constant(INFINITY), high = -low;
   for (const Vec2& corner : b.corners()) {
@@ -40,7 +41,8 @@ bool apart(const Box& a, const Box& b) {
   return (low.array() > a.half.array()).any() || (high.array() < -a.half.array()).any();
 }
 
-/// Between two rectangles: 0 when they overlap, else between a corner of one and the other.
+/// Returns the distance of two rectangles: 0 when they overlap, else from a corner of one to the
+/// other.
 double distance(const Box& a, const Box& b) {
   if (!apart(a, b) && !apart(b, a)) return 0;
   double least = INFINITY;
@@ -49,14 +51,15 @@ double distance(const Box& a, const Box& b) {
   return least;
 }
 
-/// Of neighbours in a row, by a loop that is never left early: compilers make it wide. Unknown is
-/// not above.
+/// Returns true when all values are above `least`; unknown values are not. The loop has no early
+/// exit, so that compilers vectorise it.
 bool all_above(const float* row, int count, float least) {
   int bad = 0;
   for (int k = 0; k < count; ++k) bad |= static_cast<int>(!(row[k] > least));
   return bad == 0;
 }
 
+// A range that is not finite would walk over the whole plane.
 void require_valid(const Footprint& f, double x, double y, double yaw, double range) {
   const auto fault = [](const char* name, double value, const char* rule) {
     throw InputError(Fault{Fault::Severity::kError, "", 0, std::string("clearance ") + name,
@@ -73,6 +76,8 @@ void require_valid(const Footprint& f, double x, double y, double yaw, double ra
 
 }  // namespace
 
+// Wheels count in their straight position; the box of a collision shape is turned into the axes of
+// the base.
 Footprint footprint_of(const scene::Machine& machine) {
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   const auto extend = [&](const Pose& X_BO, const Vec3& half) {
@@ -87,7 +92,7 @@ Footprint footprint_of(const scene::Machine& machine) {
     for (const scene::Wheel& wheel : machine.wheels) {
       const int joint = machine.joint_index(wheel.joint);
       if (joint < 0) continue;
-      // A wheel turns about y.
+      // The axle of a wheel is y.
       const auto link =
           static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
       const double width = wheel.width + wheel.twin_spacing;
@@ -99,11 +104,13 @@ Footprint footprint_of(const scene::Machine& machine) {
         Fault{Fault::Severity::kError, machine.file, 0, machine.name, "",
               "a machine without wheels and collision shapes of its base has no footprint",
               "add a <collision> to its base link"});
-  // The reference point need not lie inside, but a rectangle round it is all that is asked for.
+  // The reference point may lie outside, but the rectangle around it is what matters.
   return {std::max(0.0, high.x()), std::max(0.0, -low.x()), std::max(0.0, high.y()),
           std::max(0.0, -low.y())};
 }
 
+// Walks the columns under the footprint grown by the range, row by row, and lowers `best` as it
+// finds bad ones.
 double clearance(const map::TerrainMap& map, const Footprint& footprint, double x, double y,
                  double yaw, double range, float least) {
   require_valid(footprint, x, y, yaw, range);
@@ -112,18 +119,19 @@ double clearance(const map::TerrainMap& map, const Footprint& footprint, double 
            ax};
   body.middle +=
       ax * (footprint.front - footprint.rear) / 2 + ay * (footprint.left - footprint.right) / 2;
-  // Columns are squares; in units of the cell about the site's corner their numbers are whole.
+  // In units of the cell, counted from the corner of the site, the edges of columns are integers.
   const double cell = map.cell();
   const Vec2 extent =
       ax.cwiseAbs() * body.half.x() + ay.cwiseAbs() * body.half.y() + Vec2(range, range);
   const Vec2 low = (body.middle - extent - map.origin()) / cell,
              high = (body.middle + extent - map.origin()) / cell;
-  const double corner = cell * std::sqrt(0.5);  // from a column's middle to its corners
+  // Distance from the centre of a column to its corners.
+  const double corner = cell * std::sqrt(0.5);
   double best = range;
   const map::LayerTiles& tiles = map.tiles(map::MapLayer::kTraversability);
   const auto look = [&](int ix, int iy) {
     const Vec2 centre = map.origin() + cell * Vec2(ix + 0.5, iy + 0.5);
-    // Most columns are ruled out by their middle.
+    // The distance of the centre rules out most columns.
     if (body.distance(centre) - corner >= best) return;
     best = std::min(best, distance(body, Box{centre, Vec2(cell, cell) / 2, Vec2(1, 0)}));
   };
@@ -133,13 +141,13 @@ double clearance(const map::TerrainMap& map, const Footprint& footprint, double 
     for (int ix = static_cast<int>(std::floor(low.x())), count = 1; ix <= last.x() && best > 0;
          ix += count) {
       count = 1;
-      // Outside the site nothing is known.
+      // Columns outside the site are unknown.
       const bool inside = map.contains(ix, iy) && !tiles.empty();
       const float* row = inside ? tiles.row(ix, iy, count) : nullptr;
       if (inside) count = std::min({count, last.x() - ix + 1, map.nx() - ix});
-      // Most rows hold nothing bad.
+      // Most rows hold no bad column.
       if (row != nullptr && all_above(row, count, least)) continue;
-      // Unknown is no better than bad: the comparison is false.
+      // An unknown value is treated as bad: the comparison is false.
       for (int k = 0; k < count; ++k)
         if (row == nullptr || !(row[k] > least)) look(ix + k, iy);
     }

@@ -16,8 +16,8 @@
 namespace navvy::planner {
 namespace {
 
-// What the search keeps over the clearance asked for: the machine is a little beside its path, and
-// poses in between two that are asked for come a little nearer. [m] tuned:
+// Clearance that the search adds to the requested one [m]: a machine deviates a little from its
+// path, and poses between two checked ones come a little nearer. tuned:
 // GoToStep.DrivesRoundATrenchThatWasNotThereWhenItPlanned
 constexpr double kReserve = 0.2;
 
@@ -52,8 +52,8 @@ class MapPathPlanner final : public control::PathPlanner {
       return index.surely_clear(footprint_, at.p.x(), at.p.y(), at.yaw, wanted) ||
              clearance(at, wanted) >= wanted;
     };
-    // Without it where the machine stands or shall stand nearer than that, or where the way is too
-    // narrow.
+    // The reserve is dropped where start or goal are nearer to obstacles than that, or the passage
+    // is too narrow.
     for (const double reserve : {kReserve, 0.0}) {
       wanted = query.clearance + reserve;
       if (!problem.valid(query.start) || !problem.valid(query.goal)) continue;

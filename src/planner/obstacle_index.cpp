@@ -16,14 +16,14 @@ ObstacleIndex::ObstacleIndex(const map::TerrainMap& map, float least)
   const map::LayerTiles& tiles = map.tiles(map::MapLayer::kTraversability);
   std::vector<std::uint8_t> bad(static_cast<std::size_t>(across_));
   for (int j = 0; j < along_; ++j) {
-    // Without the layer nothing is known.
+    // A map without the layer knows no drivable column.
     std::fill(bad.begin(), bad.end(), tiles.empty() ? 1 : 0);
     for (int iy = j * kBlock; iy < std::min((j + 1) * kBlock, map.ny()) && !tiles.empty(); ++iy)
       for (int ix = 0, count = 1; ix < map.nx(); ix += count) {
         const float* row = tiles.row(ix, iy, count);
         count = std::min(count, map.nx() - ix);
         for (int k = 0; k < count; ++k)
-          // Unknown is no better than bad: the comparison is false.
+          // An unknown value is treated as bad: the comparison is false.
           if (row == nullptr || !(row[k] > least))
             bad[static_cast<std::size_t>((ix + k) / kBlock)] = 1;
       }
@@ -37,8 +37,10 @@ ObstacleIndex::ObstacleIndex(const map::TerrainMap& map, float least)
   }
 }
 
+// Four sums give the count of a rectangle of blocks. The rectangle is rounded outwards, so the
+// answer errs on the safe side.
 bool ObstacleIndex::empty(const Vec2& low, const Vec2& high) const {
-  // Beyond the site nothing is known.
+  // Everything beyond the site is unknown.
   if (!((low - origin_).minCoeff() >= 0) || !((origin_ + extent_ - high).minCoeff() >= 0))
     return false;
   const Vec2i a = ((low - origin_) / side_).cast<int>(), b = ((high - origin_) / side_).cast<int>();
@@ -50,11 +52,13 @@ bool ObstacleIndex::empty(const Vec2& low, const Vec2& high) const {
   return sum(x1, y1) + sum(a.x(), a.y()) == sum(a.x(), y1) + sum(x1, a.y());
 }
 
+// A turned footprint is covered by the boxes of its slices: one box around all of it would be too
+// large.
 bool ObstacleIndex::surely_clear(const Footprint& footprint, double x, double y, double yaw,
                                  double range) const {
   const Vec2 ax(std::cos(yaw), std::sin(yaw)), ay(-ax.y(), ax.x());
-  // The footprint grown by the range to all sides holds every place that is nearer. A hair more for
-  // rounding.
+  // The footprint, grown by the range on all sides and a little more for rounding, covers every
+  // place that is nearer than the range.
   const double grown = range + 1e-6, length = footprint.front + footprint.rear + 2 * grown;
   const Vec2 half(length / (2 * kSlices), (footprint.left + footprint.right) / 2 + grown);
   const Vec2 reach = ax.cwiseAbs() * half.x() + ay.cwiseAbs() * half.y();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a map is free of what cannot be driven on, told for whole rectangles at once.
+// Finds whole rectangles of a map that are free of undrivable columns.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,30 @@
 
 namespace navvy::planner {
 
-/// Counts the columns that are not traversable, in blocks of 4 x 4 and summed over rectangles of
-/// blocks from the site's corner. A search asks it for most of its poses: in the open it answers
-/// fifty times faster than `clearance`. Making one costs a look at every column, and a byte for
-/// each in two.
+/// Counts the undrivable columns in blocks of 4 x 4, summed over rectangles of blocks from the
+/// corner of the site. A search queries it for most of its poses: in the open it answers fifty
+/// times faster than `clearance`. Making one reads every column and takes a byte for every two.
 class ObstacleIndex {
  public:
+  /// Counts columns whose traversability is not above `least`.
   explicit ObstacleIndex(const map::TerrainMap& map, float least = 0);
 
-  /// True only where `clearance` would be `range` or more; false may mean either.
+  /// Returns true only where `clearance` would be `range` [m] or more; false may mean either.
   bool surely_clear(const Footprint& footprint, double x, double y, double yaw, double range) const;
 
  private:
-  static constexpr int kBlock = 4;   // columns
-  static constexpr int kSlices = 4;  // of a footprint, across its length
+  // Columns along a side of a block.
+  static constexpr int kBlock = 4;
+  // Slices of a footprint across its length.
+  static constexpr int kSlices = 4;
+  /// Returns true when the rectangle in W holds no undrivable column.
   bool empty(const Vec2& low, const Vec2& high) const;
 
   Vec2 origin_, extent_;
-  double side_;  // of a block [m]
+  // Edge of a block [m].
+  double side_;
   int across_, along_;
-  // Blocks with at least one such column in [0, i) x [0, j).
+  // Number of blocks with an undrivable column in [0, i) x [0, j).
   std::vector<std::uint32_t> sums_;
 };
 

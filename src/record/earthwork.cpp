@@ -21,6 +21,10 @@ void bank_volumes(const std::vector<heightfield::SoilLayer>& column,
 
 }  // namespace
 
+Earthwork measure_earthwork(const sim::World& world) {
+  return measure_earthwork(world, sim::active_places(world).lying);
+}
+
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;

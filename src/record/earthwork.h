@@ -32,5 +32,7 @@ struct Earthwork {
 /// Measures the moved earth on the surface that maps show. Costs a pass over the changed columns,
 /// and one over the particles unless `lying` (sim::active_places) is given.
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
+/// Measures with the loose soil of the particles, at the cost of a pass over them.
+Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record

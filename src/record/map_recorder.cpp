@@ -20,6 +20,7 @@ namespace {
 
 using map::MapLayer;
 
+// A record without layers takes those of its format.
 std::vector<map::MapLayer> layers_of(const scene::MapRecord& record) {
   if (record.layers.empty()) return formats::format_named(record.format).by_default;
   std::vector<map::MapLayer> out;
@@ -73,6 +74,7 @@ formats::ros::ArrayElement element_of(sim::ElementType type) {
 
 }  // namespace
 
+// The reader of scenes knows neither formats nor layers, so their names are checked here.
 std::vector<Fault> check_records(const scene::Scene& scene) {
   std::vector<Fault> faults;
   for (const scene::MapRecord& record : scene.records) {
@@ -134,7 +136,7 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
   if (!faults.empty()) throw InputError(std::move(faults));
   for (const scene::MapRecord& record : scene.records) taken_.insert(record.name);
   for (const scene::MapRecord& record : scene.records) {
-    // Pictures and points need the surface.
+    // Pictures and points need the elevation.
     std::vector<map::MapLayer> layers = layers_of(record);
     layers.push_back(map::MapLayer::kElevation);
     streams_.push_back(std::make_unique<Stream>(
@@ -153,6 +155,7 @@ void MapRecorder::open(Stream& stream) {
   stream.bag = stream.format.open_bag(folder_.directory() + "/" + name);
 }
 
+// An array that was not sampled since the last step has the same sequence number.
 void MapRecorder::write_arrays(Stream& stream) {
   const sim::ArrayOutputs& arrays = session_.world().arrays();
   stream.arrays.resize(arrays.channels().size());
@@ -179,6 +182,7 @@ void MapRecorder::restart() {
 
 MapRecorder::~MapRecorder() = default;
 
+// Times are compared as step counts, so that rates hold exactly over days.
 void MapRecorder::observe() {
   const sim::World& world = session_.world();
   std::optional<heightfield::TerrainView> view;
@@ -192,7 +196,7 @@ void MapRecorder::observe() {
     if (machines_due) formats::ros::write_machines(*stream->bag, machine_states(world), now);
     if (stream->bag) write_arrays(*stream);
     if (!map_due) continue;
-    // One view for all: it costs a pass over the particles.
+    // All records share one view, because it costs a pass over the particles.
     if (!view) view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
     stream->maker.update(*view);
     const map::TerrainMap map = stream->maker.map();
@@ -205,7 +209,7 @@ void MapRecorder::observe() {
     std::snprintf(number, sizeof number, "_%05llu",
                   static_cast<unsigned long long>(
                       sim::sample_number(world.steps(), world.dt(), record.rate)));
-    // All its files are the run's before they are there.
+    // All its files are listed as the run's before they exist.
     const std::string name = "maps/" + stream->label + number + format.extension;
     for (const std::string& file : formats::files_of(format, name)) folder_.path(file);
     format.write(map, stream->layers, folder_.directory() + "/" + name);

@@ -13,17 +13,21 @@
 
 namespace navvy::record {
 
-/// Faults of a scene's navvy:record elements that its reader cannot know: names of formats and
-/// layers. With their lines.
+/// Returns the faults in a scene's navvy:record elements that its reader cannot know, such as
+/// unknown formats and layers, with their lines.
 std::vector<Fault> check_records(const scene::Scene& scene);
 
-/// Writes each record of the scene at its rate, into the run's folder: a format of one instant as
-/// `maps/<name>_<number>.<extension>` (`terra` as a folder), the number counting periods from time
-/// zero; `mcap` and `bag` as one file `<name>.mcap` or one folder `<name>/` over the whole run,
-/// with clock, tf, odometry and joint states of all machines at a rate of their own. After each
-/// `restart` the files are called `<name>_2`, `<name>_3`, ... (the next that is no record's): none
-/// holds two states of one time, none is written over. Costs nothing in steps in which none is due;
-/// then a map brought up to date and the file.
+/// Writes each record of the scene at its rate into the folder of the run.
+///
+/// A format of one instant becomes `maps/<name>_<number>.<extension>` (`terra`: a folder); the
+/// number counts periods from time zero. `mcap` and `bag` become one file `<name>.mcap` or one
+/// folder `<name>/` for the whole run. They hold the maps, and at a rate of their own the clock,
+/// tf, odometry and joint states of all machines, and every sample of the typed arrays of the
+/// world.
+///
+/// After each `restart` the files are called `<name>_2`, `<name>_3` and so on (skipping names of
+/// other records), so that no file holds two states of one time and none is overwritten. Costs
+/// nothing in steps in which no record is due, otherwise a map update and the file.
 class MapRecorder {
  public:
   /// @throws InputError as check_records, FileError.
@@ -32,22 +36,27 @@ class MapRecorder {
   MapRecorder(const MapRecorder&) = delete;
   MapRecorder& operator=(const MapRecorder&) = delete;
 
-  /// Called at the start, after each step and after `restart`. @throws FileError.
+  /// Writes what is due. Must be called at the start, after each step and after `restart`. @throws
+  /// FileError.
   void observe();
-  /// The world was put into another state: closes what is open and begins anew. @throws FileError.
+  /// Closes open bags and begins new ones. Must be called when the world was put into another
+  /// state. @throws FileError.
   void restart();
-  /// Closes what is open, once. @throws FileError.
+  /// Closes open bags, once. @throws FileError.
   void finish();
 
  private:
+  /// One record of the scene.
   struct Stream;
+  /// Opens the bag of a stream, if its format has one.
   void open(Stream& stream);
   /// Writes the samples of arrays that are newer than those in the stream's bag.
   void write_arrays(Stream& stream);
   const session::Session& session_;
   RunFolder& folder_;
   std::vector<std::unique_ptr<Stream>> streams_;
-  std::set<std::string> taken_;  ///< what files are called, without number and extension
+  // Names of files in use, without number and extension.
+  std::set<std::string> taken_;
 };
 
 }  // namespace navvy::record

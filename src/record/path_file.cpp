@@ -11,7 +11,8 @@
 namespace navvy::record {
 namespace {
 
-constexpr double kStep = 0.1;  // [m]
+// Distance between places of the table [m].
+constexpr double kStep = 0.1;
 
 }  // namespace
 
@@ -20,7 +21,7 @@ std::string path_header() { return "machine,step,plan,time_s,s_m,x_m,y_m,yaw_rad
 std::string path_rows(const std::string& machine, const std::vector<control::PlannedPath>& paths) {
   std::string out;
   for (const control::PlannedPath& each : paths) {
-    // Those planned ahead come first, so that a step's may lie apart.
+    // Paths that were planned ahead come first, so those of one step need not be adjacent.
     int plan = 1;
     for (const control::PlannedPath& before : paths) {
       if (&before == &each) break;
@@ -44,6 +45,7 @@ std::string path_rows(const std::string& machine, const std::vector<control::Pla
   return out;
 }
 
+// The table is one of our own, so that a row of another form means a wrong or damaged file.
 std::vector<map::MapLine> read_paths(const std::string& file) {
   const std::vector<char> bytes = read_file(file);
   std::istringstream rows(std::string(bytes.begin(), bytes.end()));
@@ -53,7 +55,7 @@ std::vector<map::MapLine> read_paths(const std::string& file) {
   while (std::getline(rows, row)) {
     const bool header = ++line == 1;
     if (header && row == path_header()) continue;
-    // Names hold no comma.
+    // Names of machines have no comma.
     const std::size_t comma = row.find(',');
     long long step = 0;
     int plan = 0;

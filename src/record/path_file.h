@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths that a run's operators planned, as a table and as lines to draw.
+// Paths that the operators of a run planned, as a table and as lines to draw.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace navvy::record {
 
-/// First line of the table, without its end.
+/// Returns the first line of the table, without its end.
 std::string path_header();
-/// Rows of one machine's paths, each with its line end: a place every 0.1 m and the end of each
-/// path. Plans are counted from 1 in each step.
+/// Returns the rows of one machine's paths, each with its line end: a place every 0.1 m and the end
+/// of each path. Plans are counted from 1 in each step.
 std::string path_rows(const std::string& machine, const std::vector<control::PlannedPath>& paths);
 
 /// Reads such a table: a line per path, with the number of the plan within its step, in the order

@@ -16,7 +16,7 @@ void write_terrain(const sim::World& world, const std::string& path) {
 #ifdef NAVVY_WITH_GDAL
   const heightfield::TerrainView view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
   std::vector<heightfield::MapBand> more;
-  // Beside the heights, where not all of the soil rests.
+  // A second band is written only while not all of the soil rests.
   const map::LayerInfo& loose = map::info(map::MapLayer::kLooseDepth);
   if (world.soil().counts().particles > 0)
     more.push_back({loose.name, loose.unit, [&](int y0, int y1, std::vector<float>& out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terrain of a world as files.
+// Writes the terrain of a world to files.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace navvy::record {
 
-/// Writes the present heights of the whole site, columns and the soil that lies on them, as float32
-/// GeoTIFF in the source's coordinates and datum. While soil is awake a second band, `loose_depth`,
-/// says how much of the height is soil that may still move [m]. Atomic.
+/// Writes the present heights of the whole site, with the soil that rests on the columns, as a
+/// float32 GeoTIFF in the coordinates and datum of its source. While soil is active, a second band
+/// `loose_depth` gives the part of the height that consists of particles [m]. Atomic.
 /// @throws FileError, also in a build without GDAL.
 void write_terrain(const sim::World& world, const std::string& path);
 

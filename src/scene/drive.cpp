@@ -15,7 +15,7 @@ CombustionEngine::Point rated_point(const CombustionEngine& engine) {
     const CombustionEngine::Point& to = engine.curve[i];
     try_at(to.speed, to.torque);
     if (i == 0) continue;
-    // On a line T = a + b w power is a parabola, with its top at -a / (2 b).
+    // Power along T = a + b w is a parabola with its top at -a / (2 b).
     const CombustionEngine::Point& from = engine.curve[i - 1];
     const double b = (to.torque - from.torque) / (to.speed - from.speed),
                  a = from.torque - b * from.speed;
@@ -33,8 +33,8 @@ Vec2 steering_arm(const LinkageDrive& drive) {
 bool turns_freely(const LinkageDrive& drive) {
   const Vec2 arm = steering_arm(drive);
   if (!arm.allFinite()) return false;
-  // It locks where tie rod and right arm lie in one line: the left arm's end is then as far from
-  // the right king pin as both are long. Turned to the right it is the same in a mirror.
+  // It locks where tie rod and right arm are in line: the left arm's end is then as far from the
+  // right king pin as both are long. Turning to the right is symmetric.
   for (double angle = 0; angle < drive.max_steer + radians(0.5); angle += radians(0.5)) {
     const double far =
         (Vec2(0, drive.track) + Eigen::Rotation2Dd(std::min(angle, drive.max_steer)) * arm).norm();

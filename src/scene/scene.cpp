@@ -4,8 +4,7 @@
 namespace navvy::scene {
 
 int Scene::soil_index(const std::string& name_of_soil) const {
-  // Worlds hold a few soils and machines, so a search is as quick as an index and cannot get out of
-  // step.
+  // A scene holds a few soils and machines; a search cannot get out of date.
   for (std::size_t i = 0; i < soils.size(); ++i)
     if (soils[i].name == name_of_soil) return static_cast<int>(i);
   return -1;

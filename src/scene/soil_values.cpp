@@ -11,10 +11,10 @@
 namespace navvy::scene {
 namespace {
 
-/// A bound in degrees comes back from radians with the last bits changed.
+/// Conversion from radians changes the last bits of a bound in degrees.
 constexpr double kRounding = 1e-12;
 
-// The element is written as a scene writes it, so that a loader can find the line.
+// The element is written as in a scene, so that the loader can find its line.
 Fault fault(const Soil& soil, const char* name, double value, const std::string& rule,
             const std::string& remedy) {
   Fault out;
@@ -25,15 +25,16 @@ Fault fault(const Soil& soil, const char* name, double value, const std::string&
   return out;
 }
 
-constexpr double kSoftest = 1e6;               ///< at which sand is as strong as when stiffer [Pa]
+// Sand of this stiffness is as strong as stiffer sand [Pa].
+constexpr double kSoftest = 1e6;
 constexpr double kStiffnessPerCohesion = 200;  ///< default
 constexpr double kLooseShare = 0.2;            ///< default loose cohesion / residual cohesion
 constexpr double kTooSoft = 100;  ///< stiffness / cohesion below which a warning is due
 
-/// Smooth blade 0.3 m deep in soil of phi 30 deg and c 50 kPa, plane strain, cells of 0.1 m, 0.1
-/// m/s: force over [Rankine 1857] where it has come up, and its travel over the depth. measured:
-/// `plane_strain blade phi=30 c=50000 loose=50000 e=... hold=4 crowding=shear opening=seen`,
-/// windows of 0.02 m; at 200 it is 1.01.
+/// Force / [Rankine 1857] of a smooth blade 0.3 m deep after it has risen, and the travel until
+/// then / depth, for soil of phi 30 deg and c 50 kPa in plane strain, cells of 0.1 m, 0.1 m/s.
+/// measured: `plane_strain blade phi=30 c=50000 loose=50000 e=... hold=4 crowding=shear
+/// opening=seen`, windows of 0.02 m; at ratio 200 it is 1.01.
 struct Mobilised {
   double ratio, share, travel;
 };
@@ -66,14 +67,14 @@ void follow_residual_cohesion(Soil& soil, double before) {
 std::optional<Fault> too_soft(const Soil& soil) {
   const double ratio = soil.young_modulus / soil.cohesion;
   if (!(soil.cohesion > 0) || !(ratio < kTooSoft)) return std::nullopt;
-  // Between the rows in proportion to the logarithm; below the first one it is less still.
+  // Interpolates by the logarithm of the ratio; below the first row the share is smaller.
   std::size_t row = 1;
   while (row + 1 < std::size(kMobilised) && ratio > kMobilised[row].ratio) ++row;
   const Mobilised &low = kMobilised[row - 1], &high = kMobilised[row];
-  const double way =
+  const double part =
       std::clamp(std::log(ratio / low.ratio) / std::log(high.ratio / low.ratio), 0.0, 1.0);
-  const double share = low.share + way * (high.share - low.share),
-               travel = low.travel + way * (high.travel - low.travel);
+  const double share = low.share + part * (high.share - low.share),
+               travel = low.travel + part * (high.travel - low.travel);
   char rule[200], remedy[200];
   std::snprintf(rule, sizeof rule,
                 "is %.0f times the cohesion: a blade feels %s %.0f %% of the soil's strength, "
@@ -81,8 +82,8 @@ std::optional<Fault> too_soft(const Soil& soil) {
                 ratio, ratio < low.ratio ? "less than" : "about", 100 * share, travel);
   const double wanted = default_stiffness(soil.cohesion);
   std::snprintf(remedy, sizeof remedy,
-                "leave it out: %.3g, 200 times the cohesion, takes %.1f times as many steps",
-                wanted, std::sqrt(wanted / soil.young_modulus));
+                "remove it: %.3g, 200 times the cohesion, takes %.1f times as many steps", wanted,
+                std::sqrt(wanted / soil.young_modulus));
   Fault out = fault(soil, "young_modulus_pa", soil.young_modulus, rule, remedy);
   out.severity = Fault::Severity::kWarning;
   return out;
@@ -94,7 +95,7 @@ std::vector<Fault> check_relations(const Soil& soil) {
     out.push_back(fault(soil, "residual_cohesion_pa", soil.residual_cohesion,
                         "must not exceed cohesion_pa, " + short_text(soil.cohesion),
                         "remoulding only weakens soil"));
-  // A swell that is not a number fails as well.
+  // The comparison refuses NaN.
   if (soil.dilatancy_angle > 0 && !(soil.swell > 1))
     out.push_back(fault(soil, "dilatancy_angle_deg", soil.dilatancy_angle / kDegree,
                         "needs a swell above 1: soil dilates from its bank to its loose density",

@@ -21,7 +21,7 @@ bool is_called(const Element& element, const char* name) {
   return std::strcmp(element.Name(), name) == 0;
 }
 
-/// Elements of a machine that hold for it as a whole, and for a part of another one no more.
+/// Returns true for elements that concern a machine as a whole; those of a part do not count.
 bool is_of_whole(const Element& element) {
   for (const char* name : {"pose", "static", "self_collide", "allow_auto_disable", "enable_wind",
                            "navvy:physics", "navvy:traversability"})
@@ -44,14 +44,14 @@ class Part {
       if (const std::string own = attribute(*e, "name"); !own.empty()) names_.insert(own);
   }
 
-  /// A copy of `from`, a child of the part's model, to be put below a <model>.
+  /// Returns a copy of `from`, a child of the part's model, for a place below a <model>.
   Element& copied(const Element& from) const {
     Element& to = copy(from);
     if (const char* own = from.Attribute("name")) to.SetAttribute("name", under(own).c_str());
     const bool hangs_on_model =
         is_called(from, "link") || (is_called(from, "frame") && !from.Attribute("attached_to"));
     if (!hangs_on_model) return to;
-    // Where nothing else is said, links and frames stand in the frame of their model: the part's.
+    // By default, links and frames are in the frame of their model: the part's.
     Element* pose = to.FirstChildElement("pose");
     if (pose == nullptr) {
       pose = whole_.create("pose", from);
@@ -64,7 +64,7 @@ class Part {
 
  private:
   std::string under(const std::string& own) const { return name_ + "::" + own; }
-  /// What the part calls `own` in its own file is called so in the whole.
+  /// Returns the name in the whole of what the part calls `own`.
   std::string renamed(const std::string& own) const {
     if (own == "__model__") return name_;
     return names_.count(own) > 0 ? under(own) : own;
@@ -93,7 +93,7 @@ class Part {
   std::set<std::string> names_;
 };
 
-/// Meshes count from the part's file: they are named from everywhere before they leave it.
+/// Makes paths of meshes, which count from the part's file, absolute.
 bool name_meshes(Element& element, Faults& faults) {
   bool sound = true;
   for (Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
@@ -119,7 +119,7 @@ class Assembler {
   bool assemble(Element& model) {
     bool sound = true;
     for (Element* e = model.FirstChildElement(); e != nullptr;) {
-      // Asked for before, because the part takes the place of its element.
+      // The part takes the place of its element.
       Element* next = e->NextSiblingElement();
       if (is_called(*e, "include")) {
         sound = include(model, *e) && sound;
@@ -150,7 +150,7 @@ class Assembler {
     std::string path;
     sound = sound && uri != nullptr && resolve_model(*uri, path, faults_) &&
             open(model, element, *uri, path);
-    // Whatever came of it has been told: nobody shall meet it again.
+    // Its faults have been reported, so no other reader must see it.
     model.DeleteChild(&element);
     return sound;
   }
@@ -203,7 +203,7 @@ class Assembler {
     check_sdf(*part->root(), faults_);
     if (!name_meshes(*root, faults_) || faults_.error_count() > before) return false;
     const Element* name = element.FirstChildElement("name");
-    // As in a world, where a file's own place counts for nothing.
+    // As in a world, the file's own pose does not count.
     put(model, element, *root, name ? text_of(*name) : attribute(*root, "name"),
         element.FirstChildElement("pose"));
     return true;
@@ -226,7 +226,7 @@ class Assembler {
            const Element* pose) {
     const Part names(part, name, document_);
     found_any_ = true;
-    // Without a sibling to stand after, the first goes to the front.
+    // Without a sibling before it, the first element goes to the front.
     tinyxml2::XMLNode* last = place.PreviousSibling();
     const auto insert = [&](Element& element) {
       last = last ? model.InsertAfterChild(last, &element) : model.InsertFirstChild(&element);
@@ -268,7 +268,7 @@ bool assemble(Document& document, Faults& faults) {
   };
   all_of(*document.root());
   if (Element* world = document.root()->FirstChildElement("world")) all_of(*world);
-  // Together they may have more links than a machine may.
+  // The whole may exceed the limits of a machine.
   return sound && (!assembler.found_any() || check_tree(*document.root(), faults));
 }
 

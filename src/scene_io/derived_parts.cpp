@@ -36,7 +36,7 @@ const char* word_for(Kind kind) {
   return "shape";
 }
 
-/// Links that touch by something better than their visual.
+/// Returns true for links with a shell or tyre.
 bool touches_otherwise(const scene::Machine& machine, std::size_t link) {
   const std::string& name = machine.links[link].name;
   const auto spins_it = [&](const scene::Wheel& wheel) {
@@ -49,7 +49,7 @@ bool touches_otherwise(const scene::Machine& machine, std::size_t link) {
                      [&](const scene::Shell& shell) { return shell.link == name; });
 }
 
-/// A mesh must be fit to collide: moving ones by their hull, whose points are bounded.
+/// Checks that a visual can collide: no plane, and a mesh within the limits of hulls.
 bool may_collide(const Element& visual, const scene::Geometry& shape, bool moves, Faults& faults) {
   if (shape.kind == Kind::kPlane) return false;
   if (shape.kind != Kind::kMesh) return true;
@@ -64,7 +64,7 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
     const Element* element = named_child(model, "link", link.name);
     if (element == nullptr || touches_otherwise(machine, l)) continue;
     const bool moves = l > 0 || !machine.fixed_base;
-    std::string text_of_link;
+    std::string shapes;
     for (const scene::Visual& visual : link.visuals) {
       const Element* from = named_child(*element, "visual", visual.name);
       if (from == nullptr || !may_collide(*from, visual.geometry, moves, faults)) continue;
@@ -76,17 +76,16 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
       shape.density = visual.density;
       link.collisions.push_back(shape);
       const bool hull = moves && visual.geometry.kind == Kind::kMesh;
-      text_of_link += (text_of_link.empty() ? "" : ", ") +
-                      std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) +
-                      " '" + visual.name + "'";
+      shapes += (shapes.empty() ? "" : ", ") +
+                std::string(hull ? "hull of the mesh" : word_for(visual.geometry.kind)) + " '" +
+                visual.name + "'";
     }
-    if (!text_of_link.empty())
-      machine.derived.push_back("link '" + link.name +
-                                "' collides as its visuals: " + text_of_link);
+    if (!shapes.empty())
+      machine.derived.push_back("link '" + link.name + "' collides as its visuals: " + shapes);
   }
 }
 
-/// Of one shape in its link's frame, at 1 kg/m3; false after a fault.
+/// Computes the solid of one shape in its link's frame, at 1 kg/m3. Returns false after a fault.
 bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
               geometry::SolidProperties& out, Faults& faults) {
   switch (shape.kind) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A namespace of its own and far more elements than a scene may have: read apart from scenes, under
-// limits of its own.
+// LandXML has its own namespace and far more elements than a scene, so it has limits of its own.
 #include "scene_io/landxml.h"
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 namespace navvy::scene_io {
 namespace {
 
-/// A file being read, to tell faults of it.
+/// A file that is being read, for messages.
 struct Reading {
   std::string file;
   Faults& faults;
@@ -38,7 +37,7 @@ const Element* child(const Element* of, const char* name) {
   return of != nullptr ? of->FirstChildElement(name) : nullptr;
 }
 
-/// Metres a unit; 0 after a fault.
+/// Returns the length of the file's unit in metres; 0 after a fault.
 double read_unit(const Element& root, const Reading& reading) {
   static const std::vector<std::pair<std::string, double>> kUnits = {
       {"millimeter", 1e-3}, {"centimeter", 1e-2},
@@ -51,7 +50,7 @@ double read_unit(const Element& root, const Reading& reading) {
   if (name == nullptr) {
     const Element& at = kind != nullptr ? *kind : units != nullptr ? *units : root;
     reading.error(
-        at, "", "says no unit, and feet and metres look alike",
+        at, "", "gives no unit; feet and metres cannot be told apart by numbers",
         "add <Units><Metric linearUnit=\"meter\"/></Units>, or <Imperial linearUnit=\"foot\"/> or "
         "\"USSurveyFoot\"");
     return 0;
@@ -61,12 +60,11 @@ double read_unit(const Element& root, const Reading& reading) {
   std::vector<std::string> names;
   names.reserve(kUnits.size());
   for (const auto& [known, metres] : kUnits) names.push_back(known);
-  reading.error(*kind, name, "is no linearUnit that is read here",
-                reading.faults.nearest(name, names));
+  reading.error(*kind, name, "is an unknown linearUnit", reading.faults.nearest(name, names));
   return 0;
 }
 
-/// The Definition of the surface that is meant; null after a fault.
+/// Returns the Definition of the wanted surface; null after a fault.
 const Element* find_definition(const Element& root, const std::string& wanted,
                                const Reading& reading) {
   std::vector<std::string> names;
@@ -83,7 +81,7 @@ const Element* find_definition(const Element& root, const std::string& wanted,
     reading.error(root, wanted, "no surface of this name in the file",
                   reading.faults.nearest(wanted, names));
   } else if (wanted.empty() && names.size() > 1) {
-    reading.error(root, std::to_string(names.size()) + " surfaces", "one of them has to be meant",
+    reading.error(root, std::to_string(names.size()) + " surfaces", "the file holds several",
                   "name it, e.g. <surface>" + names.front() + "</surface>");
   } else if (const Element* definition = child(found, "Definition");
              definition == nullptr || attribute(*definition, "surfType") != "TIN") {
@@ -96,7 +94,7 @@ const Element* find_definition(const Element& root, const std::string& wanted,
   return nullptr;
 }
 
-/// Up to three words of a text, as they stand in it; how many there are, at most four.
+/// Finds the first three words of a text. Returns the number of words, at most four.
 int split(const char* text, std::string_view words[3]) {
   int count = 0;
   for (const char* p = text; p != nullptr && *p != 0 && count <= 3;) {
@@ -110,7 +108,7 @@ int split(const char* text, std::string_view words[3]) {
   return count;
 }
 
-/// Points by their ids, also faulty ones: a fault is told where it is, not again by every face.
+/// Points by their ids. Faulty points are included, so that faces do not report them again.
 struct Ids {
   std::unordered_map<std::string, int> index;
   bool complete = true;  ///< no point is without one
@@ -137,7 +135,7 @@ void read_points(const Element& definition, double metres, const Reading& readin
     } else if (!own_id) {
       reading.error(*p, id, "every point needs an id of its own", "give it another one");
     }
-    // Northing comes first in the file, easting in ours.
+    // The file has northing first, we have easting.
     tin.points.push_back(metres * Vec3(at.y(), at.x(), at.z()));
   }
 }
@@ -146,7 +144,7 @@ void read_faces(const Element& definition, const Reading& reading, scene::Tin& t
                 const Ids& ids) {
   for (const Element* f = child(child(&definition, "Faces"), "F"); f != nullptr;
        f = f->NextSiblingElement("F")) {
-    // Invisible ones fill the hull round a surface that is not convex.
+    // Invisible faces fill the hull around a surface that is not convex.
     if (attribute(*f, "i") == "1") continue;
     const char* text = f->GetText();
     std::string_view words[3];
@@ -170,7 +168,7 @@ void read_faces(const Element& definition, const Reading& reading, scene::Tin& t
   }
 }
 
-/// Reads the text within the limits; empty after a fault.
+/// Reads the text within the limits; returns an empty one after a fault.
 std::vector<char> read_text(const Reading& reading) {
   std::vector<char> text;
   try {
@@ -200,7 +198,7 @@ std::vector<char> read_text(const Reading& reading) {
 }  // namespace
 
 bool is_landxml(const std::string& file) {
-  // Past what exporters write before the root: a declaration, a comment on licence and settings.
+  // The root may follow a declaration and long comments.
   std::string head(65536, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));

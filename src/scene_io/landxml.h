@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LandXML 1.2 surfaces as surveyors' programs write them.
+// Surfaces of LandXML 1.2, as survey programs write them.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace navvy::scene_io {
 
-/// By its root element. False where it cannot be read.
+/// Returns true if the root of the file is <LandXML>; false if it cannot be read.
 bool is_landxml(const std::string& file);
 
-/// Reads one TIN of `file`: points (northing easting elevation) and the faces that are not
-/// invisible (i="1"), in metres. Unit is Metric's or Imperial's linearUnit (millimeter, centimeter,
-/// meter, kilometer, foot, USSurveyFoot, inch, mile), for elevations too. `surface` names it;
-/// empty: the only one there is. Costs some 100 bytes a point or face while it is read.
+/// Reads one TIN of `file`: points (northing easting elevation) and the visible faces, in metres.
+/// The unit is that of Metric or Imperial (millimeter, centimeter, meter, kilometer, foot,
+/// USSurveyFoot, inch, mile), for elevations too. `surface` is its name; empty: the only one. It
+/// takes some 100 bytes per point or face while reading.
 ///
-/// Faults go to the list with file, line, value and remedy: no unit or an unknown one, a surface
-/// that is missing or no TIN, a point without id or number, an id twice, a face to a point that is
-/// not there, no visible face; nothing is returned then.
+/// Reports a missing or unknown unit, a missing surface, one that is no TIN, a point without id or
+/// number, a repeated id, a face to a missing point, and a surface without a visible face. Returns
+/// null after a fault.
 std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const std::string& surface,
                                                Faults& faults);
 

@@ -12,8 +12,7 @@ namespace navvy::scene_io {
 
 namespace {
 
-// Principal moments must be positive and none may exceed the sum of the others: no body has such an
-// inertia.
+// Checks the principal moments: positive, and none larger than the sum of the other two.
 void check_inertia(const Element& inertial, Faults& faults) {
   const Element* inertia = inertial.FirstChildElement("inertia");
   if (!inertia) return;
@@ -41,7 +40,7 @@ void check_inertia(const Element& inertial, Faults& faults) {
                "a disc has iyy = ixx + izz at most; mind the rounding");
 }
 
-/// Of the link as a whole, or of one of its shapes.
+/// Returns true for a density of the link or of one of its shapes.
 bool has_density(const Element& link) {
   constexpr const char* kName = "navvy:density_kg_per_m3";
   if (link.FirstChildElement(kName)) return true;

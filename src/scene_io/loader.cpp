@@ -19,17 +19,16 @@ namespace {
 scene::Scene load(std::unique_ptr<Document> document, const scene::StepKinds& kinds,
                   const Overrides& overrides, std::string* resolved, Faults& faults) {
   scene::Scene world;
-  // Without a document there is nothing to read, and finish() throws what opening it has found.
+  // Without a document, finish() throws the fault of opening it.
   if (document) {
     check_resolved(*document, faults);
-    // Overrides go into the document first, so that one set of rules checks the file's values and
-    // the command line's.
+    // The same rules check the values of the file and of the command line.
     apply_overrides(*document, overrides, faults);
     world = read_world(*document, kinds, faults);
     warn_of_unused_seed(*document, overrides, world, faults);
   }
   faults.finish();
-  // Only now: what has a fault cannot be written out.
+  // A faulty scene cannot be written out.
   if (document && resolved != nullptr) *resolved = resolved_text(*document, world);
   return world;
 }
@@ -49,7 +48,7 @@ scene::Scene load_scene_from_string(const std::string& text, const std::string& 
   return load(Document::parse(text, name, faults), kinds, overrides, resolved, faults);
 }
 
-// Machines are checked alone as they are in a world, so a fault in one is found without a scene.
+// A machine alone is checked as in a world.
 scene::Machine load_machine(const std::string& file) {
   Faults faults;
   scene::Machine machine = read_machine_file(file, faults);
@@ -59,7 +58,7 @@ scene::Machine load_machine(const std::string& file) {
 
 std::vector<scene::Soil> load_soils(const std::string& directory) {
   Faults faults;
-  // Sorted, as a directory's own order differs between file systems and soils are numbered by it.
+  // Soils are numbered in this order, which must not depend on the file system.
   std::vector<std::string> files;
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(directory, failed))
@@ -72,7 +71,7 @@ std::vector<scene::Soil> load_soils(const std::string& directory) {
   }
   std::sort(files.begin(), files.end());
   std::vector<scene::Soil> soils;
-  // Files after one with a fault are read, too: all faults come together.
+  // All files are read, so that all faults are reported together.
   for (const std::string& file : files)
     for (scene::Soil& soil : read_soil_file(file, faults)) soils.push_back(std::move(soil));
   faults.finish();
@@ -85,15 +84,15 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
   Faults faults;
   if (world != nullptr) world->reset();
   if (machine != nullptr) machine->reset();
-  const auto told = [&] {
+  const auto result = [&] {
     if (count != nullptr) *count = {faults.error_count(), faults.warning_count()};
     return faults.list();
   };
   const auto document = Document::open(file, faults);
-  if (!document) return told();
+  if (!document) return result();
   const Element& root = *document->root();
-  // What the file is follows from what its root holds; a scene is assumed where nothing fits, so
-  // that its rules say what is missing.
+  // The children of the root show the kind of file; without any of them the rules of scenes report
+  // what is missing.
   if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:soil")) {
     read_soil_file(file, faults);
   } else if (!root.FirstChildElement("world") && root.FirstChildElement("navvy:materials")) {
@@ -107,10 +106,10 @@ std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
     apply_overrides(*document, overrides, faults);
     scene::Scene read = read_world(*document, kinds, faults);
     warn_of_unused_seed(*document, overrides, read, faults);
-    // Warnings do not keep a scene from being used.
+    // Warnings do not prevent the use of a scene.
     if (world != nullptr && faults.error_count() == 0) *world = std::move(read);
   }
-  return told();
+  return result();
 }
 
 }  // namespace navvy::scene_io

@@ -42,7 +42,7 @@ void take_pairs(Element& table, std::vector<scene::MaterialPair> pairs, scene::M
   }
 }
 
-/// Names in the table, each once.
+/// Returns the names in a table, each once.
 std::vector<std::string> known_in(const scene::Materials& table) {
   std::set<std::string> names;
   for (const scene::MaterialPair& pair : table.pairs)
@@ -50,11 +50,11 @@ std::vector<std::string> known_in(const scene::Materials& table) {
   return {names.begin(), names.end()};
 }
 
-/// A material that some link of a machine has.
+/// Use of a material by links of a machine.
 struct Use {
   std::size_t machine;
   const scene::LinkMaterial* material;
-  bool stands;  ///< what never moves meets neither the ground nor what stands beside it
+  bool stands;  ///< never moves, so it meets neither the ground nor others that stand
 };
 
 Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
@@ -123,13 +123,13 @@ scene::Materials read_materials(Element& element, Faults& faults) {
 
 void check_materials(const scene::Scene& world, Faults& faults) {
   const std::vector<std::string> known = known_in(world.materials);
-  std::vector<Use> uses;  // the first of each machine's links of a material
+  std::vector<Use> uses;  // one per machine and material
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::Machine& machine = world.machines[m].machine;
     std::set<std::pair<std::string, bool>> seen;
     for (std::size_t l = 0; l < machine.links.size(); ++l) {
       const scene::LinkMaterial& material = machine.links[l].material;
-      // Machines that move as told do not meet the ground, nor each other.
+      // Kinematic machines meet neither the ground nor each other.
       const bool stands = machine.kinematic || (l == 0 && machine.fixed_base);
       if (!material.name.empty() && seen.emplace(material.name, stands).second)
         uses.push_back({m, &material, stands});

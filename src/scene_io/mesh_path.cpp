@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> data_directories() {
   std::vector<std::string> directories;
-  // A folder of one's own goes first, so that a changed machine can stand before the shipped one;
-  // the source tree is last, for programs that were built and not installed.
+  // The folder of the user comes first, so that it can replace shipped machines; the source tree is
+  // last, for programs that were built and not installed.
   if (const char* own = std::getenv("NAVVY_DATA_DIR"); own && *own) directories.push_back(own);
   directories.push_back(NAVVY_INSTALLED_DATA);
   directories.push_back(NAVVY_SOURCE_DATA);
@@ -27,7 +27,7 @@ std::vector<std::string> data_directories() {
 }
 
 std::string find_data(const std::string& relative) {
-  // An unreadable folder counts as one that has no such file.
+  // An unreadable folder counts as empty.
   std::error_code ignored;
   for (const std::string& directory : data_directories()) {
     const fs::path path = fs::path(directory) / relative;
@@ -38,11 +38,10 @@ std::string find_data(const std::string& relative) {
 
 namespace {
 
-// Empty when nothing exists under that name.
+// Returns the path of `text`; empty if there is no such file or folder.
 std::string locate(const Element& uri, const std::string& text) {
   std::error_code ignored;
-  // The name after the scheme counts from vehicles/, which is what scenes that are sent to others
-  // should use.
+  // The name after the scheme counts from vehicles/, so that a scene can be sent to others.
   if (text.rfind("model://", 0) == 0) return find_data("vehicles/" + text.substr(8));
   fs::path path = text.rfind("file://", 0) == 0 ? fs::path(text.substr(7)) : fs::path(text);
   if (path.is_relative()) path = fs::path(Document::of(uri).directory()) / path;
@@ -63,7 +62,7 @@ std::vector<std::string> shipped_models() {
 
 std::string absolute(const std::string& path) {
   std::error_code failed;
-  // Also where the path does not exist yet; a failure leaves it as it was.
+  // A failure leaves the path unchanged.
   const fs::path full = fs::weakly_canonical(fs::absolute(path, failed), failed);
   return failed ? path : full.string();
 }
@@ -88,7 +87,7 @@ bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
                  "paths count from the file that names them");
     return false;
   }
-  // Only the ending is looked at here; whether it is an OBJ file shows when it is read.
+  // Reading shows later whether it is an OBJ file.
   if (fs::path(found).extension() != ".obj" && fs::path(found).extension() != ".OBJ") {
     faults.error(uri, text, "meshes must be OBJ files", "convert it");
     return false;
@@ -120,11 +119,11 @@ bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults&
   }
   const std::size_t least = solid ? 4 : 1;
   if (!mesh.fault.empty()) {
-    faults.error(uri, path, mesh.fault, "mend the mesh or name another");
+    faults.error(uri, path, mesh.fault, "correct the mesh or name another");
   } else if (mesh.vertices < least) {
     faults.error(uri, std::to_string(mesh.vertices) + " vertices",
                  "the mesh needs at least " + std::to_string(least),
-                 "mend the mesh or name another");
+                 "correct the mesh or name another");
   } else if (solid && mesh.vertices > limits::kHullVertices) {
     faults.error(
         uri, std::to_string(mesh.vertices) + " vertices",
@@ -151,14 +150,14 @@ bool resolve_model(const Element& uri, std::string& path, Faults& faults) {
     faults.error(uri, text, "no such model", meant + way);
     return false;
   }
-  // Not resolved through links: messages name the path that the user knows.
+  // Messages name the path that the user knows, so links are not resolved.
   path = fs::path(found).lexically_normal().string();
   return true;
 }
 
 bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell,
                      Faults& faults) {
-  // Read for each shell that names it, so its bytes count each time.
+  // Each shell reads its mesh, so the bytes count each time.
   std::error_code unknown;
   const std::uintmax_t bytes = fs::file_size(path, unknown);
   faults.work.mesh_bytes += unknown ? 0 : bytes;
@@ -174,8 +173,8 @@ bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& s
     static_cast<geometry::TriangleMesh&>(shell) = geometry::read_obj(path);
     return true;
   } catch (const Error& error) {
-    // The scene names the mesh, the mesh's own file and line say what is wrong in it.
-    faults.error(at, path, error.what(), "mend the mesh or name another");
+    // The message holds file and line of the mesh.
+    faults.error(at, path, error.what(), "correct the mesh or name another");
     return false;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where files named in a scene lie, why one is none, and triangle meshes of shells.
+// Paths of files that scenes name, and triangle meshes.
 #pragma once
 
 #include <string>
@@ -9,26 +9,25 @@
 
 namespace navvy::scene_io {
 
-/// Why there is no plain file at `path`, for a message: a pipe, device or folder is told as what it
-/// is.
+/// Returns the reason why there is no plain file at `path`: missing, a pipe, a device or a
+/// directory.
 std::string why_no_file(const std::string& path);
 
-/// Absolute path of the OBJ file named by `uri`: relative to the file that holds it, absolute, or
-/// model://NAME/... below a vehicles/ directory. Reports a fault and answers false when there is
-/// none. The path leads there from any working directory.
+/// Finds the OBJ file that `uri` names: relative to the file that holds it, absolute, or
+/// model://NAME/... below a vehicles/ directory. `path` becomes absolute. Reports a fault and
+/// returns false if there is none.
 bool resolve_mesh(const Element& uri, std::string& path, Faults& faults);
 
-/// Reads the OBJ file at `path` to see that it can be drawn or, if `solid`, collide by the hull of
-/// its vertices: what is found wrong here would end a run at its start. A file is read once for all
-/// that name it. False after a fault.
+/// Checks that the OBJ file at `path` can be drawn or, if `solid`, collide by the hull of its
+/// vertices. A file is read once for all that name it. Returns false after a fault.
 bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults& faults);
 
-/// The model file named by an <include>'s `uri`: a file, a directory with model.sdf, or
-/// model://NAME.
+/// Finds the model file of an <include>'s `uri`: a file, a directory with model.sdf, or
+/// model://NAME. Returns false after a fault.
 bool resolve_model(const Element& uri, std::string& path, Faults& faults);
 
-/// Gives `shell` the triangles of an OBJ file [m]. Reports a fault at `at`, with the OBJ file's own
-/// line, and answers false when it cannot be read.
+/// Reads the triangles of a shell from an OBJ file [m]. Reports a fault at `at`, with the line in
+/// the OBJ file, and returns false if it cannot be read.
 bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell,
                      Faults& faults);
 

@@ -22,8 +22,7 @@ struct Part {
 
 bool split_key(const std::string& key, std::vector<Part>& parts) {
   std::size_t at = 0;
-  // Written by hand, as keys hold two kinds of marks only: a dot begins a part, brackets hold which
-  // of several.
+  // A dot begins a part, brackets select one of several.
   while (at <= key.size()) {
     Part part;
     while (at < key.size() && key[at] != '.' && key[at] != '[') part.name += key[at++];
@@ -37,13 +36,13 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
     parts.push_back(part);
     if (at++ == key.size()) break;
   }
-  // An object alone sets nothing; the last part names the element.
+  // The last part names the element.
   return parts.size() >= 2;
 }
 
 void key_fault(const std::string& key, const std::string& value, const std::string& rule,
                const std::string& remedy,
-               // There is no file and no line; the key stands for the element.
+               // The key stands for the element.
                Faults& faults) {
   Fault fault;
   fault.file = "command line";
@@ -98,7 +97,8 @@ void set_value(Element& parent, const std::string& name, const std::string& valu
   parent.InsertNewChildElement(name.c_str())->SetText(value.c_str());
 }
 
-// x_m, y_m, z_m and yaw_deg of a machine are parts of its <pose>.
+// Sets x_m, y_m, z_m or yaw_deg of a machine, which are parts of its <pose>. Returns false for
+// other names.
 bool set_place(Element& machine, const std::string& name, const std::string& value) {
   const std::vector<std::string> names = {"x_m", "y_m", "z_m", "", "", "yaw_deg"};
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -107,8 +107,7 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
     std::vector<std::string> words = pose ? words_of(text_of(*pose)) : std::vector<std::string>{};
     const bool in_degrees = pose && is_true(attribute(*pose, "degrees"));
     bool quaternion = pose && attribute(*pose, "rotation_format") == "quat_xyzw";
-    // A quaternion stays as it is where only the place is set, and gives way to angles for a new
-    // yaw.
+    // A new yaw replaces a quaternion by angles; a new place keeps it.
     Pose X;
     Faults unread;
     if (quaternion && i == 5 && read_pose(*pose, X, unread)) {
@@ -118,11 +117,11 @@ bool set_place(Element& machine, const std::string& name, const std::string& val
         words[static_cast<std::size_t>(3 + k)] = scene::exact_text(turn[k]);
       quaternion = false;
     }
-    // A pose that is not there, or is shorter than six numbers, counts as zeros.
+    // Missing numbers of a pose count as zeros.
     if (words.size() < 6) words.resize(6, "0");
     double number = 0;
     words[i] = value;
-    // A pose counts in radians unless it says otherwise; the key says degrees.
+    // The key is in degrees, a pose usually in radians.
     if (i == 5 && !in_degrees && to_number(value, number))
       words[i] = scene::exact_text(number * kDegree);
     std::string text;
@@ -301,7 +300,7 @@ Element& section(Element& world, const char* name) {
 void apply_terrain(Element& world, const Overrides& overrides) {
   Element& ground = section(world, "navvy:ground");
   if (overrides.terrain) {
-    // The file replaces the procedural shapes; layers and patches stay.
+    // The file replaces shapes; layers and patches stay.
     for (const char* shape :
          {"slope", "hills", "stockpile", "trench", "bank", "block", "at_m", "at_local_m"})
       while (Element* old = ground.FirstChildElement(shape)) ground.DeleteChild(old);
@@ -330,7 +329,7 @@ std::pair<std::string, std::string> parse_setting(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-// In this order a general option gives way to a setting that names the same value.
+// Settings come last, so they win over options.
 void apply_overrides(Document& document, const Overrides& overrides, Faults& faults) {
   Element* world = document.root()->FirstChildElement("world");
   if (!world) return;  // the reader reports it

@@ -11,8 +11,7 @@ namespace {
 
 using scene::Waiting;
 
-/// The element of every step of a program; children that were no step have been reported and are
-/// passed over.
+/// Returns the element of every step of a program, without unknown elements.
 std::vector<Element*> elements_of(Element& machine, const scene::Program& steps) {
   std::vector<Element*> out;
   Element* program = machine.FirstChildElement("navvy:program");
@@ -28,14 +27,14 @@ int step_count(const scene::MachineInWorld& machine) {
   return static_cast<int>(machine.program.steps.size());
 }
 
-/// Steps of `wait`'s machine that have to be done before it goes on.
+/// Returns the number of steps of the other machine that the step waits for.
 int needed(const Waiting& wait, const scene::MachineInWorld& other) {
   return wait.steps > 0 ? wait.steps : step_count(other);
 }
 
 bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting,
                 const scene::Scene& world, Faults& faults) {
-  // The name first, then whether it can be waited for, then how long.
+  // Checks the name, then the machine, then the number of steps.
   const int index = world.machine_index(wait.machine);
   if (index < 0) {
     std::vector<std::string> names;
@@ -57,7 +56,7 @@ bool check_wait(const Element& at, const Waiting& wait, std::size_t waiting,
   return false;
 }
 
-/// A program opens hitches of its own machine.
+/// Checks that the hitch is one of the program's own machine.
 void check_hitch(const Element& at, const std::string& hitch, std::size_t machine,
                  const scene::Scene& world, Faults& faults) {
   std::vector<std::string> names;
@@ -71,9 +70,9 @@ void check_hitch(const Element& at, const std::string& hitch, std::size_t machin
                              : faults.nearest(hitch, names));
 }
 
-/// Lets every program run as far as waiting allows; where each stands then.
+/// Runs every program as far as waiting allows; returns the completed steps of each.
 std::vector<int> run_dry(const scene::Scene& world) {
-  // Order does not matter: a program only ever gets farther, so all orders end at the same place.
+  // The result does not depend on the order, as programs never go back.
   std::vector<int> done(world.machines.size(), 0);
   for (bool moved = true; moved;) {
     moved = false;
@@ -113,9 +112,9 @@ void check_program_order(Element& world_element, const scene::Scene& world, Faul
         check_hitch(*elements[m][s], *hitch, m, world, faults);
     }
   }
-  // With a name or a number wrong there is nothing to run.
+  // Faulty programs cannot be run.
   if (!sound) return;
-  // A program that is stuck stands at a step that waits: everything else it has run through.
+  // A program that cannot go on is at a waiting step.
   const std::vector<int> done = run_dry(world);
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     if (done[m] >= step_count(world.machines[m])) continue;

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kScheme = "model://";
-constexpr std::size_t kHashedMost =
-    std::size_t{64} << 20;  // [bytes]: maps may hold gigabytes of which a run reads a corner
+// Maps may hold gigabytes, of which a run reads a part [bytes].
+constexpr std::size_t kHashedMost = std::size_t{64} << 20;
 
 std::string absolute(const std::string& path) {
   std::error_code failed;
@@ -32,8 +32,8 @@ std::string absolute(const std::string& path) {
   return failed ? path : full.string();
 }
 
-/// model://NAME/... of a file below a vehicles/ directory, so that the text goes to other machines;
-/// else `path`.
+/// Returns model://NAME/... for a file below a vehicles/ directory, so that the text can be used on
+/// other machines; else `path`.
 std::string portable(const std::string& path) {
   for (const std::string& directory : data_directories()) {
     const std::string vehicles = absolute(directory + "/vehicles") + "/";
@@ -43,7 +43,7 @@ std::string portable(const std::string& path) {
   return path;
 }
 
-/// The file behind a name that `portable` gave; empty when there is none.
+/// Returns the file of a portable name; empty if there is none.
 std::string file_behind(const std::string& name) {
   if (name.rfind(kScheme, 0) == 0)
     return find_data("vehicles/" + name.substr(std::strlen(kScheme)));
@@ -51,12 +51,11 @@ std::string file_behind(const std::string& name) {
   return fs::exists(name, ignored) ? name : "";
 }
 
-/// Of a file's size and first kHashedMost bytes [hex].
+/// Returns a hash of a file's size and first kHashedMost bytes.
 std::string hash_of(const std::string& path) {
   std::error_code failed;
   StateHash hash;
-  // A list of files is written by hand as easily as by a run: what is no plain file has no end to
-  // read to.
+  // The list may be written by hand: a pipe or device has no end.
   if (!fs::is_regular_file(path, failed)) return "";
   hash.value(static_cast<std::uint64_t>(fs::file_size(path, failed)));
   std::ifstream stream(path, std::ios::binary);
@@ -68,7 +67,7 @@ std::string hash_of(const std::string& path) {
   return hash.hex();
 }
 
-/// Every element of `parent`, however deep, in the order of the file.
+/// Visits every element below `parent` in the order of the file.
 template <class Visit>
 void visit_all(Element& parent, const Visit& visit) {
   for (Element* child = parent.FirstChildElement(); child != nullptr;
@@ -82,7 +81,7 @@ bool is_called(const tinyxml2::XMLNode* node, const char* name) {
   return node != nullptr && node->ToElement() != nullptr && std::strcmp(node->Value(), name) == 0;
 }
 
-/// Writes one scene out. Keeps the list of files that stay outside. Steps must run while elements
+/// Writes out one scene, and collects the files that stay outside. Steps must run while elements
 /// still belong to the documents that their paths count from.
 class Resolver {
  public:
@@ -92,7 +91,7 @@ class Resolver {
   void ground(const scene::Scene& world);
   void materials();
   void include(Element& element);
-  /// Names the meshes of machines; `model` still belongs to the file that their paths count from.
+  /// Replaces the paths of meshes; `model` still belongs to the file that they count from.
   void meshes(Element& model);
   void list_files();
 
@@ -104,18 +103,18 @@ class Resolver {
   }
 
   Element& world_;
-  Faults none_;  ///< the readers have reported what there was to report
+  Faults none_;                               ///< the readers have reported all faults
   std::map<std::string, std::string> files_;  ///< hash by name
 };
 
 void Resolver::soil(Element& element, const scene::Soil& read) {
   const std::string ref = attribute(element, "ref");
-  // A soil with values of its own needs nothing from elsewhere.
+  // A soil without a reference is complete.
   if (ref.empty()) return;
   const auto document = Document::open(soil_file(element, ref), none_);
   Element* base = document ? document->root()->FirstChildElement("navvy:soil") : nullptr;
   if (base == nullptr) return;
-  // Strength is given by one of two elements, and the scene's own replaces either.
+  // Either element gives the strength, so the scene's own replaces both.
   const bool own_strength = element.FirstChildElement("friction_angle_deg") ||
                             element.FirstChildElement("repose_angle_deg");
   for (Element* value = base->FirstChildElement(); value != nullptr;
@@ -125,8 +124,7 @@ void Resolver::soil(Element& element, const scene::Soil& read) {
     if (element.FirstChildElement(value->Name()) != nullptr || (strength && own_strength)) continue;
     element.InsertEndChild(value->DeepClone(element.GetDocument()));
   }
-  // A residual cohesion that nobody stated was derived from both files: it is written as it came
-  // out.
+  // The default of the residual cohesion depends on both files.
   if (Element* old = element.FirstChildElement("residual_cohesion_pa")) element.DeleteChild(old);
   element.InsertNewChildElement("residual_cohesion_pa")
       ->SetText(scene::exact_text(read.residual_cohesion).c_str());
@@ -137,8 +135,7 @@ void Resolver::soil(Element& element, const scene::Soil& read) {
 void Resolver::ground(const scene::Scene& world) {
   Element* ground = world_.FirstChildElement("navvy:ground");
   Element* file = ground != nullptr ? ground->FirstChildElement("file") : nullptr;
-  // The reader has worked out whether the name counted from the scene or from the working
-  // directory.
+  // The reader has found out from where the name counts.
   if (file != nullptr && !world.ground.file.empty()) keep(*file, absolute(world.ground.file));
   Element* design = world_.FirstChildElement("navvy:design");
   file = design != nullptr ? design->FirstChildElement("file") : nullptr;
@@ -153,7 +150,7 @@ void Resolver::materials() {
   const Element* shared =
       document ? document->root()->FirstChildElement("navvy:materials") : nullptr;
   if (shared == nullptr) return;
-  // In the order in which they were read: before those of the scene.
+  // Pairs of the file come before those of the scene.
   tinyxml2::XMLNode* last = file;
   for (const Element* pair = shared->FirstChildElement("pair"); pair;
        pair = pair->NextSiblingElement("pair"))
@@ -173,43 +170,42 @@ void Resolver::meshes(Element& model) {
 void Resolver::include(Element& element) {
   Element* uri = element.FirstChildElement("uri");
   std::string path;
-  // What cannot be opened now was reported when the scene was read.
+  // A missing file was reported when the scene was read.
   if (uri == nullptr || !resolve_model(*uri, path, none_)) return;
   const auto document = Document::open(path, none_);
   Element* model = document ? document->root()->FirstChildElement("model") : nullptr;
   if (model == nullptr || !assemble(*document, none_)) return;
-  // SDF of another version cannot stand in this file: such a machine stays outside, with its hash.
+  // SDF of another version stays outside, with its hash.
   const Element& root = *element.GetDocument()->RootElement();
   if (attribute(*document->root(), "version") != attribute(root, "version"))
     return keep(*uri, absolute(path));
   meshes(*model);
-  // A deep copy belongs to this document, and the machine's own document goes at the end of this
-  // function.
+  // The copy belongs to this document; the machine's own document ends with this function.
   Element& inlined = *model->DeepClone(element.GetDocument())->ToElement();
   if (element.FirstChildElement("name"))
     inlined.SetAttribute("name", child_text(element, "name").c_str());
-  // The place in the world is the including scene's alone.
+  // The pose of a machine's file does not count.
   while (Element* pose = inlined.FirstChildElement("pose")) inlined.DeleteChild(pose);
   for (const Element* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     if (is_called(child, "uri") || is_called(child, "name")) continue;
     if (is_called(child, "static")) {
-      // Saying false here does not free a machine that its own file holds.
+      // false here does not release a machine that its file makes static.
       if (text_of(*child) != "true" && text_of(*child) != "1") continue;
       while (Element* own = inlined.FirstChildElement("static")) inlined.DeleteChild(own);
     }
-    // The scene's choice takes the place of the file's.
+    // The element of the scene replaces that of the file.
     if (is_called(child, "navvy:physics"))
       while (Element* own = inlined.FirstChildElement("navvy:physics")) inlined.DeleteChild(own);
     inlined.InsertEndChild(child->DeepClone(element.GetDocument()));
   }
-  // In its place, as machines are numbered in the order of the file.
+  // Machines are numbered in the order of the file.
   world_.InsertAfterChild(&element, &inlined);
   world_.DeleteChild(&element);
 }
 
 void Resolver::list_files() {
-  // Last, when every file has been named.
+  // Every file has been named by now.
   Element& list = *world_.InsertNewChildElement("navvy:resolved");
   list.SetAttribute("format", kResolvedFormat);
   for (const auto& [name, hash] : files_) {
@@ -223,7 +219,7 @@ void Resolver::list_files() {
 
 std::string resolved_text(Document& document, const scene::Scene& world) {
   Element& root = *document.root()->FirstChildElement("world");
-  // A scene that was resolved before gets its list anew.
+  // A resolved scene gets a new list.
   while (Element* old = root.FirstChildElement("navvy:resolved")) root.DeleteChild(old);
   Resolver resolver(root);
   std::size_t soil = 0;
@@ -236,7 +232,7 @@ std::string resolved_text(Document& document, const scene::Scene& world) {
        e = e->NextSiblingElement("model"))
     resolver.meshes(*e);
   for (Element* e = root.FirstChildElement("include"); e != nullptr;) {
-    // Asked for before, because the include is replaced by a model.
+    // The include is replaced by a model.
     Element* next = e->NextSiblingElement("include");
     resolver.include(*e);
     e = next;

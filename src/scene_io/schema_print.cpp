@@ -124,7 +124,7 @@ std::string schema_markdown(const Schema& schema) {
       "element of\nits own, whose name ends in its unit. A value out of range and an unknown "
       "element are errors. Lists\nof numbers are separated by blanks. `navvy schema NAME` prints "
       "a part of this page, `navvy schema\n--json` all of it for programs. "
-      "[Scenes](../../scenarios/README.md) explains the elements in context.\n\n"
+      "[Notes](elements.md) explain how elements work together.\n\n"
       "A machine (`model`), soils (`navvy:soil`) and a table of materials (`navvy:materials`) may "
       "be in files\nof their own, directly below `sdf`. `--set` names elements without `navvy:`; "
       "`machine` is an\n`include` or a `model`: `--set machine.digger.program.dig.depth_m=1`.\n\n"

@@ -18,7 +18,7 @@ namespace {
 
 Pose to_pose(const ignition::math::Pose3d& p) {
   Pose X = Pose::Identity();
-  // Normalised again: a file's digits make no exact unit quaternion.
+  // The digits of a file give no exact unit quaternion.
   X.linear() = Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z())
                    .normalized()
                    .toRotationMatrix();
@@ -26,8 +26,8 @@ Pose to_pose(const ignition::math::Pose3d& p) {
   return X;
 }
 
-// libsdformat keeps :: for models inside each other, which are one here before it sees them: two
-// letters that nobody writes stand for it there.
+// libsdformat reserves :: for nested models, which are parts of one model here. Two characters that
+// no file uses stand for it.
 constexpr const char kScope[] = "::", kVeiled[] = "\xEE\x80\x80\xEE\x80\x81";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -42,8 +42,7 @@ std::string unveiled(const std::string& text) { return replaced(text, kVeiled, k
 
 Vec3 to_vec3(const ignition::math::Vector3d& v) { return Vec3(v.X(), v.Y(), v.Z()); }
 
-// The part that libsdformat shall see: no extension elements, nothing that is ignored (check_sdf
-// has reported it).
+// Copies the elements that libsdformat reads: no extensions, and none that are ignored.
 void copy_used(const Element& from, Element& to) {
   for (const auto* at = from.FirstAttribute(); at; at = at->Next())
     to.SetAttribute(at->Name(), veiled(at->Value()).c_str());
@@ -51,18 +50,18 @@ void copy_used(const Element& from, Element& to) {
   for (const Element* child = from.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
     has_elements = true;
-    // libsdformat 12 knows no cone; a cylinder has the same values and stands in for it.
+    // libsdformat 12 has no cone; a cylinder has the same values.
     const char* name = std::strcmp(child->Name(), "cone") == 0 ? "cylinder" : child->Name();
     if (is_used_sdf(*child)) copy_used(*child, *to.InsertNewChildElement(name));
   }
-  // Only elements without children carry values; blanks between the others are left out.
+  // Only elements without children have values.
   if (!has_elements) to.SetText(veiled(text_of(from)).c_str());
 }
 
 std::string as_sdf_text(const Element& model) {
   tinyxml2::XMLDocument copy;
   Element* root = copy.NewElement("sdf");
-  // The version decides how libsdformat reads what follows, so it is the file's own.
+  // libsdformat reads a model by the version of its file.
   root->SetAttribute("version", attribute(*model.GetDocument()->RootElement(), "version").c_str());
   copy.InsertEndChild(root);
   copy_used(model, *root->InsertNewChildElement("model"));
@@ -71,14 +70,14 @@ std::string as_sdf_text(const Element& model) {
   return printer.CStr();
 }
 
-// libsdformat knows no lines; its messages name the link, joint or frame in [brackets] or 'quotes'.
+// Returns the element that a message of libsdformat, which has no lines, names in brackets or
+// quotes.
 const Element& blamed(const Element& model, const std::string& message) {
   for (const Element* child = model.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
     const std::string name = attribute(*child, "name");
     if (name.empty()) continue;
-    // The marks with which libsdformat's messages surround names; a bare name could be a part of
-    // another word.
+    // A bare name could be a part of another word.
     for (const std::string& mark :
          {"[" + name + "]", "'" + name + "'", "\"" + name + "\"", "named " + name + " "})
       if (message.find(mark) != std::string::npos) return *child;
@@ -113,7 +112,7 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
   } else if (const auto* plane = from.PlaneShape()) {
     to.kind = Kind::kPlane;
     to.size = Vec3(plane->Size().X(), plane->Size().Y(), 0);
-    // A pose turns a plane for engine and pictures alike; a normal would have to be turned in each.
+    // A pose turns a plane for physics and pictures alike.
     if (to_vec3(plane->Normal()).cross(Vec3::UnitZ()).norm() > 1e-9 || plane->Normal().Z() < 0)
       faults.error(xml, "", "the normal of a plane must be 0 0 1", "turn it with <pose>");
   } else if (const auto* mesh = from.MeshShape()) {
@@ -133,7 +132,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
                  Faults& faults) {
   for (std::uint64_t i = 0; i < from.VisualCount(); ++i) {
     const sdf::Visual& visual = *from.VisualByIndex(i);
-    // The same element in the file: for line numbers, and for what libsdformat does not hand on.
+    // The element holds line numbers and values that libsdformat does not return.
     const Element* element = named_child(xml, "visual", unveiled(visual.Name()));
     if (!element || !element->FirstChildElement("geometry")) continue;
     scene::Visual out;
@@ -158,14 +157,13 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
     ignition::math::Pose3d pose;
     report(*element, collision.SemanticPose().Resolve(pose), faults);
     out.X_LC = to_pose(pose);
-    // sdformat 12 has no accessor for friction.
+    // libsdformat 12 has no accessor for friction.
     const Element* step = element;
-    // The same coefficient as for ODE in Gazebo; check_sdf has read the number before, so a bad one
-    // leaves the default.
+    // Gazebo uses this coefficient for ODE. check_sdf has reported a bad number.
     for (const char* name : {"surface", "friction", "ode", "mu"})
       step = step ? step->FirstChildElement(name) : nullptr;
     if (step) to_number(text_of(*step), out.friction);
-    // What moves collides by the hull of a mesh, what stands by its triangles.
+    // A moving mesh collides by its hull, a fixed one by its triangles.
     if (read_geometry(*collision.Geom(), *element->FirstChildElement("geometry"), moves,
                       out.geometry, faults))
       to.collisions.push_back(out);
@@ -176,13 +174,13 @@ scene::Link read_link(const sdf::Link& from, const Element& xml, bool moves, Fau
   scene::Link link;
   link.name = unveiled(from.Name());
   ignition::math::Pose3d pose;
-  // Into the model's frame, whatever frame the file gives it in.
+  // In the frame of the model.
   report(xml, from.SemanticPose().Resolve(pose, "__model__"), faults);
   link.X_ML = to_pose(pose);
   const auto& inertial = from.Inertial();
   link.mass = inertial.MassMatrix().Mass();
   link.p_LCom = to_vec3(inertial.Pose().Pos());
-  // In the axes of the link, turned from those of the inertial frame, and about the centre of mass.
+  // In the axes of the link, about the centre of mass.
   const auto moi = inertial.Moi();
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) link.inertia(r, c) = moi(r, c);
@@ -200,17 +198,16 @@ void read_axis(const sdf::Joint& from, const Element& xml, scene::Joint& joint, 
   if (!axis) return;
   ignition::math::Vector3d xyz;
   report(xml, axis->ResolveXyz(xyz, from.Name()), faults);
-  // In the joint's frame, whatever frame it was expressed in; SDF asks for a unit vector and takes
-  // any length.
+  // In the frame of the joint; SDF allows any length.
   joint.axis = to_vec3(xyz).normalized();
   const double lower = axis->Lower(), upper = axis->Upper();
-  // 1e16 is SDF's own word for no limit.
+  // In SDF 1e16 means no limit.
   joint.has_limits = from.Type() != sdf::JointType::CONTINUOUS && lower > -1e15 && upper < 1e15;
   if (joint.has_limits) {
     joint.lower = lower;
     joint.upper = upper;
   }
-  // A negative or missing limit of SDF means none (libsdformat answers infinity).
+  // A negative or missing limit of SDF means none.
   if (std::isfinite(axis->Effort()) && axis->Effort() >= 0) joint.effort = axis->Effort();
   if (std::isfinite(axis->MaxVelocity()) && axis->MaxVelocity() >= 0)
     joint.velocity = axis->MaxVelocity();
@@ -236,7 +233,7 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
     default:
       out.joint.type = Type::kFixed;
   }
-  // Both resolve the names of frames to the links they hang on.
+  // Names of frames are resolved to their links.
   report(xml, from.ResolveParentLink(out.parent), faults);
   report(xml, from.ResolveChildLink(out.child), faults);
   ignition::math::Pose3d pose;
@@ -249,7 +246,7 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
   return out;
 }
 
-// Orders links from the base outward; every link but the base must hang on exactly one joint.
+// Orders links from the base outward; every other link must be the child of one joint.
 void order_tree(const Element& model, std::vector<scene::Link> links,
                 std::vector<NamedJoint> joints, scene::Machine& machine, Faults& faults) {
   auto element_of = [&](const char* kind, const std::string& name) -> const Element& {
@@ -257,7 +254,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
     return element ? *element : model;
   };
   const std::size_t before = faults.error_count();
-  // Every fault of the tree is found before one ends the reading.
+  // All faults of the tree are reported before reading ends.
   std::vector<std::string> moved;
   for (const NamedJoint& joint : joints) {
     if (joint.parent == "world") continue;
@@ -277,8 +274,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
                  "add a joint (type fixed to weld it), or make it a model of its own");
   if (faults.error_count() > before) return;
 
-  // Breadth first from the base. Joints keep the order of the file below one parent, so indices
-  // follow the file.
+  // Breadth first from the base; below one parent in the order of the file.
   machine.links.push_back(links[bases[0]]);
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
     for (NamedJoint& joint : joints) {
@@ -293,7 +289,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
       machine.links.push_back(*child);
     }
   }
-  // A loop that hangs on nothing is never reached from the base, so its links are missing.
+  // A separate loop is never reached from the base.
   if (machine.links.size() != links.size())
     faults.error(model, "", "the joints form a loop beside the base");
 
@@ -335,7 +331,7 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
       if (const Element* xml = named_child(model, "joint", unveiled(joint.Name())))
         joints.push_back(read_joint(joint, *xml, faults));
     }
-    // A model with faults of its own has no tree to speak of.
+    // A faulty model has no tree.
     if (faults.error_count() == before)
       order_tree(model, std::move(links), std::move(joints), machine, faults);
   } catch (const std::exception& failure) {

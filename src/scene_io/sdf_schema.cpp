@@ -7,7 +7,7 @@ namespace navvy::scene_io {
 
 namespace {
 
-// The description of `from` with the used ones of the elements below it.
+// Returns the description of `from` with the used elements below it.
 sdf::ElementPtr cut_down(const sdf::ElementPtr& from) {
   auto to = std::make_shared<sdf::Element>();
   to->SetName(from->GetName());
@@ -42,12 +42,11 @@ const sdf::ElementPtr& description() {
 
 sdf::Errors parse_model(const std::string& text, sdf::Root& root) {
   sdf::ParserConfig config;
-  // Its warnings count as errors: check_sdf has let through only what is understood, so one of them
-  // means a misreading.
+  // check_sdf lets through only what is understood, so a warning means a misreading.
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   const auto document = std::make_shared<sdf::SDF>();
-  // Reading fills the tree that describes, so every text gets a copy.
+  // Reading changes the description, so every text gets a copy.
   document->Root(description()->Clone());
   sdf::Errors errors;
   if (!sdf::readString(text, config, document, errors)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libsdformat's own description of SDF, cut down to what Navvy reads.
+// Description of SDF by libsdformat, reduced to the elements that Navvy reads.
 #pragma once
 
 #include <sdf/sdf.hh>
@@ -7,13 +7,11 @@
 
 namespace navvy::scene_io {
 
-/// Parses a text of one <model>, of elements that `is_used_sdf` lets through, into `root`.
-/// libsdformat parses its whole description of SDF for every text and copies the part below each
-/// element that it reads, some 7000 elements; here the description is parsed once a process and cut
-/// down to the seventy that are used, which is what makes reading a model cost milliseconds.
-/// Threads may call it side by side.
-/// @throws std::bad_alloc, sdf::Exception and what else libsdformat throws; what it finds wrong is
-/// returned.
+/// Parses a text of one <model> into `root`. libsdformat parses its whole description of SDF, some
+/// 7000 elements, for every text; here the description is parsed once per process and reduced to
+/// the used elements, so that a model takes milliseconds. Safe to call from several threads.
+///
+/// @returns the faults that libsdformat finds. @throws std::bad_alloc, sdf::Exception and others
 sdf::Errors parse_model(const std::string& text, sdf::Root& root);
 
 }  // namespace navvy::scene_io

@@ -14,8 +14,7 @@ namespace navvy::scene_io {
 
 namespace {
 
-// Relations are judged once all values are read, and told at the element that the scene wrote, if
-// it did.
+// Reports broken relations at the element that the scene has, if any.
 void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
   for (const Fault& fault : scene::check_relations(soil)) {
     const Element* child =
@@ -28,7 +27,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
   std::error_code ignored;
   const std::string file = soil_file(element, ref);
   if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) {
-    // Gathered only for the message; soils that lie in two places are named once.
+    // A soil in two directories is suggested once.
     std::vector<std::string> known;
     for (const std::string& directory : data_directories())
       for (const auto& entry :
@@ -39,7 +38,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
     faults.error(element, ref, "no such soil", faults.nearest(ref, known));
     return false;
   }
-  // Its faults go to the same list, with the file's own name and lines.
+  // Its faults have its own file name and lines.
   const std::vector<scene::Soil> soils = read_soil_file(file, faults);
   if (soils.empty()) return false;
   soil = soils.front();
@@ -48,9 +47,7 @@ bool inherit(Element& element, const std::string& ref, scene::Soil& soil, Faults
 
 }  // namespace
 
-// A name that ends in .sdf is a path from the file that holds it; others are names of shipped
-// soils, which have no folders, so that a path without its ending is not searched for all over the
-// data.
+// Shipped soils have no folders, so a path without .sdf is not searched for.
 std::string soil_file(const Element& element, const std::string& ref) {
   if (ref.size() > 4 && ref.compare(ref.size() - 4, 4, ".sdf") == 0)
     return (std::filesystem::path(Document::of(element).directory()) / ref).string();
@@ -61,9 +58,9 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   scene::Soil soil;
   const std::string ref = attribute(element, "ref");
   const std::string name = attribute(element, "name");
-  // What the soil refers to comes first, and what stands in the element replaces it value by value.
+  // The soil of the reference comes first; the element then replaces its values.
   if (!ref.empty()) {
-    // Soil files must not refer to others: no loops to follow.
+    // Soil files refer to no others, so there are no loops.
     if (!element.Parent()->ToElement() ||
         std::string(element.Parent()->ToElement()->Name()) == "sdf")
       faults.error(element, ref, "ref is for worlds; a soil file holds values");
@@ -84,8 +81,8 @@ scene::Soil read_soil(Element& element, Faults& faults) {
     else
       soil.friction_angle = std::asin(std::min(1.0, std::tan(soil.repose_angle)));
   }
-  // A residual that was not stated follows a changed cohesion down, so that a clean sand needs one
-  // line only.
+  // A residual cohesion that was not given follows the cohesion down, so that a clean sand needs
+  // one line.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)
     soil.residual_cohesion = std::min(residual, soil.cohesion);
   const Element* loose = element.FirstChildElement("loose_cohesion_pa");
@@ -106,7 +103,7 @@ scene::Soil read_soil(Element& element, Faults& faults) {
 std::vector<scene::Soil> read_soil_file(const std::string& file, Faults& faults) {
   std::vector<scene::Soil> soils;
   const auto document = Document::open(file, faults);
-  // Unknown elements are told first, as a misspelt soil would otherwise only be missing.
+  // A misspelt soil is reported as unknown before it is missing.
   if (!document || !check_root(*document->root(), faults)) return soils;
   check_sdf(*document->root(), faults);
   for (Element* e = document->root()->FirstChildElement("navvy:soil"); e;

@@ -97,15 +97,14 @@ void read_cameras(Element& world_element, scene::Scene& world, Faults& faults) {
 
 void read_light(Element& element, std::vector<scene::Light>& lights, Faults& faults) {
   if (attribute(element, "type") != "directional") {
-    // Point and spot lights would need places and falls of brightness that the pictures do not
-    // know.
+    // Pictures have no point or spot lights.
     faults.warning(element, attribute(element, "type"), "is ignored",
                    "only directional lights are drawn");
     return;
   }
   scene::Light light;
   std::vector<double> v;
-  Faults seen;  // check_sdf has told what is no number
+  Faults seen;  // check_sdf has reported them
   if (Element* e = element.FirstChildElement("direction"); e && read_numbers(*e, 3, {}, v, seen)) {
     light.direction = Vec3(v[0], v[1], v[2]);
     if (light.direction.norm() < 1e-9)
@@ -114,7 +113,7 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
       light.direction.normalize();
   }
   if (Element* e = element.FirstChildElement("diffuse")) {
-    // Alpha may be left out; what is no number was reported by check_sdf and counts as 1.
+    // Alpha may be left out; check_sdf has reported what is no number.
     const auto words = words_of(text_of(*e));
     double c[4] = {1, 1, 1, 1};
     for (std::size_t i = 0; i < 4 && i < words.size(); ++i) to_number(words[i], c[i]);
@@ -142,13 +141,13 @@ void check_grid(const Element& world_element, const scene::Scene& world, Faults&
   if (cells.minCoeff() < 4)
     faults.error(at, "", "the site must be at least 4 cells wide",
                  "smaller cell_m or larger size_m");
-  // 2^16 columns an edge: the sparse tables index columns with 16 bits and more is never meant.
+  // The sparse tables index columns with 16 bits.
   if (cells.maxCoeff() > 65536)
     faults.error(at, "", "the site must be at most 65536 cells wide",
                  "larger cell_m or smaller size_m");
 }
 
-/// What only the cell tells: how heavy particles and how many pieces of shells become.
+/// Checks limits that depend on the cell: mass of a particle, pieces of shells.
 void check_cell(const Element& world_element, const scene::Scene& world, Faults& faults) {
   const Element* solver = world_element.FirstChildElement("navvy:solver");
   const Element& at = solver ? *solver : world_element;
@@ -175,8 +174,7 @@ void check_cell(const Element& world_element, const scene::Scene& world, Faults&
     }
 }
 
-/// Takes the planes of what stands still out of its shapes: a level one is the rock under the
-/// ground.
+/// Removes planes from the shapes of a machine that stands still. A level plane is the rock.
 void take_planes(const Element& world_element, const Element& at, scene::MachineInWorld& instance,
                  scene::Scene& world, Faults& faults) {
   if (instance.machine.links.empty()) return;
@@ -186,7 +184,7 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
   };
   const auto plane = std::find_if(link.collisions.begin(), link.collisions.end(), is_plane);
   if (plane == link.collisions.end()) return;
-  // It lies where its file says: on the ground it would be the ground.
+  // A plane on the ground would be the ground, so its pose counts in the world.
   if (!at.FirstChildElement("navvy:on_ground")) instance.on_ground = false;
   const Pose X = instance.X_WM * link.X_ML * plane->X_LC;
   const double height = X.translation().z();
@@ -206,7 +204,7 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
     faults.error(at, plane->name, "another plane is the rock already", "remove one of them");
   } else if (ground != nullptr && world.ground.file.empty() &&
              height > world.ground.surface - 0.01) {
-    // Of a file or of shapes the ground itself tells when it is laid.
+    // Ground of a file or with shapes is checked when it is built.
     faults.error(at, plane->name,
                  "the plane would be the ground's rock, and there is no soil above it",
                  "set surface_m of <navvy:ground> above it, or remove the plane: the ground "

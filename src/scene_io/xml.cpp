@@ -19,11 +19,11 @@
 namespace navvy::scene_io {
 
 namespace {
-/// One line of text in UTF-8, whatever was written.
+/// Returns the text as one line of valid UTF-8.
 std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  // The cut of a long value may have gone through a letter.
+  // The cut of a long value may have split a character.
   for (std::size_t bad = first_bad_utf8(text); bad != std::string::npos; bad = first_bad_utf8(text))
     text[bad] = '?';
   return text;
@@ -39,7 +39,7 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
   fault.line = place.line;
   fault.file = place.file ? *place.file : "command line";
   fault.element = printable(element_path(at));
-  // A value may be a whole broken file; the start of it is enough to find it.
+  // The start of a long value is enough to find it.
   fault.value = value.size() > 80 ? printable(value.substr(0, 77)) + "..." : printable(value);
   fault.rule = rule;
   fault.remedy = remedy;
@@ -62,7 +62,7 @@ std::string Faults::nearest(const std::string& word,
                             const std::vector<std::string>& candidates) const {
   if (errors_.all >= limits::kFaultsShown) return "";
   std::string out = suggestion(word, candidates);
-  // A list of all that is known is read once.
+  // A list of all candidates is shown once.
   if (out.rfind("known here", 0) == 0 && !listed_.insert(out).second)
     return "not one of those listed above";
   return out;
@@ -73,19 +73,18 @@ void Faults::add(Fault fault) {
 }
 
 bool Faults::count(Fault::Severity severity) {
-  Told& reported_ = told(severity);
-  if (++reported_.all <= limits::kFaultsShown) return true;
-  if (reported_.all == limits::kFaultsShown + 1) {
-    reported_.rest_at = list_.size();
-    list_.push_back({severity, "", 0, "", "", "", "mend those above first"});
+  Counted& counts = counted(severity);
+  if (++counts.all <= limits::kFaultsShown) return true;
+  if (counts.all == limits::kFaultsShown + 1) {
+    counts.rest_at = list_.size();
+    list_.push_back({severity, "", 0, "", "", "", "correct those above first"});
   }
-  list_[reported_.rest_at].rule =
-      "and " + std::to_string(reported_.all - limits::kFaultsShown) + " more that are not shown";
+  list_[counts.rest_at].rule =
+      "and " + std::to_string(counts.all - limits::kFaultsShown) + " more that are not shown";
   return false;
 }
 
-// Warnings alone do not stop anybody; with an error among them they are told together, so that a
-// file is mended once.
+// Errors are thrown with the warnings, so that a file can be corrected in one go.
 void Faults::finish() const {
   if (has_errors()) throw InputError(list_);
   for (const Fault& fault : list_) log_warning(fault.text());
@@ -106,7 +105,7 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
       return nullptr;
     }
     return parse(std::string(bytes.begin(), bytes.end()), file, faults);
-    // A file that another one names may be missing like any other; the list says so with its name.
+    // A file that another one names may be missing.
   } catch (const FileError& failure) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
@@ -126,8 +125,7 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
   if (!check_text(text, name, faults)) return nullptr;
   std::unique_ptr<Document> document(new Document);
   document->file_ = name;
-  // Elements know their tinyxml2 document only; this leads from there to the file's name. The
-  // Document is on the heap and never moves, so the pointer holds.
+  // Elements know their tinyxml2 document only; the user data leads to this object.
   document->xml_.SetUserData(document.get());
   document->xml_.Parse(text.data(), text.size());
   Fault fault;
@@ -155,7 +153,7 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
 
 /// Gives elements and values with names of earlier releases their current ones.
 void Document::rename_old(Element& element, int depth) {
-  // Deeper than any element that is read; check_tree reports it.
+  // check_tree reports deeper elements.
   if (depth > static_cast<int>(limits::kXmlNesting)) return;
   if (const std::string now = current_name(NameKind::kElement, element.Name());
       now != element.Name())
@@ -171,7 +169,7 @@ void Document::rename_old(Element& element, int depth) {
 
 Place place_of(const Element& element) {
   if (const void* known = element.GetUserData()) return *static_cast<const Place*>(known);
-  // tinyxml2 counts lines from 1 for what it has parsed; what overrides have inserted has 0.
+  // tinyxml2 counts parsed lines from 1; elements of overrides have line 0.
   if (element.GetLineNum() > 0) return {&Document::of(element).file(), element.GetLineNum()};
   return {};
 }
@@ -179,7 +177,7 @@ Place place_of(const Element& element) {
 Element* Document::create(const char* name, const Element& from) {
   Element* element = xml_.NewElement(name);
   Place place = place_of(from);
-  // The file's name outlives the document that was read from it.
+  // The name of the file must outlive its document.
   if (place.file != nullptr) place.file = &*other_files_.insert(*place.file).first;
   element->SetUserData(&places_.emplace_back(place));
   return element;
@@ -191,7 +189,7 @@ const Document& Document::of(const Element& element) {
 }
 
 std::string Document::directory() const {
-  // A bare file name lies in the working directory.
+  // A bare file name is in the working directory.
   const std::string directory = std::filesystem::path(file_).parent_path().string();
   return directory.empty() ? "." : directory;
 }
@@ -205,12 +203,12 @@ std::string Document::text() const {
 namespace {
 std::string label(const Element& element) {
   std::string name = element.Name();
-  // What a person would call the element: these attributes tell equal elements apart in scenes.
+  // These attributes identify elements of one kind in scenes.
   for (const char* key : {"name", "ref", "joint"})
     if (const char* value = element.Attribute(key)) return name + "[" + value + "]";
-  // Without a name: the place among equal siblings, when there are several.
+  // Without a name, the place among equal siblings identifies it.
   int place = 1, count = 0;
-  // The outermost element has no siblings to be told from.
+  // The outermost element has no siblings.
   const auto* parent = element.Parent() ? element.Parent()->ToElement() : nullptr;
   if (!parent) return name;
   for (const Element* other = parent->FirstChildElement(element.Name()); other;
@@ -225,7 +223,7 @@ std::string label(const Element& element) {
 std::string element_path(const Element& element) {
   if (std::strcmp(element.Name(), "world") == 0) return "world";
   std::string path = label(element);
-  // Worlds and the outermost element are left out of the names: there is one of each.
+  // There is one world and one root, so paths leave them out.
   for (const auto* up = element.Parent(); up && up->ToElement(); up = up->Parent()) {
     const Element& parent = *up->ToElement();
     if (std::strcmp(parent.Name(), "sdf") == 0) break;
@@ -244,7 +242,7 @@ const Element* named_child(const Element& parent, const char* kind, const std::s
 
 std::string text_of(const Element& element) {
   std::string text;
-  // Text may come in pieces, around comments and elements.
+  // Comments and elements split a text into several nodes.
   for (const auto* node = element.FirstChild(); node; node = node->NextSibling())
     if (node->ToText()) text += node->Value();
   const char* blank = " \t\r\n";

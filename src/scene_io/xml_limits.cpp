@@ -18,20 +18,20 @@ bool starts_name(char c) {
          byte == ':' || byte >= 0x80;
 }
 
-/// Control characters that XML allows are blanks of a text.
+/// XML allows tabs and line breaks as blanks.
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F;
 }
 
-/// Character references can spell what the file's bytes may not: "&#0;", "&#xD800;".
+/// Character references such as "&#0;" can hold what bytes of a file may not.
 void check_value(const Element& at, const char* value, Faults& faults) {
   const std::string_view text = value;
   if (first_bad_utf8(text) == std::string_view::npos &&
       std::none_of(text.begin(), text.end(), is_control))
     return;
   faults.error(at, "", "holds a character that is none of Unicode's, or a control character",
-               "take character references such as &#xD800; out");
+               "remove character references such as &#xD800;");
 }
 
 /// Checks the number of children of one kind.
@@ -43,7 +43,7 @@ bool check_count(const Element& element, const char* child, std::size_t most, Fa
   faults.error(
       element, std::to_string(found),
       "at most " + std::to_string(most) + " <" + child + "> in one <" + element.Name() + ">",
-      "scenarios/README.md lists the limits of files");
+      "docs/reference/limits.md lists the limits of files");
   return false;
 }
 
@@ -74,7 +74,7 @@ bool check_counts(const Element& element, Faults& faults) {
 bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   const auto most = [&](const char* what, std::size_t number) {
     faults.error(element, "", std::string("at most ") + std::to_string(number) + " " + what,
-                 "scenarios/README.md lists the limits of files");
+                 "docs/reference/limits.md lists the limits of files");
     return false;
   };
   if (std::strlen(element.Name()) > limits::kNameBytes)
@@ -84,7 +84,7 @@ bool check_element(const Element& element, std::size_t depth, Faults& faults) {
   for (const auto* at = element.FirstAttribute(); at; at = at->Next()) {
     if (std::strlen(at->Name()) > limits::kNameBytes)
       return most("bytes in the name of an attribute", limits::kNameBytes);
-    // A value that a name is made of has one fault, not two.
+    // A faulty name is reported once.
     if (std::strcmp(at->Name(), "name") != 0 || check_name(element, at->Value(), faults))
       check_value(element, at->Value(), faults);
   }
@@ -106,7 +106,7 @@ std::size_t count_elements(const std::string& text) {
 }
 
 std::size_t overloaded_tag(std::string_view text) {
-  // Comments and the like hold no tags, whatever stands in them.
+  // Comments, CDATA and processing instructions hold no tags.
   constexpr std::string_view kLeftOut[][2] = {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
   for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
     const std::size_t tag = at++;
@@ -157,7 +157,7 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
     fault.line = 1 + static_cast<int>(std::count(
                          text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n'));
     fault.rule = "at most " + std::to_string(limits::kXmlAttributes) + " attributes in one element";
-    fault.remedy = "scenarios/README.md lists the limits of files";
+    fault.remedy = "docs/reference/limits.md lists the limits of files";
   } else {
     return true;
   }

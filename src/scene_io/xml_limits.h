@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file must hold before anything of it is read: text of a bounded size, and names that fit
-// into results.
+// Limits of a file that are checked before it is read: size of the text, and names that fit into
+// results.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,27 @@
 
 namespace navvy::scene_io {
 
-/// Elements that begin in `text`, those in comments too.
+/// Returns the number of elements that begin in `text`, those in comments included.
 std::size_t count_elements(const std::string& text);
 
-/// Where the first tag with more attributes than core/limits.h allows begins; npos: nowhere. Asked
-/// before a text is parsed: the parser holds each attribute against all others of its element.
+/// Returns the position of the first tag with more attributes than core/limits.h allows; npos if
+/// there is none. It is checked before parsing, as the parser compares each attribute with all
+/// others of its element.
 std::size_t overloaded_tag(std::string_view text);
 
-/// What is wrong with a file of more bytes than core/limits.h allows, and what to do.
+/// Returns the fault of a file with more bytes than core/limits.h allows.
 Fault too_large(const std::string& file, std::size_t bytes);
 
-/// UTF-8, and no more bytes and elements than core/limits.h allows. False after a fault, which
-/// names the line.
+/// Checks that the text is UTF-8 and within the limits of bytes and elements. Returns false after a
+/// fault, which names the line.
 bool check_text(const std::string& text, const std::string& file, Faults& faults);
 
-/// Nesting, attributes, lists, names and texts of a parsed file. False where there is too much of
-/// something to read on; a bad name or character is a fault among others.
+/// Checks nesting, attributes, lists, names and texts of a parsed file. Returns false if a limit is
+/// exceeded, so that reading must stop. A bad name or character is an ordinary fault.
 bool check_tree(const Element& root, Faults& faults);
 
-/// A name goes into headers of CSV files, into JSON and into names of files: no control characters,
-/// commas or quotes, and not without end. `at` is blamed. False after a fault.
+/// Checks a name, which becomes part of CSV headers, JSON and file names: no control characters,
+/// commas or quotes, and a limited length. Reports a fault at `at` and returns false.
 bool check_name(const Element& at, const std::string& name, Faults& faults);
 
 }  // namespace navvy::scene_io

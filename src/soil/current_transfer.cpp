@@ -30,8 +30,8 @@ void CurrentTransfer::visit_nodes(Archive& a) {
   }
   const auto front =
       transfer_.velocity().map_read(0, store_.table().active.size() * 4 * BLOCK_NODES);
-  std::span<const float> felt = front.span();
-  a("front", felt);
+  std::span<const float> front_words = front.span();
+  a("front", front_words);
   const auto back = contact_.nodes().velocity1.map_read(0, contact_.nodes().values());
   std::span<const float> behind = back.span();
   a("back", behind);

@@ -17,6 +17,10 @@ namespace navvy::soil {
 
 /// Several steps share one transfer [docs/soil.md, transfer]. Velocities of its nodes are state, so
 /// that a run with snapshots equals the run without.
+///
+/// Each step asks `holds` first. If the step does not fit, `end` moves the particles and a new
+/// transfer begins with that step; the next `record_step` opens it. Lists of blocks, sides of
+/// particles and plates of tools may only change between `end` and the first step.
 class CurrentTransfer {
  public:
   /// Store, transfer and contact must outlive it. `length`: longest time [s]; `max_motion`: longest

@@ -24,6 +24,7 @@ double volume_energy(const SoilRow& soil, double j, double j0) {
   return 0.5 * static_cast<double>(soil.bulk) * j0 * closed * closed;
 }
 
+/// Returns a : b for symmetric tensors given as xx, yy, zz, xy, yz, zx.
 double dot_of(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
@@ -65,6 +66,7 @@ std::vector<std::int32_t> splits(std::size_t nodes, NearNodes& near) {
 
 }  // namespace
 
+// Integer fields are stored as the bits of a float.
 int EnergyLedger::Words::bits(int field, std::size_t slot) const {
   return std::bit_cast<int>(values[static_cast<std::size_t>(field) * capacity + slot]);
 }
@@ -111,6 +113,7 @@ double EnergyLedger::elastic_energy(const ParticleStore& store, const Words& now
     double s[6];
     for (int a = 0; a < 6; ++a) s[a] = now.at(FIELD_S + a, slot);
     const double j = now.at(FIELD_J, slot);
+    // The energy of shear is s : s / 4 G per present volume.
     sum += bank * (volume_energy(soil, j, now.at(FIELD_J0, slot)) +
                    j * dot_of(s, s) / (4 * static_cast<double>(soil.shear)));
   });
@@ -133,12 +136,16 @@ void EnergyLedger::record_law(const ParticleStore& store, const Words& now, doub
     const double j00 = before_.at(FIELD_J0, slot), j01 = now.at(FIELD_J0, slot);
     const double trace = c[0] + c[4] + c[8], volume = bank * j;
     const double mixed = j / (1 + dt * trace);
+    // The law first mixes J within a cell and then integrates it. The second step is known, so the
+    // first follows from the result.
     if (std::abs(mixed - before) > kRoundingOfJ)
       account_.mixing -=
           bank * (volume_energy(soil, mixed, j00) - volume_energy(soil, before, j00));
     const double slip = now.at(FIELD_SHEAR, slot) - before_.at(FIELD_SHEAR, slot);
     const double q = std::sqrt(0.5 * dot_of(s1, s1));
     const double along = q > 0 ? 0.5 * dot_of(s0, s1) / q : std::sqrt(0.5 * dot_of(s0, s0));
+    // Shear: the stress along the slip, mean of before and after. Volume: J0 follows J when soil
+    // dilates or compacts, which releases the difference.
     account_.plastic += volume * slip * 0.5 * (along + q);
     account_.plastic += bank * (volume_energy(soil, j, j00) - volume_energy(soil, j, j01));
     // Viscosities [docs/soil.md, viscosity].
@@ -148,8 +155,8 @@ void EnergyLedger::record_law(const ParticleStore& store, const Words& now, doub
     const auto viscosity = static_cast<double>(soil.viscosity);
     if (!(slip > 0)) account_.viscous += dt * volume * 2 * viscosity * dot_of(d, d);
     const double p = static_cast<double>(soil.bulk) * std::max(0.0, 1 - j / j00);
-    const double felt = std::max(p - scheme_.volume_damping * viscosity * trace, 0.0);
-    if (p > 0) account_.viscous += dt * volume * (p - felt) * trace;
+    const double damped = std::max(p - scheme_.volume_damping * viscosity * trace, 0.0);
+    if (p > 0) account_.viscous += dt * volume * (p - damped) * trace;
     // A displacement without a velocity: the separation of crowded particles.
     for (int a = 0; a < 3; ++a) {
       const double apart = now.at(FIELD_MOVED + a, slot) - before_.at(FIELD_MOVED + a, slot) -
@@ -193,11 +200,14 @@ void EnergyLedger::scatter(const ParticleStore& store, const Words& now, Contact
       // Neutral soil joins the side of its node; an unsplit node joins all.
       const bool back = split[at] != 0 && (side == 0 ? split[at] == 2 : side == 2);
       Node& node = nodes_[at + (back ? count : 0)];
+      // The same sums as on the device, in doubles: velocity of the particle at the node, weighted
+      // by the mass that it gives to the node.
       const double share = w[0][i[0]] * w[1][i[1]] * w[2][i[2]] * mass;
       node.mass += share;
       node.v += share * (v + c * (Vec3(i[0], i[1], i[2]) - f));
     }
   });
+  // Nodes below one mass quantum hold rounding only.
   for (Node& node : nodes_)
     node.v = node.mass > kMassQuantum ? Vec3(node.v / node.mass) : Vec3(Vec3::Zero());
 }
@@ -211,6 +221,7 @@ double EnergyLedger::nodes_energy() const {
 std::vector<Vec3> EnergyLedger::velocities(Transfer& transfer, Contact& contact) const {
   const std::size_t count = nodes_.size() / 2;
   std::vector<Vec3> out(nodes_.size(), Vec3::Zero());
+  // Four words per node: velocity, and mass per free fraction.
   const auto front = transfer.velocity().map_read(0, 4 * count);
   for (std::size_t i = 0; i < count; ++i)
     out[i] = Vec3(front[4 * i], front[4 * i + 1], front[4 * i + 2]);
@@ -247,11 +258,13 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
     const auto records = contact.records().map_read(0, 2 * blocks * BLOCK_NODES);
     for (std::size_t i = 0; i < 2 * blocks * BLOCK_NODES; ++i) {
       const std::size_t node = i / 2, block = node / BLOCK_NODES;
+      // Records of blocks that no tool touched are those of an earlier step.
       if (touched[block] == 0) continue;
       const ContactRecord& record = records[i];
       const std::size_t at = static_cast<std::size_t>(list[block]) * BLOCK_NODES +
                              node % BLOCK_NODES + (i % 2) * count;
       for (int a = 0; a < 3; ++a)
+        // Work on a node: its change of momentum times its mean velocity over the step.
         got += static_cast<double>(record.mass) *
                (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) *
                0.5 * (nodes_[at].v[a] + after[at][a]);
@@ -262,6 +275,7 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
 }
 
 void EnergyLedger::begin_step(const ParticleStore& store, bool hold) {
+  // The law runs within the step, so the ledger keeps a copy of all particles.
   before_ = words_of(store);
   if (hold) return;
   // The previous transfer has ended. What nodes had and particles did not take up is lost; then
@@ -286,6 +300,7 @@ void EnergyLedger::end_step(const ParticleStore& store, Transfer& transfer, Cont
   const std::vector<Vec3> after = velocities(transfer, contact);
   record_tools(contact, after, motions, impulses);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    // Gravity acts on the nodes, with their mean velocity over the step.
     account_.gravity += dt * nodes_[i].mass * gravity_.dot(0.5 * (nodes_[i].v + after[i]));
     nodes_[i].v = after[i];
   }

@@ -20,6 +20,14 @@
 namespace navvy::soil {
 
 /// Energy account of one solver. Energies are sums in doubles, in a fixed order.
+///
+/// Kinetic energy is that of the nodes, elastic energy that of the particles. Work of tools and
+/// gravity is force x displacement over the step; plastic and viscous work come from the change of
+/// stress and plastic shear of each particle. Whatever nodes had and particles did not take up at
+/// the end of a transfer counts as `transfer`.
+///
+/// Calls come in pairs: begin_step before the kernels of a step are queued, end_step after its
+/// impulses are known. Between the two the host must not change particles.
 class EnergyLedger {
  public:
   EnergyLedger(const std::vector<scene::Soil>& soils, double cell, const Vec3& gravity,

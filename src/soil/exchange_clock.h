@@ -13,6 +13,9 @@ namespace navvy::soil {
 ///
 /// A check is due before the fastest tool has gone a third of a cell, and after some steps when no
 /// tool moves. Checks wait for the end of a transfer.
+///
+/// Rules of the exchange are written in simulated time, so a check that comes a little earlier or
+/// later changes little; one that comes too late lets a tool run into ground that is still columns.
 class ExchangeClock {
  public:
   /// Largest number of steps between two checks.

@@ -10,6 +10,9 @@
 namespace navvy::soil {
 
 /// The grid frame G (particle.h) of one site.
+///
+/// Axes are those of W, lengths are in cells, and the height is counted from the ground's datum.
+/// All particles, blocks and nodes of a solver count in it.
 struct GridFrame {
   GridFrame(const scene::Scene& world, const heightfield::Ground& ground)
       : cell(ground.cell()),

@@ -12,6 +12,7 @@ namespace navvy::soil {
 std::int64_t Ledger::error() const {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < columns.size(); ++i)
+    // All terms are integers in mass quanta, so a closed ledger has an error of exactly zero.
     sum += std::abs(columns[i] + particles[i] + left_site[i] - inserted[i]);
   return sum;
 }
@@ -26,6 +27,7 @@ void MassRecord::record_inserted(std::span<const Particle> particles) {
 void MassRecord::record_left_site(std::span<const Particle> particles) {
   for (const Particle& p : particles) {
     left_site_[p.soil] += p.mass;
+    // The count of the next transfer must already be without them.
     in_particles_[p.soil] -= p.mass;
   }
 }
@@ -38,6 +40,7 @@ void MassRecord::set_particles(std::span<const Particle> all) {
 Ledger MassRecord::ledger(std::vector<std::int64_t> particles) const {
   Ledger out;
   out.columns = ground_.mass_change();
+  // The ground counts only the soils that it has held.
   out.columns.resize(in_particles_.size(), 0);
   out.particles = std::move(particles);
   out.left_site = left_site_;
@@ -45,6 +48,7 @@ Ledger MassRecord::ledger(std::vector<std::int64_t> particles) const {
   return out;
 }
 
+// in_particles_ is not visited: it follows from the particles.
 void MassRecord::visit(Archive& a) {
   a("next_id", next_id_);
   a.fixed("left_site", left_site_);

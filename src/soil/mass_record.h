@@ -19,6 +19,10 @@ struct Ledger;
 
 /// Entries of the ledger that are not counted from particles, in kMassQuantum per soil, and the ids
 /// of particles.
+///
+/// The ledger is balanced when the change of the columns, plus the particles, plus what left the
+/// site, minus what was inserted, is zero for every soil. All of these are integers, so the balance
+/// is exact.
 class MassRecord {
  public:
   /// Starts without particles on this ground, which must outlive the record. `soils`: their number.

@@ -23,10 +23,13 @@ SoilParticles::SoilParticles(device::Device& device, const std::array<std::int32
                              const std::vector<SoilRow>& soils, int budget)
     : store_(device, site, soils), soils_(soils.size()), budget_(budget) {}
 
+// After a device failure the store keeps its old contents, and the new particles are on the host.
+// Queries and snapshots then use those.
 std::vector<Particle> SoilParticles::records() const {
   return unplaced_.empty() ? store_.records() : unplaced_;
 }
 
+// Blocks of stored particles are those of their base node; the exchange needs the cell itself.
 std::vector<Particle> SoilParticles::by_cell() const {
   std::vector<Particle> out = store_.records();
   for (Particle& p : out) p = in_cell_block(p);
@@ -39,6 +42,7 @@ std::vector<PointMass> SoilParticles::masses_near(const Vec3& low, const Vec3& h
   for (const Particle& p : unplaced_) {
     PointMass point;
     for (int a = 0; a < 3; ++a)
+      // Present position: the displacement of the current transfer included.
       point.grid[a] =
           kBlockCells * p.block[a] + static_cast<double>(p.x[a]) + static_cast<double>(p.moved[a]);
     point.mass = p.mass;
@@ -55,6 +59,7 @@ std::vector<std::int64_t> SoilParticles::masses() const {
 }
 
 void SoilParticles::assign(const std::vector<Particle>& particles) {
+  // Logs once each time the budget is exceeded. The run goes on, more slowly.
   const bool over = static_cast<int>(particles.size()) > budget_;
   if (over && !over_budget_)
     log_warning("soil: " + std::to_string(particles.size()) +
@@ -79,6 +84,8 @@ std::vector<Particle> SoilParticles::rebin() {
 }
 
 void SoilParticles::visit(Archive& a) {
+  // Both branches write the same format, so that a run that failed can be inspected and continued
+  // on another device.
   if (!a.loading() && !unplaced_.empty())
     ParticleStore::visit(a, unplaced_, soils_);
   else

@@ -23,6 +23,9 @@ Particle in_cell_block(Particle p);
 
 /// Particles on the device. If the device runs out of memory the run is over; the particles then
 /// stay on the host, so that ledger and snapshot remain complete.
+///
+/// `assign`, `rebin` and a load change the set of blocks. `blocks_changed` then stays true until
+/// the solver has made its lists anew.
 class SoilParticles {
  public:
   /// Creates an empty set. `site`, `soils`: see ParticleStore. `budget`: number of particles above

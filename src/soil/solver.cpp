@@ -16,12 +16,15 @@ namespace {
 /// chosen for a slower tool would cost two half steps.
 constexpr double kMostStep = 1.3;
 
+/// Returns the largest sound speed of the scene's soils [m/s], which limits the step.
 double fastest_sound_of(const std::vector<scene::Soil>& soils) {
   double out = 0;
   for (const scene::Soil& soil : soils) out = std::max(out, sound_speed(soil));
   return out;
 }
 
+/// Returns the motion after `t` seconds with `motion`'s twist, and with the new `twist` (angular,
+/// linear) from then on.
 ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
   ToolMotion out = motion;
   out.w_WT = twist.head<3>();
@@ -33,6 +36,7 @@ ToolMotion moved(const ToolMotion& motion, const Vec6& twist, double t) {
   return out;
 }
 
+/// Adds the impulses of a part of a step to those of the step.
 void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   // Moments are about each part's own origin; shift them to that of the first part.
   sum.L_W += part.L_W + (part.p_W - sum.p_W).cross(part.J_W);
@@ -82,6 +86,7 @@ int Solver::add_tool(const scene::Shell& shell) {
   return state_->contact.add_tool(shell);
 }
 
+// The lab and tests switch the separation of crowded particles off to show its effect.
 void Solver::set_crowding(bool on) { state_->crowding = on; }
 
 void Solver::record_energy(bool on) {
@@ -103,6 +108,7 @@ double Solver::step_limit(double tool_speed) const {
                   settings.courant * state_->frame.cell / (state_->fastest_sound + tool_speed));
 }
 
+// A rigid tool is fastest at one of its vertices.
 double Solver::State::tool_speed(const ToolMotion& motion) const {
   double fastest = 0;
   for (const Vec3& v : contact.geometry(motion.tool).shell().vertices)
@@ -128,6 +134,7 @@ void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<Tool
   try {
     state_->advance_in_parts(dt, parts, motions, impulses);
   } catch (const device::DeviceError& error) {
+    // The device does not know the time of the run; the message needs it.
     throw device::DeviceError(state_->here() + error.what(), error.code());
   }
 }
@@ -142,6 +149,7 @@ void Solver::State::advance_in_parts(double dt, int parts, std::span<const ToolM
     for (std::size_t m = 0; m < motions.size(); ++m) {
       add_impulse(impulses[m], got[m]);
       if (i + 1 == parts) continue;
+      // A tool that yields changes its twist by its mobility times the impulse that it received.
       Vec6 twist, impulse;
       twist << now[m].w_WT, now[m].v_WT;
       impulse << got[m].L_W, got[m].J_W;
@@ -166,6 +174,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
     impulses[m].p_W = motions[m].X_WT.translation();
   }
   if (hold) {
+    // Nodes, lists and sides are those of the start of the transfer; only tools and ground move.
     contact.set_twists(motions);
     update_floor();
   } else if (particles.count() > 0) {
@@ -194,6 +203,7 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
                                    std::span<const ToolMotion> motions,
                                    std::span<ToolImpulse> impulses) {
   ParticleStore& store = particles.store();
+  // The ledger needs the particles before and after the step.
   if (energy) energy->begin_step(store, hold);
   queue(dt, hold);
   Transfer::Largest report;
@@ -201,6 +211,7 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
     StageClock clock(times, "particles");
     report = transfer.read_report(store.particle_blocks().size());
   }
+  // Beyond this, particles would leave the nodes that their block reads. NaN fails, too.
   if (!(report.speed * dt / frame.cell < 1 - kMaxDrift / 4)) fail(report.speed);
   current.record_step(dt, frame.cell, report.speed, tool_speed);
   stats.max_speed = report.speed;
@@ -209,7 +220,7 @@ void Solver::State::step_particles(double dt, double tool_speed, bool hold,
     particles.add_drift(report.push);
     stats.shell_crossings += report.crossed;
   }
-  StageClock clock(times, "books");
+  StageClock clock(times, "ledger");
   contact.sum_impulses(impulses);
   if (standing.apply(dt, motions, impulses)) exchange_clock.hurry();
   contact.add_impulses(dt, impulses);
@@ -257,8 +268,10 @@ ToolRegion Solver::State::region_of(const ToolMotion& motion) const {
 
 void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motions) {
   StageClock clock(times, "exchange");
+  // The exchange sees tools as boxes in W with the velocity of their centre.
   std::vector<ToolRegion> regions;
   for (const ToolMotion& motion : motions) regions.push_back(region_of(motion));
+  // Columns are judged by present positions, by the cell that holds them.
   const std::vector<Particle> all = particles.by_cell();
   standing.update(exchange_clock.elapsed(), motions, regions, all);
   for (ToolRegion& region : regions) region.supported = standing.supports(region.tool);
@@ -268,6 +281,7 @@ void Solver::State::check_exchange(double dt, std::span<const ToolMotion> motion
       exchange.check(all, regions, time, exchange_clock.elapsed(), {support_areas, until_next});
   stats.activations += static_cast<std::uint64_t>(result.activated_columns);
   stats.deposits += static_cast<std::uint64_t>(result.deposited_blocks);
+  // Soil that became active under a tool carries it from now on.
   standing.release(regions, result.born);
   replace(all, result.removed, std::move(result.born));
   // Columns are counted anew. The device counts the particles in every transfer (check_masses).
@@ -283,6 +297,7 @@ void Solver::State::replace(const std::vector<Particle>& all,
   const bool any_removed =
       std::any_of(removed.begin(), removed.end(), [](std::uint8_t r) { return r != 0; });
   if (!any_removed && born.empty()) return;
+  // The order of the particles that stay decides their order in each cell, so it is kept.
   std::vector<Particle> stay;
   stay.reserve(all.size() + born.size());
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -322,6 +337,7 @@ void Solver::State::rebin_if_due() {
 void Solver::State::update_lists(std::span<const ToolMotion> motions) {
   StageClock clock(times, "lists");
   ParticleStore& store = particles.store();
+  // Lists remain valid until tools have moved by the contact margin, or blocks change.
   const bool lists = contact.set_motions(motions, store.table(), particles.blocks_changed());
   if (lists || particles.blocks_changed()) {
     const int tiles = store.set_near(contact.near_particle_blocks());

@@ -13,6 +13,7 @@
 namespace navvy::soil {
 
 void Solver::State::check_masses() {
+  // The device counts each transfer; a difference shows a lost or doubled particle at once.
   const std::vector<std::int64_t> counted = mass_count.take();
   for (std::size_t soil = 0; soil < counted.size(); ++soil) {
     if (counted[soil] == masses.in_particles()[soil]) continue;
@@ -31,6 +32,7 @@ std::vector<Particle> Solver::particles() const {
     for (int a = 0; a < 3; ++a) p.x[a] += std::exchange(p.moved[a], 0.0f);
     p = in_cell_block(p);
   }
+  // By id, so that the order does not depend on where particles are stored.
   std::sort(out.begin(), out.end(),
             [](const Particle& a, const Particle& b) { return a.id < b.id; });
   return out;
@@ -54,6 +56,7 @@ double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> e
   int closest = 0;
   for (const PointMass& p : state_->particles.masses_near(low, high)) {
     const Vec3 p_W = state_->frame.origin + p.grid * state_->frame.cell;
+    // Soil in the `except` tools is theirs.
     const auto holds = [&](const auto& other) { return other.first->holds(other.second * p_W); };
     if (geometry.holds(X_TW * p_W, closest) && std::none_of(others.begin(), others.end(), holds))
       sum += p.mass;
@@ -122,6 +125,7 @@ void Solver::State::visit(Archive& a) {
 // Lists and layout follow from the blocks, and from the poses for which the lists were made.
 void Solver::State::rebuild(Archive& a) {
   ParticleStore& store = particles.store();
+  // Sums that are not saved because particles and ground determine them.
   masses.set_particles(store.masses(world.soils.size()));
   floor = Floor(ground, frame.grid, scheme.held_margin);
   contact.list_near(store.table());
@@ -132,6 +136,7 @@ void Solver::State::rebuild(Archive& a) {
 }
 
 void Solver::visit(Archive& a) {
+  // An energy account is not part of the state: it begins anew after loading.
   a.section("soil", 5, [&] {
     state_->visit(a);
     if (a.loading()) state_->rebuild(a);

@@ -24,6 +24,18 @@
 namespace navvy::soil {
 
 /// The parts of a solver and the order in which a step calls them. Every part visits its own state.
+///
+/// A step runs in this order. Everything in parentheses happens once per transfer, before its first
+/// step:
+///
+/// - (end the previous transfer: particles move, forces of tools are averaged)
+/// - (check the exchange if it is due: columns become particles, particles become columns)
+/// - (re-bin if particles drifted far, update near lists and floors, classify sides)
+/// - law and scatter, node velocities, contact with tools, gather
+/// - (count masses on the device)
+/// - read the report, sum impulses, apply resting contacts
+///
+/// The host waits for the device once per step, when it reads the report.
 struct Solver::State {
   State(device::Device& device, const scene::Scene& world_in, heightfield::Ground& ground_in,
         const SchemeConstants& scheme_in);

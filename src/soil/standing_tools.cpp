@@ -18,6 +18,7 @@ constexpr double kSoilOver = 0.5;
 /// side [cells].
 constexpr double kLowerSide = 1;
 
+/// Returns whether the point lies in the region's box as seen from above.
 bool in_plan(const ToolRegion& region, const Vec3& p_W) {
   const auto at = p_W.head<2>().array();
   return (at >= region.min.head<2>().array()).all() && (at <= region.max.head<2>().array()).all();
@@ -34,6 +35,7 @@ Vec2 StandingTools::ground_gradient(const Vec2& from, const Vec2& to,
     if (high[a] - low[a] < 2) --low[a], ++high[a];
   const heightfield::CellRect rect =
       heightfield::CellRect{low.x(), low.y(), high.x() + 1, high.y() + 1}.cut(ground_.site_rect());
+  // Only particles near the tool are indexed.
   std::vector<Particle> near;
   for (const Particle& p : all) {
     const Vec3 at = frame_.position(p);
@@ -106,6 +108,7 @@ void StandingTools::update(double elapsed, std::span<const ToolMotion> motions,
     if (!contact.engaged && !contact.has_settled(shell, motion, elapsed, force)) continue;
     const Vec3 up = contact.engaged ? contact.up : ground_normal(shell, motion, regions[m], all);
     if (soil_on_tool(shell, motion, up, all)) {
+      // The particles on it now determine its load.
       contact.release();
       continue;
     }
@@ -113,6 +116,7 @@ void StandingTools::update(double elapsed, std::span<const ToolMotion> motions,
         ground_.column_at(motion.X_WT.translation().x(), motion.X_WT.translation().y());
     if (contact.engaged || !ground_.contains(at.x(), at.y())) continue;
     const double angle = world_.soils[ground_.surface_soil(at.x(), at.y())].tool_friction_angle;
+    // Friction of the column under the tool's origin, reduced by the shell's own share.
     contact.start(shell, motion, force, moment, shell.friction_share * std::tan(angle), frame_.cell,
                   up);
   }

@@ -17,6 +17,11 @@ class Archive;
 namespace navvy::soil {
 
 /// The resting contacts of all tools of a solver.
+///
+/// A contact starts when a tool that yields has stood still for long enough on particles that carry
+/// it, and no soil lies on it. From then on the ground under it may become columns, which do not
+/// push on tools. It ends when the tool moves, is overloaded, gets soil on top, or the ground below
+/// becomes particles again.
 class StandingTools {
  public:
   /// Observes the ground; all arguments must outlive it.

@@ -133,7 +133,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
                  path("state.npz")}),
             0);
   EXPECT_EQ(layer(path("end.npz"), "loose_depth"), layer(path("state.npz"), "loose_depth"));
-  EXPECT_EQ(layer(path("end.npz"), "awake"), layer(path("state.npz"), "awake"));
+  EXPECT_EQ(layer(path("end.npz"), "active"), layer(path("state.npz"), "active"));
   const std::vector<float> last = layer(path("end.npz"), "loose_depth");
   EXPECT_GT(std::count_if(last.begin(), last.end(), [](float depth) { return depth > 0; }), 60);
   // Beside the run's scene a snapshot needs no --scene.

@@ -318,7 +318,7 @@ TEST_F(Record, ABadPlaceOrLayerToPublishCostsNoEarlierResult) {
   ::getsockname(taken, reinterpret_cast<sockaddr*>(&address), &length);
   const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
       {{"--publish", "tcp:" + std::to_string(ntohs(address.sin_port))}, "cannot listen there"},
-      {{"--publish", "tcp:99999999"}, "no port from 0 to 65535"},
+      {{"--publish", "tcp:99999999"}, "is not a port from 0 to 65535"},
       {{"--publish", folder_ / "out"}, "already: patches are numbered from 1"},
       {{"--publish", folder_ / "s.sdf"}, "is there and no folder"},
       {{"--publish", folder_ / "maps", "--publish-layers", "elevtion"}, "elevation"}};

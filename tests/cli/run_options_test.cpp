@@ -92,7 +92,7 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   const std::string scene = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
   expect_reported("10 of 100 map cells on the site (10 %, 10 m2) have no height");
-  expect_reported("1e+38 is no ground's height, and the file does not declare it as nodata");
+  expect_reported("1e+38 cannot be a height of ground, and the file does not declare it as nodata");
   expect_reported("0 errors, 1 warning");
   // And what else was found in the map.
   expect_reported("source   Arc/Info ASCII Grid, 20 x 20 cells of 1 x 1 m");
@@ -101,7 +101,7 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   text.insert(text.find("1.5"), "NODATA_value 1e38\n");
   std::ofstream(map) << text;
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
-  EXPECT_EQ(said().find("is no ground's height"), std::string::npos) << said();
+  EXPECT_EQ(said().find("cannot be a height of ground"), std::string::npos) << said();
   expect_reported("declared as 1e+38: 10 of 100 cells on the site");
 }
 

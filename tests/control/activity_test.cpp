@@ -42,7 +42,7 @@ constexpr double kStep = 0.01;  // [s]
 /// every step.
 scene::Machine able_machine() {
   scene::Machine machine = ew180_like();
-  machine.beds.push_back({"bucket", "bucket", "bucket_joint", 1});
+  machine.beds.push_back({"bucket", "bucket", "bucket_joint", 1, ""});
   return machine;
 }
 

@@ -230,6 +230,7 @@ TEST(NewStep, IsUnknownWithoutItsRow) {
 TEST(NewStep, MustBeAStepOfTheOperator) {
   struct Foreign final : scene::Step {
     const char* element() const override { return "foreign"; }
+    void describe(scene::Fields&) override {}
   };
   const scene::Scene world = load(kWait, kWait, step_kinds());
   EXPECT_THROW(Operator(world.machines[0].machine, {{Foreign{}}, {}}), InputError);

@@ -27,6 +27,7 @@ constexpr double kStep = 0.01;  // [s]
 struct Trying final : ActivityStep {
   StepState end = StepState::kDone;
   const char* element() const override { return "trying"; }
+  void describe(scene::Fields&) override {}
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 

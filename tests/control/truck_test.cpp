@@ -31,7 +31,7 @@ scene::Machine truck() {
   shell.name = "bed";
   shell.link = "bed";
   machine.shells.push_back(shell);
-  machine.beds.push_back({"bed", "bed", "tip_joint", 3});
+  machine.beds.push_back({"bed", "bed", "tip_joint", 3, ""});
   return machine;
 }
 

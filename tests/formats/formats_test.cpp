@@ -111,7 +111,7 @@ for y in range(h):
 print(json.dumps([w, h, c, out]))
 )";
 
-TEST(GeoTiff, IsReadByGdalAtTheRightPlacesWithNamesUnitsAndHoles) {
+TEST(GeoTiff, IsReadByGdalWithPlacesNamesUnitsAndHoles) {
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   const test::Folder folder;
   write_map("geotiff", example(), kTwo, folder / "map.tif");
@@ -147,7 +147,7 @@ TEST(GeoTiff, IsReadByGdalAtTheRightPlacesWithNamesUnitsAndHoles) {
   EXPECT_NE(told["coordinateSystem"]["wkt"].get<std::string>().find("32632"), std::string::npos);
 }
 
-TEST(GeoTiff, OfASiteInFeetReportsHeightsInFeet) {
+TEST(GeoTiff, WritesHeightsInFeetForASiteInFeet) {
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   const test::Folder folder;
   heightfield::GroundSetup s = example().setup();
@@ -206,7 +206,7 @@ print(json.dumps(out)))",
   EXPECT_EQ(header["filled"]["from_m"], 1.5);
 }
 
-TEST(Npz, OfMoreRowsThanAreHeldAtOnceHasThemAllInOrder) {
+TEST(Npz, HoldsAllRowsOfALargeMapInOrder) {
   const test::Folder folder;
   const map::TerrainMap map = map::testing::map_of(
       map::testing::setup(31, 600), [](double x, double y) { return 0.1 * x + y * y; });
@@ -231,7 +231,7 @@ TEST(Npz, OfMoreRowsThanAreHeldAtOnceHasThemAllInOrder) {
       "None\n");
 }
 
-TEST(Npz, OfOneMapIsTheSameByteForByte) {
+TEST(Npz, IsReproducibleByteForByte) {
   const test::Folder folder;
   write_map("npz", example(), kTwo, folder / "a.npz");
   write_map("npz", example(), kTwo, folder / "b.npz");
@@ -317,7 +317,7 @@ TEST(Nav2, ScaleLoadsAsOccupancyToAPercentWithHolesUnknown) {
     }
 }
 
-TEST(Pictures, ShowNorthUpLightFromTheNorthWestAndHolesAsNothing) {
+TEST(Pictures, AreNorthUpLitFromTheNorthWestWithTransparentHoles) {
   if (!has_numpy()) GTEST_SKIP() << "/usr/bin/python3 is missing";
   const test::Folder folder;
   // A pyramid in the south-east quarter of a plain.
@@ -349,7 +349,7 @@ TEST(Pictures, ShowNorthUpLightFromTheNorthWestAndHolesAsNothing) {
     for (int ix = 0; ix < kNx; ++ix) ASSERT_EQ(pixel(ix, iy, 3), hole(ix, iy) ? 0 : 255);
 }
 
-TEST(Pictures, OfALayerRunFromItsLeastToItsGreatestColour) {
+TEST(Pictures, UseTheWholeRangeOfColours) {
   if (!has_numpy()) GTEST_SKIP() << "/usr/bin/python3 is missing";
   const test::Folder folder;
   write_map("relief", example(), {map::MapLayer::kTraversability}, folder / "good.png");
@@ -367,7 +367,7 @@ TEST(Pictures, OfALayerRunFromItsLeastToItsGreatestColour) {
       InputError);
 }
 
-TEST(Ply, HoldsTheKnownColumnsAndFacesThatLookUp) {
+TEST(Ply, HoldsKnownColumnsAndUpwardFaces) {
   if (!has_numpy()) GTEST_SKIP() << "NumPy for /usr/bin/python3 is missing (python3-numpy)";
   const test::Folder folder;
   write_map("ply", example(), {map::MapLayer::kTraversability}, folder / "map.ply");
@@ -449,7 +449,7 @@ map::TerrainMap with_target() {
   return example().with(map::MapLayer::kTarget, z);
 }
 
-TEST(Formats, ThatAreFoldersKeepTheOldOneWhenTheDiskIsFull) {
+TEST(Formats, KeepTheOldFolderWhenTheDiskIsFull) {
   const test::Folder folder;
   const map::TerrainMap map = with_target();
   for (const auto& [name, limit] :
@@ -485,7 +485,7 @@ TEST(Formats, ThatAreFoldersKeepTheOldOneWhenTheDiskIsFull) {
   }
 }
 
-TEST(Formats, ThatAreFoldersLeaveAForeignOneAlone) {
+TEST(Formats, NeverTouchAForeignFolder) {
   const test::Folder folder;
   for (const std::string name : {"terra", "bag"}) {
     const MapFormat& format = format_named(name);
@@ -524,7 +524,7 @@ TEST(Formats, ThatAreFoldersLeaveAForeignOneAlone) {
             (std::vector<std::string>{"a/map.yaml", "a/map.pgm"}));
 }
 
-TEST(Formats, AreFoundByNameOrTheNearestIsReported) {
+TEST(Formats, AreFoundByNameWithASuggestionOtherwise) {
   for (const MapFormat& format : all_formats()) EXPECT_EQ(&format_named(format.name), &format);
   try {
     format_named("geotif");

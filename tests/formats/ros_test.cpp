@@ -181,7 +181,7 @@ void expect_map(const json& bag) {
   EXPECT_EQ(bag.at("/clock").at("clock"), json({12, 500000000}));
 }
 
-TEST(Mcap, OfAMapIsReadByOthers) {
+TEST(Mcap, MapIsReadByOthers) {
   if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
   const test::Folder folder;
   write_map("mcap", example(), kTwo, folder / "map.mcap");
@@ -190,7 +190,7 @@ TEST(Mcap, OfAMapIsReadByOthers) {
   EXPECT_EQ(bag.at("statistics"), json({4, 4, 4}));
 }
 
-TEST(RosBag, OfAMapIsReadByOthers) {
+TEST(RosBag, MapIsReadByOthers) {
   if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
   const test::Folder folder;
   write_map("bag", example(), kTwo, folder / "bag");
@@ -242,14 +242,14 @@ void expect_bodies(const json& bag) {
   EXPECT_EQ(bag.at("/clock").at("times"), json({1000000000, 2500000001}));
 }
 
-TEST(Mcap, OfMovingBodiesIsReadByOthers) {
+TEST(Mcap, MovingBodiesAreReadByOthers) {
   if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
   const test::Folder folder;
   write_bodies(*ros::make_mcap(folder / "run.mcap"));
   expect_bodies(read(folder, folder / "run.mcap"));
 }
 
-TEST(RosBag, OfMovingBodiesIsReadByOthers) {
+TEST(RosBag, MovingBodiesAreReadByOthers) {
   if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
   const test::Folder folder;
   write_bodies(*ros::make_bag_folder(folder / "run"));
@@ -312,21 +312,21 @@ void expect_arrays(const json& bag) {
   EXPECT_EQ(bag.at("/labels").at("data"), json({7.0, 65535.0}));
 }
 
-TEST(Mcap, OfArraysIsReadByOthers) {
+TEST(Mcap, ArraysAreReadByOthers) {
   if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
   const test::Folder folder;
   write_some_arrays(*ros::make_mcap(folder / "run.mcap"));
   expect_arrays(read(folder, folder / "run.mcap"));
 }
 
-TEST(RosBag, OfArraysIsReadByOthers) {
+TEST(RosBag, ArraysAreReadByOthers) {
   if (readers().empty()) GTEST_SKIP() << "the readers mcap and rosbags are missing: ./dev readers";
   const test::Folder folder;
   write_some_arrays(*ros::make_bag_folder(folder / "run"));
   expect_arrays(read(folder, folder / "run"));
 }
 
-TEST(Bags, OfEachElementTypeHoldItsBytes) {
+TEST(Bags, HoldTheBytesOfAnArray) {
   // Without readers: encapsulation, dimensions, length and text of the label, size, stride, offset,
   // count, numbers.
   const std::vector<double> numbers = {1.5, -2};
@@ -416,7 +416,7 @@ TEST(Bags, ReportTheLeastAndTheGreatestTimeInAnyOrder) {
   EXPECT_EQ(number_at(file, end - 30), 100u);
 }
 
-TEST(Bags, ThatCannotBeWrittenAreFileErrors) {
+TEST(Bags, ReportUnwritablePathsAsFileErrors) {
   EXPECT_THROW(ros::make_mcap("/proc/no/such.mcap"), FileError);
   EXPECT_THROW(ros::make_bag_folder("/proc/no/such"), FileError);
 }

@@ -76,7 +76,7 @@ print(json.dumps({k: [str(v.dtype), list(v.shape), v.tolist()] for k, v in a.ite
     }
 }
 
-TEST(Terra, WithoutAnythingToDigHasNoDistance) {
+TEST(Terra, HasNoDistanceWithoutSoilToDig) {
   if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const test::Folder folder;
   const std::vector<float> none(static_cast<std::size_t>(kNx) * kNy, map::kUnknown);
@@ -93,7 +93,7 @@ print(json.dumps([float(a.min()), float(a.max())]))
       InputError);
 }
 
-TEST(Obj, HasEveryKnownColumnAndFacesThatLookUp) {
+TEST(Obj, HoldsKnownColumnsAndUpwardFaces) {
   const test::Folder folder;
   write_map("obj", example(), {map::MapLayer::kElevation}, folder / "map.obj");
   const json read = python(folder, R"(

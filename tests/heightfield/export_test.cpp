@@ -205,19 +205,6 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   EXPECT_NE(testing::output_of("gdalinfo '" + dir + "awake.tif'").find("loose_depth"),
             std::string::npos);
 }
-
-TEST(Export, WritesALayerOfARectangle) {
-  if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
-  const std::string dir = folder();
-  const Ground ground = marked(100, 200, 0);
-  std::vector<float> values(3 * 70);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
-  write_geotiff(ground, CellRect{10, 2, 13, 45 + 27}, values, dir + "layer.tif");
-  const std::vector<double> read =
-      located(dir + "layer.tif", {{101.05, 200.25}, {101.25, 200.25}, {101.05, 207.15}});
-  EXPECT_EQ(read, (std::vector<double>{0, 2, 207}));
-  EXPECT_THROW(write_geotiff(ground, CellRect{0, 0, 2, 2}, values, dir + "layer.tif"), Error);
-}
 #endif
 
 TEST(Export, LeavesTheOldFileWhenTheDiskIsFull) {

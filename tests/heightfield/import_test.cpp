@@ -268,7 +268,7 @@ TEST(Import, ReportsHowMuchOfTheSiteWasFilledFromWhereAndTheRemedy) {
   // A number that nobody declared.
   const std::string odd = write_text(dir + "odd.asc", ascii_grid(20, 20, header, holed("1e38")));
   const std::string undeclared = report_of(odd).warning();
-  EXPECT_TRUE(contains(undeclared, "1e+38 is no ground's height")) << undeclared;
+  EXPECT_TRUE(contains(undeclared, "1e+38 cannot be a height of ground")) << undeclared;
   if (!has_tool("gdal_fillnodata.py") || !has_tool("gdal_translate"))
     GTEST_SKIP() << "gdal-bin is missing";
   ASSERT_TRUE(testing::run_remedy(warning, "gdal_fillnodata.py", holes, dir + "filled.tif"))

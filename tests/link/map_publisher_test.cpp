@@ -71,7 +71,7 @@ void expect_same_as_python(const std::string& place, const test::Folder& folder,
   EXPECT_EQ(std::stoull(said), feed.latest()->sequence);
 }
 
-TEST(MapPublisher, OverTcpGivesTheExamplesReaderTheSameMap) {
+TEST(MapPublisher, ServesTheExampleReaderOverTcp) {
   if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const test::Folder folder;
   Ground ground(map::testing::setup(70, 66));
@@ -232,7 +232,7 @@ TEST(MapPublisher, LosesNothingWhenReadersGoAwayInMidPatch) {
       feed);
 }
 
-TEST(MapPublisher, IntoAFolderGivesTheExamplesReaderTheSameMap) {
+TEST(MapPublisher, ServesTheExampleReaderThroughAFolder) {
   if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const test::Folder folder;
   Ground ground(map::testing::setup(70, 66));
@@ -252,7 +252,7 @@ TEST(MapPublisher, IntoAFolderGivesTheExamplesReaderTheSameMap) {
       feed);
 }
 
-TEST(MapPublisher, IntoAFolderIsFollowedWhileItIsWritten) {
+TEST(MapPublisher, CanBeFollowedWhileItWritesAFolder) {
   if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const test::Folder folder;
   heightfield::testing::write_text(folder / "follow.py", kFollow);
@@ -300,7 +300,7 @@ TEST(MapPublisher, ReportsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
       << publisher.fault();
 }
 
-TEST(MapPublisher, RefusesAPortThatIsTakenAndPlacesThatAreNone) {
+TEST(MapPublisher, RefusesPortsInUseAndInvalidPlaces) {
   const test::Folder folder;
   map::UpdateFeed feed(two_layers()), other(two_layers());
   const MapPublisher publisher(feed, "tcp:0", kTwo);

@@ -27,7 +27,7 @@ std::vector<Vec2> box(double x0, double y0, double x1, double y1) {
 }
 const std::vector<Vec2> kSite = box(-3.3, 1.7, 11.5, 10.1);
 
-TEST(CutAndFill, OfATrenchIsThatOfAPrism) {
+TEST(CutAndFill, MatchesThePrismOfATrench) {
   const TerrainMap map = map_of(setup(), [](double x, double y) {
     return x > -1.0 && x < 5.0 && y > 4.0 && y < 5.2 ? -1.5 : 0.0;
   });
@@ -45,7 +45,7 @@ TEST(CutAndFill, OfATrenchIsThatOfAPrism) {
   expect_volume("the same, clockwise", cut_and_fill(map, half).cut, 6.0 * 1.2 * 1.5 * share);
 }
 
-TEST(CutAndFill, OfABatteredPitIsThatOfAFrustum) {
+TEST(CutAndFill, MatchesTheFrustumOfABatteredPit) {
   // Floor 3 m x 2 m, 1.2 m deep, sides 1 : 1.
   const TerrainMap map = map_of(setup(), [](double x, double y) {
     return std::min(std::max({std::abs(x - 4) - 1.5, std::abs(y - 6) - 1.0, 0.0}) - 1.2, 0.0);
@@ -54,7 +54,7 @@ TEST(CutAndFill, OfABatteredPitIsThatOfAFrustum) {
   expect_volume("frustum", cut_and_fill(map, kSite).cut, 1.2 / 6 * (top + floor + 4 * middle));
 }
 
-TEST(CutAndFill, OfAHeapIsThatOfACone) {
+TEST(CutAndFill, MatchesTheConeOfAHeap) {
   const double radius = 2.2, tall = 1.4;
   const TerrainMap map = map_of(setup(), [&](double x, double y) {
     return std::max(0.0, tall * (1 - std::hypot(x - 3.97, y - 5.91) / radius));
@@ -71,7 +71,7 @@ TEST(CutAndFill, OfAHeapIsThatOfACone) {
                 kPi * radius * radius * tall / 24);
 }
 
-TEST(CutAndFill, ReportsBankAndActiveSoilApart) {
+TEST(CutAndFill, SeparatesBankAndActiveSoil) {
   TerrainMap map = map_of(setup(), [](double, double) { return 0.2; });
   // Topsoil of 1100 swollen by 1.25
   map = map.with(MapLayer::kDensity, std::vector<float>(148 * 84, 880.0f));
@@ -82,7 +82,7 @@ TEST(CutAndFill, ReportsBankAndActiveSoilApart) {
   EXPECT_NEAR(part.active, 0.3, 1e-6);
 }
 
-TEST(CutAndFill, AgainstTheTargetReportsWhatTheDesignStillWants) {
+TEST(CutAndFill, ComparesTheGroundWithTheTarget) {
   heightfield::GroundSetup s = setup();
   MapOptions options;
   options.target.assign(static_cast<std::size_t>(s.nx) * s.ny, kUnknown);
@@ -98,7 +98,7 @@ TEST(CutAndFill, AgainstTheTargetReportsWhatTheDesignStillWants) {
   EXPECT_NEAR(all.unknown_area, 14.8 * 8.4 - 2, 1e-9);
 }
 
-TEST(CutAndFill, CountsWhatIsOutsideTheSiteAsUnknown) {
+TEST(CutAndFill, CountsAreaOutsideTheSiteAsUnknown) {
   const TerrainMap map = map_of(setup(), [](double, double) { return -1.0; });
   const CutFill part = cut_and_fill(map, box(10.5, 9.1, 13.5, 11.1));
   EXPECT_NEAR(part.cut, 1, 1e-9);
@@ -107,7 +107,7 @@ TEST(CutAndFill, CountsWhatIsOutsideTheSiteAsUnknown) {
   EXPECT_NEAR(cut_and_fill(map, box(100, 100, 101, 101)).unknown_area, 1, 1e-9);
 }
 
-TEST(CutAndFill, RefusesWhatIsNoPolygonAndNoReference) {
+TEST(CutAndFill, RefusesInvalidPolygonsAndReferences) {
   const TerrainMap map = map_of(setup(), [](double, double) { return 0.0; });
   EXPECT_THROW(cut_and_fill(map, std::vector{Vec2(0, 0), Vec2(1, 1)}), InputError);
   EXPECT_THROW(cut_and_fill(map, std::vector{Vec2(0, 0), Vec2(1, 1), Vec2(NAN, 0)}), InputError);

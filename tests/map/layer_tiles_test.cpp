@@ -65,7 +65,7 @@ std::vector<float> copied(const LayerTiles& tiles, const CellRect& rect) {
   return out;
 }
 
-TEST(LayerTiles, CopiesWhatItsSourceSaysAndKeepsNothing) {
+TEST(LayerTiles, CopiesItsSourceWithoutKeepingTiles) {
   for (const CellRect& rect : kRects) {
     const Fixture f;
     EXPECT_EQ(f.source->columns, 0);
@@ -77,7 +77,7 @@ TEST(LayerTiles, CopiesWhatItsSourceSaysAndKeepsNothing) {
   }
 }
 
-TEST(LayerTiles, KeepsTheTileOfAColumnForAllThatShareIt) {
+TEST(LayerTiles, KeepsTheTileOfAColumnForAllCopies) {
   const Fixture f;
   const LayerTiles other = f.tiles;
   EXPECT_TRUE(same(f.tiles.at(70, 66), formula(70, 66)));
@@ -123,7 +123,7 @@ TEST(LayerTiles, WithoutASourceAreUnknownUntilWritten) {
     ASSERT_EQ(std::isnan(all[i]), i != static_cast<std::size_t>(4 * kNx + 3)) << i;
 }
 
-TEST(LayerTiles, AreAskedBySeveralThreadsAtATime) {
+TEST(LayerTiles, CanBeReadBySeveralThreads) {
   const Fixture f;
   std::vector<int> wrong(4, 0);
   std::vector<std::thread> threads;

@@ -65,7 +65,7 @@ bool same_bits(const TerrainMap& a, const TerrainMap& b, MapLayer layer) {
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0;
 }
 
-TEST(MapMaker, UpdatesGiveTheBitsOfAFullComputationAfterRandomEdits) {
+TEST(MapMaker, UpdatesMatchAFullComputationBitForBit) {
   Random random(7);
   Ground ground = wavy();
   MapOptions options;
@@ -91,7 +91,7 @@ TEST(MapMaker, UpdatesGiveTheBitsOfAFullComputationAfterRandomEdits) {
   EXPECT_GT(partial, 50) << "the updates were full computations themselves";
 }
 
-TEST(MapMaker, StampsThoseColumnsThatChangedAndNoOthers) {
+TEST(MapMaker, StampsOnlyColumnsThatChanged) {
   Random random(3);
   Ground ground = wavy();
   MapMaker maker({});
@@ -117,7 +117,7 @@ TEST(MapMaker, StampsThoseColumnsThatChangedAndNoOthers) {
   }
 }
 
-TEST(MapMaker, LeavesMapsThatWereTakenAsTheyWere) {
+TEST(MapMaker, LeavesEarlierMapsUnchanged) {
   Random random(5);
   Ground ground = wavy();
   MapMaker maker({});
@@ -154,7 +154,7 @@ TEST(MapMaker, ReportsOnlyTheSoilAroundOneBucket) {
   EXPECT_TRUE(maker.update(ground.view(2)).empty());
 }
 
-TEST(MapMaker, CostsWhatChangedAndNotTheSite) {
+TEST(MapMaker, CostsDependOnTheChangeAndNotOnTheSite) {
   // A site of 100 m, one bucket of 1.2 m x 1 m a step.
   heightfield::GroundSetup s = setup(1000, 1000);
   s.surface = [](int ix, int iy) { return 0.3 * std::sin(0.11 * ix) + 0.2 * std::cos(0.07 * iy); };
@@ -189,7 +189,7 @@ TEST(MapMaker, CostsWhatChangedAndNotTheSite) {
               1e3 * update / kBuckets, full / update * kBuckets);
 }
 
-TEST(MapMaker, OfAPlaneReportsItsSlopeNoRoughnessAndItsStep) {
+TEST(MapMaker, ReportsSlopeAndStepOfAPlaneWithoutRoughness) {
   const TerrainMap map = map_of(setup(), [](double x, double y) { return 0.3 * x - 0.2 * y; });
   for (const auto& [ix, iy] :
        {std::pair{0, 0}, std::pair{147, 83}, std::pair{147, 0}, std::pair{60, 40}}) {
@@ -202,7 +202,7 @@ TEST(MapMaker, OfAPlaneReportsItsSlopeNoRoughnessAndItsStep) {
   }
 }
 
-TEST(MapMaker, OfAWallReportsItsHeightAndThatItIsBad) {
+TEST(MapMaker, ReportsAWallAsUndrivable) {
   const double wall = 0.4;
   const TerrainMap map = map_of(setup(), [&](double x, double) { return x < 0 ? 0 : wall; });
   // x = 0 lies between columns 32 and 33.
@@ -242,15 +242,15 @@ TEST(MapMaker, ReportsLayersOfTheSoilPresent) {
   EXPECT_NEAR(map.at(MapLayer::kElevation, 9, 6), 0.125, 1e-6);
   EXPECT_NEAR(map.at(MapLayer::kLooseDepth, 20, 7), 0.1, 1e-6);
   EXPECT_NEAR(map.at(MapLayer::kElevation, 20, 7), 0.1, 1e-6);
-  EXPECT_EQ(map.at(MapLayer::kAwake, 20, 7), 1);
-  EXPECT_EQ(map.at(MapLayer::kAwake, 21, 7), 0);
+  EXPECT_EQ(map.at(MapLayer::kActive, 20, 7), 1);
+  EXPECT_EQ(map.at(MapLayer::kActive, 21, 7), 0);
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kTarget, 5, 6)));
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kCutFill, 5, 6)));
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kElevation, -1, 6)));
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kElevation, 5, 84)));
 }
 
-TEST(MapMaker, HoldsWhatWasAskedForAndWhatThatIsMadeOf) {
+TEST(MapMaker, HoldsRequestedLayersAndTheirBases) {
   MapOptions options;
   options.layers = {MapLayer::kSlope};
   MapMaker maker(options);
@@ -262,7 +262,7 @@ TEST(MapMaker, HoldsWhatWasAskedForAndWhatThatIsMadeOf) {
   EXPECT_TRUE(std::isnan(map.at(MapLayer::kRoughness, 3, 3)));
 }
 
-TEST(MapMaker, RefusesATargetOfAnotherSizeAndLimitsThatMakeNoSense) {
+TEST(MapMaker, RefusesInvalidTargetsAndLimits) {
   MapOptions short_target;
   short_target.target.assign(10, 0.0f);
   EXPECT_THROW(MapMaker(short_target).update(wavy().view()), InputError);
@@ -316,7 +316,7 @@ TEST(Layers, HaveARowEachAndAreFoundByName) {
   }
 }
 
-TEST(Layers, OfAPlaneHaveItsNormalAndChange) {
+TEST(Layers, MatchTheNormalAndChangeOfAPlane) {
   heightfield::GroundSetup setup = testing::setup();
   setup.surface = [](int ix, int iy) { return 0.05 * ix - 0.02 * iy; };
   heightfield::Ground ground(setup);
@@ -339,6 +339,8 @@ TEST(Layers, OfAPlaneHaveItsNormalAndChange) {
   EXPECT_NEAR(at(MapLayer::kSlope, 47, 38), std::acos(n.z()), 1e-6);
 }
 
+TEST(Layers, AreFoundByTheirOldNames) { EXPECT_EQ(layer_named("awake"), MapLayer::kActive); }
+
 TEST(Layers, HaveOneRuleEach) {
   for (const LayerInfo& each : layers()) {
     const int rules = (each.of_column != nullptr ? 1 : 0) + (each.of_surround != nullptr ? 1 : 0);
@@ -350,7 +352,7 @@ TEST(Layers, HaveOneRuleEach) {
   }
 }
 
-TEST(TerrainMap, ShowsItsTilesWithoutACopy) {
+TEST(TerrainMap, GivesItsTilesWithoutACopy) {
   const TerrainMap map =
       testing::map_of(testing::setup(), [](double x, double y) { return 0.1 * x - 0.2 * y; });
   const LayerTiles& tiles = map.tiles(MapLayer::kElevation);

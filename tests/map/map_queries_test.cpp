@@ -28,7 +28,7 @@ using testing::setup;
 
 double plane(double x, double y) { return 0.5 + 0.3 * x - 0.2 * y; }
 
-TEST(Queries, OfAPlaneAreExact) {
+TEST(Queries, AreExactOnAPlane) {
   const TerrainMap map = map_of(setup(), plane);
   Random random(1);
   for (int i = 0; i < 200; ++i) {
@@ -45,7 +45,7 @@ TEST(Queries, OfAPlaneAreExact) {
   EXPECT_EQ(value(map, MapLayer::kElevation, -3.3, 1.7), map.at(MapLayer::kElevation, 0, 0));
 }
 
-TEST(Queries, AnswerNothingOutsideTheSiteAndBesideUnknownColumns) {
+TEST(Queries, AreUnknownOutsideTheSiteAndBesideUnknownColumns) {
   TerrainMap map = map_of(setup(), plane);
   std::vector<float> z = map.copy(MapLayer::kElevation);
   z[static_cast<std::size_t>(40 * 148 + 60)] = kUnknown;
@@ -109,7 +109,7 @@ TEST(LineOfSight, AgreesWithFineSamplingOnRollingGround) {
   EXPECT_GT(judged - hidden, 50);
 }
 
-TEST(Queries, GiveFourThreadsTheSameAnswersWhileTheMakerGoesOn) {
+TEST(Queries, AreTheSameInFourThreadsWhileTheMakerUpdates) {
   heightfield::GroundSetup s = setup();
   s.surface = [](int ix, int iy) { return 0.3 * std::sin(0.11 * ix) + 0.2 * std::cos(0.07 * iy); };
   heightfield::Ground ground(s);

@@ -40,7 +40,7 @@ TEST(MapOfSite, IsTheScenesUntouchedGround) {
       ASSERT_EQ(map.at(MapLayer::kElevation, ix, iy), static_cast<float>(ground.height(ix, iy)));
 }
 
-TEST(MapOptionsOfAScene, HaveItsDesignOnlyWhereALayerAsksForIt) {
+TEST(MapOptionsOfAScene, HaveTheDesignOnlyWhereALayerNeedsIt) {
   scene::Scene scene = pit();
   scene.design.areas.push_back({});
   scene.design.areas.back().polygon = {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
@@ -58,7 +58,7 @@ TEST(MapOptionsOfAScene, HaveItsDesignOnlyWhereALayerAsksForIt) {
 }
 
 #ifdef NAVVY_WITH_GDAL
-TEST(MapOfRun, HasTheHeightsThatTheRunWroteAndThoseOfItsStart) {
+TEST(MapOfRun, HasTheHeightsOfTheFileAndOfTheStart) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   heightfield::Ground ground = heightfield::make_ground(scene);
@@ -106,7 +106,7 @@ TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   for (int iy = 0; iy < 48; ++iy)
     for (int ix = 0; ix < 80; ++ix) {
       ASSERT_EQ(map.at(MapLayer::kLooseDepth, ix, iy), view.loose_depth(ix, iy)) << ix << " " << iy;
-      ASSERT_EQ(map.at(MapLayer::kAwake, ix, iy), view.active(ix, iy) ? 1.0f : 0.0f)
+      ASSERT_EQ(map.at(MapLayer::kActive, ix, iy), view.active(ix, iy) ? 1.0f : 0.0f)
           << ix << " " << iy;
       lying += view.active(ix, iy) ? 1 : 0;
     }
@@ -115,11 +115,11 @@ TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
   heightfield::write_geotiff(start, folder / "rest.tif");
   const TerrainMap rest = map_of_run(scene, start, folder / "rest.tif", {});
   EXPECT_EQ(rest.at(MapLayer::kLooseDepth, 70, 41), 0.0f);
-  EXPECT_EQ(rest.at(MapLayer::kAwake, 3, 2), 0.0f);
+  EXPECT_EQ(rest.at(MapLayer::kActive, 3, 2), 0.0f);
   EXPECT_TRUE(std::isnan(rest.at(MapLayer::kDisturbedAt, 3, 2)));
 }
 
-TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
+TEST(MapOfRun, OutlivesItsSources) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   std::optional<heightfield::Ground> ground = heightfield::make_ground(scene);
@@ -136,7 +136,7 @@ TEST(MapOfRun, IsReadAfterAllThatItWasMadeOfHasGone) {
   EXPECT_EQ(map.at(MapLayer::kElevationStart, 33, 44), static_cast<float>(whole));
 }
 
-TEST(MapOfRun, OfAMapInFeetHasItsHeights) {
+TEST(MapOfRun, ReadsHeightsInFeet) {
   for (const char* tool : {"gdal_translate", "gdal_edit.py"})
     if (!heightfield::testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
   const std::string dir = heightfield::testing::folder();

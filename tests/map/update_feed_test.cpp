@@ -41,7 +41,7 @@ void apply(const MapUpdate& update, std::vector<float>& mine, MapLayer layer) {
              static_cast<std::size_t>(ix)] = map.at(layer, ix, iy);
 }
 
-TEST(UpdateFeed, NumbersWhatChangedAndReportsNothingElse) {
+TEST(UpdateFeed, NumbersChangesOnly) {
   Ground ground(testing::setup(70, 66));
   UpdateFeed feed(two_layers());
   EXPECT_EQ(feed.latest(), nullptr);
@@ -278,7 +278,7 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
       << "maps that look alike";
 }
 
-TEST(UpdateFeed, CallsWhoSubscribedWithEveryUpdate) {
+TEST(UpdateFeed, CallsSubscribersWithEveryUpdate) {
   Ground ground(testing::setup(20, 20));
   UpdateFeed feed(two_layers());
   std::vector<std::uint64_t> seen;

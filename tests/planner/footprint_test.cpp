@@ -46,7 +46,7 @@ TEST(Clearance, IsTheDistanceToTheNearestBadColumn) {
   EXPECT_NEAR(clearance(map, {0.1, 0.1, 0.1, 0.1}, 0, 9.8, 0, 1), 0.2, 1e-9);
 }
 
-TEST(Clearance, RefusesWhatIsNoNumberOrBelowZero) {
+TEST(Clearance, RefusesNegativeAndUndefinedLengths) {
   const TerrainMap map = walled();
   EXPECT_THROW(clearance(map, {-1, 0, 0, 0}, 0, 0, 0), InputError);
   EXPECT_THROW(clearance(map, {1, 1, 1, NAN}, 0, 0, 0), InputError);

@@ -260,7 +260,7 @@ TEST_F(GoToStep, WithAGoalOnAnObstacleIsRefusedBeforeTheRun) {
   EXPECT_EQ(faults_of(to(15, -6, 0), path_planners()).size(), 1u);
 }
 
-TEST(GoTo, WithoutAPlannerIsRefusedWithARemedy) {
+TEST(GoTo, IsRefusedWithoutAPlanner) {
   const std::vector<Fault> faults = faults_of(to(0, 5, 0), {});
   ASSERT_EQ(faults.size(), 1u);
   const std::string text = faults[0].text();

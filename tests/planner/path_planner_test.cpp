@@ -65,7 +65,7 @@ void expect_drivable(const Path& path, const PathQuery& asked) {
     EXPECT_LT(std::abs(piece.curvature), 1 / (1.15 * tightest));
 }
 
-TEST(Footprint, OfTheExcavatorIsThatOfItsFile) {
+TEST(Footprint, MatchesTheExcavatorsFile) {
   const Footprint f = footprint_of(excavator());
   EXPECT_NEAR(f.front, 1.5 + 2.3, 1e-9);                // the chassis' body
   EXPECT_NEAR(f.rear, 2.3 - 1.5, 1e-9);                 //
@@ -108,7 +108,7 @@ class PathPlanner : public ::testing::Test {
     planner_ = path_planners()(excavator());
   }
   std::optional<Path> plan(const heightfield::Ground& ground, const PathQuery& asked) {
-    planner_->look(GroundSurface(ground));
+    planner_->look(GroundSurfaceView(ground));
     return planner_->plan(asked);
   }
   std::unique_ptr<control::PathPlanner> planner_;
@@ -149,7 +149,7 @@ TEST_F(PathPlanner, AnswersTheSameBitIdenticalWhateverWasAskedBefore) {
   const auto elsewhere = plan(ground, other);
   const auto again = plan(ground, asked);
   const auto fresh = path_planners()(excavator());
-  fresh->look(GroundSurface(ground));
+  fresh->look(GroundSurfaceView(ground));
   const auto first = fresh->plan(asked);
   ASSERT_TRUE(elsewhere && again && first);
   EXPECT_EQ(digest(*first), digest(*again));
@@ -162,7 +162,7 @@ TEST_F(PathPlanner, AnswersTheSameInThreadsSideBySide) {
   std::vector<std::uint64_t> alone, beside(4);
   const auto one = [&ground](std::uint32_t seed) {
     const auto planner = path_planners()(excavator());
-    planner->look(GroundSurface(ground));
+    planner->look(GroundSurfaceView(ground));
     PathQuery asked = query(-8, 9);
     asked.seed = seed;
     const auto path = planner->plan(asked);

@@ -32,7 +32,7 @@ TEST(PathFile, GivesBackEachPathItHolds) {
   EXPECT_NEAR((lines[2].places.back() - Vec2(2.75, 4)).norm(), 0, 1e-9);
 }
 
-TEST(PathFile, RefusesWhatIsNoneByFileAndLine) {
+TEST(PathFile, RefusesInvalidRowsByFileAndLine) {
   const test::Folder folder;
   const std::string file = folder / "paths.csv";
   for (const std::string& text :

@@ -192,7 +192,7 @@ TEST(Limits, AnIncludedFileCountsAtEachUse) {
 
 TEST(Limits, AShellIsBoundedInTrianglesAndPieces) {
   const auto shell = [](const std::string& vertices, const std::string& triangles) {
-    return "<model name=\"m\"><navvy:engine>kinematic</navvy:engine><link name=\"b\"/><navvy:shell "
+    return "<model name=\"m\"><navvy:physics>kinematic</navvy:physics><link name=\"b\"/><navvy:shell "
            "name=\"s\"><link>b</link>"
            "<vertices_m>" +
            vertices + "</vertices_m><triangles>" + triangles + "</triangles></navvy:shell></model>";

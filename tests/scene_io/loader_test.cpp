@@ -144,7 +144,7 @@ TEST(Loader, ReadsCamerasLightAndSeed) {
 
 TEST(Loader, OrdersLinksBaseFirstAndJointsLikeTheLinksTheyMove) {
   const char* text = R"(<sdf version="1.9" xmlns:navvy="navvy"><model name="m">
-<navvy:engine>kinematic</navvy:engine>
+<navvy:physics>kinematic</navvy:physics>
 <link name="tip"><pose relative_to="hinge">0 0 0 0 0 0</pose></link>
 <link name="arm"><pose>1 0 2 0 0 1.5707963267948966</pose></link>
 <link name="base"/>
@@ -184,7 +184,7 @@ TEST(Loader, WarningsAreLoggedAndDoNotStopLoading) {
 TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
   const std::string digger =
       R"(<navvy:soil ref="loam"/><navvy:ground/><model name="d">
-<navvy:engine>kinematic</navvy:engine><link name="a"/><link name="b"/><link name="c"/><link name="e"/>
+<navvy:physics>kinematic</navvy:physics><link name="a"/><link name="b"/><link name="c"/><link name="e"/>
 <joint name="boom" type="continuous"><parent>a</parent><child>b</child><axis><xyz>0 -1 0</xyz></axis></joint>
 <joint name="stick" type="continuous"><parent>b</parent><child>c</child><axis><xyz>0 -1 0</xyz></axis></joint>
 <joint name="bucket" type="continuous"><parent>c</parent><child>e</child><axis><xyz>0 -1 0</xyz></axis></joint>
@@ -209,7 +209,7 @@ TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
 /// A two-wheeled robot with this drive element.
 scene::Machine robot_with(const std::string& drive) {
   const scene::Scene world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="r">
-<navvy:engine>kinematic</navvy:engine><link name="a"/><link name="l"><pose>0 0.2 0.1 0 0 0</pose></link>
+<navvy:physics>kinematic</navvy:physics><link name="a"/><link name="l"><pose>0 0.2 0.1 0 0 0</pose></link>
 <link name="r"><pose>0 -0.2 0.1 0 0 0</pose></link>
 <joint name="left" type="continuous"><parent>a</parent><child>l</child><axis><xyz>0 1 0</xyz></axis></joint>
 <joint name="right" type="continuous"><parent>a</parent><child>r</child><axis><xyz>0 1 0</xyz></axis></joint>
@@ -286,7 +286,7 @@ TEST(Loader, AnEngineIsAParameterAndNoEngineIsNone) {
 /// A shell with this geometry on a link of its own.
 scene::Shell shell_of(const std::string& geometry) {
   const scene::Scene world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="m">
-<navvy:engine>kinematic</navvy:engine><link name="a"/>
+<navvy:physics>kinematic</navvy:physics><link name="a"/>
 <navvy:shell name="s"><link>a</link>)" +
                                   geometry + "</navvy:shell></model>");
   return world.machines.at(0).machine.shells.at(0);
@@ -408,6 +408,54 @@ TEST(Overrides, SeedDurationRenderTerrainAndSize) {
   EXPECT_EQ(world.ground.at, *overrides.at);
   EXPECT_EQ(world.ground.origin, Vec2(-15, -13));
   EXPECT_TRUE(world.ground.features.empty());
+}
+
+TEST(Overrides, ReachReferencesFilesAndPoses) {
+  const scene::Scene sand = load(kBody, set("soil[loam].ref=sand"));
+  EXPECT_EQ(sand.soils[0].source, load("<navvy:soil ref=\"sand\"/><navvy:ground/>").soils[0].source);
+  EXPECT_EQ(sand.soils[0].cohesion, 7000) << "the scene's own values stay";
+  const scene::Scene moved = load(kBody, set("machine.first.pose=3 1 0 0 0 0"));
+  EXPECT_EQ(Vec3(moved.machines[0].X_WM.translation()), Vec3(3, 1, 0));
+  EXPECT_EQ(Vec3(moved.machines[1].X_WM.translation()), Vec3(0, 0, 0));
+  const scene::Scene other = load(kBody, set("machine.second.uri=model://ew180"));
+  EXPECT_EQ(other.machines[1].machine.name, "ew180");
+  EXPECT_EQ(other.machines[1].name, "second");
+  EXPECT_FALSE(load(kBody, set("machine.first.on_ground=false")).machines[0].on_ground);
+}
+
+/// Returns what loading a scene logs.
+std::string logged_by(const Overrides& overrides) {
+  std::string logged;
+  set_log_sink([&](LogLevel, const std::string& line) { logged += line + "\n"; });
+  load(kBody, overrides);
+  set_log_sink({});
+  return logged;
+}
+
+TEST(Overrides, WithoutEffectAreWarnings) {
+  EXPECT_EQ(logged_by(set("soil[fill].swell=1.3")), "");
+  // Equal to the file's value, to that of the shipped soil, and to the default.
+  for (const char* setting : {"soil[loam].cohesion_pa=7e3", "soil[loam].swell=1.23",
+                              "recording.settle_s=1", "machine[first].x_m=1"})
+    EXPECT_NE(logged_by(set(setting)).find("has no effect: the scene has this value already"),
+              std::string::npos)
+        << setting;
+  Overrides twice = set("solver.cell_m=0.1");
+  twice.set.emplace_back("solver.cell_m", "0.15");
+  EXPECT_NE(logged_by(twice).find("a later setting gives the value"), std::string::npos);
+  Overrides seed;
+  seed.seed = 7;
+  EXPECT_EQ(logged_by(seed), "") << "the second hills have no seed of their own";
+  seed.set.emplace_back("ground.hills.seed", "3");
+  EXPECT_NE(logged_by(seed).find("--seed"), std::string::npos);
+}
+
+TEST(Loader, ReadsElementsByTheirNamesOfEarlierReleases) {
+  const std::string body = std::string(kBody) +
+                           "<model name=\"old\"><navvy:"
+                           "engine>kinematic</navvy:"
+                           "engine><link name=\"a\"/></model>";
+  EXPECT_TRUE(load(body).machines.at(2).machine.kinematic);
 }
 
 TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {

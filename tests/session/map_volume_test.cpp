@@ -51,7 +51,7 @@ MapVolume volume_of(const heightfield::TerrainView& terrain) {
     return map::layer_values(terrain, layer, terrain.site_rect());
   };
   const std::vector<float> change = values(map::MapLayer::kChange);
-  const std::vector<float> active = values(map::MapLayer::kAwake);
+  const std::vector<float> active = values(map::MapLayer::kActive);
   const double area = terrain.cell() * terrain.cell();
   MapVolume out;
   for (std::size_t i = 0; i < change.size(); ++i) {

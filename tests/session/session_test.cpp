@@ -227,7 +227,8 @@ TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
   load_saved(bytes, *second);
   const sim::World& resumed = second->world();
   second->set("excavator/drive/steer", 0.2);
-  EXPECT_EQ(resumed.machines().at(0).drive().speed, 1.5);  // steering alone does not stop the machine
+  EXPECT_EQ(resumed.machines().at(0).drive().speed,
+            1.5);  // steering alone does not stop the machine
   EXPECT_EQ(resumed.machines().at(0).drive().steer, 0.2);
   EXPECT_FALSE(resumed.machines().at(0).drive().brake);
 }

@@ -104,7 +104,7 @@ TEST_F(ControllerChannels, AKinematicBodyPushesALooseOne) {
       "ref=\"loam\"/><navvy:ground>"
       "<size_m>12 8</size_m></navvy:ground>" +
           block("pushed", "0.8", "") +
-          block("pusher", "0", "<navvy:engine>kinematic</navvy:engine>") + "</world></sdf>",
+          block("pusher", "0", "<navvy:physics>kinematic</navvy:physics>") + "</world></sdf>",
       "w.sdf", control::step_kinds());
   World whole(scene, device_), resumed(scene, device_);
   whole.inputs().set("pusher/pose/duration", 2);

@@ -67,7 +67,7 @@ TEST(StartCheck, LetsABodyLieInTheGroundToItsMiddleAndAMachineSink) {
 
 TEST(StartCheck, LetsWhatStandsAndWhatIsMovedByItsScriptBeInTheGround) {
   EXPECT_TRUE(faults_of(stone("-0.35", "<static>true</static>")).empty());
-  EXPECT_TRUE(faults_of(stone("-0.35", "<navvy:engine>kinematic</navvy:engine>")).empty());
+  EXPECT_TRUE(faults_of(stone("-0.35", "<navvy:physics>kinematic</navvy:physics>")).empty());
 }
 
 TEST(StartCheck, NamesAnEyeThatNoHookReachesAndLetsHitchedOnesOverlap) {

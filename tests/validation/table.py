@@ -199,8 +199,19 @@ def written(page, rows):
 
 def shown_result(row):
     if row["result"] == "known deviation":
-        return "**no**, known deviation"
+        return "**no** (known)"
     return "**no**" if row["result"] == "miss" else "yes"
+
+
+def rounded(text):
+    """Numbers with four digits, for a table on one screen."""
+    def shorter(found):
+        if len(re.sub(r"\D", "", found[0])) < 5:
+            return found[0]
+        value = float(found[0])
+        return "%.0f" % value if abs(value) >= 1000 else "%.4g" % value
+
+    return re.sub(r"-?\d+\.?\d*(?:e[-+]?\d+)?", shorter, text)
 
 
 def slug(heading):
@@ -223,8 +234,8 @@ def summary(rows, chosen):
         section = choice["section"]
         link = "" if section == last else "[%s](validation.md#%s)" % (section, slug(section))
         last = section
-        lines.append("| " + " | ".join([link, choice["what"], bold(row["measured"], row), row["expected"],
-                                        shown_gate(row["gate"]), shown_result(row)]) + " |")
+        lines.append("| " + " | ".join([link, choice["what"], bold(rounded(row["measured"]), row),
+                                        rounded(row["expected"]), rounded(shown_gate(row["gate"])), shown_result(row)]) + " |")
     counts = collections.Counter(row["result"] for row in rows)
     lines += ["", "Of all %d results with a tolerance of their own, %d are within it and %d are not; of these, %d are"
               % (sum(counts.values()) - counts["value"], counts["within"], counts["miss"] + counts["known deviation"],
@@ -264,6 +275,7 @@ def selftest():
     assert not wrong and "by hand" not in text and text.endswith("prose\n"), (text, wrong)
     assert "| A.Holds | force [N] | **2** | 4 | 1 | at least 0 | Rankine | 2 | a |" in text, text
     assert written(text, kept)[0] == text
+    assert rounded("26064 .. 31857.4, 1, 0.12703") == "26064 .. 31857, 1, 0.127"
     chosen = [{"section": "Rest, and stress", "what": "a force", "case": "A.Holds", "quantity": "force [N]"}]
     page = SUMMARY + "\nold\n" + END + "\nprose\n"
     short, wrong = with_summary(page, kept, chosen)

@@ -22,8 +22,8 @@ scene::Materials table(double at_rest, double sliding, double restitution = 0,
                        double softness = 0) {
   scene::Materials out;
   out.ground = "earth";
-  out.pairs.push_back({{"steel", "earth"}, at_rest, sliding, restitution, softness, {}});
-  out.pairs.push_back({{"stone", "steel"}, at_rest, sliding, restitution, softness, {}});
+  out.pairs.push_back({{"steel", "earth"}, at_rest, sliding, restitution, softness, ""});
+  out.pairs.push_back({{"stone", "steel"}, at_rest, sliding, restitution, softness, ""});
   return out;
 }
 

@@ -28,6 +28,8 @@ static inline int place_in_chunk(local const int* cells, int count, int cell, lo
                                  local int* counts) {
   const int me = get_local_id(0);
   int lower = 0, earlier = 0;
+  // Every work-item counts on its own. This costs count^2 reads of local memory, but the order does
+  // not depend on the schedule, as that of atomics would.
   for (int i = 0; i < count; ++i) {
     lower += cells[i] < cell;
     earlier += cells[i] == cell && i < me;
@@ -59,6 +61,7 @@ static inline void add_layer(local const float* stage, local const int* sides, i
     const float4 ay = (float4)(staged[6 * CHUNK], staged[7 * CHUNK], staged[8 * CHUNK], 0.0f);
     const float4 az = (float4)(staged[9 * CHUNK], staged[10 * CHUNK], staged[11 * CHUNK], 0.0f);
     const float w = layer == 0 ? wz[0] : layer == 1 ? wz[1] : wz[2];
+    // Momentum at a node is start + i ax + j ay + k az, built up by additions along the rows.
     float4 row = start + (float)layer * az;
     UNROLL
     for (int j = 0; j < 3; ++j) {

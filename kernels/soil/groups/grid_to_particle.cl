@@ -14,8 +14,8 @@
 
 // Returns a node of the particle's own field: split nodes (1 in front, 2 behind) have another
 // velocity behind the shell.
-static inline float4 felt(local const float4* front, local const float4* back,
-                          local const uchar* split, int node, int side) {
+static inline float4 side_velocity(local const float4* front, local const float4* back,
+                                   local const uchar* split, int node, int side) {
   const bool behind = split[node] != 0 && (side == 2 || (side == 0 && split[node] == 2));
   return behind ? back[node] : front[node];
 }
@@ -31,9 +31,9 @@ static inline float4 gather(local const float4* front, local const float4* back,
   for (int j = 0; j < 3; ++j) {
     const int node = base + 8 * j + 64 * k;
     const float w = wz[k] * wy[j];
-    const float4 b = wx[1] * felt(front, back, split, node + 1, side);
-    const float4 c = wx[2] * felt(front, back, split, node + 2, side);
-    const float4 row = fma((float4)(wx[0]), felt(front, back, split, node, side), b) + c;
+    const float4 b = wx[1] * side_velocity(front, back, split, node + 1, side);
+    const float4 c = wx[2] * side_velocity(front, back, split, node + 2, side);
+    const float4 row = fma((float4)(wx[0]), side_velocity(front, back, split, node, side), b) + c;
     sum = fma((float4)(w), row, sum);
     *mx = fma((float4)(w), fma((float4)(2.0f), c, b), *mx);
     *my = fma((float4)(j * w), row, *my);

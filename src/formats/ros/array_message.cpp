@@ -10,7 +10,7 @@
 namespace navvy::formats::ros {
 namespace {
 
-/// What a message needs to know of an element's type.
+/// Properties of an element type in messages.
 struct ElementInfo {
   const char* name;
   std::size_t bytes;
@@ -27,7 +27,7 @@ const ElementInfo& element_info(ArrayElement element) {
   return table[static_cast<int>(element)];
 }
 
-/// "/excavator/height_grid" for "excavator/height_grid": slashes stay.
+/// Returns the topic of an array: "/excavator/height_grid" for "excavator/height_grid".
 std::string topic_of(const std::string& name) {
   std::string out, part;
   for (std::istringstream parts(name); std::getline(parts, part, '/');)
@@ -37,6 +37,8 @@ std::string topic_of(const std::string& name) {
 
 }  // namespace
 
+// A MultiArray has no header, so unit, frame and meaning go into a description, and the frame into
+// /tf.
 void write_array(Bag& bag, const ArrayMessage& array) {
   const ElementInfo& element = element_info(array.element);
   std::size_t count = 1;

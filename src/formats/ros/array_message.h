@@ -24,6 +24,7 @@ struct ArrayMessage {
   std::string meaning;
   /// Frame F that the numbers count in: "world" for W, "<machine>/<link>", or one of its own.
   std::string frame;
+  /// Type of the elements.
   ArrayElement element = ArrayElement::kFloat32;
   /// Row-major, slowest first: {rows, columns}.
   std::vector<int> shape;

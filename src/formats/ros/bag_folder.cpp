@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// rosbag2's tables as ROS 2 Humble makes them; the metadata come last, when counts and times are
-// known.
+// The tables of rosbag2 as ROS 2 Humble makes them; the metadata come last, when counts and times
+// are known.
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -27,13 +27,14 @@ constexpr const char* kTables =
     " data BLOB NOT NULL);"
     "CREATE INDEX timestamp_idx ON messages (timestamp ASC);"
     "INSERT INTO schema(schema_version, ros_distro) VALUES (3, 'humble');"
-    // As rosbag2 itself: the disk may take its time. A kill of the program loses nothing by it.
+    // rosbag2 sets the same: commits do not wait for the disk. A kill of the program loses nothing
+    // by it.
     "PRAGMA synchronous = OFF;";
 
 class BagFolder final : public Bag {
  public:
   explicit BagFolder(const std::string& path) : folder_(path) {
-    // "out/bag/" is called "bag" too.
+    // A slash at the end is ignored: the name of "out/bag/" is "bag".
     const std::string name =
         (folder_.has_filename() ? folder_ : folder_.parent_path()).filename().string();
     storage_ = name + "_0.db3";
@@ -43,9 +44,9 @@ class BagFolder final : public Bag {
     for (const auto& entry : fs::directory_iterator(folder_))
       if (entry.path().filename() != storage_ && entry.path().filename() != "metadata.yaml")
         throw InputError(Fault{Fault::Severity::kError, path, 0, "bag",
-                               entry.path().filename().string(), "lies in the folder already",
+                               entry.path().filename().string(), "is in the folder already",
                                "name a new folder"});
-    // Without metadata nobody takes a half new folder for the old bag.
+    // Removed first, so that no reader takes a partial new folder for the old bag.
     fs::remove(folder_ / "metadata.yaml", failed);
     fs::remove(folder_ / storage_, failed);
     if (sqlite3_open((folder_ / storage_).c_str(), &data_) != SQLITE_OK) fail();
@@ -60,8 +61,8 @@ class BagFolder final : public Bag {
 
   void write(const std::string& topic, MessageKind kind, std::int64_t time_ns,
              const Bytes& message) override {
-    // Poses come fifty times a second: a transaction for each message would cost more than the
-    // step.
+    // One transaction per time, because poses come fifty times per second: a transaction per
+    // message would cost more than the step.
     if (messages_ > 0 && time_ns != now_) commit();
     if (sqlite3_get_autocommit(data_) != 0) run("BEGIN");
     now_ = time_ns;
@@ -113,7 +114,7 @@ class BagFolder final : public Bag {
 
   [[noreturn]] void fail() const {
     const std::string cause = sqlite3_errmsg(data_);
-    // What came before stays, and others may read it.
+    // Earlier messages stay readable.
     if (sqlite3_get_autocommit(data_) == 0)
       sqlite3_exec(data_, "ROLLBACK", nullptr, nullptr, nullptr);
     throw FileError("cannot write '" + (folder_ / storage_).string() + "': " + cause);
@@ -121,7 +122,7 @@ class BagFolder final : public Bag {
   void run(const char* statements) {
     if (sqlite3_exec(data_, statements, nullptr, nullptr, nullptr) != SQLITE_OK) fail();
   }
-  /// Does nothing where a fault has ended the transaction.
+  /// Ends the transaction, unless a fault has ended it.
   void commit() {
     if (sqlite3_get_autocommit(data_) == 0) run("COMMIT");
   }

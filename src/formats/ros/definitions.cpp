@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the messages are made of, field by field: readers of an MCAP file know no type that its
-// schemas do not tell.
+// Definitions of the messages, field by field: readers of an MCAP file know no type beyond its
+// schemas.
 #include <map>
 
 #include "formats/ros/messages.h"
@@ -66,7 +66,8 @@ const char* fields_of(const std::string& name) {
   return nullptr;
 }
 
-/// Types that a definition names, in the order in which it does; each once over the whole walk.
+/// Collects the types that a definition names, in the order of their appearance, each once over the
+/// whole walk.
 void parts_of(const std::string& fields, std::vector<std::string>& out) {
   for (std::size_t at = 0; at < fields.size(); at = fields.find('\n', at) + 1) {
     const std::string type = fields.substr(at, fields.find_first_of(" [", at) - at);
@@ -103,8 +104,10 @@ const std::string& type_name(MessageKind kind) {
   return names.at(kind);
 }
 
+// Built once: bags ask for it per channel.
 const std::string& definition(MessageKind kind) {
-  // The kind's own fields, then every type they name, each after a line of 80 signs and its name.
+  // The definition has the fields of the message, then every type that they name, each after a line
+  // of 80 equal signs and its name.
   static const std::map<MessageKind, std::string> texts = [] {
     std::map<MessageKind, std::string> out;
     for (int i = 0; i < kMessageKinds; ++i) {

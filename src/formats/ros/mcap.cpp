@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MCAP is a magic, records of opcode, length and body, and the magic again. Numbers are
-// little-endian, strings and maps carry their length in 32 bits.
+// An MCAP file consists of a magic, records of opcode, length and body, and the magic again.
+// Numbers are little-endian; strings and maps begin with their length in 32 bits.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -32,6 +32,7 @@ void put(std::string& to, T value) {
   std::memcpy(bytes, &value, sizeof value);
   to.append(bytes, sizeof value);
 }
+// A string is its length and its bytes.
 void put_text(std::string& to, const std::string& text) {
   put(to, static_cast<std::uint32_t>(text.size()));
   to += text;
@@ -73,20 +74,23 @@ class Mcap final : public Bag {
   void close() override {
     if (file_ == nullptr) return;
     std::string none;
-    put(none, std::uint32_t{0});  // no checksum
+    // No checksum.
+    put(none, std::uint32_t{0});
     record(kDataEnd, none);
     const std::uint64_t summary = written_;
-    // The same records again, where a reader finds them without reading all.
+    // The summary repeats schemas and channels, where a reader finds them without reading the whole
+    // file.
     append(summary_);
     std::string statistics;
     put(statistics, messages_);
     put(statistics, static_cast<std::uint16_t>(schemas_.size()));
     put(statistics, static_cast<std::uint32_t>(topics_.size()));
-    for (int i = 0; i < 3; ++i) put(statistics, std::uint32_t{0});  // attachments, metadata, chunks
+    // No attachments, metadata or chunks.
+    for (int i = 0; i < 3; ++i) put(statistics, std::uint32_t{0});
     put(statistics, static_cast<std::uint64_t>(first_));
     put(statistics, static_cast<std::uint64_t>(last_));
     put(statistics, static_cast<std::uint32_t>(10 * topics_.size()));
-    // By id, as they were made.
+    // Sorted by id, the order of creation.
     std::map<std::uint16_t, std::uint64_t> counts;
     for (const auto& [name, topic] : topics_) counts[topic.id] = topic.messages;
     for (const auto& [id, count] : counts) {
@@ -146,7 +150,8 @@ class Mcap final : public Bag {
     put(body, schema->second);
     put_text(body, topic);
     put_text(body, "cdr");
-    put(body, std::uint32_t{0});  // no metadata
+    // No metadata.
+    put(body, std::uint32_t{0});
     record(kChannel, body);
     return channel;
   }

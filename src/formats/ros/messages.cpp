@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fast-CDR knows alignment and byte order; the order of fields is that of definitions.cpp.
+// Fast-CDR handles alignment and byte order; the order of fields is that of definitions.cpp.
 #include "formats/ros/messages.h"
 
 #include <fastcdr/Cdr.h>
@@ -17,7 +17,7 @@ namespace {
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
-/// One message being written.
+/// Serialises one message.
 class Writer {
  public:
   Writer() : cdr_(buffer_, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR) { cdr_.serialize_encapsulation(); }
@@ -26,7 +26,7 @@ class Writer {
     cdr_ << value;
     return *this;
   }
-  /// A sequence of unknown length: its length, then its numbers in one go.
+  /// Appends a sequence: its length, then its numbers in one call.
   template <class T>
   Writer& sequence(const std::vector<T>& values) {
     cdr_ << static_cast<std::uint32_t>(values.size());
@@ -61,13 +61,14 @@ class Writer {
   Cdr cdr_;
 };
 
+// Returns a pose at a place in the plane, without rotation.
 Pose at(double x, double y) {
   Pose X = Pose::Identity();
   X.translation() = Vec3(x, y, 0);
   return X;
 }
 
-/// A message counts its bytes in 32 bits.
+/// Refuses maps whose message would exceed the 32-bit count of bytes.
 void require_capacity(const map::TerrainMap& map, std::size_t layers) {
   const double bytes = static_cast<double>(map.rect().area()) * 4 *
                        static_cast<double>(std::max<std::size_t>(layers, 1));
@@ -79,6 +80,7 @@ void require_capacity(const map::TerrainMap& map, std::size_t layers) {
 
 }  // namespace
 
+// The conventions of grid_map are those of its own iterators; the test asks at places by its rule.
 Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                std::int64_t time_ns) {
   require_capacity(map, layers.size());
@@ -90,15 +92,15 @@ Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
   std::vector<std::string> names, basic;
   for (const map::MapLayer layer : layers) {
     names.push_back(map::info(layer).name);
-    // What has no elevation is no cell to grid_map's users.
+    // Users of grid_map take cells without the basic layers as invalid.
     if (layer == map::MapLayer::kElevation) basic.push_back(names.back());
   }
   out.strings(names).strings(basic) << static_cast<std::uint32_t>(layers.size());
   const auto rows = static_cast<std::uint32_t>(nx), columns = static_cast<std::uint32_t>(ny);
   std::vector<float> values(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   for (const map::MapLayer layer : layers) {
-    // Its matrix has x along rows and is kept column by column: x runs fastest here too, but both
-    // run downwards.
+    // The matrix of grid_map has x along its rows and is stored column by column: x runs fastest
+    // here too, but both axes run downwards.
     const std::vector<float> ours = map.copy(layer);
     std::reverse_copy(ours.begin(), ours.end(), values.begin());
     out << std::uint32_t{2};
@@ -111,6 +113,7 @@ Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
   return out.bytes();
 }
 
+// Rounds to whole percent, as nav2 does.
 Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns) {
   require_capacity(map, 1);
   std::vector<std::int8_t> cells;
@@ -126,6 +129,7 @@ Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns) {
   return out.bytes();
 }
 
+// Points are float32, the type that common tools expect in the fields x, y and z.
 Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                   std::int64_t time_ns) {
   std::vector<map::MapLayer> more;
@@ -158,17 +162,19 @@ Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& 
   out.header(time_ns) << std::uint32_t{1} << points << static_cast<std::uint32_t>(3 + more.size());
   std::uint32_t offset = 0;
   const auto field = [&](const std::string& name) {
-    out << name << offset << std::uint8_t{7} << std::uint32_t{1};  // 7: FLOAT32
+    // 7 stands for FLOAT32.
+    out << name << offset << std::uint8_t{7} << std::uint32_t{1};
     offset += 4;
   };
   for (const char* axis : {"x", "y", "z"}) field(axis);
   for (const map::MapLayer layer : more) field(map::info(layer).name);
-  // Dense says that no point is invalid, which its other fields may be.
+  // A cloud is dense when no field of any point is invalid.
   out << false << step << step * points;
   out.sequence(data) << more.empty();
   return out.bytes();
 }
 
+// Twists count in the axes of the body, as nav_msgs/Odometry defines.
 Bytes odometry(const BodyState& body, std::int64_t time_ns) {
   const Mat3 R_BW = body.X_WB.linear().transpose();
   Writer out;
@@ -183,6 +189,7 @@ Bytes joint_state(const JointStates& joints, std::int64_t time_ns) {
   return out.sequence(joints.efforts).bytes();
 }
 
+// All transforms have W as parent, so that readers need no chain.
 Bytes tf(const std::vector<BodyState>& bodies, std::int64_t time_ns) {
   Writer out;
   out << static_cast<std::uint32_t>(bodies.size());
@@ -196,6 +203,7 @@ Bytes string_message(const std::string& text) {
   return out.bytes();
 }
 
+// Elements of one size share a code path.
 Bytes multi_array(const std::vector<int>& shape, std::size_t element_bytes,
                   std::span<const std::byte> data) {
   Writer out;

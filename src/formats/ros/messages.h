@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of ROS 2 as CDR bytes, for bags that planners play without Navvy. The only folder with
+// Messages of ROS 2 as CDR bytes, for bags that planners play without Navvy. Only this folder uses
 // Fast-CDR and SQLite.
 #pragma once
 
@@ -14,10 +14,10 @@
 
 namespace navvy::formats::ros {
 
-/// A message as a bag holds it: encapsulation header, then little-endian CDR.
+/// A message in a bag: encapsulation header, then little-endian CDR.
 using Bytes = std::vector<char>;
 
-/// The kinds that are written here.
+/// Kinds of messages that are written here.
 enum class MessageKind {
   kGridMap,
   kOccupancyGrid,
@@ -33,55 +33,67 @@ enum class MessageKind {
   kFloat32Array,
   kFloat64Array
 };
+/// Number of kinds.
 inline constexpr int kMessageKinds = static_cast<int>(MessageKind::kFloat64Array) + 1;
-/// "grid_map_msgs/msg/GridMap".
+/// Returns the ROS type, such as "grid_map_msgs/msg/GridMap".
 const std::string& type_name(MessageKind kind);
-/// The message's definition with all that it is made of, as MCAP's schema encoding `ros2msg` wants
-/// it.
+/// Returns the definition of the message with all types it contains, as the schema encoding
+/// `ros2msg` of MCAP requires.
 const std::string& definition(MessageKind kind);
 
-/// The frame that all of W is in.
+/// Name of frame W in messages.
 inline constexpr const char* kFrame = "map";
 
-// Times are simulated ones from the start of the run [ns]; lengths are in metres, angles in
-// radians.
-
-/// grid_map: pose is the map's centre; a layer's numbers begin at greatest x and greatest y and run
-/// first towards least x. `elevation` is the basic layer where it is asked for.
+/// Returns a GridMap. Its pose is the centre of the map; the numbers of a layer begin at greatest x
+/// and greatest y and run first towards least x. `elevation` is the basic layer when it is among
+/// the layers. Here and below, times are simulated ones from the start of the run [ns], lengths in
+/// metres, angles in radians.
 Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                std::int64_t time_ns);
-/// 100 (1 - traversability) rounded, -1 unknown; row-major from the lower-left column. The map must
-/// have it.
+/// Returns an OccupancyGrid: 100 (1 - traversability) rounded, -1 where unknown, row-major from the
+/// lower-left column. The map must hold traversability.
 Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns);
-/// A point (x y z as float32, relative to W) for each column whose elevation is known, row by row
-/// from least y, and a float32 field for each other layer.
+/// Returns a PointCloud2 with a point (x y z in W as float32) for each column of known elevation,
+/// row by row from least y, and a float32 field for each other layer.
 Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                   std::int64_t time_ns);
 
-/// A body in W.
+/// State of a body in W.
 struct BodyState {
-  std::string frame;             ///< "excavator/chassis"
-  Pose X_WB = Pose::Identity();  ///< [m]
-  Vec3 v_W = Vec3::Zero();       ///< of its origin, axes of W [m/s]
-  Vec3 w_W = Vec3::Zero();       ///< [rad/s]
+  /// Name of its frame, such as "excavator/chassis".
+  std::string frame;
+  /// Pose in W [m].
+  Pose X_WB = Pose::Identity();
+  /// Velocity of its origin in the axes of W [m/s].
+  Vec3 v_W = Vec3::Zero();
+  /// Angular velocity in the axes of W [rad/s].
+  Vec3 w_W = Vec3::Zero();
 };
-/// Pose in W, twist in the body's own axes; covariances are 0: it is the truth.
+/// Returns an Odometry: pose in W, twist in the axes of the body. The covariances are 0, because
+/// the state is exact.
 Bytes odometry(const BodyState& body, std::int64_t time_ns);
 
+/// State of the joints of a machine, in equal order.
 struct JointStates {
+  /// Names of the joints.
   std::vector<std::string> names;
-  std::vector<double> positions;   ///< [rad|m]
-  std::vector<double> velocities;  ///< [rad/s|m/s]
-  std::vector<double> efforts;     ///< [N m|N]
+  /// Positions [rad|m].
+  std::vector<double> positions;
+  /// Velocities [rad/s|m/s].
+  std::vector<double> velocities;
+  /// Efforts [N m|N].
+  std::vector<double> efforts;
 };
+/// Returns a JointState.
 Bytes joint_state(const JointStates& joints, std::int64_t time_ns);
-/// Every body as a child of W's frame.
+/// Returns a TFMessage with every body as a child of W.
 Bytes tf(const std::vector<BodyState>& bodies, std::int64_t time_ns);
+/// Returns a Clock.
 Bytes clock(std::int64_t time_ns);
-/// A text.
+/// Returns a String.
 Bytes string_message(const std::string& text);
-/// A MultiArray of `shape` (row-major, slowest first) whose elements have `element_bytes` bytes
-/// each, in the byte order of this machine, without padding.
+/// Returns a MultiArray of `shape` (row-major, slowest first). Its elements have `element_bytes`
+/// bytes each, in the byte order of this machine, without padding.
 Bytes multi_array(const std::vector<int>& shape, std::size_t element_bytes,
                   std::span<const std::byte> data);
 

@@ -6,6 +6,7 @@
 
 namespace navvy::formats::ros {
 
+// A topic may not begin with a digit either.
 std::string topic_part(const std::string& name) {
   std::string out = name;
   for (char& c : out)
@@ -31,6 +32,7 @@ void write_map(Bag& bag, const map::TerrainMap& map, const std::vector<map::MapL
               occupancy_grid(map, time_ns));
 }
 
+// One /tf message holds all machines, so that readers see them at one time.
 void write_machines(Bag& bag, const std::vector<MachineState>& machines, std::int64_t time_ns) {
   std::vector<BodyState> bodies;
   for (const MachineState& machine : machines) {

@@ -10,13 +10,14 @@
 
 namespace navvy::formats::ros {
 
-/// Simulated time as ROS counts it; 0 where the time is unknown [ns].
+/// Returns simulated time [s] as ROS counts it [ns]; 0 where the time is unknown.
 std::int64_t stamp(double time);
 
-/// /clock.
+/// Appends /clock.
 void write_clock(Bag& bag, std::int64_t time_ns);
 
-/// /terrain/grid_map, /terrain/points, and /terrain/occupancy where the layers have traversability.
+/// Appends /terrain/grid_map, /terrain/points, and /terrain/occupancy where the layers include
+/// traversability.
 void write_map(Bag& bag, const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                std::int64_t time_ns);
 
@@ -26,10 +27,11 @@ struct MachineState {
   std::string name;
   /// Its links, the base first; frames are called "<machine>/<link>".
   std::vector<BodyState> links;
+  /// State of its joints.
   JointStates joints;
 };
 
-/// Returns a name with every sign that names of topics do not have replaced by an underscore.
+/// Returns a name in which every character that topics may not have is an underscore.
 std::string topic_part(const std::string& name);
 
 /// Appends /tf (every link in the frame "map"), and for each machine /<machine>/odom (its base

@@ -12,6 +12,7 @@
 
 namespace navvy::heightfield {
 
+// Bands are found by their description, so that their order may change.
 bool read_band(const std::string& file, const std::string& name, int nx, int ny,
                const std::function<void(int iy, std::span<const float> values)>& take) {
   GdalSession session;
@@ -26,7 +27,7 @@ bool read_band(const std::string& file, const std::string& name, int nx, int ny,
   const char* const drivers[] = {"GTiff", nullptr};
   const std::unique_ptr<GDALDataset> data(GDALDataset::Open(
       file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, nullptr, siblings.data()));
-  if (!data) fail("", session.cause("is no GeoTIFF"));
+  if (!data) fail("", session.cause("is not a GeoTIFF"));
   GDALRasterBand* band = nullptr;
   for (int b = 1; b <= data->GetRasterCount(); ++b)
     if (data->GetRasterBand(b)->GetDescription() == name) band = data->GetRasterBand(b);

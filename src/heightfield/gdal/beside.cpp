@@ -29,7 +29,7 @@ std::vector<std::string> files_beside(const std::string& file) {
     known.push_back(lower(path.stem().string() + ending));
   std::vector<std::string> names = {path.filename().string()};
   std::error_code failed;
-  // Endings and names are written in capitals by some programs, and GDAL looks for those too.
+  // Some programs write endings and names in capitals, and GDAL looks for those too.
   for (fs::directory_iterator at(path.parent_path().empty() ? "." : path.parent_path(), failed),
        end;
        !failed && at != end; at.increment(failed)) {

@@ -25,37 +25,39 @@ namespace {
 
 // Rows that are held and compressed together.
 constexpr int kStripRows = 32;
-// Without another thread to be had the next rows are computed when they are needed.
+// If no other thread is available, the next rows are computed when they are needed.
 constexpr auto kWhereThereIsSpace = std::launch::async | std::launch::deferred;
-// Rows computed at once: many, as layers that look around compute the rows beside them, too.
+// Rows computed at once: many, because layers that depend on neighbours also compute the rows
+// beside them.
 constexpr int kChunkRows = 8 * kStripRows;
 
-/// Fills `out` with rows [y0, y1) of the rectangle, row y0 first. Called by one thread at a time.
+/// Fills `out` with rows [y0, y1) of the site, row y0 first. Called by one thread at a time.
 using RowSource = std::function<void(int y0, int y1, std::vector<float>& out)>;
 
-/// One band of the file: where its values come from; name and unit, empty where it has none.
+/// One band of the file: the source of its values; name and unit are empty where it has none.
 struct Band {
   RowSource rows;
   std::string name, unit;
 };
 
-/// Of the file's heights, by a name that GDAL's readers know; empty for a rare one, which only its
-/// CRS can tell.
+/// Returns the unit of the heights by a name that readers of GDAL know; empty for a rare one, which
+/// only the CRS can express.
 std::string height_unit(const GroundSetup& setup) {
   if (setup.file_height_unit == 1) return "m";
-  // The international foot and the one of US surveys differ in the sixth digit.
+  // The international foot and the US survey foot differ in the sixth digit.
   if (std::abs(setup.file_height_unit - 0.3048) < 1e-9) return "ft";
   if (std::abs(setup.file_height_unit - 1200.0 / 3937.0) < 1e-9) return "US survey foot";
   return "";
 }
 
+// Nine digits read back to the same float.
 std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
 }
 
-/// Removes what is half written, unless told that it is whole.
+/// Removes a file that is not complete.
 struct HalfFile {
   std::string path;
   bool whole = false;
@@ -64,18 +66,18 @@ struct HalfFile {
   }
 };
 
-void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Band>& bands,
-           const std::string& path) {
-  const int nx = rect.x1 - rect.x0, ny = rect.y1 - rect.y0;
+// Creates the file, its georeference and metadata, and then writes band after band.
+void write(const GroundSetup& setup, const std::vector<Band>& bands, const std::string& path) {
+  const int nx = setup.nx, ny = setup.ny;
   const std::string part = partial_name(path);
   HalfFile half{part};
   GdalSession session;
-  // GDAL reports some failures only through its error handler, so both are asked each time.
+  // GDAL reports some failures only through its error handler, so both are checked each time.
   const auto check = [&](bool good, const char* action) {
     if (good && session.errors().empty()) return;
     throw FileError("cannot write '" + path + "': " + session.cause(action));
   };
-  // Bands one after the other; a file of one band is as it always was.
+  // Bands are stored one after the other; a file of one band needs no option.
   const char* const options[] = {"COMPRESS=DEFLATE",
                                  "PREDICTOR=3",
                                  "BLOCKYSIZE=32",
@@ -90,26 +92,25 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
   check(data != nullptr, "the file cannot be created");
   // Row 0 of the file is the northern edge.
   const double step = setup.cell / setup.file_unit;
-  double transform[6] = {setup.easting + rect.x0 * step,  step, 0,
-                         setup.northing + rect.y1 * step, 0,    -step};
+  double transform[6] = {setup.easting, step, 0, setup.northing + ny * step, 0, -step};
   data->SetGeoTransform(transform);
   if (!setup.crs_wkt.empty()) {
     OGRSpatialReference crs;
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     if (crs.importFromWkt(setup.crs_wkt.c_str()) == OGRERR_NONE) data->SetSpatialRef(&crs);
   }
-  // Who reads heights can see that some were never measured.
+  // Readers of heights can see that some were never measured.
   if (setup.filled_share > 0) {
     data->SetMetadataItem("NAVVY_FILLED_SHARE", number_text(setup.filled_share).c_str());
     data->SetMetadataItem("NAVVY_FILLED_FROM_M", number_text(setup.filled_from).c_str());
   }
-  // GDAL has one such value for all bands of a GeoTIFF.
+  // GDAL has one nodata value for all bands of a GeoTIFF.
   data->GetRasterBand(1)->SetNoDataValue(kExportNodata);
   for (std::size_t b = 0; b < bands.size(); ++b) {
     GDALRasterBand* band = data->GetRasterBand(static_cast<int>(b) + 1);
     if (!bands[b].name.empty()) band->SetDescription(bands[b].name.c_str());
     if (!bands[b].unit.empty()) band->SetUnitType(bands[b].unit.c_str());
-    // From the north down, some strips of the file at a time; while they are packed another thread
+    // Writes some strips at a time from the north down; while GDAL compresses them another thread
     // computes the next.
     std::vector<float> now, next;
     const auto compute = [&](int top) {
@@ -129,9 +130,10 @@ void write(const GroundSetup& setup, const CellRect& rect, const std::vector<Ban
       if (coming.valid()) coming.get();
     }
   }
-  data.reset();  // flushes; a full disk shows here at the latest
-  // What GeoTIFF cannot say about an exotic CRS, GDAL puts beside the file: under the wrong name,
-  // so away with it.
+  // Flushes; a full disk shows here at the latest.
+  data.reset();
+  // GDAL writes what GeoTIFF cannot express about an exotic CRS beside the file, under the wrong
+  // name, so it is removed.
   ::unlink((part + ".aux.xml").c_str());
   check(true, "");
   half.whole = true;
@@ -147,21 +149,7 @@ void write_geotiff(const Terrain& terrain, const std::string& path,
       {[&](int y0, int y1, std::vector<float>& out) { file_rows(terrain, y0, y1, out); }, "",
        height_unit(terrain.setup())}};
   for (const MapBand& band : more) bands.push_back({band.rows, band.name, band.unit});
-  write(terrain.setup(), {0, 0, terrain.nx(), terrain.ny()}, bands, path);
-}
-
-void write_geotiff(const Terrain& terrain, const CellRect& rect, std::span<const float> values,
-                   const std::string& path) {
-  const auto nx = static_cast<std::size_t>(std::max(rect.x1 - rect.x0, 0));
-  if (rect.empty() || values.size() != nx * static_cast<std::size_t>(rect.y1 - rect.y0))
-    // A fault of the caller, not of the file.
-    throw Error("write_geotiff: " + std::to_string(values.size()) +
-                " values do not fill the rectangle for '" + path + "'");
-  const auto rows = [&](int y0, int y1, std::vector<float>& out) {
-    out.assign(values.begin() + static_cast<std::ptrdiff_t>(y0 * nx),
-               values.begin() + static_cast<std::ptrdiff_t>(y1 * nx));
-  };
-  write(terrain.setup(), rect, {{rows, "", ""}}, path);
+  write(terrain.setup(), bands, path);
 }
 
 void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands,
@@ -179,14 +167,14 @@ void write_geotiff(const GroundSetup& setup, const std::vector<MapBand>& bands,
         if (value != value)
           value = static_cast<float>(kExportNodata);
         else if (band.height)
-          // In double up to here, as file_rows does.
+          // Computed in double, as file_rows does.
           value = static_cast<float>((static_cast<double>(value) + setup.height_offset) /
                                      setup.file_height_unit);
     };
     out.push_back({rows, band.name, band.height ? height_unit(setup) : band.unit});
   }
   if (out.empty()) throw Error("write_geotiff: no band for '" + path + "'");
-  write(setup, {0, 0, setup.nx, setup.ny}, out, path);
+  write(setup, out, path);
 }
 
 }  // namespace navvy::heightfield

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDAL talks to stderr unless told otherwise; a library of ours may not.
+// GDAL prints to stderr by default; our libraries must not.
 #include "heightfield/gdal/gdal_session.h"
 
 #include <cpl_error.h>
@@ -10,20 +10,21 @@
 namespace navvy::heightfield {
 namespace {
 
-// Decoded blocks that wait side by side. By default a twentieth of the machine's memory: what a map
-// costs, and whether it is refused, must not depend on that.
+// Size of the cache of decoded blocks. By default it is a twentieth of the memory of the machine,
+// but the cost of a map, and whether it is refused, must not depend on that.
 constexpr GIntBig kCacheBytes = GIntBig{512} << 20;
 
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum /*number*/, const char* message) {
-  // Warnings are about files that were read all the same.
+  // Warnings concern files that were read all the same.
   if (severity >= CE_Failure) static_cast<GdalSession*>(CPLGetErrorHandlerUserData())->add(message);
 }
 
 }  // namespace
 
+// The handler is pushed per thread: several sessions may live at a time.
 GdalSession::GdalSession() {
   CPLPushErrorHandlerEx(collect, this);
-  // Drivers are registered once a process and never taken back.
+  // Drivers are registered once per process and never removed.
   static std::once_flag once;
   std::call_once(once, [] {
     GDALAllRegister();

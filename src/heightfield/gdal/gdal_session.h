@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GDAL kept quiet: its messages are collected instead of printed.
+// Collects the messages of GDAL instead of printing them.
 #pragma once
 
 #include <string>
@@ -7,21 +7,24 @@
 
 namespace navvy::heightfield {
 
-/// While one lives, GDAL's messages of this thread go into `errors()`; nothing reaches stderr.
-/// Registers GDAL's drivers on first use.
+/// While a session exists, GDAL's messages of this thread go to `errors()` and nothing reaches
+/// stderr. Registers the drivers of GDAL on first use.
 class GdalSession {
  public:
+  /// Installs the error handler of this thread.
   GdalSession();
   ~GdalSession();
   GdalSession(const GdalSession&) = delete;
   GdalSession& operator=(const GdalSession&) = delete;
 
-  /// Failures (not warnings) so far, in order.
+  /// Returns the failures so far, in order, without warnings.
   const std::vector<std::string>& errors() const { return errors_; }
-  /// The first failure, or `otherwise`: the first one names the cause, later ones follow from it.
+  /// Returns the first failure, or `otherwise` where there is none. The first one names the cause;
+  /// later ones follow from it.
   std::string cause(const std::string& otherwise) const {
     return errors_.empty() ? otherwise : errors_.front();
   }
+  /// Adds a failure; GDAL's error handler calls it.
   void add(const std::string& message) { errors_.push_back(message); }
 
  private:

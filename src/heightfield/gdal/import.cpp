@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the site lies on its map, and the columns' heights from the map's cells.
+// Places the site on its map and computes the heights of columns from the cells of the map.
 #include "heightfield/gdal/import.h"
 
 #include <algorithm>
@@ -15,11 +15,12 @@
 namespace navvy::heightfield {
 namespace {
 
-// Lower-left corner of the site in metres from the map's; throws when the site leaves the map.
+// Returns the lower-left corner of the site in metres from that of the map; throws when the site
+// leaves the map.
 Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& setup) {
   TerrainReport& report = map.report;
   const Vec2 extent(report.cell_x * report.columns, report.cell_y * report.rows);
-  // Without a wish the site lies in the middle of the map.
+  // By default the site is in the middle of the map.
   Vec2 middle = 0.5 * extent;
   if (ground.has_at)
     middle = ground.at_is_local ? ground.at : Vec2((ground.at - report.file_min) * report.metres);
@@ -27,7 +28,7 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
   const Vec2 corner = middle - 0.5 * size;
   report.site_min = report.file_min + corner / report.metres;
   report.site_max = report.site_min + size / report.metres;
-  // Rounding up to blocks may reach over the edge by up to four columns, which repeat the edge.
+  // Rounding up to blocks may exceed the edge by up to four columns, which repeat the edge.
   const Vec2 slack = Vec2::Constant(4 * setup.cell);
   const bool inside = ((corner + slack).array() >= 0).all() &&
                       ((corner + size - slack).array() <= extent.array()).all();
@@ -48,6 +49,7 @@ Vec2 place_site(MapFile& map, const scene::StartGround& ground, Ground::Setup& s
 
 }  // namespace
 
+// Small maps are held; larger ones are read in windows, with bit-identical heights.
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, double held,
                              int side) {
   MapFile map(world.ground.file, world.ground.scale, "terrain");
@@ -61,8 +63,8 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, do
       break;
     }
   const double cell = setup.cell;
-  // What the report says of heights and slopes is said of the filled map, which is what the columns
-  // come from. The surfaces share their map, so that copies of the setup cost nothing.
+  // Heights and slopes of the report are those of the filled map, from which the columns come. The
+  // surfaces share their map, so that copies of the setup cost nothing.
   const auto surface_of = [cell](const auto& raster) {
     return [raster, cell](int ix, int iy) {
       return raster->mean((ix + 0.5) * cell, (iy + 0.5) * cell, cell);

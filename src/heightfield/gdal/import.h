@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terrain maps (GeoTIFF, ESRI ASCII, PNG, NPY) as the surface of a site. Exists only in builds with
-// NAVVY_WITH_GDAL.
+// Reads terrain maps (GeoTIFF, ESRI ASCII, PNG, NPY) as the surface of a site. Exists only in
+// builds with NAVVY_WITH_GDAL.
 #pragma once
 
 #include <cstdint>
@@ -16,52 +16,72 @@
 
 namespace navvy::heightfield {
 
-/// What a map was and what was made of it. File coordinates are in the file's own units, all else
-/// in metres.
+/// Properties of a map file and of the site made from it. File coordinates are in the file's own
+/// units, everything else is in metres.
 struct TerrainReport {
+  /// Path of the file, and the name of its format in GDAL.
   std::string file, format;
-  int columns = 0, rows = 0;      ///< of the whole file
-  double cell_x = 0, cell_y = 0;  ///< [m]
-  /// Heights belong to points, the file's area reaches half a cell beyond them.
+  /// Size of the whole file in cells.
+  int columns = 0, rows = 0;
+  /// Edges of a cell [m].
+  double cell_x = 0, cell_y = 0;
+  /// True when heights belong to points, so that the area of the file reaches half a cell beyond
+  /// them.
   bool point_registered = false;
-  std::string crs;                                        ///< name; empty: none
-  std::string unit, height_unit;                          ///< names as the file gives them
-  double metres = 1, height_metres = 1;                   ///< per unit
-  Vec2 file_min = Vec2::Zero(), file_max = Vec2::Zero();  ///< extent of the map, file coordinates
-  Vec2 site_min = Vec2::Zero(), site_max = Vec2::Zero();  ///< extent of the site, file coordinates
+  /// Name of the CRS; empty where the file has none.
+  std::string crs;
+  /// Names of the units as the file gives them.
+  std::string unit, height_unit;
+  /// Metres per unit.
+  double metres = 1, height_metres = 1;
+  /// Extent of the map in file coordinates.
+  Vec2 file_min = Vec2::Zero(), file_max = Vec2::Zero();
+  /// Extent of the site in file coordinates.
+  Vec2 site_min = Vec2::Zero(), site_max = Vec2::Zero();
   /// Map cells under the site and a margin of two.
   std::int64_t source_cells = 0;
-  GapFill nodata;  ///< of those
-  /// Of those on the site, in part at least; without a height.
+  /// Gaps among those cells.
+  GapFill nodata;
+  /// Map cells at least partly on the site, and those of them without a height.
   std::int64_t site_cells = 0, site_gaps = 0;
-  std::string nodata_value;        ///< as declared; "none"
-  double height_offset = 0;        ///< W z = file z - offset [m]
-  double lowest = 0, highest = 0;  ///< file datum [m]
+  /// Nodata value as declared, or "none".
+  std::string nodata_value;
+  /// W z = file z - height_offset [m].
+  double height_offset = 0;
+  /// Range of the heights in the datum of the file [m].
+  double lowest = 0, highest = 0;
+  /// Slopes of the map under the site.
   SlopeRange slope;
-  double repose = 0;               ///< [rad]
-  double soil_cell = 0;            ///< [m]
-  std::vector<std::string> notes;  ///< traps found in the file
-  /// Cells with a number that is no ground's height and not declared as nodata.
+  /// Angle of repose of the surface soil [rad].
+  double repose = 0;
+  /// Edge of a soil cell [m].
+  double soil_cell = 0;
+  /// Pitfalls found in the file, one sentence each.
+  std::vector<std::string> notes;
+  /// Cells whose number cannot be a height of ground and is not declared as nodata.
   std::int64_t unmarked = 0;
-  double unmarked_value = 0;  ///< of the first of them, as the file has it
-  /// Its tools read the file: those that a remedy names can mend it.
+  /// First such number as it stands in the file.
+  double unmarked_value = 0;
+  /// True when the tools of GDAL can read the file, so that remedies may name them.
   bool for_gdal = true;
 
-  /// Some lines for a person.
+  /// Returns the report as some lines for people.
   std::string text() const;
-  /// What was made up on the site: how much of it, from how far, what mends the file. One line;
-  /// empty where the map has a height everywhere on the site.
+  /// Returns one line about the heights that were filled in on the site: their share, the largest
+  /// distance, and the remedy. Empty where the map has a height everywhere on the site.
   std::string warning() const;
-  double share_filled() const;  ///< of the site's map cells, 0 .. 1
-  double filled_from() const;   ///< most cells between a gap and a height, as a length [m]
+  /// Returns the share of the site's map cells that were filled, 0 to 1.
+  double share_filled() const;
+  /// Returns the largest distance between a gap and a known height [m].
+  double filled_from() const;
 };
 
 /// Reads the part of `world.ground.file` that the site covers and fills in the surface, datum and
-/// georeference of `setup`, whose nx, ny, cell and origin are given. The map is kept at its own
-/// resolution and interpolated on demand: up to `held` cells of it are held, of a larger one
-/// windows of `side` cells are read when columns are asked for. The heights have the same bits
-/// either way.
-/// @throws InputError when the file is missing, unreadable, in degrees, turned, without heights
+/// georeference of `setup`, whose nx, ny, cell and origin are given. The map keeps its own
+/// resolution and is interpolated on demand. Up to `held` cells of it are kept in memory; windows
+/// of `side` cells are read from a larger one when columns are asked for. The heights are
+/// bit-identical either way.
+/// @throws InputError when the file is missing, unreadable, in degrees, rotated or without heights
 /// here, or when the site is off the map.
 TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup,
                              double held = limits::kMapCells, int side = WindowedRaster::kSide);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coordinates are the site's own: a design in another system would lie elsewhere, so it is refused,
-// not guessed.
+// Coordinates are those of the site: a design in another CRS would be misplaced, so it is refused.
 #include "heightfield/gdal/import_design.h"
 
 #include <ogr_spatialref.h>
@@ -19,8 +18,8 @@ std::string name_of(const std::string& wkt) {
   return end == std::string::npos ? "none" : wkt.substr(begin + 1, end - begin - 1);
 }
 
-/// Two CRS are one when their horizontal parts are; a file without one is taken to be in the
-/// site's.
+/// Two CRS are equal when their horizontal parts are; a file without one is assumed to use the CRS
+/// of the site.
 void require_same_crs(const MapFile& map, const GroundSetup& setup) {
   if (map.crs_wkt.empty() && setup.file_unit != 1)
     map.fail("CRS", "none",
@@ -44,7 +43,7 @@ void require_same_crs(const MapFile& map, const GroundSetup& setup) {
              "reproject it: gdalwarp -t_srs EPSG:CODE IN OUT.tif, with the code of the site's CRS");
 }
 
-/// Bilinear; where a neighbour is a gap, of the cell that holds the place alone.
+/// Returns the bilinear height; where a neighbour is a gap, that of the cell that holds the place.
 double sample(const HeightRaster& raster, const Vec2& p, double edge) {
   const double z = raster.mean(p.x(), p.y(), edge);
   if (z == z) return z;
@@ -63,7 +62,7 @@ DesignSurface import_design(const scene::Design& design, const Terrain& site) {
   if (!scale.has_corner) scale.corner = Vec2(setup.easting, setup.northing);
   MapFile map(design.file, scale, "navvy:design");
   require_same_crs(map, setup);
-  // Of the site's corner in metres from the map's.
+  // Corner of the site in metres from that of the map.
   const TerrainReport& report = map.report;
   const Vec2 corner = (Vec2(setup.easting, setup.northing) - report.file_min) * report.metres;
   const Vec2 extent = (report.file_max - report.file_min) * report.metres;

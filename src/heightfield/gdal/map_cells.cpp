@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a map file as heights: units, gaps, a whole number of metres taken off, whole or by
-// windows.
+// The cells of a map file as heights: converts units and gaps, subtracts a whole number of metres,
+// and reads all cells or windows of them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,21 +14,21 @@
 namespace navvy::heightfield {
 namespace {
 
-// Cells round the site, for interpolation and for filling gaps at its edge.
+// Cells around the site, for interpolation and for filling gaps at its edge.
 constexpr int kMargin = 2;
-// No ground lies above or below this; such a number is a nodata value that nobody declared [m].
+// No ground is above or below this; such a number is an undeclared nodata value [m].
 constexpr double kHighest = 12000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool is_png(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "PNG"); }
 
-/// Heights that are whole numbers of a unit only: a staircase, unless they are all one.
+/// Detects heights that are whole numbers of a unit only: a staircase, unless all are equal.
 class Staircase {
  public:
   explicit Staircase(double unit) : unit_(unit) {}
   void look(double height) {
     if (whole_) {
-      // No call of std::round: this is asked of 10^8 cells. A float of a whole metre in feet is off
+      // Avoids std::round, because 10^8 cells are checked. A float of a whole metre in feet is off
       // by less.
       const double steps = height / unit_;
       const auto nearest = static_cast<std::int64_t>(steps + (steps < 0 ? -0.5 : 0.5));
@@ -44,10 +44,11 @@ class Staircase {
   bool whole_ = true;
 };
 
+// A wheel would roll over these steps; the note says how to smooth them.
 void note_staircase(MapFile& map, const std::string& unit, double metres) {
   TerrainReport& report = map.report;
-  // Means of some cells lie between two steps, and what is bilinear between them has the slopes of
-  // the ground.
+  // Means of several cells lie between two steps, and bilinear heights between them have the slopes
+  // of the ground.
   const double wide = 4 * std::max(map.step_x, map.step_y);
   report.notes.push_back(
       "all heights are whole numbers of the " + unit + ": a staircase with steps of " +
@@ -57,7 +58,7 @@ void note_staircase(MapFile& map, const std::string& unit, double metres) {
                        : "scipy.ndimage.uniform_filter before numpy.save"));
 }
 
-// Turns what a file says into metres, and every spelling of "no data" into NaN.
+// Converts the values of a file to metres, and every spelling of "no data" to NaN.
 class Decoder {
  public:
   explicit Decoder(MapFile& map) {
@@ -81,11 +82,11 @@ class Decoder {
   }
   double operator()(double raw) const {
     if (is_nodata(raw)) return kNaN;
-    // What no ground can be is nodata that nobody declared.
+    // A height that no ground has is undeclared nodata.
     const double height = (raw * scale_ + offset_) * metres_;
     return std::abs(height) <= kHighest ? height : kNaN;
   }
-  /// As the file declares it, or as many write it without.
+  /// Returns true for nodata as the file declares it, and for the usual undeclared spellings.
   bool is_nodata(double raw) const {
     // Compared in float32: a double that went through a float file is no longer equal.
     const auto single = static_cast<float>(raw);
@@ -101,8 +102,8 @@ class Decoder {
 };
 
 /// Reads an ESRI ASCII map in the order of its rows up to the last one needed. GDAL finds the start
-/// of a row by reading those before it and goes on after a row that fails: asked for the last row
-/// of a cut file it tries 2^rows times.
+/// of a row by reading those before it, and continues after a row that fails: for the last row of a
+/// truncated file it tries 2^rows times.
 void find_rows(MapFile& map, int last_row) {
   if (std::string(map.data->GetDriver()->GetDescription()) != "AAIGrid") return;
   check_words(map.file, (static_cast<std::int64_t>(last_row) + 1) * map.report.columns);
@@ -115,8 +116,8 @@ void find_rows(MapFile& map, int last_row) {
   }
 }
 
-/// A few bytes may decode to gigabytes, and blocks that do not fit into GDAL's cache side by side
-/// are decoded for every row anew.
+/// A few bytes may decode to gigabytes, and blocks that do not fit into the cache of GDAL together
+/// are decoded again for every row.
 void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
   const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1,
             blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
@@ -130,15 +131,15 @@ void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
              "rewrite it with gdal_translate -co TILED=YES");
 }
 
-/// Which of a file's cells are read, and how they are turned into our order.
+/// The cells of a file that are read, and their conversion to our order.
 struct Cut {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< of the map's cells in our order, the last ones inclusive
   int columns = 0, rows = 0;           ///< of the whole file
   bool columns_fall = false, rows_fall = true;
 };
 
-/// Cells that the site needs, with a margin; clamped in double, as a damaged header may give any
-/// number.
+/// Returns the cells that the site needs, with a margin; clamped in double, because a damaged
+/// header may give any number.
 Cut cut_of(const MapFile& map, const Vec2& corner, const Vec2& size) {
   const TerrainReport& report = map.report;
   const auto first = [](double x, double cell, int n) {
@@ -157,7 +158,7 @@ Cut cut_of(const MapFile& map, const Vec2& corner, const Vec2& size) {
           map.rows_fall};
 }
 
-/// The raster of a cut without its heights.
+/// Returns the raster of a cut without its heights.
 HeightRaster frame_of(const TerrainReport& report, const Cut& cut, const Vec2& corner) {
   HeightRaster raster;
   raster.nx = cut.x1 - cut.x0 + 1;
@@ -169,8 +170,8 @@ HeightRaster frame_of(const TerrainReport& report, const Cut& cut, const Vec2& c
   return raster;
 }
 
-/// Raw numbers of some cells of the cut, counted from its first, x fastest. False where the file
-/// cannot be read.
+/// Reads raw numbers of some cells of the cut, counted from its first, x fastest. Returns false
+/// where the file cannot be read.
 bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells,
               std::vector<double>& raw) {
   const int nx = cells.x1 - cells.x0, ny = cells.y1 - cells.y0;
@@ -187,19 +188,19 @@ bool read_raw(GDALRasterBand& band, const Cut& cut, const CellRect& cells,
   return true;
 }
 
-/// Heights as they come out of the file: counts them, takes their mean, notes what is odd.
+/// Collects heights as they come out of the file: counts them, takes their mean, notes oddities.
 class Intake {
  public:
   Intake(MapFile& map)
       : map_(map), decode_(map), in_units_(map.report.height_metres), in_metres_(1) {}
   const Decoder& decoder() const { return decode_; }
-  /// Above `first()`, as it is known so far; NaN for a gap.
+  /// Height above `first()` as known so far; NaN for a gap.
   float take(double raw) {
     TerrainReport& report = map_.report;
     const double height = decode_(raw);
     if (std::isnan(height) && !decode_.is_nodata(raw) && report.unmarked++ == 0)
       report.unmarked_value = raw;
-    // The first height found stands in for the offset until the mean is known.
+    // The first height stands for the offset until the mean is known.
     if (!std::isnan(height) && known_++ == 0) first_ = std::floor(height);
     if (!std::isnan(height)) {
       sum_ += height - first_;
@@ -209,11 +210,11 @@ class Intake {
     return static_cast<float>(height - first_);
   }
   double first() const { return first_; }
-  /// A whole number of metres near the mean of what `take` gave, exact in float. @throws InputError
-  /// without a height. Tells of a staircase.
+  /// Returns a whole number of metres near the mean of the values that `take` received, exact in
+  /// float. Reports a staircase. @throws InputError without a height.
   double shift() const {
     if (known_ == 0)
-      map_.fail("at", "", "there is no height anywhere under the site, all is nodata",
+      map_.fail("at", "", "all cells under the site are nodata",
                 "move the site to where the map has data");
     if (in_metres_.found())
       note_staircase(map_, "metre", 1);
@@ -230,7 +231,7 @@ class Intake {
   std::int64_t known_ = 0;
 };
 
-/// Map cells that lie on the site, in part at least, and how many of them have no height.
+/// Counts the map cells at least partly on the site, and those without a height.
 class SiteCells {
  public:
   SiteCells(const HeightRaster& frame, const Vec2& size, TerrainReport& report)
@@ -239,13 +240,13 @@ class SiteCells {
         report_(report) {
     report.site_cells = static_cast<std::int64_t>(x_.second - x_.first) * (y_.second - y_.first);
   }
-  /// The cell has no height.
+  /// Records a cell without a height.
   void gap(int ix, int iy) {
     if (ix >= x_.first && ix < x_.second && iy >= y_.first && iy < y_.second) ++report_.site_gaps;
   }
 
  private:
-  /// First cell along an axis that touches [0, length], and the one after the last.
+  /// Returns the first cell along an axis that touches [0, length], and the one after the last.
   static std::pair<int, int> range(double first, double cell, double length, int count) {
     const auto touches = [&](int i) {
       const double centre = first + i * cell;
@@ -265,10 +266,10 @@ class SiteCells {
            "the file is damaged: get it again");
 }
 
-/// A map that stays open: its cells as heights, whenever they are asked for.
+/// A map that stays open and reads cells as heights on demand.
 class OpenMap {
  public:
-  /// Takes the file over.
+  /// Takes ownership of the open file.
   OpenMap(MapFile& map, const Cut& cut, const Decoder& decode, double first, double shift)
       : file_(map.file),
         element_(map.element),
@@ -282,21 +283,21 @@ class OpenMap {
     map.band = nullptr;
   }
   ~OpenMap() {
-    // Closing may complain.
+    // Closing may report failures.
     const GdalSession session;
     data_.reset();
   }
   OpenMap(const OpenMap&) = delete;
   OpenMap& operator=(const OpenMap&) = delete;
 
-  /// As read_heights makes them. @throws InputError.
+  /// Reads heights as read_heights does. @throws InputError.
   void read(const CellRect& cells, float* out) {
     const GdalSession session;
     if (!read_raw(*band_, cut_, cells, raw_))
       throw InputError(Fault{Fault::Severity::kError, file_, 0, element_, "",
                              session.cause("cannot be read"),
                              "the file is damaged or gone: get it again"});
-    // Rounded to float before and after the shift, as a map that is held is.
+    // Rounded to float before and after the shift, as in a map in memory.
     std::transform(raw_.begin(), raw_.end(), out, [&](double raw) {
       return static_cast<float>(static_cast<float>(decode_(raw) - first_) - shift_);
     });
@@ -325,7 +326,7 @@ HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size) {
   const Cut cut = cut_of(map, corner, size);
   HeightRaster raster = frame_of(report, cut, corner);
   report.source_cells = static_cast<std::int64_t>(raster.nx) * raster.ny;
-  // Before memory is asked for.
+  // Checked before memory is allocated.
   if (static_cast<double>(report.source_cells) > limits::kMapCells)
     map.fail("size", std::to_string(raster.nx) + " x " + std::to_string(raster.ny) + " map cells",
              "more than " + number_text(limits::kMapCells) + " cells under the site",
@@ -362,7 +363,7 @@ std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& cor
              "convert it with gdal_translate -of GTiff -co TILED=YES");
   check_blocks(map, cut.x0, cut.x1, cut.y0, cut.y1);
   find_rows(map, map.rows_fall ? report.rows - 1 - cut.y0 : cut.y1);
-  // One pass for the mean and the gaps; what it decodes is read again when it is needed.
+  // One pass finds the mean and the gaps; cells are read again when they are needed.
   Intake intake(map);
   SiteCells on_site(frame, size, report);
   std::vector<std::int64_t> gaps;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps come from everywhere, so each step names what it refuses and how to mend the file, and notes
-// what it had to guess: open, georeference, CRS, unit of heights. Its cells: map_cells.cpp.
+// Maps come from many sources, so each step names the fault and the remedy, and notes its
+// assumptions: open, georeference, CRS, unit of heights. Cells: map_cells.cpp.
 #include "heightfield/gdal/map_file_private.h"
 
 #include <cpl_vsi.h>
@@ -19,11 +19,11 @@
 namespace navvy::heightfield {
 namespace {
 
-// Puts a map of whatever format to its place.
+// Moves a map of any format to its place.
 constexpr const char* kPlaceIt =
     "put it to its place: gdal_translate -a_ullr LEFT TOP RIGHT BOTTOM IN OUT.tif";
 
-/// GDAL has no driver for NPY: the numbers lie in memory, and a dataset looks at them there.
+/// GDAL has no driver for NPY: the numbers are in memory, and a dataset refers to them.
 void open_npy(MapFile& map) {
   NpyGrid grid = read_npy(map.file);
   static constexpr GDALDataType kTypes[] = {GDT_Float32, GDT_Float64, GDT_Int16,
@@ -44,7 +44,7 @@ void open_npy(MapFile& map) {
   map.report.for_gdal = false;
 }
 
-/// Everything that GDAL has a driver for and we want.
+/// Formats that GDAL has a driver for and that we accept.
 void open_raster(MapFile& map) {
   std::vector<std::string> beside;
   try {
@@ -56,7 +56,7 @@ void open_raster(MapFile& map) {
   siblings.reserve(beside.size() + 1);
   for (const std::string& name : beside) siblings.push_back(name.c_str());
   siblings.push_back(nullptr);
-  // Doubles, because the ASCII driver guesses whole numbers from the first values it sees.
+  // Doubles, because the ASCII driver infers integers from the first values.
   const char* const drivers[] = {"GTiff", "AAIGrid", "PNG", nullptr};
   const char* const options[] = {"DATATYPE=Float64", nullptr};
   map.data.reset(GDALDataset::Open(map.file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers,
@@ -70,8 +70,8 @@ void open_raster(MapFile& map) {
 bool is_png(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "PNG"); }
 bool is_npy(const MapFile& map) { return EQUAL(map.data->GetDriver()->GetDescription(), "MEM"); }
 
-/// Pictures and arrays have neither metres nor places: the scene must say them, and of other files
-/// it may not.
+/// Pictures and arrays have neither metres nor coordinates: the scene must give them, and must not
+/// for other files.
 void check_scale(MapFile& map) {
   const scene::RasterScale& scale = map.scale;
   const bool png = is_png(map), npy = is_npy(map);
@@ -80,7 +80,7 @@ void check_scale(MapFile& map) {
     if (scale.any())
       map.fail("", map.report.format,
                "map_cell_m, map_heights_m, map_corner_m and map_rows are for PNG and NPY only",
-               "remove them: this file tells its own cells and heights");
+               "remove them: this file gives its own cells and heights");
     return;
   }
   if (png && (map.data->GetRasterCount() > 2 || map.band->GetColorTable() != nullptr))
@@ -94,17 +94,18 @@ void check_scale(MapFile& map) {
   if (png && scale.north_first)
     map.fail("", "map_rows", "a picture's first row is north", "remove map_rows");
   if (scale.cell <= 0 && (npy || map.data->GetGeoTransform(transform) != CE_None))
-    map.fail("georeference", "", "the file does not tell how large its cells are",
+    map.fail("georeference", "", "the file does not give the size of its cells",
              "add e.g. <map_cell_m>0.5</map_cell_m>");
 }
 
+// Only the accepted drivers are tried: others reach files elsewhere, or the network.
 void open(MapFile& map) {
   map.report.file = map.file;
-  // Asked first, as GDAL's own words for a missing file are of no help.
+  // Checked first, because the message of GDAL for a missing file is of no help.
   VSIStatBufL status;
   if (VSIStatL(map.file.c_str(), &status) != 0) map.fail("", "", "no such file", "check the path");
   if (VSI_ISDIR(status.st_mode)) map.fail("", "", "is a directory", "name the map in it");
-  if (!VSI_ISREG(status.st_mode)) map.fail("", "", "is no plain file", "save the map as a file");
+  if (!VSI_ISREG(status.st_mode)) map.fail("", "", "is not a plain file", "save the map as a file");
   if (is_npy_file(map.file))
     open_npy(map);
   else
@@ -112,7 +113,7 @@ void open(MapFile& map) {
   map.band = map.data->GetRasterBand(1);
   if (GDALDataTypeIsComplex(map.band->GetRasterDataType()))
     map.fail("", "", "holds complex numbers", "give a file of heights");
-  // From here on it is a map; what is odd about it is noted, not refused.
+  // From here on it is a map; oddities are noted, not refused.
   map.report.columns = map.data->GetRasterXSize();
   map.report.rows = map.data->GetRasterYSize();
   check_scale(map);
@@ -128,7 +129,7 @@ void open(MapFile& map) {
         ", and nodata may have become 0");
   int block_x = 0, block_y = 0;
   map.band->GetBlockSize(&block_x, &block_y);
-  // A block of pixel-interleaved bands holds them all.
+  // A block of pixel-interleaved bands holds all bands.
   const char* interleave = map.data->GetMetadataItem("INTERLEAVE", "IMAGE_STRUCTURE");
   const int bands_in_block =
       interleave != nullptr && std::string(interleave) == "PIXEL" ? map.data->GetRasterCount() : 1;
@@ -136,12 +137,13 @@ void open(MapFile& map) {
   map.block_y = block_y;
   map.block_bytes = static_cast<double>(block_x) * block_y * 8 * bands_in_block;
   if (map.block_bytes > limits::kMapBlockBytes)
-    // A damaged header may promise anything.
+    // A damaged header may contain any number.
     map.fail("", std::to_string(block_x) + " x " + std::to_string(block_y),
              "is stored in blocks too large to read",
              "rewrite it with gdal_translate -co TILED=YES");
 }
 
+// Accepts axes that run backwards and cells that are not square; refuses rotation.
 void read_transform(MapFile& map) {
   double g[6];
   const scene::RasterScale& scale = map.scale;
@@ -164,8 +166,8 @@ void read_transform(MapFile& map) {
     map.fail("georeference", number_text(g[2]) + ", " + number_text(g[4]),
              "the map is turned against its coordinate axes", "straighten it: gdalwarp IN OUT.tif");
   if (g[1] == 0 || g[5] == 0) map.fail("georeference", "0", "cells need an extent", kPlaceIt);
-  // Either axis may run backwards; we always begin at least x and least y.
-  // Row 0 of a usual map is its northern edge.
+  // Either axis may run backwards; we always begin at least x and least y. Row 0 of a usual map is
+  // its northern edge.
   map.step_x = std::abs(g[1]);
   map.step_y = std::abs(g[5]);
   map.columns_fall = g[1] < 0;
@@ -175,12 +177,12 @@ void read_transform(MapFile& map) {
   map.report.file_min = Vec2(map.x_min, map.y_min);
   map.report.file_max =
       map.report.file_min + Vec2(map.step_x * map.report.columns, map.step_y * map.report.rows);
-  // GDAL has moved the corner of point-registered files by half a cell already.
+  // GDAL has already moved the corner of point-registered files by half a cell.
   const char* registration = map.data->GetMetadataItem(GDALMD_AREA_OR_POINT);
   map.report.point_registered = registration != nullptr && EQUAL(registration, GDALMD_AOP_POINT);
 }
 
-// Degrees are no lengths: say how to get metres.
+// Degrees are not lengths: the message says how to get metres.
 void refuse_degrees(MapFile& map) {
   const Vec2 middle = 0.5 * (map.report.file_min + map.report.file_max);
   const int zone = std::clamp(static_cast<int>(std::floor((middle.x() + 180) / 6)) + 1, 1, 60);
@@ -191,11 +193,12 @@ void refuse_degrees(MapFile& map) {
                map.edit("-a_srs \"\""));
 }
 
+// Finds the unit of the coordinates, which decides all lengths.
 void read_crs(MapFile& map) {
   TerrainReport& report = map.report;
   report.unit = report.height_unit = "metre";
   const OGRSpatialReference* declared = map.data->GetSpatialRef();
-  // Engineers' local grids often come without a CRS: metres is then the only sensible guess.
+  // Local engineering grids often come without a CRS: metres are the only sensible assumption then.
   if (declared == nullptr || declared->IsEmpty()) {
     report.notes.push_back("no CRS: coordinates and heights are taken as metres");
   } else {
@@ -230,12 +233,12 @@ void read_crs(MapFile& map) {
     map.fail("georeference", number_text(map.step_x), "cells must have a finite size", kPlaceIt);
 }
 
-// The unit of heights: the band's, else that of a vertical CRS, else the horizontal one.
+// The unit of heights is that of the band, else of a vertical CRS, else the horizontal one.
 void read_height_unit(MapFile& map) {
   TerrainReport& report = map.report;
   const std::string unit = map.band->GetUnitType() != nullptr ? map.band->GetUnitType() : "";
   const OGRSpatialReference* declared = map.data->GetSpatialRef();
-  // As GDAL, PROJ, Esri and people write them.
+  // Spellings of GDAL, PROJ, Esri and people.
   struct Unit {
     const char* name;
     double metres;
@@ -264,7 +267,7 @@ void read_height_unit(MapFile& map) {
   } else if (!unit.empty()) {
     report.notes.push_back(
         "heights in '" + unit +
-        "', which is no known unit: taken as metres; to assign one: " + map.edit("-units ft"));
+        "', an unknown unit: taken as metres; to assign one: " + map.edit("-units ft"));
   } else if (declared != nullptr && declared->IsVertical() != 0) {
     const char* name = nullptr;
     report.height_metres = declared->GetTargetLinearUnits("VERT_CS", &name);
@@ -290,8 +293,7 @@ std::string number_text(double value, const char* format) {
 
 void MapFile::fail(const std::string& part, const std::string& value, const std::string& rule,
                    const std::string& remedy) const {
-  // What is wrong with the file as such is told of the element; a ground's parts go by their own
-  // names.
+  // Faults of the file itself name the element; parts of a ground have their own names.
   const bool of_ground = element == "terrain" && part != "at" && part != "size";
   const std::string where = part.empty() ? element : of_ground ? part : element + "/" + part;
   throw InputError(Fault{Fault::Severity::kError, file, 0, where, value, rule, remedy});

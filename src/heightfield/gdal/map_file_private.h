@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A raster file opened and understood: its georeference, units and gaps. Shared by the readers of
+// A raster file that is open, with its georeference, units and gaps. Shared by the readers of
 // ground and design.
 #pragma once
 
@@ -18,51 +18,64 @@
 
 namespace navvy::heightfield {
 
-/// One map being read. `report` collects what was found; what is odd about a file is noted there,
-/// what cannot be used is thrown with its name.
+/// A map that is being read. Oddities of the file are noted in `report`; a file that cannot be used
+/// is refused by name.
 struct MapFile {
-  /// Opens the file and reads georeference, CRS and units. `element` names it in faults: "terrain",
-  /// "design".
+  /// Opens the file and reads georeference, CRS and units. `element` names it in faults: "terrain"
+  /// or "design".
   /// @throws InputError naming file, value, rule and remedy.
   MapFile(const std::string& file, const scene::RasterScale& scale, const std::string& element);
 
+  /// Path of the file, and its name in faults.
   std::string file, element;
+  /// Metres and place from the scene, for files that have none.
   scene::RasterScale scale;
-  std::vector<char> numbers;  ///< of an NPY, which has no driver: the dataset reads them here
-  GdalSession session;        ///< outlives the dataset, whose closing may complain
+  /// Values of an NPY file, which GDAL has no driver for: the dataset reads them from here.
+  std::vector<char> numbers;
+  /// Outlives the dataset, whose closing may report failures.
+  GdalSession session;
+  /// The open file.
   std::unique_ptr<GDALDataset> data;
+  /// Its first band, which holds the heights.
   GDALRasterBand* band = nullptr;
+  /// Findings so far.
   TerrainReport report;
-  std::string crs_wkt;         ///< as WKT2; empty: none
-  bool georeferenced = false;  ///< the file tells where it lies
-  // Coordinates of the map's lower-left corner and edges of a cell in file units; which way rows
-  // and columns run.
+  /// CRS as WKT2; empty where the file has none.
+  std::string crs_wkt;
+  /// True when the file gives its own coordinates.
+  bool georeferenced = false;
+  /// Lower-left corner of the map and edges of a cell in file units, and the direction in which
+  /// rows and columns run.
   double x_min = 0, y_min = 0, step_x = 1, step_y = 1;
+  /// True where columns run towards least x, or rows towards least y.
   bool columns_fall = false, rows_fall = true;
+  /// Size of a block of the file in cells.
   int block_x = 1, block_y = 1;
-  double block_bytes = 0;  ///< decoded
+  /// Size of a decoded block.
+  double block_bytes = 0;
 
-  /// The command that changes what the file says of itself: gdal_edit.py can write to GeoTIFF
-  /// alone.
+  /// Returns the command that changes the file's own description; gdal_edit.py can write to GeoTIFF
+  /// only.
   std::string edit(const std::string& option) const;
+  /// Throws an InputError about a part of the file.
   [[noreturn]] void fail(const std::string& part, const std::string& value, const std::string& rule,
                          const std::string& remedy) const;
 };
 
-/// A number in a message.
+/// Formats a number for a message.
 std::string number_text(double value, const char* format = "%.10g");
 
-/// Reads the cells under a rectangle of `size` [m] whose lower-left corner lies `corner` [m] from
-/// the map's, and two more round it, flipped into our order; gaps are NaN. Heights are counted from
-/// `report.height_offset`, a whole number of metres near their mean, so that float keeps
-/// millimetres. x0 and y0 count from `corner`.
+/// Reads the cells under a rectangle of `size` [m], and two more around it, in our order; gaps are
+/// NaN. `corner` [m] is the lower-left corner of the rectangle, counted from that of the map.
+/// Heights are counted from `report.height_offset`, a whole number of metres near their mean, so
+/// that float resolves millimetres. x0 and y0 of the raster count from `corner`.
 /// @throws InputError when all of it is a gap, it has too many cells, or the file is damaged.
 HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size);
-/// Cells that read_heights would read.
+/// Returns the number of cells that read_heights would read.
 std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size);
-/// The same heights of a map of any size, gaps filled: read through once, then by windows of `side`
-/// cells when they are asked for. Takes the open file out of `map`. @throws InputError likewise,
-/// for a picture, and for more gaps than may be held.
+/// Returns the same heights for a map of any size, with gaps filled: the file is read through once,
+/// and then in windows of `side` cells on demand. Takes the open file out of `map`.
+/// @throws InputError as read_heights, for a picture, and for more gaps than can be held.
 std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner,
                                                    const Vec2& size,
                                                    int side = WindowedRaster::kSide);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was found in a map, in lines for a person. Numbers carry as many digits as a surveyor would
-// give.
+// Prints the findings in a map as lines for people, with as many digits as a surveyor would give.
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
@@ -21,6 +20,7 @@ __attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) 
 
 }  // namespace
 
+// One line per property, aligned for terminals.
 std::string TerrainReport::text() const {
   std::string out = "terrain " + file + "\n";
   out += line("  source   %s, %d x %d cells of %.6g x %.6g m%s", format.c_str(), columns, rows,
@@ -55,6 +55,7 @@ double TerrainReport::share_filled() const {
 
 double TerrainReport::filled_from() const { return nodata.farthest * std::max(cell_x, cell_y); }
 
+// One line, because runs print it among others.
 std::string TerrainReport::warning() const {
   if (site_gaps == 0) return "";
   std::string out = line(
@@ -70,7 +71,7 @@ std::string TerrainReport::warning() const {
     char value[32];
     std::snprintf(value, sizeof value, "%.9g", unmarked_value);
     out += std::string("; ") + value +
-           " is no ground's height, and the file does not declare it as nodata";
+           " cannot be a height of ground, and the file does not declare it as nodata";
     if (for_gdal)
       remedy =
           std::string("gdal_translate -a_nodata ") + value + " IN OUT.tif declares it, " + remedy;

@@ -7,6 +7,8 @@
 
 namespace navvy::lab {
 
+// `navvy lab RIG --help` prints what each rig does, its parameters and examples.
+
 // Soil by itself.
 Rig rest_rig();
 Rig column_rig();

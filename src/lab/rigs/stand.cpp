@@ -24,18 +24,24 @@ scene::Shell body(double length, double width, double height) {
   return out;
 }
 
+/// Returns a site around the body with level ground at height `level` [m].
+SiteOptions site_options(const Setup& setup, double level) {
+  const double cell = setup.cell, longest = std::max(setup["length"], setup["width"]);
+  SiteOptions options;
+  // A tool at rest activates a zone of one dig depth around it; nothing happens farther out.
+  options.size = 2 * (whole_cells(longest / 2, cell) + 12 * cell);
+  options.depth = whole_cells(2 * longest, cell);
+  options.surface = [level](double, double) { return level; };
+  options.exchange = true;
+  return options;
+}
+
 Report run(const Setup& setup) {
   const double cell = setup.cell, length = setup["length"], width = setup["width"],
                height = setup["height"];
-  SiteOptions options;
-  // A tool at rest activates a zone of one dig depth around it; nothing happens farther out.
-  options.size = 2 * (whole_cells(std::max(length, width) / 2, cell) + 12 * cell);
-  options.depth = whole_cells(2 * std::max(length, width), cell);
-  // Between the planes of the grid, where most ground lies.
+  // Between the planes of the grid, where most ground is.
   const double level = -setup["below-plane"] * cell;
-  options.surface = [level](double, double) { return level; };
-  options.exchange = true;
-  Site site(setup, options);
+  Site site(setup, site_options(setup, level));
   const scene::Shell shell = body(length, width, height);
   const double under = height / 2 + shell.half_thickness;
   ToolDriver driver(
@@ -83,7 +89,7 @@ Report run(const Setup& setup) {
   report.note("tilt at the end", degrees(std::acos(std::min(1.0, up.z()))), "deg");
   report.note("pressure", tool.mass * kGravity / (length * width), "Pa");
   report.add("particles at the end", static_cast<double>(site.solver().stats().particles), "", 0, 0,
-             0, std::string("its soil lies in columns ") + kSource);
+             0, std::string("its soil is in columns again ") + kSource);
   report.note("momentum residual", site.worst_residual(), "", "of the sum of impulses; 1e-5");
   report.series = {time, gap};
   site.finish(report);

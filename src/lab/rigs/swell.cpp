@@ -78,6 +78,23 @@ Series profile(const Site& site) {
 }
 
 /// Dumps the load, removes the box, lets the heap rest and measures it.
+/// Tips the box over and removes it. `edge` is the cube root of its volume [m].
+void dump(Site& site, int tool, const Setup& setup, double edge) {
+  // 140 degrees: the floor is then steeper than any slope of soil.
+  const double turn = setup["turn"], tipping = radians(140) / turn;
+  site.expect(0.3 + tipping + 1.2 + setup["rest"]);
+  site.run(0.3);
+  // The load has come to rest on the box's floor.
+  site.tool(tool).motion.w_WT = Vec3(0, turn, 0);
+  site.run(tipping);
+  site.tool(tool).motion.w_WT = Vec3::Zero();
+  site.run(0.6);
+  // Out of the heap's range.
+  site.tool(tool).motion.v_WT = Vec3(-2 * edge, 0, 2 * edge);
+  site.run(0.6);
+  site.tool(tool).motion.v_WT = Vec3::Zero();
+}
+
 Report run(const Setup& setup) {
   const double cell = setup.cell, volume = setup["volume"];
   // A box whose load is 1.2 : 1 : 0.8; its walls are 0.3 cells off the load.
@@ -98,19 +115,7 @@ Report run(const Setup& setup) {
   site.rest(load, z + depth);
   site.solver().insert(load);
 
-  // 140 degrees: the floor is then steeper than any slope of soil.
-  const double turn = setup["turn"], tipping = radians(140) / turn;
-  site.expect(0.3 + tipping + 1.2 + setup["rest"]);
-  site.run(0.3);
-  // The load has come to rest on the box's floor.
-  site.tool(tool).motion.w_WT = Vec3(0, turn, 0);
-  site.run(tipping);
-  site.tool(tool).motion.w_WT = Vec3::Zero();
-  site.run(0.6);
-  // Out of the heap's range.
-  site.tool(tool).motion.v_WT = Vec3(-2 * edge, 0, 2 * edge);
-  site.run(0.6);
-  site.tool(tool).motion.v_WT = Vec3::Zero();
+  dump(site, tool, setup, edge);
   // Soil that clings to the box is no part of the heap.
   const double left = site.solver().payload(tool, site.tool(tool).motion.X_WT);
   site.run(setup["rest"]);
@@ -135,7 +140,7 @@ Report run(const Setup& setup) {
       std::string("8 particles a cell in the bank over those in the layers above it ") + kSource);
   report.add("particles a cell inside the heap", got.crowding, "", 8 / swell, kNone, kNone,
              "8 in the bank");
-  report.note("particles that lie about singly", 100 * got.loose_share, "%",
+  report.note("single particles beside the heap", 100 * got.loose_share, "%",
               "not in the surface's volume");
   report.note("left in the bucket", left, "kg");
   report.note("particles through the shell",

@@ -89,7 +89,7 @@ Report law_alone(const Setup& setup) {
   report.note("sinkage", value(1000 * law.sinkage), "mm", source);
   report.note("torque", value(law.torque), "N m", source);
   report.note("side force", value(law.side), "N",
-              "against the way to the side; the wheel's side wall is not counted");
+              "against the motion to the side; the wheel's side wall is not counted");
   report.note("bulldozing resistance", value(law.bulldozing), "N",
               "[Bekker 1969], counted in the pull");
   report.note("drawbar pull over the load", value(law.drawbar / wheel.load), "");
@@ -106,6 +106,24 @@ SiteBox bed_of(const Setup& setup) {
   const double side = whole_cells(setup["width"] / 2 + setup["beside"] * r, cell);
   return {Vec3(-whole_cells(2 * r, cell), -side, -whole_cells(setup["below"] * r, cell)),
           Vec3(whole_cells(setup["travel"] + 2.5 * r, cell), side, 0)};
+}
+
+/// Returns a site with a pit for the bed.
+SiteOptions site_options(const Setup& setup, const SiteBox& bed) {
+  SiteOptions options;
+  options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 4 * setup.cell);
+  options.depth = -bed.low.z() + 8 * setup.cell;
+  options.surface = pit(bed);
+  return options;
+}
+
+/// Returns the wheel's shell. Contact reaches past a shell by up to a cell: one of the wheel's own
+/// size would stand on air. Its faces are therefore inside radius and width by the offset.
+scene::Shell drum_of(const Setup& setup, const WheelCase& wheel) {
+  const double half = 0.25 * setup.cell, inset = half + setup["offset"] * setup.cell;
+  scene::Shell shell = drum(wheel.radius - inset, wheel.width - 2 * inset);
+  shell.half_thickness = half;
+  return shell;
 }
 
 /// Loads the wheel slowly, then moves it at its slip over the travel. Records the height of the
@@ -204,23 +222,13 @@ Report run(const Setup& setup) {
   if (setup.is("law", "yes")) return law_alone(setup);
   const WheelCase wheel = wheel_of(setup);
   const SiteBox bed = bed_of(setup);
-  SiteOptions options;
-  options.size = 2 * (std::max(bed.high.x(), bed.high.y()) + 4 * setup.cell);
-  options.depth = -bed.low.z() + 8 * setup.cell;
-  options.surface = pit(bed);
-  Site site(setup, options);
+  Site site(setup, site_options(setup, bed));
   auto soil = site.fill(bed);
   site.rest(soil, 0.0);
   site.solver().insert(soil);
 
-  // Contact reaches past the shell by up to a cell: a shell of the wheel's own size would stand on
-  // air.
-  const double half = 0.25 * setup.cell, inset = half + setup["offset"] * setup.cell;
-  scene::Shell shell = drum(wheel.radius - inset, wheel.width - 2 * inset);
-  // Faces lie at radius and width, less the offset.
-  shell.half_thickness = half;
   ToolDriver driver(
-      site, shell,
+      site, drum_of(setup, wheel),
       make_pose(0, 0.07 * setup.cell, wheel.radius + (1.5 - setup["offset"]) * setup.cell));
   Carriage carriage(setup, driver);
   const double travel_time = setup["travel"] / setup["speed"], start = 1.5 * kLoading;
@@ -251,9 +259,9 @@ Report run(const Setup& setup) {
   report.note("power in: torque x turning less pull x speed",
               -mean.moment.y() * rim_speed(setup["speed"], wheel.slip) / wheel.radius -
                   mean.force.x() * setup["speed"],
-              "W", "what soil and slip take; above 0");
+              "W", "lost in soil and slip; above 0");
   report.note("first touched above the ground by", 1000 * (carriage.touched() - wheel.radius), "mm",
-              "where it bore a fiftieth of the load: contact reaches a cell");
+              "at a fiftieth of the load; contact reaches a cell");
   report.add("particles through the wheel",
              static_cast<double>(site.solver().stats().shell_crossings), "", 0, kNone, 0,
              "none may pass; summed over steps [docs/validation.md, Wheels]");

@@ -27,15 +27,21 @@ using control::PathPiece;
 using control::PlanePose;
 using Space = ob::ReedsSheppStateSpace;
 
-constexpr double kStep = 0.15;  // [m] between poses that are asked for
-// These four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that
-// has not met by its iterations is given up for a new one: growth costs more the larger the trees
-// are.
-constexpr double kRange = 6;           // most growth of a tree at a time [m]
-constexpr int kTrees = 16;             // pairs of trees at most
-constexpr int kTreeIterations = 250;   // of a pair
-constexpr unsigned kShortenings = 60;  // tries of each kind to shorten a path
-constexpr double kNoPiece = 1e-6;      // [m] shorter than this is rounding
+// Distance between checked poses [m].
+constexpr double kStep = 0.15;
+// The next four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that
+// has not met within its iterations is replaced by a new one, because growth costs more the larger
+// the trees are.
+// Largest growth of a tree at a time [m].
+constexpr double kRange = 6;
+// Largest number of pairs of trees.
+constexpr int kTrees = 16;
+// Iterations of one pair.
+constexpr int kTreeIterations = 250;
+// Attempts of each kind to shorten a path.
+constexpr unsigned kShortenings = 60;
+// Shorter pieces come from rounding [m].
+constexpr double kNoPiece = 1e-6;
 
 PlanePose pose_of(const ob::State* state) {
   const auto* s = state->as<ob::SE2StateSpace::StateType>();
@@ -45,12 +51,12 @@ PlanePose pose_of(const ob::State* state) {
 void set(ob::State* state, const PlanePose& pose) {
   auto* s = state->as<ob::SE2StateSpace::StateType>();
   s->setXY(pose.p.x(), pose.p.y());
-  // The space takes headings from -pi, and pi no more.
+  // The space takes headings from -pi up to, but not including, pi.
   const double yaw = std::remainder(pose.yaw, 2 * kPi);
   s->setYaw(yaw >= kPi ? -kPi : yaw);
 }
 
-/// The pieces of the shortest path between two states, added to `out`.
+/// Appends the pieces of the shortest path between two states to `out`.
 void append(const Space& space, double radius, const ob::State* from, const ob::State* to,
             std::vector<PathPiece>& out) {
   const Space::ReedsSheppPath path = space.reedsShepp(from, to);
@@ -60,7 +66,7 @@ void append(const Space& space, double radius, const ob::State* from, const ob::
     const double curvature = path.type_[i] == Space::RS_LEFT    ? 1 / radius
                              : path.type_[i] == Space::RS_RIGHT ? -1 / radius
                                                                 : 0;
-    // Two pieces of one arc are one.
+    // Consecutive pieces of one arc are joined.
     if (!out.empty() && out.back().curvature == curvature &&
         (out.back().length < 0) == (length < 0))
       out.back().length += length;
@@ -71,7 +77,7 @@ void append(const Space& space, double radius, const ob::State* from, const ob::
 
 double cost(const Path& path) { return path.length() + kCuspPrice * path.cusps(); }
 
-/// What all searches of one problem share.
+/// State that all searches of one problem share.
 class Search {
  public:
   explicit Search(const ReedsSheppProblem& problem)
@@ -102,7 +108,7 @@ class Search {
     return Path(problem_.start, std::move(pieces));
   }
 
-  /// One pair of trees; takes off `left` the iterations that it used.
+  /// Grows one pair of trees and subtracts the iterations that it used from `left`.
   std::optional<Path> grow(int& left) const {
     ob::ScopedState<> start(space_), goal(space_);
     set(start.get(), problem_.start);
@@ -139,12 +145,14 @@ class Search {
 
 }  // namespace
 
+// Several small trees cost less than a large one with the same iterations, and each may find
+// another path.
 std::optional<Path> plan_reeds_shepp(const ReedsSheppProblem& problem) {
-  // One source of seeds serves the whole process: between its setting and the last tree nobody else
-  // may draw.
+  // The process has one source of seeds: no other search may draw from it until the last tree is
+  // done.
   static std::mutex turns;
   const std::lock_guard<std::mutex> turn(turns);
-  // Libraries never print; the seeding of a source that has been used before would be told as a
+  // Libraries never print, and OMPL would report seeding a source that was used before as a
   // mistake.
   ompl::msg::noOutputHandler();
   ompl::RNG::setSeed(problem.seed);
@@ -155,7 +163,7 @@ std::optional<Path> plan_reeds_shepp(const ReedsSheppProblem& problem) {
   int left = problem.iterations;
   for (int tree = 0; tree < kTrees && left > 0; ++tree) {
     std::optional<Path> found = search.grow(left);
-    // The first of equals.
+    // Of equal costs the first path is kept.
     if (found && (!best || cost(*found) < cost(*best))) best = std::move(found);
   }
   return best;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only place with OMPL: Reeds-Shepp paths by rapidly exploring random trees. Exists only in
+// Reeds-Shepp paths by rapidly exploring random trees; the only place with OMPL. Exists only in
 // builds with NAVVY_WITH_OMPL.
 #pragma once
 
@@ -11,26 +11,33 @@
 
 namespace navvy::planner {
 
-/// From one pose to another within a rectangle, where `valid` says where the machine may be.
+/// A search from one pose to another within a rectangle, through poses that `valid` accepts.
 struct ReedsSheppProblem {
+  /// Poses in W.
   control::PlanePose start, goal;
-  double radius = 5;                             ///< of the bends [m]
-  Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< the reference point stays within [m]
-  int iterations = 1000;                         ///< of all trees together; what ends the search
-  std::uint32_t seed = 1;                        ///< not 0
+  /// Radius of the bends [m].
+  double radius = 5;
+  /// Rectangle that the reference point stays in [m].
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  /// Iterations of all trees together, which end the search.
+  int iterations = 1000;
+  /// Seed of the random numbers; not 0.
+  std::uint32_t seed = 1;
+  /// Returns true for poses that the machine may take.
   std::function<bool(const control::PlanePose&)> valid;
 };
 
-/// Metres of way that a change of direction counts for when paths are compared: a stop, and wheels
-/// turned standing.
+/// Length [m] that a change of direction counts for when paths are compared: the machine stops and
+/// turns its wheels.
 inline constexpr double kCuspPrice = 3;
 
-/// The shortest Reeds-Shepp path [Reeds 1990] where that is valid. Else the cheapest of several
-/// that pairs of trees [Kuffner 2000] find with the iterations, each shortened by straight
-/// connections between its places. Poses are asked for every 0.15 m.
+/// Returns the shortest Reeds-Shepp path [Reeds 1990] where it is valid. Otherwise returns the
+/// cheapest of several paths that pairs of trees [Kuffner 2000] find within the iterations, each
+/// shortened by straight connections between its places; nothing when none is found. Poses are
+/// checked every 0.15 m.
 ///
-/// Equal problems give equal paths, to the bit: nothing looks at the time, and the library's one
-/// source of seeds is set anew under a lock. May be called from several threads; they take turns.
+/// Equal problems give bit-identical paths: nothing depends on the time, and the only source of
+/// seeds in the library is set anew under a lock. Several threads may call it; they take turns.
 std::optional<control::Path> plan_reeds_shepp(const ReedsSheppProblem& problem);
 
 }  // namespace navvy::planner

@@ -23,6 +23,9 @@ struct BlockShape {
 /// Samples the volume fraction of columns and particles, smoothed with a quadratic B-spline of the
 /// cell, at column centres every half cell. Half a cell is the spacing of particles; a finer grid
 /// would follow their noise. Cost is linear in the particles of the block and its neighbourhood.
+///
+/// Columns count as full below their surface and particles as their volume in the density state, so
+/// that the seam between both does not show.
 class ShapeFinder {
  public:
   /// Reads ground and index, which must outlive it. One finder serves many blocks, one after the

@@ -245,7 +245,7 @@ void Exchange::State::fit_budget(std::span<const ToolZone> zones, std::size_t ac
   }
   // Log once, not at every check while it lasts.
   if (!over_budget)
-    log_warning("soil: at " + std::to_string(time) + " s the wake zone shrinks from " +
+    log_warning("soil: at " + std::to_string(time) + " s the active zone shrinks from " +
                 std::to_string(wanted) + " to " + std::to_string(plan.size()) +
                 " columns, or there would be more than " + std::to_string(max_particles) +
                 " particles");

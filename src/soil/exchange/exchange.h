@@ -28,6 +28,11 @@ namespace navvy::soil {
 /// tools. Cost is linear in particles, tools and changed columns, and does not grow with the site.
 /// Between checks it keeps how long blocks have been at rest, what was deposited recently and which
 /// columns slide; all of it is saved and hashed.
+///
+/// The ground under a tool must be particles before the tool reaches it, and soil at rest should be
+/// columns, which cost nothing. Three rules activate columns: a zone ahead of tools (A), motion
+/// beside resting soil (B), and over-steep slopes near active soil (C). Blocks that rest become
+/// layers again; over-steep columns far from active soil slide as columns.
 class Exchange {
  public:
   /// Creates the exchange of a ground, which must outlive it; neither world nor ground is changed.

@@ -36,6 +36,9 @@ struct Pile {
 /// in the particles. An index is made for each check and refers to the particles and the ground,
 /// which must outlive it. Columns change while a check deposits soil; piles then still refer to the
 /// ground before.
+///
+/// Every rule of the exchange reads the particles through it: rest and deposit by block, slopes and
+/// support areas by column, activation by height within a column.
 class ColumnIndex {
  public:
   /// Sorts the particles. A particle outside the site is listed under the column that would be

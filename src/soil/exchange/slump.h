@@ -18,6 +18,9 @@ namespace navvy::soil {
 /// soil in four colours, in integers, until no sliding pair is steeper than phi - 1 deg
 /// [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing jumps. Cost is linear
 /// in the sliding columns.
+///
+/// Usage: `fail` once for each finding of SlumpScan, then `run` at every check. Soil never moves
+/// below the height at which its column failed, so a cut in bonded soil keeps its foot.
 class Slump {
  public:
   /// Moves soil of `ground`; ground and table must outlive it.

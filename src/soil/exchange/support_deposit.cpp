@@ -53,6 +53,7 @@ const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
   for (const std::uint32_t i : index_.column(ix, iy)) {
     const Particle& p = index_[i];
     if (!(ground_.datum() + height_in_cells(p) * cell < out.top + gap)) continue;
+    // Height of the particle's stress-free volume, spread over one column.
     const double density = ground_.setup().soils[p.soil].bank_density;
     out.grains.push_back(i);
     out.volumes.push_back(kilograms(p.mass) * static_cast<double>(p.j0) / (density * cell * cell));
@@ -65,6 +66,7 @@ const SupportDeposit::Stack& SupportDeposit::stack(int ix, int iy) {
 // By the position of each particle: counted by column, the height of a level layer would scatter by
 // 6 cm.
 double SupportDeposit::smoothed(int ix, int iy) {
+  // One kernel smooths columns and particles.
   double height = 0;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
@@ -99,6 +101,7 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& area
       const Stack& soil = stack(ix, iy);
       if (soil.grains.empty() || soil.touched || !area.meets(ix, iy, soil.top)) continue;
       if (tool_touches(zones_, ix, iy, (soil.top - ground_.datum()) / ground_.cell())) continue;
+      // Areas of a machine may overlap; a column's soil belongs to the first.
       if (!claimed.insert({iy, ix}).second) continue;
       // Soil that would reach into the wheel stays active.
       const double ground = ground_.height(ix, iy),
@@ -117,6 +120,7 @@ SupportDeposit::PendingDeposit SupportDeposit::plan(const SupportPlacement& area
       taken.push_back(mass);
       shows = shows || out.columns.back().weight > 0;
     }
+  // All heights round to zero: shares follow masses instead.
   for (std::size_t c = 0; !shows && c < taken.size(); ++c) out.columns[c].weight = taken[c];
   return out;
 }
@@ -130,6 +134,7 @@ int SupportDeposit::deposit(std::span<const SupportPlacement> support_areas,
     pending_deposits.push_back(plan(area, claimed));
   int count = 0;
   for (const PendingDeposit& pending_deposit : pending_deposits) {
+    // Each soil is deposited on its own, as layers have one soil each.
     for (const SoilShare& share : soil_shares(index_, pending_deposit.grains))
       share_out(ground_, layer_of(share, ground_.setup().soils[share.soil].swell, densest_),
                 share.mass, pending_deposit.columns);

@@ -32,6 +32,9 @@ bool supports_machine(const heightfield::Ground& ground, const ColumnIndex& inde
 /// columns and soil there, smoothed by the spline, minus the column. Soil that would reach into the
 /// wheel stays active: soil that slides under a wheel does not lift it. Cost is linear in the soil
 /// under support areas, and in the columns of their rectangles where there is any.
+///
+/// Wheels and tracks press on columns only (ruts), so soil under them must be columns before they
+/// arrive.
 class SupportDeposit {
  public:
   /// Deposits onto `ground`; ground, index and zones must outlive the object. The index is of the

@@ -40,6 +40,10 @@ class BlockIndex {
 
 /// Particle blocks (with particles) and active blocks (particle blocks and their 26 neighbours: all
 /// nodes that particles can reach).
+///
+/// A particle of a block can reach nodes of that block and of its 26 neighbours before the next
+/// re-bin. The table changes only when blocks appear or vanish. Building it costs the number of
+/// particle blocks x 27.
 struct BlockTable {
   /// Sorted.
   std::vector<BlockKey> particle_blocks;

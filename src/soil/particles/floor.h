@@ -16,6 +16,9 @@ namespace navvy::soil {
 
 /// Heights of held nodes per block. The ground is read only where it, or the set of blocks, has
 /// changed.
+///
+/// Four columns meet at a node, so a node is held if any of them reaches it. All blocks of one
+/// column of blocks share a patch of 4 x 4 heights; memory is 320 bytes per active block.
 class Floor {
  public:
   /// Starts without blocks. `held_margin` [cells]: nodes up to this far above the columns are held

@@ -12,6 +12,10 @@
 namespace navvy::soil {
 
 /// Kernels of kernels/soil/*/grid_to_particle.cl.
+///
+/// Particles keep their position during a transfer: their displacement is summed in `moved`, and
+/// enqueue_end adds it. A block reads only nodes of its own active neighbours and writes only its
+/// own particles.
 class GridToParticle {
  public:
   /// Builds the kernels with these constants.

@@ -16,6 +16,9 @@
 namespace navvy::soil {
 
 /// Kernels of kernels/soil/*/grid_update.cl and their results.
+///
+/// Each active block adds the tiles of the particle blocks around it in a fixed order. Far blocks
+/// get their final velocity here; near blocks get two fields, which Contact completes.
 class GridUpdate {
  public:
   /// Builds the kernels with these constants.

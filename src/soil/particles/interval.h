@@ -11,6 +11,10 @@
 namespace navvy::soil {
 
 /// The current transfer. Solver and double twin share its rules.
+///
+/// A transfer ends when its length is reached, rounded to whole steps, or when the fastest particle
+/// or tool could go farther than `most_motion` in one more step. Bounds of displacements are sums
+/// of speed x time, so they never underestimate.
 struct TransferInterval {
   /// A step was done since the last transfer ended.
   bool open = false;

@@ -15,6 +15,9 @@ namespace navvy::soil {
 /// Exact sums of particle masses per soil in kMassQuantum. Unlike ParticleStore::masses it copies
 /// no particle to the host and does not look for values that are not finite (the report of a step
 /// does).
+///
+/// Usage: `reserve` when lists change, `queue` with the kernels of a step, `take` after the report
+/// of that step has been read.
 class MassCount {
  public:
   /// Builds the kernel. `soils`: number of soils.

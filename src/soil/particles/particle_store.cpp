@@ -47,12 +47,14 @@ void put_record(const Particle& p, float* state, std::size_t capacity, std::size
   FLOAT_FIELDS(PUT_ONE, PUT_MANY)
 #undef PUT_ONE
 #undef PUT_MANY
+  // Integers are stored as bits: a state is one array of 32-bit words.
   words[FIELD_MASS * capacity] = std::bit_cast<float>(p.mass);
   words[FIELD_TAG * capacity] = std::bit_cast<float>(static_cast<std::int32_t>(p.soil) |
                                                      static_cast<std::int32_t>(p.side) << 16);
   words[FIELD_ID * capacity] = std::bit_cast<float>(p.id);
 }
 
+/// Reads back what put_record wrote. The block is not in the words: the caller sets it.
 Particle get_record(const float* state, std::size_t capacity, std::size_t slot) {
   const float* words = state + slot;
   Particle p;
@@ -70,6 +72,7 @@ Particle get_record(const float* state, std::size_t capacity, std::size_t slot) 
   return p;
 }
 
+/// Returns the number of slots that runs of these counts need, with padding.
 int slots_of(const std::vector<int>& counts) {
   return std::accumulate(counts.begin(), counts.end(), 0,
                          [](int sum, int count) { return sum + padded(count); });
@@ -206,6 +209,7 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
   });
   std::vector<Particle> out;
   out.reserve(particles.size());
+  // Ties were broken by the old index, so the order does not depend on the sort's algorithm.
   for (const Place& place : places) out.push_back(particles[place.from]);
   return out;
 }
@@ -213,12 +217,14 @@ std::vector<Particle> ParticleStore::sorted(std::vector<Particle> particles) {
 // Some spare memory is allocated: soil becomes active in small portions.
 void ParticleStore::reserve(int side, int slots, int wanted) {
   if (slots <= capacity_[side] && !state_[side].empty()) return;
+  // Contents are lost; callers write all slots afterwards.
   const int capacity = padded(std::max(wanted, 1024));
   state_[side] = device::Buffer<float>(device_, static_cast<std::size_t>(capacity) * FIELD_COUNT);
   capacity_[side] = capacity;
 }
 
 void ParticleStore::place(const std::vector<Particle>& sorted) {
+  // One key and one count for each run of equal keys.
   std::vector<BlockKey> keys;
   std::vector<int> counts;
   for (const Particle& p : sorted) {
@@ -315,6 +321,7 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
         point.grid[static_cast<int>(a)] = corner[static_cast<int>(a)] +
                                           static_cast<double>(words[(FIELD_X + a) * capacity]) +
                                           static_cast<double>(words[(FIELD_MOVED + a) * capacity]);
+      // Positions include the displacement of the current transfer.
       point.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
       out.push_back(point);
     }
@@ -330,10 +337,12 @@ double ParticleStore::densest() const {
 }
 
 std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
+  // Integer sums are exact, so their order does not matter.
   std::vector<std::int64_t> out(soils, 0);
   if (count_ == 0) return out;
   const auto view = state_[now_].map_read();
   const auto capacity = static_cast<std::size_t>(capacity_[now_]);
+  // Particles that are no longer finite have no mass: a run that failed shows an open ledger.
   std::vector<float> sums;
   for (const ParticleBlock& particle_block : particle_blocks_) {
     const auto n = static_cast<std::size_t>(particle_block.count);
@@ -355,6 +364,7 @@ std::vector<std::int64_t> ParticleStore::masses(std::size_t soils) const {
 std::vector<Particle> ParticleStore::drop_outside() {
   // Rare: a few particles leave the site. The host selects those that stay.
   const std::vector<Particle> all = records();
+  // The last code stands for a place outside the site.
   const std::vector<std::uint8_t> codes = rebin_.codes();
   std::vector<Particle> stay, left;
   std::size_t next = 0;
@@ -370,6 +380,8 @@ std::vector<Particle> ParticleStore::drop_outside() {
 std::vector<Particle> ParticleStore::rebin() {
   if (count_ == 0) return {};
   const std::size_t old_particle_blocks = particle_blocks_.size();
+  // Only counts come to the host: how many particles go from each block to each of its neighbours.
+  // The particles themselves move on the device.
   const std::vector<int> counts =
       rebin_.count({state_[now_], capacity_[now_], particle_blocks_buffer_}, old_particle_blocks,
                    block_keys_, site_);
@@ -387,6 +399,7 @@ std::vector<Particle> ParticleStore::rebin() {
   rebin_.reserve(plan.keys.size(), static_cast<std::size_t>(slots));
   // After this point only the device itself can fail.
   std::swap(particle_blocks_buffer_, old_particle_blocks_buffer_);
+  // Most re-bins leave the set of blocks as it was, and tables are expensive.
   if (!(plan.keys == table_.particle_blocks)) table_.build(plan.keys);
   assign_slots(plan.counts);
   upload_particle_blocks();
@@ -420,6 +433,7 @@ void ParticleStore::visit(Archive& a) {
 }
 
 void ParticleStore::visit(Archive& a, std::vector<Particle>& records, std::size_t soils) {
+  // Records are sorted, so a block is a run of equal keys.
   const auto end_of_block = [&](std::size_t from) {
     std::size_t to = from;
     while (to < records.size() && key_of(records[to]) == key_of(records[from])) ++to;

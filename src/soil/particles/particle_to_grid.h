@@ -11,6 +11,9 @@
 namespace navvy::soil {
 
 /// Kernel of kernels/soil/*/particle_to_grid.cl and its results.
+///
+/// Every block scatters into tiles of its own, one or, near a shell, three. Nothing is shared
+/// between blocks, so sums have one order and results repeat. Memory is 8 KiB per tile.
 class ParticleToGrid {
  public:
   /// Builds the kernel. `extended_law`: see needs_extended_law.

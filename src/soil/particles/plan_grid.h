@@ -19,6 +19,9 @@ using PlanKey = std::pair<int, int>;
 /// block. Both are less than a block's side. They are chosen so that the first machine starts at
 /// the same offset in its block wherever it stands: the same dig some columns away is then
 /// bit-identical.
+///
+/// Example: with x = 3, columns 3 .. 6 form block 0 along x, and columns -1 .. 2 would form block
+/// -1. Blocks at the site's edge may therefore be cut.
 struct PlanGrid {
   /// Column at the origin of G.
   int x = 0, y = 0;

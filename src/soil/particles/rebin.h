@@ -41,6 +41,9 @@ struct StoredParticles {
 };
 
 /// Kernels of kernels/soil/*/rebin.cl. Calls come in the order count, move; `move` may be left out.
+///
+/// Cost is linear in the particles: three passes over their codes and one copy of all fields into
+/// the other state array.
 class Rebin {
  public:
   /// Builds the kernels.
@@ -56,7 +59,7 @@ class Rebin {
   /// Reserves memory for a plan of this many blocks and slots. Throws before anything has changed
   /// when there is none.
   void reserve(std::size_t particle_blocks, std::size_t slots);
-  /// Queues the move of the counted particles into their new blocks (given in `next.homes`), by
+  /// Queues the move of the counted particles into their new blocks (`next.particle_blocks`), by
   /// cell and in the order of arrival, and the blocks' mean surfaces.
   void move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
             const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& block_surface);

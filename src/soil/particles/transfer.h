@@ -18,6 +18,9 @@
 namespace navvy::soil {
 
 /// The three stages in their order, with the report that they and the shell kernels write.
+///
+/// `scatter` and `gather` are queued in every step, with the contact solve between them; `end`
+/// follows the last step of a transfer. Only read_report waits.
 class Transfer {
  public:
   /// Builds the kernels. `extended_law`: see needs_extended_law.

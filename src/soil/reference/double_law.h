@@ -8,10 +8,13 @@
 
 namespace navvy::soil::reference {
 
+// With all extensions of the law: those that a soil does not use have no effect.
 #define LAW_EXTENDED
 #include "soil/point.h"  // NOLINT: on purpose inside the namespace
 #undef LAW_EXTENDED
 
+/// Returns the constants of the law in double precision. `cell` [m]. The kernels get the same
+/// numbers rounded to floats.
 inline LawSoil law_soil(const scene::Soil& soil, double cell) {
   const LawConstants law = law_constants(soil, cell);
   LawSoil out;

@@ -11,13 +11,16 @@
 
 namespace navvy::soil::reference {
 
+// Types of the dialect.
 using real = double;
 using scalar = double;
 using scalar3 = Vec3;
 using ints = int;
-using columns = double;  ///< the twin's ground is level around a node
+// The twin's ground is level around a node.
+using columns = double;
 #define INLINED inline
 
+// Built-ins of OpenCL for one double.
 using std::fabs;
 using std::floor;
 using std::fmax;
@@ -26,6 +29,7 @@ using std::isfinite;
 using std::sqrt;
 inline double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
 inline double step(double edge, double x) { return x < edge ? 0.0 : 1.0; }
+// The twin has one column around a node, so the mean is the column itself.
 inline double mean_of(columns t) { return t; }
 inline bool all(bool of_columns) { return of_columns; }
 inline double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }

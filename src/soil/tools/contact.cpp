@@ -39,6 +39,7 @@ int Contact::add_tool(const scene::Shell& shell) {
   if (!tools_.empty())
     tool.first_triangle =
         tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
+  // Adhesion acts per area of the shell, but the kernels sum over nodes.
   tool.area_factor = plate_area_factor(*tool.geometry, cell_, scheme_);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
@@ -55,6 +56,7 @@ void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const
 
 void Contact::solve(Transfer& transfer, double dt) {
   if (nodes_.count == 0) return;
+  // Speeds of the scheme are in units of sqrt(g h), so that they scale with the cell.
   reach_ = {static_cast<float>(scheme_.contact_reach),
             static_cast<float>(scheme_.contact_ramp),
             static_cast<float>(scheme_.contact_edge),
@@ -92,6 +94,7 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
   const Vec3 before(record.before[0], record.before[1], record.before[2]);
   const Vec3 after(record.after[0], record.after[1], record.after[2]);
   const auto mass = static_cast<double>(record.mass), push = static_cast<double>(record.push);
+  // Soil gains J, so the tool gains -J.
   const Vec3 J = mass * (after - before), L = r.cross(J);
   out.J_W -= J;
   out.L_W -= L;
@@ -163,6 +166,7 @@ void Contact::add_impulses(double dt, std::span<ToolImpulse> impulses) {
     tool.J_W += impulses[m].J_W;
     tool.L_W += impulses[m].L_W;
     tool.summed_time += dt;
+    // In the first transfer of a contact there is no earlier mean, so the running mean is reported.
     if (!tool.has_mean) {
       tool.force_W = tool.J_W / tool.summed_time;
       tool.moment_W = tool.L_W / tool.summed_time;
@@ -174,6 +178,8 @@ void Contact::add_impulses(double dt, std::span<ToolImpulse> impulses) {
 
 void Contact::end_transfer() {
   for (Registered& tool : tools_) {
+    // The mean over a whole transfer is reported during the next one: within a transfer the
+    // impulses of single steps vary.
     tool.has_mean = tool.summed_time > 0;
     tool.force_W = tool.has_mean ? Vec3(tool.J_W / tool.summed_time) : Vec3(Vec3::Zero());
     tool.moment_W = tool.has_mean ? Vec3(tool.L_W / tool.summed_time) : Vec3(Vec3::Zero());

@@ -31,6 +31,15 @@ double plate_area_factor(const ShellGeometry& geometry, double cell,
 
 /// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with
 /// its share of the plate's speed [docs/tools.md, contact shares]. Any number of tools.
+///
+/// Calls of a step come in this order: set_motions in the first step of a transfer or set_twists in
+/// a held one; classify in the first step; solve between scatter and gather; queue_read; and, after
+/// the report has been read, sum_impulses and add_impulses. end_transfer follows the last step of a
+/// transfer.
+///
+/// Near lists name the triangles that may touch each block. They reach farther than the contact, so
+/// that a tool may move by contact_margin before they are built again. Cost per step is linear in
+/// the nodes and particles of near blocks.
 class Contact {
  public:
   /// Builds the kernels. `gravity` [m/s2] decides which plates lie on soil.

@@ -15,10 +15,13 @@ namespace {
 /// Cells that a particle may have drifted from the range [0.5, 4.5) of its block before a re-bin.
 constexpr double kDrift = 1.0;
 
+/// Rounds a vector of doubles for the device.
 void put(float (&out)[3], const Vec3& v) {
   for (int a = 0; a < 3; ++a) out[a] = static_cast<float>(v[a]);
 }
 
+/// Returns a face, edge or corner as the kernels use it: outward direction, and whether it is a
+/// free edge.
 ShellFeature feature(const Vec3& normal, bool free) {
   ShellFeature out{};
   put(out.normal, normal);
@@ -157,6 +160,7 @@ void Contact::list_near(const BlockTable& table) {
   // Over all tools.
   std::size_t triangles = 0;
   for (const Registered& tool : tools_) triangles += tool.geometry->triangles().size();
+  // Bits, block by triangle: a triangle is listed once, however many of its pieces are near.
   Marks node_marks(table.active.size(), triangles),
       particle_block_marks(table.particle_blocks.size(), triangles);
   find_candidates(table, node_marks, particle_block_marks);
@@ -198,6 +202,7 @@ void Contact::list_near(const BlockTable& table) {
   particle_candidates.first.push_back(
       static_cast<std::int32_t>(particle_candidates.triangles.size()));
 
+  // Buffers only grow, so a tool that moves does not allocate in every list.
   upload(device_, nodes_.list, near_list);
   upload(device_, nodes_.slot, near_slot_);
   shells_.set_near(node_candidates, particle_candidates, near_particle_blocks);
@@ -228,6 +233,7 @@ Tool Contact::tool_now(std::size_t index) const {
   out.half_thickness = static_cast<float>(shell.half_thickness / cell_);
   out.friction = static_cast<float>(shell.friction_share);
   out.adhesion = static_cast<float>(shell.adhesion_share * tool.area_factor);
+  // A registered tool without a motion in this step keeps a twist of zero and is not active.
   for (const ToolMotion& motion : motions_) {
     if (motion.tool != static_cast<int>(index)) continue;
     for (int a = 0; a < 3; ++a) {
@@ -244,6 +250,7 @@ Tool Contact::tool_now(std::size_t index) const {
 // Directions turn with the tool; the kernels use the axes of W only.
 void Contact::upload_tools() {
   ToolShells shells;
+  // One array for all tools, in the order of their registration; triangle numbers refer to it.
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     const Registered& tool = tools_[t];
     const Vec3 corner(kBlockCells * tool.window.x, kBlockCells * tool.window.y,

@@ -11,6 +11,10 @@ namespace navvy::soil {
 
 /// Set of pairs (row, column). They arrive in any order and more than once, and are read sorted and
 /// once. Cheaper than sorting them where columns are few.
+///
+/// Memory is one bit per pair. Marking costs one memory access, reading a row costs its columns /
+/// 64 plus the marks. A row is a block, a column a triangle, so that candidate lists come out in
+/// ascending order without a sort.
 class Marks {
  public:
   Marks(std::size_t rows, std::size_t columns)

@@ -30,6 +30,9 @@ struct CandidateRows {
 };
 
 /// Kernels of kernels/soil/*/shell.cl, their data of tools, and their results for near nodes.
+///
+/// Arrays of near nodes have BLOCK_NODES entries per near active block, in the order of
+/// NearNodes::list. Kernels write them in the first step of a transfer only.
 class ShellQuery {
  public:
   /// Builds the kernels with these constants.

@@ -24,6 +24,7 @@ namespace {
 /// Folds of a closed body that turn by more than this act like edges [cos]: 30 degrees.
 constexpr double kSharp = 0.866;
 
+/// Faces that share an edge. An edge of one face is free: soil can pass around it.
 struct EdgeUse {
   int count = 0;
   Vec3 normal = Vec3::Zero();
@@ -31,8 +32,10 @@ struct EdgeUse {
   bool sharp = false;
 };
 
+/// Returns the same key for both directions of an edge.
 std::pair<int, int> edge_key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
+/// Returns the point of segment a b closest to p; t = its position along the segment [0, 1].
 Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b, double& t) {
   const Vec3 ab = b - a;
   t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
@@ -93,6 +96,8 @@ void ShellGeometry::find_normals() {
       rims_.push_back({shell_.vertices[static_cast<std::size_t>(key.first)],
                        shell_.vertices[static_cast<std::size_t>(key.second)]});
   }
+  // The normals of edges and corners are sums over all faces, so they are copied to the triangles
+  // last.
   for (std::size_t n = 0; n < triangles_.size(); ++n) {
     const auto& index = shell_.triangles[n];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -115,6 +120,7 @@ void ShellGeometry::build_hull() {
   const double heap = mouth.norm() > 1e-9 ? 0.25 * (box.high - box.low).norm() : 0;
   std::vector<Vec3> points;
   for (const Triangle& t : triangles_)
+    // The hull of an open shell is what it can hold, level with its rims, plus the heap.
     points.insert(points.end(), t.corner.begin(), t.corner.end());
   if (heap > 0)
     for (const auto& rim : rims_)
@@ -131,6 +137,8 @@ double ShellGeometry::distance(const Vec3& p) const {
 ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const {
   double best = 1e300;
   Nearest out;
+  // The sign of the distance comes from the pseudo-normal of the closest feature, which is right at
+  // edges and corners, where a face normal is not.
   const auto offer = [&](const Vec3& c, const Vec3& normal, int triangle) {
     const double d2 = (p - c).squaredNorm();
     if (d2 >= best) return;
@@ -161,6 +169,7 @@ ShellGeometry::Nearest ShellGeometry::nearest(const Vec3& p, int& closest) const
     }
     if (inside) offer(p - height * t.normal, t.normal, n);
   };
+  // A good guess first makes the rejection tests of the other triangles effective.
   const int guess = closest;
   look(guess);
   for (int n = 0; n < static_cast<int>(triangles_.size()); ++n)
@@ -175,6 +184,7 @@ bool ShellGeometry::holds(const Vec3& p) const {
 }
 
 bool ShellGeometry::holds(const Vec3& p, int& closest) const {
+  // The test against a few planes is much cheaper than the distance and rejects most particles.
   for (const geometry::Plane& plane : hull_)
     if (plane.normal.dot(p) > plane.offset) return false;
   return distance(p, closest) > 0;

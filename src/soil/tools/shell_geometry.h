@@ -14,6 +14,10 @@
 namespace navvy::soil {
 
 /// Geometry of one tool in its link frame T. Built once.
+///
+/// The signed distance comes from the pseudo-normal of the closest face, edge or corner [Baerentzen
+/// 2005]. An edge is free when no second triangle shares it; contact fades towards free edges.
+/// Vertices are copied; memory is some hundred bytes per triangle.
 class ShellGeometry {
  public:
   /// Prepares a shell for cells of `cell` [m].

@@ -69,10 +69,10 @@ TEST(ExchangeSlump, ACliffEndsAtTheSameAngleHoweverOftenItIsLookedAt) {
     Site site({sand()});
     site.step = step;
     cut(site, -1);
-    const std::vector<std::int64_t> books = site.mass_errors();
+    const std::vector<std::int64_t> errors = site.mass_errors();
     EXPECT_GT(site.checks(8).slumped_columns, 0);
     EXPECT_EQ(site.checks(2).slumped_columns, 0) << "not at rest after 8 s";
-    EXPECT_EQ(site.mass_errors(), books);
+    EXPECT_EQ(site.mass_errors(), errors);
     angles.push_back(slope_of(site).mean);
     print_value("cliff 1 m, slope with a check every " + std::to_string(step) + " s [deg]",
                 angles.back(), "all within 1", "[docs/validation.md, Slopes, walls and cuts]");

@@ -10,9 +10,9 @@
 namespace navvy::soil::reference {
 namespace {
 
-// The contact's reach from a plate's face, which the lattice of particles begins an eighth of a
-// cell behind; its edge as the solver ships it [docs/tools.md, contact shares]. A fractional lip
-// lies 0.2 cells further in.
+// Reach of the contact from a plate's face. The lattice of particles begins an eighth of a cell
+// behind the face. The edge is that of the solver [docs/tools.md, contact shares]. If an edge has
+// fractional shares, it lies 0.2 cells further in.
 constexpr double kReach = 0.875, kRamp = 1, kEdge = 0.6, kEdgeRamp = 1, kFractionEdge = 0.8;
 constexpr double kFarInside = 1e3;         // from a plate's edges [cells]
 constexpr double kReferenceCourant = 0.4;  // of the step that weights are made independent of
@@ -157,11 +157,11 @@ void PlaneStrain::scatter(double dt, bool first) {
 }
 
 double PlaneStrain::free_fraction_at(int i, int k) const {
-  double room = kernel_share(k - floor);
-  if (has_plate && k > plate.tip) room *= kernel_share(i - plate.x);
-  if (wall_x0 >= 0) room *= kernel_share(i - wall_x0);
-  if (wall_x1 >= 0) room *= kernel_share(wall_x1 - i);
-  return std::max(room, kScheme.min_free_fraction);
+  double fraction = kernel_share(k - floor);
+  if (has_plate && k > plate.tip) fraction *= kernel_share(i - plate.x);
+  if (wall_x0 >= 0) fraction *= kernel_share(i - wall_x0);
+  if (wall_x1 >= 0) fraction *= kernel_share(wall_x1 - i);
+  return std::max(fraction, kScheme.min_free_fraction);
 }
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
@@ -214,7 +214,7 @@ void PlaneStrain::update_nodes(double dt, bool first) {
       if (k <= floor + kScheme.held_margin) node.vx = node.vz = 0;
       node.moved_x += dt * node.vx;
       node.moved_z += dt * node.vz;
-      if (first) node.room = node.mass / free_fraction_at(i, k);
+      if (first) node.free_fraction_mass = node.mass / free_fraction_at(i, k);
     }
 }
 
@@ -225,9 +225,9 @@ void PlaneStrain::spread(PlanePoint& p, double dt_interval) {
   const Weights at(p);
   double mass = 0, lean_x = 0, lean_z = 0;
   for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
-    mass += w * node.room;
-    lean_x += w * node.room * (i - at.fx);
-    lean_z += w * node.room * (k - at.fz);
+    mass += w * node.free_fraction_mass;
+    lean_x += w * node.free_fraction_mass * (i - at.fx);
+    lean_z += w * node.free_fraction_mass * (k - at.fz);
   });
   p.x += crowding_displacement(share, lean_x, mass, kScheme.max_crowding_displacement);
   p.z += crowding_displacement(share, lean_z, mass, kScheme.max_crowding_displacement);
@@ -243,9 +243,9 @@ void PlaneStrain::gather(double dt, bool last) {
       on_grid += 0.5 * node.mass * (node.vx * node.vx + node.vz * node.vz);
   for (PlanePoint& p : points) {
     const Weights at(p);
-    double v[2] = {0, 0}, moment[4] = {0, 0, 0, 0}, moved[2] = {0, 0}, room = 0;
+    double v[2] = {0, 0}, moment[4] = {0, 0, 0, 0}, moved[2] = {0, 0}, local_mass = 0;
     for_nodes(*this, at, [&](Node& node, double w, int i, int k) {
-      room += w * node.room;
+      local_mass += w * node.free_fraction_mass;
       v[0] += w * node.vx;
       v[1] += w * node.vz;
       moment[0] += w * node.vx * i;
@@ -259,13 +259,13 @@ void PlaneStrain::gather(double dt, bool last) {
     p.c[2] = velocity_gradient(moment[1], at.fz, v[0], cell_);
     p.c[6] = velocity_gradient(moment[2], at.fx, v[1], cell_);
     p.c[8] = velocity_gradient(moment[3], at.fz, v[1], cell_);
-    p.density = room / (soil_.bank_density * std::pow(cell_, 3));
+    p.density = local_mass / (soil_.bank_density * std::pow(cell_, 3));
     if (method_.crowding == PlaneMethod::Crowding::kClosing) {
-      const double packed = full / std::max(room, kEmpty);
+      const double packed = full / std::max(local_mass, kEmpty);
       p.j -= closing * std::max(std::min(p.j, p.j0) - packed, 0.0);
     }
     if (method_.opening == PlaneMethod::Opening::kSeen)
-      p.j = close_noise(p.j, p.j0, room, filled, kScheme.closing_share / method_.hold);
+      p.j = close_noise(p.j, p.j0, local_mass, filled, kScheme.closing_share / method_.hold);
     fastest = std::max({fastest, std::abs(v[0]), std::abs(v[1])});
     if (!last) continue;
     p.vx = v[0];

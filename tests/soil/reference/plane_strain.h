@@ -50,7 +50,7 @@ struct PlanePoint : LawState {
   double c[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
   double mass = 0;      ///< of a slice one cell thick [kg]
   double pressure = 0;  ///< of the last step [Pa]
-  double density = 0;   ///< mass per room of its nodes / bank density, of the last transfer [-]
+  double density = 0;   ///< local density of the last transfer / bank density [-]
 };
 
 /// A plate standing upright, with soil on its +x side above its tip.
@@ -99,7 +99,8 @@ class PlaneStrain {
   int nx() const { return nx_; }
   int nz() const { return nz_; }
   struct Node {
-    double mass = 0, vx = 0, vz = 0, fx = 0, fz = 0, moved_x = 0, moved_z = 0, room = 1;
+    double mass = 0, vx = 0, vz = 0, fx = 0, fz = 0, moved_x = 0, moved_z = 0;
+    double free_fraction_mass = 1;  ///< mass / free fraction [kg]
   };
   Node& node(int i, int k) { return nodes_[static_cast<std::size_t>(wrap(i) + nx_ * k)]; }
   const PlaneEnergy& energy() const { return energy_; }

@@ -54,7 +54,7 @@ Point from_particle(const Particle& particle) {
 #undef FROM_MANY
   for (int a = 0; a < 3; ++a) {
     p.x[a] += kBlockCells * particle.block[a];
-    p.home[static_cast<std::size_t>(a)] =
+    p.block[static_cast<std::size_t>(a)] =
         static_cast<int>(std::floor(std::floor(p.x[a] - 0.5) / kBlockCells));
     p.x[a] += p.moved[a];
   }
@@ -79,7 +79,8 @@ std::vector<double> ReferenceSolver::openings() const {
   std::map<std::array<int, 6>, Cell> cells;
   const auto key = [](const Point& p) {
     const Weights at = weights_at(p.x - p.moved);
-    return std::array<int, 6>{p.home[0], p.home[1], p.home[2], at.base[0], at.base[1], at.base[2]};
+    return std::array<int, 6>{p.block[0], p.block[1], p.block[2],
+                              at.base[0], at.base[1], at.base[2]};
   };
   for (const Point& p : points) {
     Cell& cell = cells[key(p)];
@@ -136,7 +137,7 @@ void ReferenceSolver::update_grid(double dt, bool hold) {
       node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
     if (contact && !empty && !fixed)
       node.velocity += contact(at, node.mass, node.velocity) / node.mass;
-    // Mass per room is what the particles ask for.
+    // Particles gather their local density from this mass.
     node.free_fraction_mass = node.mass / free_fraction_above(above);
   }
 }

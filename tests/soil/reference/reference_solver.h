@@ -26,9 +26,9 @@ struct Point : LawState {
   Vec3 moved = Vec3::Zero();
   double mass = 0;  ///< [kg]
   int soil = 0;
-  /// Home block: that of the base node floor(x - 0.5) when the point was made, and kept. Cells are
-  /// mixed within a home, as in the kernels, which sort anew.
-  std::array<int, 3> home{};
+  /// Block of the base node floor(x - 0.5) when the point was made. It does not change. Mixing in
+  /// a cell only includes points of one block, as in the kernels, which sort anew.
+  std::array<int, 3> block{};
 };
 
 Point from_particle(const Particle& particle);

@@ -30,6 +30,24 @@ scene::Soil sticky(double adhesion, double delta_degrees) {
 
 using lab::plate;
 
+/// Returns the contact's lengths and speeds of the scheme for the twin, as Contact::solve gives
+/// them to the kernels.
+reference::Reach reach_of(double cell) {
+  const SchemeConstants s;
+  const double speed = std::sqrt(kGravity * cell);
+  return {s.contact_reach,
+          s.contact_ramp,
+          s.contact_edge,
+          s.contact_edge_ramp,
+          kDt * cell * cell,
+          s.contact_opening * speed,
+          s.contact_settling * speed,
+          s.contact_falling * speed,
+          0,
+          0,
+          -1};
+}
+
 TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   // A block flies onto a wide plate, slides and sticks; all soil is in front, no free edge is near.
   const scene::Soil soil = sticky(2000, 20);
@@ -49,18 +67,7 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   reference::ReferenceSolver twin({soil}, cell, Vec3(0, 0, -kGravity),
                                   [](int, int) { return -10.0; });
   for (const Particle& p : block) twin.points.push_back(reference::from_particle(p));
-  const SchemeConstants s;
-  const reference::Reach reach{s.contact_reach,
-                               s.contact_ramp,
-                               s.contact_edge,
-                               s.contact_edge_ramp,
-                               kDt * cell * cell,
-                               s.contact_opening * std::sqrt(kGravity * cell),
-                               s.contact_settling * std::sqrt(kGravity * cell),
-                               s.contact_falling * std::sqrt(kGravity * cell),
-                               0,
-                               0,
-                               -1};
+  const reference::Reach reach = reach_of(cell);
   const double factor = plate_area_factor(ShellGeometry(plate(3, 3), cell), cell);
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {

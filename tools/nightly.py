@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`./dev nightly`: what CI leaves out."""
+import time
+
+import build
+import fuzz
+import lint
+import sanitize
+import testing
+import validate
+import workspace
+from workspace import DevError, say
+
+
+def nightly_tests():
+    """Runs the tests that CI leaves out, such as each header compiled by itself."""
+    build.build()
+    testing.ctest("-L", "nightly", "-LE", "slow")
+
+
+# Name and call of each step; a step that fails does not keep the others from running.
+STEPS = [
+    ("lint of all sources", lambda: lint.lint_command(["--all"])),
+    ("core preset as a bare GPU machine builds it", build.build_bare_core),
+    ("tests with label nightly", nightly_tests),
+    (
+        "host tests and two worlds under sanitizers, kernels under Oclgrind",
+        lambda: sanitize.sanitize_command([]),
+    ),
+    ("every fuzz target for a minute", lambda: fuzz.fuzz_command(["60"])),
+    ("slow cases", lambda: validate.validate_command([])),
+]
+
+
+def nightly_command(arguments):
+    """Runs what CI leaves out, hours on two cores; ends with a table of results.
+
+    Lint of all sources, the core preset without cache and precompiled headers, tests with label
+    nightly (each header by itself), `sanitize`, a minute of every fuzz target, `validate`. A step
+    that fails does not keep the others from running; the command fails in the end.
+    """
+    workspace.parser(nightly_command, "nightly").parse_args(arguments)
+    rows = []
+    for name, step in STEPS:
+        say("nightly: " + name)
+        begun, result = time.monotonic(), "passed"
+        try:
+            step()
+        except DevError as error:
+            result = "FAILED"
+            if str(error):
+                say(str(error))
+        rows.append("%-6s %6d s  %s" % (result, time.monotonic() - begun, name))
+    print("\n".join(rows))
+    if any(row.startswith("FAILED") for row in rows):
+        raise DevError("nightly failed")
