@@ -87,7 +87,7 @@ def output(program, *arguments):
             % (" ".join(arguments), done.returncode, done.stderr)
         )
     text = done.stdout.replace(program, "navvy")
-    text = re.sub(r"/\S*/(vehicles|terrain|scenarios)/", r"\1/", text)
+    text = re.sub(r"(?<=\s)/\S*/(vehicles|terrain|scenarios)/", r"\1/", text)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip() + "\n"
 
 
