@@ -132,7 +132,8 @@ def laboratory(program):
         fenced(split_help(text)),
     ]
     for name in rigs:
-        out += ["## %s\n" % name, fenced(split_help(output(program, "lab", name, "--help")))]
+        arguments = ["lab", name] + ([] if name == "constants" else ["--help"])
+        out += ["## %s\n" % name, fenced(split_help(output(program, *arguments)))]
     return "\n".join(out)
 
 
