@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A minute of the trench in two processes, with 1 and 2 threads, hashes every simulated second.
+// A minute of the trench in two processes, with 1 and 2 threads and hashes every simulated second.
 #include "determinism/hashed_run.h"
 
 namespace navvy::determinism {
 namespace {
 
-TEST(Threads, AMinuteOfDiggingIsTheSameBitsWithOneAndTwoThreads) {
+TEST(Threads, AMinuteOfDiggingIsBitIdenticalWithOneAndTwoThreads) {
   const HashedRun one = hashed_run("one", "trench.sdf", {"--duration", "60"}, threads(1));
   const HashedRun two = hashed_run("two", "trench.sdf", {"--duration", "60"}, threads(2));
   EXPECT_NE(one.device.find(" 1 compute unit"), std::string::npos) << one.device;
