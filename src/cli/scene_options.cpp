@@ -11,8 +11,9 @@
 namespace navvy::cli {
 namespace {
 
+/// Returns the two numbers of "X,Y" [m]. @throws InputError that names the option.
 Vec2 parse_pair(const std::string& option, const std::string& text) {
-  // The whole text must be two numbers: "1,2m" is a slip, not 1 and 2.
+  // The whole text must be two numbers: "1,2m" is a mistake.
   std::size_t used = 0, rest = 0;
   try {
     const double x = std::stod(text, &used);
@@ -21,9 +22,8 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
       if (used + 1 + rest == text.size()) return Vec2(x, y);
     }
   } catch (const std::exception&) {
-    // falls through to the message below
+    // The message below covers it.
   }
-  // Option and text as typed.
   throw InputError(Fault{Fault::Severity::kError, "", 0, option, text,
                          "two numbers in metres, separated by a comma",
                          "for example " + option + " 120,80"});
@@ -32,14 +32,13 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
 }  // namespace
 
 void SceneOptions::add_values_to(CLI::App& command) {
-  // One value each, or the scene's name after it would be taken for a second one.
+  // One value each: otherwise the scene's name after it would count as a second one.
   command
       .add_option("--set", set,
-                  "override a value of the scene, e.g. soil.cohesion_pa=8000; may be repeated")
+                  "override a value of the scene, e.g. soil.cohesion_pa=8000; repeatable")
       ->allow_extra_args(false);
-  // A seed of a hill's own stays.
   command
-      .add_option("--seed", seed, "seed of everything random: hills without a seed of their own")
+      .add_option("--seed", seed, "seed of encoder noise and of hills without a seed of their own")
       ->check(whole_number);
   command.add_option("--terrain", terrain,
                      "heightmap (GeoTIFF, ESRI ASCII) instead of the scene's ground");
@@ -51,30 +50,27 @@ void SceneOptions::add_values_to(CLI::App& command) {
 }
 
 void SceneOptions::add_to(CLI::App& command) {
-  // Everything a run may be given beside values.
-  command
-      .add_option("scene", file,
-                  "scene file (SDF); without a path also looked for among the shipped scenarios")
-      ->required();
+  // Options of a run beside values.
+  command.add_option("scene", file, "scene file (SDF), or the name of a shipped scene")->required();
   command.add_option("--device", device,
                      "OpenCL device: cpu, gpu, an index or a part of a name (see `navvy devices`); "
                      "without it NAVVY_DEVICE decides");
   add_values_to(command);
-  command.add_option("--duration", duration, "most simulated time [s]")->check(above_zero);
+  command.add_option("--duration", duration, "maximum simulated time [s]")->check(above_zero);
   command.add_flag("--no-render", no_render, "draw no pictures");
 }
 
 scene_io::Overrides SceneOptions::overrides() const {
   scene_io::Overrides out;
-  // The loader applies them to the text before it reads, so that the same rules hold.
+  // The loader applies changes to the text before it reads, so that the same rules hold for both.
   for (const std::string& setting : set) out.set.push_back(scene_io::parse_setting(setting));
   out.seed = seed;
-  // Zero stands for "not given".
+  // 0 means that it was not given.
   if (duration > 0) out.duration = duration;
   if (no_render) out.render = false;
   if (!terrain.empty()) out.terrain = terrain;
   if (!at.empty()) {
-    // A prefix and not an option of its own: both ways answer the same question.
+    // A prefix instead of another option, as both forms give the same value.
     const std::string local = "local:";
     out.at_is_local = at.rfind(local, 0) == 0;
     out.at = parse_pair("--at", out.at_is_local ? at.substr(local.size()) : at);

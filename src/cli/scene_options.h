@@ -15,29 +15,34 @@ class App;
 
 namespace navvy::cli {
 
-/// The scene to load and what to change in it; filled by the parser, read by the action afterwards.
+/// A scene and the changes to it, as given on the command line. The parser fills it before the
+/// command runs.
 struct SceneOptions {
-  /// As typed: a path, or the name of a shipped scene.
+  /// Path, or name of a shipped scene, as typed.
   std::string file;
-  /// As device::Device takes it; empty: the environment decides.
+  /// OpenCL device, as device::Device takes it. Empty: the environment decides.
   std::string device;
-  /// KEY=VALUE each.
+  /// Settings, KEY=VALUE each.
   std::vector<std::string> set;
-  /// Still as text: parsed with the others, so that a slip names its option.
+  /// Values of --terrain, --at and --size as text. `overrides` parses them, so that an error names
+  /// its option.
   std::string terrain, at, size;
+  /// Seed of the scene; empty: its own.
   std::optional<std::uint64_t> seed;
-  /// Most simulated time [s]; 0: the scene's own.
+  /// Maximum simulated time [s]; 0: that of the scene.
   double duration = 0;
+  /// True to draw no pictures.
   bool no_render = false;
 
-  /// Adds those that change a scene's values (--set, --seed, --terrain, --at, --size); the struct
-  /// must outlive parsing.
+  /// Adds the options that change a scene's values (--set, --seed, --terrain, --at, --size). The
+  /// struct must stay alive until the command has run.
   void add_values_to(CLI::App& command);
-  /// Adds all options to a subcommand; the struct must outlive parsing.
+  /// Adds all options to a subcommand. The struct must stay alive until the command has run.
   void add_to(CLI::App& command);
-  /// @throws InputError for a malformed value.
+  /// Returns the changes for the loader. @throws InputError for a malformed value.
   scene_io::Overrides overrides() const;
-  /// The scene with its overrides; `resolved` as in scene_io::load_scene. @throws InputError.
+  /// Loads the scene with its changes. `resolved` is as in scene_io::load_scene. @throws
+  /// InputError.
   scene::Scene load(std::string* resolved = nullptr) const;
 };
 

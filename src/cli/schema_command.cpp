@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy schema`: the elements of scene files.
+// `navvy schema`: prints the elements of scene files.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -15,11 +15,13 @@
 namespace navvy::cli {
 namespace {
 
+/// Options as parsed.
 struct SchemaOptions {
   std::string part;
   bool json = false, markdown = false;
 };
 
+/// Prints the schema, or the part of one element.
 int print_schema(const SchemaOptions& options) {
   const scene_io::Schema schema(control::step_kinds());
   const scene_io::SchemaNode* node =
@@ -44,7 +46,7 @@ void add_schema(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "schema", "print the elements of scene files with unit, default and range");
   command->add_option("part", options->part,
-                      "element to print with all it holds, e.g. soil; default all");
+                      "element to print with all that it contains, e.g. soil; default all");
   command->add_flag("--json", options->json, "print JSON for programs");
   command->add_flag("--markdown", options->markdown, "print the reference page");
   command->callback([options, &action] { action = [options] { return print_schema(*options); }; });

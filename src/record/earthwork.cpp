@@ -43,7 +43,8 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
   for (const heightfield::LooseSoil::Column& column : lying.columns())
     rect.include({column.ix, column.iy, column.ix + 1, column.iy + 1});
   const double area = ground.cell() * ground.cell();
-  // A twentieth of a cell keeps the rounding of woken and rebooked columns out of the sums.
+  // A threshold of a twentieth of a cell keeps rounding errors of activated and deposited columns
+  // out of the sums.
   const double least = 0.05 * area * ground.cell();
   std::vector<heightfield::SoilLayer> now, start;
   std::vector<double> after, before;

@@ -76,8 +76,9 @@ class Simulation {
   /// Returns true when the programs have ended or the duration is over (session::Session::done).
   bool done() const;
   /// Ends the run: writes the final files and closes the folder. A text in `interrupted_by` marks
-  /// it as interrupted. The simulation can continue afterwards, without recording. Calling it again,
-  /// or without a folder, only reports. @throws FileError for a result that could not be written.
+  /// it as interrupted. The simulation can continue afterwards, without recording. Calling it
+  /// again, or without a folder, only reports. @throws FileError for a result that could not be
+  /// written.
   RunEnd finish(const std::string& interrupted_by = "");
   /// Closes the folder as "failed" with this cause, keeping failed.snapshot. Throws nothing:
   /// further failures are logged.

@@ -29,7 +29,7 @@ class Map : public test::ProgramRun {
         << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="slump"><navvy:soil ref="sand_dry"/>
 <navvy:ground><size_m>4.8 3.2</size_m>
 <block><center_m>1 0.5</center_m><length_m>0.8</length_m><width_m>0.8</width_m><height_m>0.6</height_m></block>
-<awake><min_m>0.6 0.1</min_m><max_m>1.4 0.9</max_m><bottom_m>0</bottom_m></awake></navvy:ground></world></sdf>
+<active><min_m>0.6 0.1</min_m><max_m>1.4 0.9</max_m><bottom_m>0</bottom_m></active></navvy:ground></world></sdf>
 )";
   }
   void expect_complained(const std::string& part) const {

@@ -210,7 +210,7 @@ TEST_F(Program, LabHasItsOwnExitStatusForResultsOutsideTolerance) {
       run({"lab", "light-tool", "--height", "0.2", "--time", "0.4", "--quiet", "--json", json}), 7)
       << complained();
   EXPECT_NE(said().find("MISS"), std::string::npos) << said();
-  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("missed").size(), 2u);
+  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("outside_tolerance").size(), 2u);
 }
 
 TEST_F(Program, LabAppliesNoToleranceToOtherSetups) {
@@ -221,8 +221,8 @@ TEST_F(Program, LabAppliesNoToleranceToOtherSetups) {
   const auto result = nlohmann::json::parse(text_of(json));
   for (const char* name : {"soil_block__acceleration_m_s2", "rigid_plate__acceleration_m_s2"}) {
     EXPECT_TRUE(result.at("not_judged").contains(name)) << result.dump(1);
-    EXPECT_FALSE(result.contains("missed") &&
-                 result.at("missed").dump().find(name) != std::string::npos);
+    EXPECT_FALSE(result.contains("outside_tolerance") &&
+                 result.at("outside_tolerance").dump().find(name) != std::string::npos);
   }
   EXPECT_NE(said().find(
                 "not judged: soil block, acceleration; its tolerance applies to a plane so steep"),

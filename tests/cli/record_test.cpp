@@ -70,7 +70,7 @@ std::vector<float> heights_of_ply(const std::string& bytes) {
 /// Soil that collapses from the start.
 const char* const kHeap =
     "<block><center_m>1 1</center_m><length_m>1</length_m><width_m>1</width_m>"
-    "<height_m>1</height_m></block><awake><min_m>0.4 0.4</min_m><max_m>1.6 1.6</max_m></awake>";
+    "<height_m>1</height_m></block><active><min_m>0.4 0.4</min_m><max_m>1.6 1.6</max_m></active>";
 
 class Record : public testing::Test {
  protected:

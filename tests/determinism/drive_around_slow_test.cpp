@@ -41,11 +41,11 @@ TEST(DriveAround, DrivesAroundItsOwnTrenchBitIdentically) {
     EXPECT_EQ(run->summary.at("status"), "finished");
     EXPECT_EQ(run->summary.at("state_hash"), one.summary.at("state_hash"));
     for (const char* name :
-         {"plans", "cusps", "driven_m", "goal_miss_m", "goal_miss_deg", "least_clearance_m"})
+         {"plans", "cusps", "driven_m", "goal_error_m", "goal_error_deg", "least_clearance_m"})
       std::printf("%s: %g\n", name, value_of(*run, name));
     EXPECT_GE(value_of(*run, "plans"), 2);
-    EXPECT_LT(value_of(*run, "goal_miss_m"), 0.5);
-    EXPECT_LT(value_of(*run, "goal_miss_deg"), 5);
+    EXPECT_LT(value_of(*run, "goal_error_m"), 0.5);
+    EXPECT_LT(value_of(*run, "goal_error_deg"), 5);
     EXPECT_GE(value_of(*run, "least_clearance_m"), 0.3);
   }
   for (const char* name : {"one", "two", "resumed"}) {

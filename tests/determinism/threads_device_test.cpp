@@ -17,7 +17,7 @@ TEST(Threads, OneAndTwoThreadsScoopBitIdentically) {
   EXPECT_EQ(first_difference(one, two), "");
   EXPECT_GE(one.at.size(), 6u) << "t = 0 .. 4 s and the end";
   // Processes that could reorder sums took place.
-  for (const char* key : {"rebins", "woken_columns", "deposited_blocks"})
+  for (const char* key : {"rebins", "activated_columns", "deposited_blocks"})
     EXPECT_GT(one.summary.at(key).get<int>(), 0) << key;
 }
 

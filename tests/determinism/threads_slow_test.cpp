@@ -12,7 +12,7 @@ TEST(Threads, AMinuteOfDiggingIsBitIdenticalWithOneAndTwoThreads) {
   EXPECT_NE(two.device.find(" 2 compute unit"), std::string::npos) << two.device;
   EXPECT_EQ(first_difference(one, two), "");
   EXPECT_GE(one.at.size(), 61u);
-  for (const char* key : {"cycles", "rebins", "woken_columns", "deposited_blocks"}) {
+  for (const char* key : {"cycles", "rebins", "activated_columns", "deposited_blocks"}) {
     std::printf("%s: %d\n", key, one.summary.at(key).get<int>());
     EXPECT_GT(one.summary.at(key).get<int>(), 0) << key;
   }

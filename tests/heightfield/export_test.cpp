@@ -182,7 +182,7 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportIgnores) {
   };
   write_geotiff(view, dir + "awake.tif",
                 {band("loose_depth", [&](int ix, int iy) { return view.loose_depth(ix, iy); }),
-                 band("awake", [&](int ix, int iy) { return view.active(ix, iy) ? 1.0f : 0.0f; })});
+                 band("active", [&](int ix, int iy) { return view.active(ix, iy) ? 1.0f : 0.0f; })});
   write_geotiff(view, dir + "plain.tif");
   std::string report;
   const Ground read =

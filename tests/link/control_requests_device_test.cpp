@@ -9,15 +9,12 @@
 #include <vector>
 
 #include "core/error.h"
-#include "link/base64.h"
 #include "run/scene.h"
 
 namespace navvy::link {
 namespace {
 
 using nlohmann::json;
-
-std::string base64_of(const std::string& text) { return base64(std::as_bytes(std::span(text))); }
 
 /// Decodes valid base64.
 std::vector<char> decoded(const std::string& text) {
@@ -33,14 +30,6 @@ std::vector<char> decoded(const std::string& text) {
     out.push_back(static_cast<char>(bits >> count & 0xFF));
   }
   return out;
-}
-
-TEST(Base64, MatchesTheExamplesOfRfc4648) {
-  EXPECT_EQ(base64_of(""), "");
-  EXPECT_EQ(base64_of("f"), "Zg==");
-  EXPECT_EQ(base64_of("fo"), "Zm8=");
-  EXPECT_EQ(base64_of("foo"), "Zm9v");
-  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
 }
 
 TEST(ControlRequests, SendArraysWithStampShapeUnitAndFrame) {
