@@ -189,7 +189,7 @@ TEST_F(RendererTest, NoParticleReachesThroughAPlate) {
   EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20)
       << "lumps of full size would show";
   for (std::size_t i = 0; i < frame_.particles.position.size(); i += 3)
-    frame_.particles.room.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
+    frame_.particles.clearance.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
   EXPECT_EQ(changed_pixels(bare, renderer.render(frame_, from_behind)), 0);
 }
 

@@ -108,7 +108,7 @@ TEST(LandXml, ReportsAFaultyPointOnceAndNotByItsFaces) {
   const auto lines = [](const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
   };
-  // Of points 3 and 4 only the second has no place.
+  // Only the second of points 3 and 4 has no place.
   const std::string bad = faults("<P id=\"3\">1 2</P>", face);
   EXPECT_EQ(lines(bad), 2) << bad;
   EXPECT_NE(bad.find("'1 2'"), std::string::npos) << bad;

@@ -60,7 +60,7 @@ TEST(SessionWithPatches, HasALedgerPerSoilOfLayersAndPatch) {
     print_value(name + ": dug [kg]", earth.soils[i].dug, "> 50", "ledger per soil");
     print_value(name + ": spoil / dug", ratio, "1 +-1 %", "ledger per soil");
     EXPECT_GT(active[i], 0) << name;
-    // Of about 700 kg in total: the scoop cut through each.
+    // The total is about 700 kg: the scoop cut through each.
     EXPECT_GT(earth.soils[i].dug, 50) << name;
     EXPECT_NEAR(ratio, 1, 0.01) << name;  // particles that fell back into the cut are neither
   }

@@ -112,8 +112,8 @@ TEST(Bulldozing, IsMobilisedByTheTravelOfTheRim) {
     expected += 2 * x * (1 - std::exp(-r * (theta - std::sin(theta)) / soil.janosi_k)) / 1000;
   }
   EXPECT_NEAR(share(1), expected, 0.01 * expected);
-  EXPECT_LT(share(1), 1 - std::exp(-0.02175 / soil.janosi_k));  // of the soil at the surface
-  EXPECT_EQ(share(0.8), 0);                                     // what slips carries soil back
+  EXPECT_LT(share(1), 1 - std::exp(-0.02175 / soil.janosi_k));  // share of the soil at the surface
+  EXPECT_EQ(share(0.8), 0);  // a slipping wheel carries soil back
   EXPECT_EQ(share(0), 0);
   EXPECT_GT(share(1.25), share(1));
   EXPECT_EQ(share(INFINITY), 1);     // locked

@@ -58,7 +58,7 @@ TEST(Shear, RimSlidesIfItsFrictionIsLower) {
   EXPECT_EQ(rim_strength(soil).slope, std::tan(radians(32)));
 }
 
-TEST(TyrePatch, OnFirmGroundIsTheChordOfItsDeflection) {
+TEST(TyrePatch, EqualsTheChordOfItsDeflectionOnFirmGround) {
   scene::Soil rock;
   rock.bekker_kc = 0, rock.bekker_kphi = 1e15, rock.bekker_n = 1;
   scene::Wheel tyre;
@@ -85,17 +85,17 @@ TEST(TyrePatch, CarriesTheLoadAtTheSinkageOfItsPressure) {
   }
 }
 
-TEST(TyrePatch, OfATwinPairIsThatOfEachTyre) {
+TEST(TyrePatch, OfATwinPairEqualsThatOfEachTyre) {
   const scene::Soil loam;
   scene::Wheel single, pair;
   pair.twin_spacing = 0.32;
-  pair.stiffness = 2 * single.stiffness;  // of the pair
+  pair.stiffness = 2 * single.stiffness;  // stiffness of the pair
   const TyrePatch one = tyre_patch(single, loam, 20e3), each = tyre_patch(pair, loam, 40e3);
   EXPECT_EQ(one.sinkage, each.sinkage);
   EXPECT_EQ(one.half_length, each.half_length);
 }
 
-TEST(TyrePatch, WithoutLoadIsNone) {
+TEST(TyrePatch, VanishesWithoutLoad) {
   EXPECT_EQ(tyre_patch({}, {}, 0).half_length, 0);
   EXPECT_EQ(tyre_patch({}, {}, -10).half_length, 0);
 }

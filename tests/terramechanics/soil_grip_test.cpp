@@ -15,7 +15,8 @@ namespace navvy::terramechanics {
 namespace {
 
 constexpr double kStep = 1.0 / 600;
-constexpr double kHeight = 0.49;  // of the axle: 35 mm of deflection
+// Height of the axle: 35 mm of deflection.
+constexpr double kHeight = 0.49;
 
 scene::Wheel twin() {
   scene::Wheel wheel;

@@ -106,7 +106,7 @@ TEST(Track, GripsAFloorByCoulombAndNoMore) {
   EXPECT_NEAR(force.force_W.x(), -force.force_W.y(), 0.02 * 0.7 * 50e3);
 }
 
-TEST(Track, OnLooseSoilHasTheLooseCohesion) {
+TEST(Track, HasTheLooseCohesionOnLooseSoil) {
   const scene::Wheel wheel = running_track();
   scene::Soil soil = clay();
   soil.loose_cohesion = 1e3;

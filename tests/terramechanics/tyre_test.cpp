@@ -31,7 +31,7 @@ TEST(TyreForce, CarriesByItsDeflectionOnAnyPlane) {
   // The exact deflection of a disc on a plane, independent of the rays.
   for (const double angle : {0.0, 3.0, 7.5, 11.0, 20.0}) {
     const FunctionGround ground = slope(radians(angle));
-    const double away = tyre.radius - 0.03;  // of the centre from the plane
+    const double away = tyre.radius - 0.03;  // distance of the centre from the plane
     TyreState state;
     const TyreForce out =
         tyre_force(tyre, at(away / std::cos(radians(angle))), ground, kStep, state);
@@ -41,12 +41,12 @@ TEST(TyreForce, CarriesByItsDeflectionOnAnyPlane) {
   }
 }
 
-TEST(TyreForce, InTheAirIsNothing) {
+TEST(TyreForce, IsZeroInTheAir) {
   TyreState state;
   state.bristle[0] = Vec2(0.01, 0);
   const TyreForce out = tyre_force(twin(), at(0.6), flat(), kStep, state);
   EXPECT_TRUE(out.force_W.isZero());
-  EXPECT_TRUE(state.bristle[0].isZero());  // what no longer touches forgets
+  EXPECT_TRUE(state.bristle[0].isZero());  // a strip without contact forgets its state
 }
 
 TEST(TyreForce, FrictionIsLimitedByCoulomb) {

@@ -115,7 +115,7 @@ const char* mark(Verdict verdict) {
     case Verdict::kNewlyMet:
       return "ok, table old";
     case Verdict::kToleranceMoved:
-      return "GATE MOVED";
+      return "TOLERANCE MOVED";
   }
   return "";
 }

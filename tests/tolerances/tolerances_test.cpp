@@ -12,7 +12,8 @@
 namespace navvy::tolerances {
 namespace {
 
-const std::string kHead = "Prose.\n\n| Test | Figure | Now | Gate | Why |\n|---|---|---|---|---|\n";
+const std::string kHead =
+    "Prose.\n\n| Test | Quantity | Now | Tolerance | Cause |\n|---|---|---|---|---|\n";
 
 /// A result of 12 % with a tolerance of 10 %, and one of 27 with 28.3 or more.
 const KnownDeviation kAbove = {"T.a", "over-dug", {0.11, 0.13}, {0, 0.10}, "because"};

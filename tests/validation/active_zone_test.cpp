@@ -46,7 +46,7 @@ TEST(ActiveZone, DoublingItChangesTheForceByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
   const char* source =
       "the active zone has no effect [docs/validation.md, Buckets and carried loads]";
-  print_value("mean draft of the drag [N]", usual.force, "not gated", source);
+  print_value("mean draft of the drag [N]", usual.force, "no tolerance", source);
   expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98,
                  1.02, source);
   expect_between("load, zone twice as large / as usual", twice.payload / usual.payload, 0.98, 1.02,

@@ -18,7 +18,8 @@ constexpr const char* kSource = "forces come from the soil [docs/validation.md, 
 // Times of the path [s]: dragged level at 0.3 m of depth; then curled; lifted clear.
 constexpr double kDragStart = 2.0, kDragEnd = 3.6, kLifted = 7.0;
 constexpr double kDepth = 0.3;
-const char* const kHalfDensity = "soil.bank_density_kg_per_m3=770";  // of the loam's 1540
+// Half of the loam's 1540.
+const char* const kHalfDensity = "soil.bank_density_kg_per_m3=770";
 
 /// Forces on the bucket along the path.
 struct Scooped {
@@ -115,7 +116,7 @@ TEST(PressedBucket, IsSupportedByItsSoilWhileItIsHeld) {
   // It stops at 0.9 s; the excess from fast pressing vanishes soon after.
   const double stopped = support(session, 1.4), later = support(session, 4.9);
   print_value("pressed bucket: supporting force half a second after it stopped [N]", stopped,
-              "no gate", kSource);
+              "no tolerance", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");
 }

@@ -20,7 +20,7 @@ TEST(FastPour, SpreadsByItsMomentum) {
   EXPECT_FALSE(report.find("repose after rest")->judged());
   for (const char* figure : {"repose after pouring", "repose after rest"})
     print_value("poured at 0.8 m/s from 4 cells, " + std::string(figure) + " [deg]",
-                lab::measured(report, figure), "no gate", "navvy lab pour");
+                lab::measured(report, figure), "no tolerance", "navvy lab pour");
   EXPECT_EQ(report.ledger_error, 0);
 }
 

@@ -22,7 +22,7 @@ double force_of(const std::map<std::string, double>& geometry, double cell,
   return lab::measured(report, "horizontal force");
 }
 
-TEST(ToolLab, NarrowBladeInWashedSand) {
+TEST(ToolLab, CutsWashedSandWithANarrowBlade) {
   // Obermayr 2011, N
   const double depths[] = {0.10, 0.15, 0.20, 0.25}, forces[] = {280, 505, 820, 1310};
   double error = 0, last = 0, first = 0;
@@ -64,7 +64,7 @@ double narrow_blade(double depth, double speed, double courant, double cell) {
                   });
 }
 
-TEST(ToolLab, NarrowBladeOverSpeedsAndSteps) {
+TEST(ToolLab, CutsAtSpeedsAndStepsWithANarrowBlade) {
   const char* source = "[docs/validation.md, Blades and earth pressure]";
   const double usual = narrow_blade(0.15, 0.45, 0.5, 0.05);
   expect_between("narrow blade, force at half the step / at the step",
@@ -73,9 +73,11 @@ TEST(ToolLab, NarrowBladeOverSpeedsAndSteps) {
                  narrow_blade(0.15, 0.15, 0.5, 0.05) / usual, 0.95, 1.05, source);
   // Two cells of depth do not resolve the wedge; compare with four.
   print_value("narrow blade, 0.10 m deep, force in cells of 0.05 m [N]",
-              narrow_blade(0.10, 0.45, 0.5, 0.05), "no gate", "280 N measured [Obermayr 2011]");
+              narrow_blade(0.10, 0.45, 0.5, 0.05), "no tolerance",
+              "280 N measured [Obermayr 2011]");
   print_value("narrow blade, 0.10 m deep, force in cells of 0.025 m [N]",
-              narrow_blade(0.10, 0.45, 0.5, 0.025), "no gate", "280 N measured [Obermayr 2011]");
+              narrow_blade(0.10, 0.45, 0.5, 0.025), "no tolerance",
+              "280 N measured [Obermayr 2011]");
 }
 
 /// A blade 0.20 m long in plane strain, as in the formula, cuts 0.10 m of sand.
@@ -110,7 +112,7 @@ void expect_wedge(const lab::Report& report, const std::string& name) {
                  "wedge under the pile as it lies [Coulomb 1776]");
 }
 
-TEST(ToolLab, RakedBladeInSand) {
+TEST(ToolLab, CutsSandWithARakedBlade) {
   // Miedema's formula for the largest force, N
   const double rakes[] = {30, 45, 60}, forces[] = {259, 400, 605};
   double slow = 0, fast = 0;
@@ -154,7 +156,7 @@ TEST(ShearStrength, OfATriaxialSampleMatchesMatsuokaNakai) {
 
 // As long as its lid neither lifts nor leaks, the box measures its own rim: a value without a
 // tolerance.
-TEST(ShearStrength, OfTheDirectShearBoxHasNoTolerance) {
+TEST(ShearStrength, IsReportedForTheDirectShearBox) {
   for (const double cell : {0.1, 0.05}) {
     const double cells = 2.4 / cell;
     const lab::Report report = lab::run_rig("box", {{"length", cells}, {"height", cells / 6}},

@@ -15,8 +15,10 @@ namespace navvy::validation {
 
 /// Changes of a case to the rig's default soil; kNone keeps the default.
 struct SoilChange {
-  double phi_degrees = lab::kNone;   ///< friction angle [deg]
-  double cohesion = lab::kNone;      ///< the residual one too [Pa]
+  /// Friction angle [deg].
+  double phi_degrees = lab::kNone;
+  /// Cohesion, also the residual one [Pa].
+  double cohesion = lab::kNone;
   double young = lab::kNone;         ///< Young's modulus [Pa]
   double swell = lab::kNone;         ///< loose volume / bank volume [-]
   double bank_density = lab::kNone;  ///< [kg/m3]
@@ -35,10 +37,12 @@ struct SoilChange {
 };
 
 struct RigCase {
-  const char* name;  ///< of the test
+  /// Name of the test.
+  const char* name;
   const char* rig;
-  std::map<std::string, double> geometry;  ///< other than the rig's default
-  double cell = lab::kNone;                ///< kNone: the rig's default [m]
+  /// Parameters other than the rig's defaults.
+  std::map<std::string, double> geometry;
+  double cell = lab::kNone;  ///< kNone: the rig's default [m]
   SoilChange soil = {};
 };
 

@@ -31,7 +31,7 @@ double spread(const std::vector<double>& values) {
   return (*high - *low) * static_cast<double>(values.size()) / sum;
 }
 
-TEST(ToolSpread, OfASmoothBladeOverSpeedsAndSteps) {
+TEST(ToolSpread, IsSmallForASmoothBladeOverSpeedsAndSteps) {
   std::vector<double> whole;
   double mean = 0, worst = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
@@ -48,16 +48,16 @@ TEST(ToolSpread, OfASmoothBladeOverSpeedsAndSteps) {
 }
 
 // Four times slower than the slowest of the others: contact does not depend on time.
-TEST(ToolSpread, OfACreepingBlade) {
+TEST(ToolSpread, IsSmallForACreepingBlade) {
   const double creeping = blade(0.05, 0.0125, 0.5);
   expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s",
                  creeping / blade(0.05, 0.05, 0.5), 0.95, 1.05, kSource);
   // Three cells deep: the limit of so few cells.
   print_value("smooth blade, cells of 0.1 m, force at 0.0125 m/s / at 0.05 m/s",
-              blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no gate", kSource);
+              blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no tolerance", kSource);
 }
 
-TEST(ToolSpread, OfASmoothBladeInCoarseCells) {
+TEST(ToolSpread, IsSmallForASmoothBladeInCoarseCells) {
   std::vector<double> whole;
   double worst = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
@@ -120,7 +120,7 @@ void expect_one_force(const std::string& name, const std::vector<Judged>& runs, 
                  high / runs[0].expected, kSource, 1);
 }
 
-TEST(ToolSpread, OfASmoothWallOverSpeeds) {
+TEST(ToolSpread, IsSmallForASmoothWallOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {wall(cell, 0.05, 0), wall(cell, 0.2, 0)};
     expect_one_force("smooth wall, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s",
@@ -128,7 +128,7 @@ TEST(ToolSpread, OfASmoothWallOverSpeeds) {
   }
 }
 
-TEST(ToolSpread, OfARoughWallOverSpeeds) {
+TEST(ToolSpread, IsSmallForARoughWallOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {wall(cell, 0.05, 20), wall(cell, 0.2, 20)};
     expect_one_force(
@@ -137,7 +137,7 @@ TEST(ToolSpread, OfARoughWallOverSpeeds) {
   }
 }
 
-TEST(ToolSpread, OfARoughBladeOverSpeeds) {
+TEST(ToolSpread, IsSmallForARoughBladeOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {rough_blade(cell, 0.05), rough_blade(cell, 0.15),
                                       rough_blade(cell, 0.3)};
@@ -148,7 +148,7 @@ TEST(ToolSpread, OfARoughBladeOverSpeeds) {
 }
 
 // Eight depths of the cutting edge within a cell: the effect of the grid on the end of a blade.
-TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
+TEST(ToolSpread, IsSmallForASmoothBladeOverDepthsWithinACell) {
   std::vector<double> forces;
   double mean = 0, squares = 0;
   for (int i = 0; i < 8; ++i) {
@@ -163,7 +163,7 @@ TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
                  std::sqrt(squares) / mean, 0, 0.04, kSource);
 }
 
-TEST(ToolSpread, OfARakedBladeOverSteps) {
+TEST(ToolSpread, IsSmallForARakedBladeOverSteps) {
   const auto force = [](double courant) {
     const lab::Report report = lab::run_rig("blade",
                                             {{"width", 0.33},
@@ -189,7 +189,7 @@ TEST(ToolSpread, OfARakedBladeOverSteps) {
                  force(0.25) / whole, 0.97, 1.03, kStep);
 }
 
-TEST(ToolSpread, OfABucketsDragOverSteps) {
+TEST(ToolSpread, IsSmallForABucketsDragOverSteps) {
   const auto drag = [](double courant) {
     const lab::Report report = lab::run_rig("bucket", {{"courant", courant}});
     return lab::measured(report, "mean horizontal force of the drag");

@@ -29,9 +29,12 @@ std::vector<std::string> with_cohesion(double pascals) {
 /// The first scoops of the trench.
 struct Scoops {
   int count = 0;
-  double payload = 0;  ///< mean, when the bucket is out [kg]
-  double draft = 0;    ///< mean of the scoops' largest forces against the lip [N]
-  double force = 0;    ///< mean of the soil's force on the bucket, in contact [N]
+  /// Mean payload when the bucket is out [kg].
+  double payload = 0;
+  /// Mean of the scoops' largest forces on the cutting edge [N].
+  double draft = 0;
+  /// Mean force of the soil on the bucket in contact [N].
+  double force = 0;
   /// Mean time from the start of one scoop to the start of the next; for one scoop: until its end
   /// [s].
   double cycle = 0;
@@ -82,7 +85,7 @@ TEST(StrongSoil, AffectsTheFirstScoop) {
     const std::string name =
         "first scoop, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
     print_value(name + "largest draft [N]", scoop.draft, "rises with c", kSource);
-    print_value(name + "payload [kg]", scoop.payload, "not gated", kSource);
+    print_value(name + "payload [kg]", scoop.payload, "no tolerance", kSource);
     print_value(name + "held by the soil [s]", scoop.held, "the last one is held", kSource);
     if (first == 0) first = scoop.draft;
     last = scoop.draft;

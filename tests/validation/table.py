@@ -30,7 +30,7 @@ import sys
 COLUMNS = ["case", "figure", "measured", "half", "expected", "gate", "result", "source", "seconds", "date", "device",
            "state"]
 RESULTS = {"ok": "within", "MISS": "miss", "known deviation": "known deviation", "ok, table old": "within",
-           "GATE MOVED": "miss"}
+           "TOLERANCE MOVED": "miss"}
 BEGIN = re.compile(r"^<!-- generated: begin; cases: (.*) -->$")
 SUMMARY = "<!-- generated: begin; summary -->"
 END = "<!-- generated: end -->"

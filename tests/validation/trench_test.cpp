@@ -84,7 +84,7 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   for (const session::Cycle& cycle : session.cycles()) uplift = std::max(uplift, cycle.uplift_peak);
   expect_between("soil's push up on the bucket in a curl, less the load [N]", uplift, 0, 10e3,
                  "the heel does not carry the machine [docs/validation.md, Whole digs]");
-  print_value("peak draft of the cutting edge [N]", session.force().draft_peak, "not gated",
+  print_value("peak draft of the cutting edge [N]", session.force().draft_peak, "no tolerance",
               "plausibility");
   expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01,
                  "the shell holds its load [docs/validation.md, Buckets and carried loads]");

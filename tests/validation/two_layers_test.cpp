@@ -37,7 +37,8 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
   const record::Earthwork earth = record::measure_earthwork(world);
   const sim::MassLedger ledger = world.soil().mass_ledger();
   const double cap = description.ground.layers.at(0).thickness;
-  double swelled = 0;  // of what was dug, each soil at its own loose density [m3]
+  // Dug volume, each soil at its own loose density [m3].
+  double swelled = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const scene::Soil& soil = description.soils.at(i);
     const record::SoilMoved& moved = earth.soils.at(i);

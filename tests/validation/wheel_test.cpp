@@ -14,7 +14,7 @@ struct Measured {
   double slip, load, pull, sinkage;
 };
 
-TEST(WheelLab, SmoothWheelInDrySand) {
+TEST(WheelLab, CarriesASmoothWheelInDrySand) {
   const Measured rows[] = {
       {-0.5, 23.2, -17.2, 23.3}, {0, 24.6, -1.3, 14.1}, {0.5, 25.3, 1.0, 22.4}};
   double before = -1e9;
@@ -34,7 +34,7 @@ TEST(WheelLab, SmoothWheelInDrySand) {
 }
 
 // Effect of step and speed on a wheel on particles; pull and sinkage themselves have no tolerance.
-TEST(WheelLab, SmoothWheelOverSpeedsAndSteps) {
+TEST(WheelLab, ReportsASmoothWheelOverSpeedsAndSteps) {
   const auto wheel = [](double speed, double courant) {
     const Report report = run_rig("wheel", {{"slip", 0.5},
                                             {"load-n", 25.3},

@@ -59,7 +59,7 @@ TEST(BulletRock, ABoomStallsWithTheForceOfItsCylinder) {
     touched = touched || dig.rock_force().z() > 0;
     if (touched) bounce = std::max(bounce, dig.lowest() - kRock);
   });
-  print_value("bucket pressed on rock, deepest corner [mm]", 1e3 * (kRock - lowest), "1, gated",
+  print_value("bucket pressed on rock, deepest corner [mm]", 1e3 * (kRock - lowest), "1, tolerance",
               "coupling of the rock");
   EXPECT_GT(lowest, kRock - 1e-3);
   EXPECT_LT(dig.lowest(), kRock + 1e-3) << "it does not hover";

@@ -32,11 +32,15 @@ scene::Machine on_ice(const scene::Differential& axles, const scene::Differentia
 
 /// Means over the last second of four up a slope at full power.
 struct Climb {
-  double speed = 0;                      // [m/s]
-  double left = 0, right = 0;            // force of the rear wheels along the slope [N]
-  double spin_left = 0, spin_right = 0;  // of the rear wheels [rad/s]
-  double gain_left = 0, gain_right = 0;  // of those [rad/s2]
-  double spin_front = 0;                 // of both front wheels, the mean
+  double speed = 0;  // [m/s]
+  // Forces of the rear wheels along the slope [N].
+  double left = 0, right = 0;
+  // Speeds of the rear wheels [rad/s].
+  double spin_left = 0, spin_right = 0;
+  // Angular accelerations of the rear wheels [rad/s2].
+  double gain_left = 0, gain_right = 0;
+  // Mean speed of both front wheels [rad/s].
+  double spin_front = 0;
 };
 Climb climb(const scene::Machine& cart, double angle) {
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));

@@ -66,7 +66,7 @@ TEST(JointEncoder, LosesTheConfiguredShareInEitherDirection) {
   // 100 000 counts, 2000 missed with a standard deviation of 44: six of them.
   EXPECT_NEAR(there, 98000, 270);
   for (int i = 99; i >= 0; --i) counter.advance(i * kTurn + 1e-6);
-  // On the way back it misses others: a real one does not return exactly.
+  // On the return it misses others: a real one does not return exactly.
   const auto home = static_cast<std::int32_t>(static_cast<std::uint32_t>(counter.counts()));
   EXPECT_NE(home, 0);
   EXPECT_LT(std::abs(home), 400);

@@ -42,11 +42,16 @@ scene::Machine excavator(double engine_power,
 }
 
 struct Powers {
-  double most = 0;    // of pump and drive together [W]
-  double pump = 0;    // the largest
-  double drive = 0;   // likewise
-  double speed = 0;   // at the end [m/s]
-  double shared = 0;  // largest power that the engine itself reports
+  // Largest power of pump and drive together [W].
+  double most = 0;
+  // Largest power of the pump [W].
+  double pump = 0;
+  // Largest power of the drive [W].
+  double drive = 0;
+  // Final speed [m/s].
+  double speed = 0;
+  // Largest power reported by the engine itself [W].
+  double shared = 0;
   std::uint64_t digest = 0;
 };
 
