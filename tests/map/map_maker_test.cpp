@@ -110,8 +110,8 @@ TEST(MapMaker, StampsOnlyColumnsThatChanged) {
           differs = differs || before.at(each, ix, iy) != now.at(each, ix, iy);
         float& stamp = expected[static_cast<std::size_t>(iy) * ground.nx() + ix];
         if (differs) stamp = 0.25f * static_cast<float>(round);
-        const float told = now.at(MapLayer::kDisturbedAt, ix, iy);
-        ASSERT_TRUE(told == stamp || (told != told && stamp != stamp))
+        const float disturbed_at = now.at(MapLayer::kDisturbedAt, ix, iy);
+        ASSERT_TRUE(disturbed_at == stamp || (disturbed_at != disturbed_at && stamp != stamp))
             << ix << " " << iy << " in round " << round;
       }
     before = now;

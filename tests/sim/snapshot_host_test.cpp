@@ -94,11 +94,12 @@ TEST(Snapshot, OfAnotherMassCohesionOrPlaceIsRefusedWithTheDifference) {
   scene::Scene aside = scene;
   aside.machines.at(0).X_WM.translation().x() += 0.001;
   const std::string link = heavier.machines[0].machine.links.back().name;
-  for (const auto& [here, told] : {std::pair(&heavier, "link[" + link + "]/mass"),
-                                   std::pair(&stronger, std::string("soil[loam]/cohesion")),
-                                   std::pair(&aside, std::string("machine[bucket]/pose/place"))}) {
+  for (const auto& [here, difference] :
+       {std::pair(&heavier, "link[" + link + "]/mass"),
+        std::pair(&stronger, std::string("soil[loam]/cohesion")),
+        std::pair(&aside, std::string("machine[bucket]/pose/place"))}) {
     const std::string said = refusal(*here);
-    EXPECT_NE(said.find(told), std::string::npos) << told << ": " << said;
+    EXPECT_NE(said.find(difference), std::string::npos) << difference << ": " << said;
     EXPECT_NE(said.find("--resume-anyway"), std::string::npos) << said;
   }
 }
