@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Common output of the bench programs: rows to stdout as CSV, and to the file that NAVVY_BENCH_CSV
-// names.
+// Common output of the bench programs: CSV rows to stdout, and to the file named by
+// NAVVY_BENCH_CSV.
 #pragma once
 
 #include "bench/measure.h"
@@ -9,15 +9,15 @@
 
 namespace navvy::bench {
 
-/// Prints the row to stdout, the first time under its header. `bandwidth` from `copy_bandwidth`, 0
-/// when not measured.
+/// Prints the row to stdout, with the header before the first one. `bandwidth` comes from
+/// `copy_bandwidth`, 0 if not measured.
 void print(const device::DeviceInfo& device, const Row& row, double bandwidth = 0);
 
-/// Prints a row for work of the host alone.
+/// Prints a row for work of the host only.
 void print_host(const Row& row);
 
-/// Appends the row to the file that NAVVY_BENCH_CSV names, if any; the header was written by its
-/// creator.
+/// Appends the row to the file named by NAVVY_BENCH_CSV, if any. The creator of the file wrote the
+/// header.
 void append_csv(const Row& row);
 
 }  // namespace navvy::bench

@@ -15,14 +15,16 @@ import sys
 import tempfile
 import time
 
-SIZE = (64 << 20) - (64 << 10)  # as large as may be, all in all
-XML = (16 << 20) - (64 << 10)  # what a scene or machine file may have
+# total size of the largest allowed input
+SIZE = (64 << 20) - (64 << 10)
+# largest scene or machine file
+XML = (16 << 20) - (64 << 10)
 HEAD = '<sdf version="1.9" xmlns:navvy="navvy">'
 WORLD = HEAD + '<world name="w"><navvy:soil ref="loam"/><navvy:ground><size_m>40 40</size_m></navvy:ground>%s</world></sdf>'
 GRID = "ncols %d\nnrows %d\nxllcorner 0\nyllcorner 0\ncellsize 0.1\n"
 DRAWN = '<model name="m"><static>1</static><link name="a"><visual name="v"><geometry><mesh><uri>%s</uri></mesh>' \
     "</geometry></visual></link></model>"
-# As a bed of stones is one: what is drawn and what collides go other ways.
+# Stands for a bed of stones: visual and collision shapes take different code paths.
 HIT = '<model name="m"><static>1</static><link name="a"><collision name="v"><geometry><mesh><uri>%s</uri></mesh>' \
     "</geometry></collision></link></model>"
 
@@ -120,7 +122,7 @@ def cases(folder):
         return path
 
     yield "MTL beside an OBJ", with_mesh(material)
-    # Sixty bytes of header and numbers of five bytes.
+    # A header of sixty bytes, then numbers of five bytes.
     yield "ESRI ASCII", lambda: on_map(filled(at("g.asc"), GRID % (3500, 3800), "5.25 " * 3499 + "5.25\n", SIZE))
     yield "ESRI ASCII: one word", lambda: on_map(filled(at("g.asc"), GRID % (3500, 3800), "5" * 4096, SIZE))
     yield "ESRI ASCII: a header", lambda: on_map(filled(at("g.asc"), "ncols 5\n", "nrows 5\n", SIZE))
@@ -138,7 +140,8 @@ def cases(folder):
 
     for name in ("g.prj", "g.tif.aux.xml", "g.tfw"):
         yield "beside a map: " + name[1:], beside(name)
-    # Maps at their full size: all that may lie under a site, and the farthest row of the largest text.
+    # Maps at their full size: the largest map allowed under a site, and the last row of the largest
+    # text file.
     yield "largest text: ESRI ASCII of 1000 MB, site in its last row", lambda: on_map(
         filled(at("g.asc"), GRID % (14000, 14900), "5.25 " * 13999 + "5.25\n", 995 << 20), "--at", "local:700,30",
         "--size", "40,40")
@@ -152,7 +155,7 @@ def cases(folder):
 
 
 def measure(navvy, arguments):
-    """Seconds of wall and processor, peak memory [MB], exit status and last words of `navvy check`."""
+    """Seconds of wall and processor, peak memory [MB], exit status and last lines of `navvy check`."""
     with tempfile.TemporaryFile("w+") as said:
         begun = time.monotonic()
         child = subprocess.Popen([navvy, "check", *arguments], stdout=said, stderr=subprocess.STDOUT)

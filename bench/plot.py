@@ -65,7 +65,8 @@ def roofline(rows, path):
         roof = sorted(reach + [peak / copy])
         axes.plot(roof, [min(peak, copy * x) / 1e9 for x in roof], color=color, label="%s: roof" % device[:40])
         points = [r for r in own if value(r, "bytes_per_particle_step") > 0 and value(r, "flops_per_particle_step") > 0]
-        # Rows share one count of operations and bytes: only the lowest and the highest carry a name.
+        # Rows share one count of operations and bytes, so only the lowest and the highest are
+        # labelled.
         points.sort(key=lambda r: value(r, "particle_steps_per_s"))
         for k, row in enumerate(points):
             x = value(row, "flops_per_particle_step") / value(row, "bytes_per_particle_step")

@@ -61,10 +61,11 @@ def soil(rows):
 
 
 def native(rows):
-    """The native loop's row stands before ours of the same size."""
+    """Row of the native loop, which precedes the OpenCL row of the same size."""
     yield "particles", "native loop, M particle-steps/s and thread", "OpenCL steps", "ratio", "ratio by processor time"
     for loop, ours in zip(rows[0::2], rows[1::2]):
-        # The loop runs one copy a thread, our steps share one state among the two.
+        # The native loop runs one copy per thread; the OpenCL step shares one state among the
+        # threads.
         threads = float(loop["particles"]) / float(ours["particles"])
         rate = [float(row["particle_steps_per_s"]) / threads / 1e6 for row in (loop, ours)]
         spent = [float(per_processor_second(row)) for row in (loop, ours)]
@@ -95,7 +96,7 @@ def limits(rows):
 
 
 def commands(rows):
-    """Whole commands, timed by hand: rows of what, seconds, wanted, where."""
+    """Whole commands, timed by hand: rows of command, seconds, target, machine."""
     yield "command", "took [s]", "wanted", "where"
     for row in rows:
         yield row["what"], row["seconds"], row["wanted"] or "-", row["where"]
@@ -106,7 +107,7 @@ KINDS = {"soil": soil, "native": native, "scene": scene, "host": host, "limits":
 
 
 def table(kind, path):
-    """Lines of one table, with a line that says on what, when and where the rows were measured."""
+    """Lines of one table, with a line that gives device, date and revision of the measurement."""
     rows = read(path)
     if not rows:
         sys.exit("table.py: %s holds no rows" % path)
@@ -115,7 +116,7 @@ def table(kind, path):
         if noted["file"] == name:
             break
     else:
-        sys.exit("table.py: %s/measured.csv does not say when %s was measured; `table.py stamp %s %s` does" %
+        sys.exit("table.py: %s/measured.csv has no date for the measurement of %s; `table.py stamp %s %s` does" %
                  (folder, name, folder, name))
     on = ", ".join("%s, driver %s" % pair if pair[1] else pair[0] for pair in
                    dict.fromkeys((row["device"], row["driver"]) for row in rows if row.get("device")))
@@ -140,7 +141,7 @@ def rewritten(page):
             found = BEGIN.match(line)
             if found:
                 if found[1] not in KINDS:
-                    sys.exit("table.py: %s: no kind of table '%s'; there is: %s" % (page, found[1], ", ".join(KINDS)))
+                    sys.exit("table.py: %s: no kind of table '%s'; known kinds: %s" % (page, found[1], ", ".join(KINDS)))
                 out += [line] + table(found[1], os.path.join(os.path.dirname(page), found[2]))
                 inside = True
             elif line == END:
@@ -176,7 +177,8 @@ def selftest():
         put("measured.csv", "file,date,state,note\nn.csv,2026-01-01,abc,Quiet.\n")
         page = put("p.md", "# T\n<!-- generated: begin; native: n.csv -->\nold\n%s\nend\n" % END)
         text = rewritten(page)
-        # Two copies of the loop: 10 M a thread; ours 15 M a thread; by processor time 10 against 10.
+        # Two copies of the loop: 10 M a thread; the OpenCL step: 15 M a thread; by processor time
+        # 10 to 10.
         assert "| 1000 | 10.0 | 15.0 | 1.50 | 1.00 |" in text, text
         assert "D, driver 1; 2026-01-01 at abc. Quiet." in text and "old" not in text and text.endswith("end\n"), text
         put("p.md", text)
@@ -192,7 +194,7 @@ def main():
         with open(page, encoding="utf-8") as file:
             same = file.read() == text
         if sys.argv[1] == "check":
-            return 0 if same else "table.py: %s is not what its rows give; run `bench/table.py write %s`" % (page, page)
+            return 0 if same else "table.py: %s differs from its rows; run `bench/table.py write %s`" % (page, page)
         with open(page, "w", encoding="utf-8") as file:
             file.write(text)
         return 0

@@ -11,7 +11,7 @@ foreach(path IN LISTS files)
   string(APPEND text "      {\"${path}\", R\"navvy_kernel(${source})navvy_kernel\"},\n")
 endforeach()
 string(APPEND text "      {nullptr, nullptr}};\n  return files;\n}\n\n}  // namespace navvy::device\n")
-# A file that did not change keeps its time stamp, so nothing is compiled again.
+# A file that did not change keeps its time stamp, so that nothing is recompiled.
 set(old "")
 if(EXISTS ${OUT})
   file(READ ${OUT} old)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Two functions keep every module and test directory alike.
+# Two functions that define every module and test directory the same way.
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
@@ -9,15 +9,17 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-# Release keeps assertions out but IEEE maths in: nothing may assume finite numbers where a NaN must be caught, and
-# contraction is off so that a build with other vector units gives the same bits.
+# Release disables assertions but keeps IEEE arithmetic: code must not assume finite numbers,
+# because it catches NaN, and contraction is off so that a build with other vector units gives
+# bit-identical results.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
 add_library(navvy_flags INTERFACE)
 target_compile_options(navvy_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
 if(NAVVY_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # GCC 12 forgets that precompiled text came from system headers, and warns of writes out of bounds in std::string, a
-  # false alarm known there. Builds without precompiled headers (preset core) keep these warnings.
+  # GCC 12 forgets that precompiled text came from system headers, and warns of writes out of bounds
+  # in std::string, a known false alarm. Builds without precompiled headers (preset core) keep these
+  # warnings.
   target_compile_options(navvy_flags INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(NAVVY_WARNINGS_AS_ERRORS)
@@ -30,25 +32,27 @@ endif()
 if(NAVVY_FUZZ)
   target_compile_options(navvy_flags INTERFACE -fsanitize=fuzzer-no-link)
   if(NAVVY_FUZZ_SANITIZE)
-    # Undefined behaviour is checked in our code; addresses are checked in the libraries' headers, too. Checking both there
-    # takes half as long again to compile. The path is relative so that the compiler cache serves every clone.
+    # Undefined behaviour is checked in Navvy's code; addresses are checked in the headers of
+    # libraries, too. Checking both there makes compiling half as long again. The path is relative
+    # so that the compiler cache serves every clone.
     file(RELATIVE_PATH libraries ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/tests/sanitize/libraries.txt)
     target_compile_options(navvy_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                            -fsanitize-blacklist=${libraries})
     target_link_options(navvy_flags INTERFACE -fsanitize=address,undefined)
   else()
-    # Built for speed: comparisons are watched in the walks under sanitizers, and take a third of the time.
+    # Optimised for speed: tracing comparisons takes a third of the time, and the build under
+    # sanitizers traces them.
     target_compile_options(navvy_flags INTERFACE -fno-sanitize-coverage=trace-cmp,indirect-calls)
   endif()
 endif()
 
-# Headers that nearly every file reads: with Eigen they take half of a small file's compile time.
+# Headers that nearly every file includes: with Eigen they take half of a small file's compile time.
 set(NAVVY_COMMON_HEADERS <Eigen/Core> <Eigen/Geometry> <algorithm> <cmath> <cstdint> <functional> <map> <memory> <optional>
     <string> <utility> <vector>)
 
-# navvy_module(NAME [SUBDIRS dir...] [SOURCES generated files...] [DEPS navvy modules...] [PUBLIC libs...] [PRIVATE libs...])
-# One static library a folder of src/, made of all its .cpp files (and those of SUBDIRS); headers are included as
-# "NAME/file.h". Alias navvy::NAME.
+# navvy_module(NAME [SUBDIRS dir...] [SOURCES generated files...] [DEPS navvy modules...]
+# [PUBLIC libs...] [PRIVATE libs...]) Defines one static library per folder of src/, made of all its
+# .cpp files (and those of SUBDIRS); headers are included as "NAME/file.h". Alias navvy::NAME.
 function(navvy_module name)
   cmake_parse_arguments(M "" "" "SUBDIRS;SOURCES;DEPS;PUBLIC;PRIVATE" ${ARGN})
   set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -86,8 +90,9 @@ function(navvy_module name)
   set_property(GLOBAL APPEND PROPERTY NAVVY_MODULES navvy_${name})
 endfunction()
 
-# navvy_define(DEFINITION files...): defines it for these files of the folder only. Every other object stays the same
-# whatever the build includes, so the compiler cache serves one preset with the objects of another.
+# navvy_define(DEFINITION files...): defines it for these files of the folder only. All other
+# objects are independent of the build type, so the compiler cache serves one preset with the
+# objects of another.
 function(navvy_define definition)
   foreach(file IN LISTS ARGN)
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
@@ -97,7 +102,7 @@ function(navvy_define definition)
   set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS ${definition})
 endfunction()
 
-# Where a test or bench finds its tree (tests/paths.h); made once, by whoever comes first.
+# Generates tests/paths.h, by which a test or bench finds its tree. The first caller makes it.
 function(navvy_paths)
   if(NOT TARGET navvy_paths)
     configure_file(${PROJECT_SOURCE_DIR}/tests/paths.cpp.in ${PROJECT_BINARY_DIR}/paths.cpp @ONLY)
@@ -106,16 +111,17 @@ function(navvy_paths)
   endif()
 endfunction()
 
-# Programs with label host, which run under sanitizers too; those of them with label untrusted, which CI runs under
-# sanitizers; fuzz targets; and the precompiled headers, which clang-tidy needs before anything is compiled.
+# Collects programs with label host, which run under sanitizers too; those with label untrusted,
+# which CI runs under sanitizers; fuzz targets; and the precompiled headers, which clang-tidy needs
+# before anything is compiled.
 add_custom_target(navvy_host_tests)
 add_custom_target(navvy_untrusted_tests)
 add_custom_target(navvy_fuzzers)
 
-# navvy_tests(NAME LABEL host|plain|device|slow [UNTRUSTED] [LIBS libs...] [PATTERN globs...] [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...])
-# UNTRUSTED: the module reads what others wrote, so CI runs its tests under sanitizers.
-# One GoogleTest program of all *_test.cpp in this folder (or those matching PATTERN: wings of a module have folders of
-# their own).
+# navvy_tests(NAME LABEL host|plain|device|slow [UNTRUSTED] [LIBS libs...] [PATTERN globs...]
+# [EXTRA sources...] [TIMEOUT s] [PROPERTIES k v...]) Defines one GoogleTest program of all
+# *_test.cpp files in this folder, or of those matching PATTERN. UNTRUSTED: the module reads files
+# of unknown origin, so CI runs its tests under sanitizers.
 function(navvy_tests name)
   cmake_parse_arguments(T "UNTRUSTED" "LABEL;TIMEOUT" "LIBS;EXTRA;PROPERTIES;PATTERN" ${ARGN})
   if(NOT T_PATTERN)
@@ -134,14 +140,15 @@ function(navvy_tests name)
   if(T_LABEL STREQUAL "device")
     set(main "")
     target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/device_main.cpp)
-    # The whole program once more on a GPU; shows as skipped where there is none.
+    # Runs the whole program once more on a GPU; shows as skipped if there is none.
     add_test(NAME ${name}_on_gpu COMMAND ${name} --gtest_brief=1)
     set_tests_properties(${name}_on_gpu PROPERTIES LABELS "device" ENVIRONMENT "NAVVY_TEST_DEVICE=gpu" TIMEOUT 900
                          SKIP_REGULAR_EXPRESSION "^.  SKIPPED . no OpenCL device")
   endif()
   target_link_libraries(${name} PRIVATE navvy_flags ${T_LIBS} navvy_paths GTest::gtest ${main})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  # An EXPECT that is the whole branch of an if is no ambiguity to a reader; the macro's inner else makes it one to GCC.
+  # An EXPECT that is the whole branch of an if is unambiguous to a reader; the inner else of the
+  # macro makes it ambiguous to GCC.
   target_compile_options(${name} PRIVATE -Wno-dangling-else)
   set(labels ${T_LABEL})
   if(T_LABEL STREQUAL "host")
@@ -152,7 +159,8 @@ function(navvy_tests name)
     add_dependencies(navvy_untrusted_tests ${name})
   endif()
   if(NAVVY_PRECOMPILE)
-    if(NOT TARGET navvy_test_headers)  # a program, as programs are compiled with other flags than libraries
+    # Built as a program, since programs are compiled with other flags than libraries.
+    if(NOT TARGET navvy_test_headers)
       file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/test_headers.cpp CONTENT "int main() {}\n")
       add_executable(navvy_test_headers ${PROJECT_BINARY_DIR}/test_headers.cpp)
       target_link_libraries(navvy_test_headers PRIVATE navvy_flags navvy::core GTest::gtest)
@@ -165,7 +173,8 @@ function(navvy_tests name)
                        PROPERTIES LABELS "${labels}" TIMEOUT ${T_TIMEOUT} ${T_PROPERTIES})
 endfunction()
 
-# navvy_fuzzer(NAME LIBS libs... [EXTRA sources...]): libFuzzer target NAME.cpp of this folder, only with NAVVY_FUZZ.
+# navvy_fuzzer(NAME LIBS libs... [EXTRA sources...]): defines the libFuzzer target NAME.cpp of this
+# folder, only with NAVVY_FUZZ.
 function(navvy_fuzzer name)
   cmake_parse_arguments(F "" "" "LIBS;EXTRA" ${ARGN})
   if(NOT NAVVY_FUZZ OR NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cpp)

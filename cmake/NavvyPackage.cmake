@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/navvy)
 get_property(modules GLOBAL PROPERTY NAVVY_MODULES)
 
-# What the static libraries link from outside, as find calls of the package file: Name::Target comes from package Name,
-# PkgConfig::NAME from the pkg-config module of that name.
+# External dependencies of the static libraries, as find calls of the package file: Name::Target
+# comes from package Name, PkgConfig::NAME from the pkg-config module of that name.
 set(outside "")
 foreach(module IN LISTS modules)
   foreach(property LINK_LIBRARIES INTERFACE_LINK_LIBRARIES)
@@ -30,7 +30,7 @@ foreach(library IN LISTS outside)
   endif()
 endforeach()
 
-# navvy::navvy is everything.
+# navvy::navvy links every module.
 add_library(navvy_all INTERFACE)
 add_library(navvy::navvy ALIAS navvy_all)
 set_target_properties(navvy_all PROPERTIES EXPORT_NAME navvy)
@@ -39,8 +39,9 @@ target_link_libraries(navvy_all INTERFACE ${modules})
 install(TARGETS ${modules} navvy_all EXPORT navvy ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/navvy)
 install(EXPORT navvy NAMESPACE navvy:: FILE navvyTargets.cmake DESTINATION ${package_dir})
 
-# Headers that see a third-party library other than Eigen, or a kernel's header, are private, and so is what includes
-# them: whoever links Navvy needs none of those libraries' headers.
+# Headers that include a third-party library other than Eigen, or a kernel's header, are private,
+# and so are the headers that include them: a program that links Navvy needs none of those
+# libraries' headers.
 set(public_headers "")
 foreach(module IN LISTS modules)
   string(REGEX REPLACE "^navvy_" "" folder ${module})

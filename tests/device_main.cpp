@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// main() of tests that need a device. Run with NAVVY_TEST_DEVICE=gpu they use that device or show
-// as skipped; without, a machine that has no device at all fails them.
+// main() of tests that need a device. With NAVVY_TEST_DEVICE=gpu they use that device or show as
+// skipped; without it, a machine without any device fails them.
 #include <gtest/gtest.h>
 
 #include <cstdio>

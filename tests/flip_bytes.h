@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows that a class hashes what it saves: every saved byte is flipped in turn.
+// Checks that a class hashes what it saves: every saved byte is flipped in turn.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace navvy::test {
 
-/// What a flip of every byte of `object`'s saved state finds wrong, one line a field; empty when
-/// all is well. Of runs of more than `long_run` bytes every `stride`-th byte is flipped: a stride
-/// that shares no factor with the size of an element comes to all of its bytes. Of shorter ones the
-/// first and then every `short_stride`-th.
+/// Flips every byte of `object`'s saved state and returns the faults, one line per field; empty if
+/// there are none. In runs of more than `long_run` bytes every `stride`-th byte is flipped: a
+/// stride without a common factor with the size of an element reaches all of its bytes. In shorter
+/// ones the first and then every `short_stride`-th.
 ///
-/// A flipped state must be refused, or change the hash of `target` that loads it, or lie in a field
-/// whose visit says why it is not hashed. `target` is loaded again and again and must be made as
-/// `object` was (same scene).
+/// A flipped state must be refused, or change the hash of `target` that loads it, or be in a field
+/// whose visit gives a reason for not being hashed. `target` is loaded repeatedly and must be
+/// created like `object` (same scene).
 template <class T>
 std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1,
                             std::size_t short_stride = 1, std::size_t long_run = 256) {
@@ -34,7 +34,7 @@ std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1,
     if (field && (i - field->offset) % (field->size > long_run ? stride : short_stride) != 0)
       continue;
     std::vector<char> flipped = bytes;
-    // The lowest bit: a bool stays one, a number changes least.
+    // Flips the lowest bit: a bool stays one, and a number changes least.
     flipped[i] = static_cast<char>(flipped[i] ^ 1);
     try {
       load_saved(flipped, target);

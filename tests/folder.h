@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder that no other test, process or user shares: ctest runs the tests of one program side by
-// side.
+// A folder private to one test: ctest runs the tests of one program in parallel.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +10,7 @@
 
 namespace navvy::test {
 
-/// Empty at first, removed at the end.
+/// Creates an empty folder that is removed at the end.
 class Folder {
  public:
   Folder()

@@ -87,7 +87,7 @@ def output(program, *arguments):
             % (" ".join(arguments), done.returncode, done.stderr)
         )
     text = done.stdout.replace(program, "navvy")
-    text = re.sub(r"/\S*/(vehicles|terrain|scenarios)/", r"\1/", text)
+    text = re.sub(r"(?<=\s)/\S*/(vehicles|terrain|scenarios)/", r"\1/", text)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip() + "\n"
 
 
@@ -132,7 +132,8 @@ def laboratory(program):
         fenced(split_help(text)),
     ]
     for name in rigs:
-        out += ["## %s\n" % name, fenced(split_help(output(program, "lab", name, "--help")))]
+        arguments = ["lab", name] + ([] if name == "constants" else ["--help"])
+        out += ["## %s\n" % name, fenced(split_help(output(program, *arguments)))]
     return "\n".join(out)
 
 

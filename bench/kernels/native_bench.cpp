@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCL soil steps compared with the native loop of bench/native, from the same state in one run:
-// a collapsing block, with the shipped flags and the full law. The native loop runs one copy on
-// each thread of the OpenCL device.
+// Compares the OpenCL soil steps with the native loop of bench/native, from the same state in one
+// run: a collapsing block, with the shipped flags and the full law. The native loop runs one copy
+// on each thread of the OpenCL device.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -74,7 +74,7 @@ bench::Row opencl_row(soil::rig::Rig& rig, std::size_t particles, int steps, dou
 void compare(double edge, int steps) {
   soil::rig::Rig rig({soil::rig::sand()});
   rig.solver().insert(rig.fill({Vec3(6, 6, 0), Vec3(6 + edge, 6 + edge, edge)}, true));
-  // The soil is then in motion.
+  // Measure soil that is in motion.
   rig.run(0.1);
   const auto start = rig.solver().particles();
   const double dt = rig.solver().step_limit(0);

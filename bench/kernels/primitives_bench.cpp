@@ -81,8 +81,8 @@ heightfield::Ground make_ground(int columns) {
   return heightfield::Ground(setup);
 }
 
-/// Measures a height between columns of untouched ground; the argument is the site's edge in
-/// columns.
+/// Measures a height between columns of untouched ground; the argument is the edge length of the
+/// site in columns.
 void ground_sample_untouched(benchmark::State& state) {
   const heightfield::Ground ground = make_ground(static_cast<int>(state.range(0)));
   double x = 1.7, sum = 0;

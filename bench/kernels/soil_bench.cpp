@@ -16,8 +16,8 @@ namespace {
 
 using namespace navvy;
 
-/// Bytes of state, tiles and velocities that a particle moves in one unfused step at 8 particles
-/// per cell (kernels/soil).
+/// Bytes of state, tiles and velocities moved per particle in one unfused step at 8 particles per
+/// cell (kernels/soil).
 constexpr double kBytesPerParticle = (26 + 9 + 4 + 16) * 4 + 2 * 16 * 516 / 512.0 + 2 * 16 / 8.0;
 
 bool profile = false;
@@ -47,7 +47,7 @@ void print_profile(soil::rig::Rig& rig, const std::vector<char>& start, const Wo
   }
 }
 
-/// Runs `steps` steps from the same snapshot and prints a row; tools keep their speed.
+/// Runs `steps` steps from the same snapshot and prints a row; tools keep their velocity.
 void bench_row(const std::string& name, soil::rig::Rig& rig, int steps,
                std::vector<soil::ToolMotion> motions) {
   const std::vector<char> start = saved(rig.solver());
@@ -78,7 +78,7 @@ void bench_row(const std::string& name, soil::rig::Rig& rig, int steps,
 void collapse(double edge, int steps) {
   soil::rig::Rig rig({soil::rig::sand()});
   rig.solver().insert(rig.fill({Vec3(6, 6, 0), Vec3(6 + edge, 6 + edge, edge)}, true));
-  // The soil is then in motion.
+  // Measure soil that is in motion.
   rig.run(0.1);
   bench_row("soil_collapse_no_tool", rig, steps, {});
 }
@@ -110,7 +110,7 @@ void dig(int steps) {
   bench_row("soil_dig", rig, steps, {motion});
 }
 
-/// Runs the cases whose name contains the word given; all without one.
+/// Runs the cases whose name contains the given word, or all cases without one.
 template <class Case>
 void run(const std::string& name, const Case& work) {
   if (name.find(only) != std::string::npos) work();
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
     run("collapse_50k", [] { collapse(1.85, 100); });
     run("collapse_64k", [] { collapse(2.0, 100); });
     run("collapse_512k", [] { collapse(4.0, 20); });
-    // Takes a gigabyte of memory and minutes, so only on request.
+    // Takes a gigabyte of memory and several minutes, so it runs only on request.
     if (only == "collapse_2m") collapse(6.3, 5);
     return 0;
   } catch (const std::exception& error) {

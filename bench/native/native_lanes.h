@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen floats at a time through the compiler's vectors, and the arithmetic of kernels/soil
-// compiled for them: the dialect of kernels/README.md.
+// Sixteen floats at a time in compiler vectors, and the arithmetic of kernels/soil compiled for
+// them in the dialect of kernels/README.md.
 #pragma once
 
 #include <cmath>

@@ -16,10 +16,10 @@ namespace {
 /// Nodes around the sorted particles, for their drift and the kernel's reach.
 constexpr int kMargin = 2;
 constexpr std::size_t kCells = 216;
-/// As kMaxDrift of src/soil/soil_particles.h.
+/// Equals kMaxDrift of src/soil/soil_particles.h.
 constexpr double kMostDrift = 0.75;
 
-/// Returns the constants of the law, the same number in every lane.
+/// Returns the constants of the law, with the same number in every lane.
 LawSoil law_of(const scene::Soil& soil, double cell) {
   const soil::LawConstants law = soil::law_constants(soil, cell);
   LawSoil out;
@@ -114,8 +114,8 @@ void NativeSoil::sort(const std::vector<soil::Particle>& particles) {
     window_[a] = soil::kBlockCells * low[a];
     nodes_[a] = soil::kBlockCells * (high[a] - low[a] + 1) + 2 + 2 * kMargin;
   }
-  // A dense grid over the box of the blocks. The solver has a sparse one; for a compact heap the
-  // difference is small.
+  // A dense grid over the bounding box of the blocks. The solver has a sparse one; for a compact
+  // heap the difference is small.
   row_ = static_cast<std::size_t>(nodes_[0]);
   rows_ = static_cast<std::size_t>(nodes_[1]);
   grid_.assign(row_ * rows_ * static_cast<std::size_t>(nodes_[2]), Float4{});
@@ -184,7 +184,7 @@ bool NativeSoil::sum_openings(const ParticleBlock& particle_block) {
     sum[1] += pack.mass[l] * pack.j0[l];
     if (pack.j[l] > pack.j0[l]) sum[2] = 1;
   }
-  // Sixteen cells at a time; sums in mass quanta, as in the kernels.
+  // Sums sixteen cells at a time in mass quanta, as the kernels do.
   constexpr float kQuanta = 1 / MASS_QUANTUM;
   for (std::size_t first = 0; first < kCells; first += kLanes) {
     const std::size_t cells = std::min(kLanes, kCells - first);
@@ -238,8 +238,8 @@ void NativeSoil::scatter(const ParticleBlock& particle_block, float dt, bool hol
     Lanes a[9], p[3];
     affine_momentum(c, sigma, v, w.f, mass, mass * inv_density, state.j, hold ? 0.0f : 1.0f, dt, dx,
                     p, a);
-    // From one array per component to one vector per particle: momentum and mass at the base node,
-    // and their increments along each axis.
+    // Transposes one array per component into one vector per particle: momentum and mass at the
+    // base node, and their increments along each axis.
     Four start[kLanes], ax[kLanes], ay[kLanes], az[kLanes];
     turn(p[0], p[1], p[2], mass, start);
     turn(a[0], a[3], a[6], Lanes{}, ax);
@@ -267,7 +267,7 @@ void NativeSoil::update_grid(float dt, bool hold) {
   const float fall = static_cast<float>(kGravity) * dt, empty = static_cast<float>(kMassQuantum);
   std::size_t n = 0;
   for (int z = 0; z < nodes_[2]; ++z) {
-    // Layers up to the held margin over the ground do not move, as in the solver.
+    // Layers below the held margin above the ground do not move, as in the solver.
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
     const bool held = above <= static_cast<float>(soil::kScheme.held_margin);
     const float per_free_fraction = 1 / free_fraction_above(above);

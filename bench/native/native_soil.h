@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particle method as a plain C++ loop for one thread: the lower bound that the OpenCL schedules
-// must beat. It has the transfers, law, mixing and closing of kernels/soil, without tools, on level
-// ground. Float4 nodes lie on a dense grid, particles are sorted by cell.
+// Particle method as a plain C++ loop for one thread: the baseline that the OpenCL schedules must
+// beat. It has the transfers, law, mixing and closing of kernels/soil, without tools, on level
+// ground. Float4 nodes lie on a dense grid, and particles are sorted by cell.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class NativeSoil {
   void insert(const std::vector<soil::Particle>& particles);
   /// Advances by dt [s] with gravity 9.81 m/s2 along -z.
   void step(double dt);
-  /// Returns the particles in the order of ids.
+  /// Returns the particles in the order of their ids.
   std::vector<soil::Particle> particles() const;
   std::size_t size() const { return count_; }
   int sorts() const { return sorts_; }
@@ -77,22 +77,22 @@ class NativeSoil {
   /// [s].
   double transfer_length_;
   soil::TransferInterval interval_;
-  /// Cells that particles may have moved since they were sorted.
+  /// Cells that particles may have moved since the last sort.
   double drift_ = 0;
   int sorts_ = 0;
   std::size_t count_ = 0;
   std::vector<Pack> packs_;
   std::vector<ParticleBlock> particle_blocks_;
-  /// Cell of the grid frame where the window begins.
+  /// Cell of the grid frame at the low corner of the window.
   std::array<int, 3> window_{};
-  /// Its nodes along x, y, z.
+  /// Nodes of the window along x, y, z.
   std::array<int, 3> nodes_{};
   std::size_t row_ = 0, rows_ = 0;
   /// Momentum and mass.
   std::vector<Float4> grid_;
   /// Velocity and mass per free volume.
   std::vector<Float4> velocity_;
-  // Per cell of a block: volume, bank volume, 1 when any is open; mean opening, 0 where none is.
+  // Per cell of a block: volume, bank volume, 1 if any soil is open; mean opening, 0 if none is.
   std::vector<std::array<float, 3>> sums_;
   std::vector<float> openings_;
 };

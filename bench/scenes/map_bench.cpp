@@ -98,8 +98,8 @@ void read_all(const map::TerrainMap& map) {
       sum += map.copy(layer, {0, iy, map.nx(), end}).back();
   }
   // Prevents the compiler from removing the reads.
-  volatile double kept = sum;
-  static_cast<void>(kept);
+  volatile double sink = sum;
+  static_cast<void>(sink);
 }
 
 /// Compares one update with a full map of the same ground.
@@ -120,8 +120,8 @@ void measure_updates(const std::string& size, int columns) {
     dig_bucket(ground, static_cast<int>(random.uniform(0, columns - kBucketX)),
                static_cast<int>(random.uniform(0, columns - kBucketY)));
   };
-  // A feed's first map is full, and read whole. The previous feed is destroyed first, so that the
-  // large site needs memory for one.
+  // A feed's first map is full and is read as a whole. The previous feed is destroyed first, so
+  // that the large site needs memory for one only.
   std::optional<map::UpdateFeed> feed;
   full.timing = bench::measure(
       columns > 2000 ? 1 : 5,

@@ -25,7 +25,7 @@ namespace {
 
 using namespace navvy;
 
-/// Digs trench and spoil heap as the scene's dig leaves them, in simple shapes.
+/// Shapes the trench and the spoil heap that the scene's dig leaves, in simple form.
 void dig(heightfield::Ground& ground, bool across) {
   std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)

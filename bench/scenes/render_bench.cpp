@@ -25,8 +25,8 @@ struct Row {
 
 constexpr int kPictures = 9;
 
-/// Changes what a dig changes between pictures: the machine's pose, its lumps, and ground around
-/// the bucket.
+/// Changes what a dig changes between pictures: the machine's pose, the soil particles, and the
+/// ground around the bucket.
 void move_on(scene::Frame& frame, int picture) {
   const double step = (picture & 1) != 0 ? 0.002 : -0.002;
   for (scene::FrameShape& shape : frame.shapes) shape.X_WV.translation().x() += step;
@@ -44,8 +44,8 @@ void move_on(scene::Frame& frame, int picture) {
   ++g.revision;
 }
 
-// Measures least and median time of several pictures after two for warm-up. Processor time over all
-// cores is meaningful on a busy machine, wall time is not.
+// Measures the least and the median time of several pictures after two for warm-up. On a busy
+// machine the processor time over all cores is meaningful and the wall time is not.
 void measure(render::Renderer& renderer, scene::Frame& frame, const Row& row,
              const std::string& folder, const std::string& prefix) {
   const Stopwatch first;

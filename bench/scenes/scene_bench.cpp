@@ -19,8 +19,8 @@ namespace {
 
 using namespace navvy;
 
-/// Runs the scene from its start for `seconds`. There is a single run, so median and spread are its
-/// own.
+/// Runs the scene from its start for `seconds`. There is one run only, so median and spread are
+/// those of that run.
 void measure_scene(device::Device& device, const std::string& file, double seconds) {
   session::Session session(scene_io::load_scene(file, control::step_kinds()), device);
   const Stopwatch watch;
@@ -33,7 +33,7 @@ void measure_scene(device::Device& device, const std::string& file, double secon
   row.bench = "scene:" + std::filesystem::path(file).stem().string() + "_" +
               std::to_string(static_cast<int>(seconds)) + "s";
   row.steps = stats.steps;
-  // Mean.
+  // Mean number of particles.
   row.particles = stats.steps > 0 ? stats.particle_steps / stats.steps : 0;
   row.simulated = session.world().time();
   row.hash = session.state_hash();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of machines alone, without particles: the EW180 on firm ground, on loam with its ruts,
+// Steps of machines only, without particles: the EW180 on firm ground, on loam with its ruts,
 // beside 200 bodies, and four of them; the crawler; a light truck on 50 x 50 m of fine loam.
 // `vehicle_bench [NAME]` runs the rows whose name contains NAME. A row is one second of simulated
-// time; `particles` counts machines and bodies. Memory of ground and ruts goes to stderr, per
+// time; `particles` counts machines and bodies. The memory of ground and ruts goes to stderr, per
 // column of the touched tiles and per column that a wheel or track moved.
 #include <malloc.h>
 
@@ -52,10 +52,10 @@ struct Case {
   std::string name, machine;
   int machines = 1, boxes = 0;
   bool loam = false;
-  // Of the columns [m].
+  // Edge length of a column [m].
   double cell = 0.1;
   Vec2 site = Vec2(80, 60);
-  // [m/s].
+  // Travel speed [m/s].
   double speed = 1;
 };
 

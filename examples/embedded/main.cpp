@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a scene from C++: records it, drives a joint, asks for heights, and starts over.
+// Runs a scene from C++: records it, drives a joint, queries heights, and resets.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     const navvy::run::RunEnd end = simulation.run_to_end();
     const double dug = simulation.heights().sample(-1.6, 0.0);
 
-    // Start over: the ground is untouched again, and nothing is recorded.
+    // Reset: the ground is untouched again, and nothing is recorded.
     simulation.reset();
     const double fresh = simulation.heights().sample(-1.6, 0.0);
     std::printf("%s after %.2f s: height %.3f m; after the reset %.3f m\n",

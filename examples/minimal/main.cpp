@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest client of the library: loads a scene, moves one joint by its input, steps, reads it
-// by its handle.
+// The smallest client of the library: loads a scene, moves one joint by its input, steps, and reads
+// the joint by its handle.
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -20,8 +20,8 @@ int main(int argc, char** argv) {
     const int boom_speed = world.inputs().index(machine + "/boom_joint/velocity");
     const navvy::sim::JointHandle boom = world.machines().at(machine).joint("boom_joint");
 
-    // Lift the boom at 0.2 rad/s for a quarter of a second; the world knows no operator but this
-    // loop.
+    // Raise the boom at 0.2 rad/s for a quarter of a second; this loop is the only operator in the
+    // world.
     const double before = boom.position();
     while (world.time() < 0.25) {
       world.inputs().set(boom_speed, 0.2);

@@ -11,9 +11,10 @@ def patches(place):
     else:
         for number in itertools.count(1):
             path, end = pathlib.Path(place, f'patch_{number:09}.navvymap'), pathlib.Path(place, 'end')
-            # Asked before: what was written before the end is read, too.
+            # Check for the end first, so that patches written before it are still read.
             while not ((ended := end.exists()) or path.exists()):
-                time.sleep(0.1)  # nothing changed, or nothing was due
+                # nothing has changed, or no patch is due
+                time.sleep(0.1)
             if ended and not path.exists():
                 return
             yield open(path, 'rb')
@@ -24,7 +25,8 @@ def follow(place):
     for stream in patches(place):
         while (magic := stream.read(8)) == b'NAVVYMAP':
             header = json.loads(stream.read(int.from_bytes(stream.read(4), 'little')))
-            # From 0: the whole map, after a reset of the run with an earlier time.
+            # A patch since 0 is the whole map; it also follows a reset of the run, with an earlier
+            # time.
             assert header['since'] in (0, seen) and header['sequence'] > seen, 'a patch is missing'
             for x0, y0, x1, y1 in header['rects']:
                 for name in header['layers']:

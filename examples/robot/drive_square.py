@@ -16,7 +16,8 @@ import math
 import subprocess
 
 COUNTS_PER_TURN, BITS, RADIUS, TRACK = 76600, 16, 0.1, 0.4  # vehicles/robot
-RATE = 50  # control steps a second
+# control rate [1/s]
+RATE = 50
 
 
 def between(before, now):

@@ -73,9 +73,9 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     out["result"][name] = number(q.measured);
     out["expected"][name] = number(q.expected);
     // Absent if there is no acceptance range.
-    if (q.has_tolerance()) out["gate"][name] = {number(q.low), number(q.high)};
+    if (q.has_tolerance()) out["tolerance"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
-    if (q.missed()) out["missed"].push_back(name);
+    if (q.missed()) out["outside_tolerance"].push_back(name);
     // The setups for which the acceptance range holds, if this one is none of them.
     if (!q.in_range) out["not_judged"][name] = q.range;
   }

@@ -45,7 +45,7 @@ int machines() {
   const int code = list(scene_io::shipped_machines(), "machines");
   std::printf(
       "Put one into a scene by <include><uri>model://NAME</uri></include> "
-      "(scenarios/README.md).\n");
+      "(docs/getting_started.md).\n");
   return code;
 }
 

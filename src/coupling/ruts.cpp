@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStays = 1e-3;  // [m] negligible distance
 // [s] several periods of a bouncing tyre (3 to 4 Hz); a machine sinks within a second. tuned:
-// RideSoil.LoadsStayEvenInTheOwnRutWhateverTheCell
+// RideSoil.LoadsStayEvenInItsOwnRutForAnyCell
 constexpr double kBearingTime = 0.3;
 
 }  // namespace

@@ -120,6 +120,13 @@ std::string define(const std::string& name, int value) {
   return "-D" + name + "=" + std::to_string(value);
 }
 
+std::string define(const std::string& name, float value) {
+  // Hexadecimal digits keep every bit. Brackets separate a sign from what precedes the name.
+  char text[64];
+  std::snprintf(text, sizeof text, "=(%af)", static_cast<double>(value));
+  return "-D" + name + text;
+}
+
 std::vector<std::string> compiler_flags(const DeviceInfo& device) {
   std::vector<std::string> flags;
   // The common denominator of PoCL and the GPU vendors; the kernels are written in it.

@@ -25,6 +25,10 @@ namespace navvy::device {
 /// unroll loops and drop branches. Each value makes another program to compile and store, so use it
 /// for numbers with few values.
 std::string define(const std::string& name, int value);
+/// Returns the same for a float, written so that the kernel gets exactly these bits.
+std::string define(const std::string& name, float value);
+/// Not offered: a double would silently become an int.
+std::string define(const std::string& name, double value) = delete;
 
 /// Returns the flags that all programs on this device are built with; program.cpp gives the
 /// reasons. They are common to all, so that two kernels round the same formula alike.

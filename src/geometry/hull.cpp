@@ -218,7 +218,7 @@ ConvexHull convex_hull(std::vector<Vec3> points) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   });
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  // From here on a point is identified by its index in this order.
+  // The sorted order identifies a point by its index below.
   if (points.size() < 3) refuse("needs at least three points that are not collinear");
   Vec3 low = points.front(), high = low;
   for (const Vec3& p : points) {

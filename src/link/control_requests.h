@@ -22,7 +22,7 @@ struct ControlServices {
   bool files = true;   ///< states may be saved to and loaded from files
 };
 
-/// Answers requests of a controller (scenarios/README.md, "Driving it from another program").
+/// Answers requests of a controller (docs/reference/control_protocol.md).
 ///
 /// A request is an object with one key: {"info": true}, {"heights": {...}}, {"changed": N},
 /// {"arrays": ["name"]} or {"arrays": true}, {"image": "camera"}, {"reset": true}, {"save":

@@ -101,7 +101,7 @@ json ledger(const session::Session& session, const sim::ActivePlaces& active) {
     soils.push_back({{"soil", session.world().description().soils[i].name},
                      {"columns_change_kg", kilograms(sums.columns[i])},
                      {"particles_kg", kilograms(sums.particles[i])},
-                     {"lying_kg", kilograms(active.lies[i])},
+                     {"resting_kg", kilograms(active.resting[i])},
                      {"held_kg", kilograms(active.held[i])},
                      {"elsewhere_kg", kilograms(active.elsewhere[i])},
                      {"left_site_kg", kilograms(sums.left_site[i])},
@@ -192,7 +192,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["particle_steps"] = counts.particle_steps;
   out["shell_crossings"] = counts.shell_crossings;
   out["rebins"] = counts.rebins;
-  out["woken_columns"] = counts.activated_columns;
+  out["activated_columns"] = counts.activated_columns;
   out["deposited_blocks"] = counts.deposited_blocks;
   out["frames"] = status.frames;
   out["mass_ledger"] = ledger(session, active);

@@ -8,7 +8,8 @@ namespace navvy::render {
 bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>& indices) {
   geometry::TriangleMesh mesh;
   for (const Vec3f& p : points) mesh.vertices.push_back(p.cast<double>());
-  // Faces as fans: the diagonals are run through once either way, so the outline decides as before.
+  // Splits faces into fans: diagonals are traversed once in each direction, so the outline decides
+  // as before.
   for (std::size_t first = 0, i = 0; i < indices.size(); ++i) {
     if (indices[i] >= 0) continue;
     for (std::size_t k = first + 2; k < i; ++k)

@@ -13,8 +13,8 @@
 namespace navvy::render {
 
 GlContext::GlContext() {
-  // The fixed-function pipeline is what Coin draws with, hence the compatibility profile. No
-  // stencil: nothing here uses one, and it would cost memory at every pixel.
+  // Coin draws with the fixed-function pipeline, hence the compatibility profile. No stencil:
+  // nothing here uses one, and it would cost memory for every pixel.
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -25,21 +25,23 @@ GlContext::GlContext() {
                             OSMESA_COMPAT_PROFILE,
                             0};
   context_ = OSMesaCreateContextAttribs(attributes, nullptr);
-  if (context_ == nullptr) throw Error("OSMesa gives no drawing context (is libosmesa6 complete?)");
+  if (context_ == nullptr)
+    throw Error("OSMesa created no drawing context (is libosmesa6 complete?)");
 }
 
 GlContext::~GlContext() {
-  // The buffers belong to the context, so they go first, while it is there.
+  // The buffers belong to the context, so they are released before it.
   if (width_ > 0) release_multisample();
   OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
 }
 
 void GlContext::begin(int width, int height, int samples) {
-  // 16384 is what Mesa takes at most; told here, the error names the size.
+  // Mesa draws at most 16384 pixels per side; checked here, the error names the size.
   if (width <= 0 || height <= 0 || width > 16384 || height > 16384)
     throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                " pixels cannot be drawn (allowed: 1 to 16384 each way)");
-  // OSMesa draws into this memory, so it is made current again whenever the vector may have moved.
+                " pixels cannot be drawn (allowed: 1 to 16384 per side)");
+  // OSMesa draws into this memory, so it is made current again whenever the vector may have been
+  // reallocated.
   pixels_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   if (OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), pixels_.data(), GL_UNSIGNED_BYTE,
                         width, height) == 0)
@@ -52,7 +54,7 @@ void GlContext::begin(int width, int height, int samples) {
 }
 
 void GlContext::bind_multisample(int samples) {
-  // Kept from picture to picture, as cameras of one size follow each other.
+  // Kept between pictures, as several cameras of one size often follow each other.
   if (frame_ != 0 &&
       (buffer_width_ != width_ || buffer_height_ != height_ || buffer_samples_ != samples))
     release_multisample();
@@ -92,7 +94,7 @@ void GlContext::release_multisample() {
 
 std::vector<float> GlContext::depth() const {
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  // Rows without padding, whatever their width.
+  // Rows without padding, for any width.
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, out.data());
   return out;
@@ -100,8 +102,7 @@ std::vector<float> GlContext::depth() const {
 
 void GlContext::finish() {
   GLint bound = 0;
-  // The samples of each pixel become one here; without multisampling everything is in the buffer
-  // already.
+  // Resolves the samples of each pixel; without multisampling the buffer already holds the picture.
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
   if (bound != 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
@@ -110,7 +111,7 @@ void GlContext::finish() {
                       GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
-  // OSMesa writes the pixels into our memory by the end of this call.
+  // OSMesa has written the pixels into our memory when this call returns.
   glFinish();
 }
 

@@ -11,11 +11,13 @@
 namespace navvy::render {
 namespace {
 
-constexpr int kGrainSize = 256;       // texels
-constexpr float kGrainLength = 2.2f;  // [m] that the grain covers before it repeats
+// Size of the texture [texels].
+constexpr int kGrainSize = 256;
+// Length that the texture covers before it repeats [m].
+constexpr float kGrainLength = 2.2f;
 
-/// Noise that repeats after `period` lattice cells. It comes from integers by a hash, so that a
-/// picture is the same on every machine.
+/// Returns noise that repeats after `period` lattice cells. It comes from an integer hash, so that
+/// a picture is the same on every machine.
 float periodic_noise(float x, float y, int period, std::uint32_t seed) {
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const float tx = smooth_step(0, 1, x - static_cast<float>(ix)),
@@ -51,7 +53,7 @@ void use_vertices(const Mesh& mesh) {
   glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &mesh.vertices[0].r);
 }
 
-// Skirts hang from the edges of tiles and hide gaps between levels of detail.
+// Draws a tile. Skirts hang from the edges of tiles and hide gaps between levels of detail.
 void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
   if (mesh.indices.empty()) return;
   use_vertices(mesh);
@@ -63,8 +65,8 @@ void draw(const Mesh& mesh, const std::array<bool, 4>& skirts = {}) {
   glShadeModel(GL_SMOOTH);
 }
 
-/// Whether any point of the box is at least `distance` from the eye. The farthest corner of the box
-/// decides.
+/// Returns true if any point of the box is at least `distance` from the camera. The farthest corner
+/// of the box decides.
 bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
   return (part.low - eye).cwiseAbs().cwiseMax((part.high - eye).cwiseAbs()).norm() >= distance;
 }
@@ -72,8 +74,8 @@ bool reaches_beyond(const GroundPart& part, const Vec3f& eye, float distance) {
 }  // namespace
 
 void GlDraw::begin(const View& view, const Lighting& lighting) {
-  // Coin keeps its own record of GL's state and would not notice a change, so all of it is saved
-  // here and given back by end().
+  // Coin keeps its own record of the GL state and would not notice a change, so all of it is saved
+  // here and restored by end().
   glPushAttrib(GL_ALL_ATTRIB_BITS);
   glPushClientAttrib(GL_CLIENT_ALL_ATTRIB_BITS);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
@@ -94,11 +96,11 @@ void GlDraw::begin(const View& view, const Lighting& lighting) {
   glDisableClientState(GL_NORMAL_ARRAY);
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
-  // The sky comes at the far end of the depth range, so equal depths must pass.
+  // The sky is drawn at the far end of the depth range, so equal depths must pass.
   glDepthFunc(GL_LEQUAL);
   glClearColor(lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  // Haze in the colour of the horizon, so that what is far away fades into the sky.
+  // Haze has the colour of the horizon, so that distant objects fade into the sky.
   const GLfloat fog[] = {lighting.haze.x(), lighting.haze.y(), lighting.haze.z(), 1};
   glFogi(GL_FOG_MODE, GL_LINEAR);
   glFogf(GL_FOG_START, kFogStart);
@@ -106,8 +108,8 @@ void GlDraw::begin(const View& view, const Lighting& lighting) {
   glFogfv(GL_FOG_COLOR, fog);
 }
 
-// A dome around the eye, only where nothing was drawn: haze at the horizon, blue above, a glow
-// around the sun.
+// A dome around the camera, drawn only where the picture is empty: haze at the horizon, blue above,
+// a glow around the sun.
 void GlDraw::sky(const View& view, const Lighting& lighting) {
   constexpr int kSides = 40, kRings = 18;
   Mesh dome;
@@ -123,8 +125,8 @@ void GlDraw::sky(const View& view, const Lighting& lighting) {
       const float glow = std::pow(std::max(0.0f, ray.dot(lighting.to_sun)), 12.0f);
       Vec3f color = lighting.haze + (lighting.zenith - lighting.haze) * blue;
       color += (Vec3f(1.0f, 0.97f, 0.88f) - color) * 0.45f * glow;
-      // The radius does not matter, as the dome is pushed to the far end of the depth range; it
-      // must only lie between the clipping planes.
+      // The radius does not matter, as the dome is moved to the far end of the depth range; it only
+      // has to be between the clipping planes.
       const Vec3f p = view.eye + 100.0f * ray;
       dome.vertices.push_back(
           {p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255});
@@ -134,15 +136,16 @@ void GlDraw::sky(const View& view, const Lighting& lighting) {
     }
   glDisable(GL_FOG);
   glDepthMask(GL_FALSE);
-  glDepthRange(1, 1);  // farther than everything
+  // Farther than all else.
+  glDepthRange(1, 1);
   draw(dome);
   glDepthRange(0, 1);
   glDepthMask(GL_TRUE);
 }
 
 void GlDraw::make_grain() {
-  // Three octaves, a little noise at every texel and a few pebbles; made once, and it repeats
-  // without a seam.
+  // Three octaves, a little noise at every texel and a few pebbles. Made once; it repeats without a
+  // seam.
   std::vector<std::uint8_t> texels(kGrainSize * kGrainSize);
   for (int y = 0; y < kGrainSize; ++y)
     for (int x = 0; x < kGrainSize; ++x) {
@@ -161,14 +164,14 @@ void GlDraw::make_grain() {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_LUMINANCE8, kGrainSize, kGrainSize, 0, GL_LUMINANCE,
                GL_UNSIGNED_BYTE, texels.data());
-  // Far away the grain must blend into its mean, or it would flicker.
+  // At a distance the texture must blend into its mean, or it would flicker.
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-// From above, a little skewed by height so that slopes facing any way keep their grain's size; on
-// walls from the side.
+// Projects the texture from above, slightly skewed by height so that the grain keeps its size on
+// slopes in any direction; on walls from the side.
 void GlDraw::place_grain(bool on_walls) {
   glActiveTexture(GL_TEXTURE0);
   const float k = 1.0f / kGrainLength;
@@ -182,7 +185,7 @@ void GlDraw::bind_grain() {
   if (grain_ == 0) make_grain();
   glBindTexture(GL_TEXTURE_2D, grain_);
   glEnable(GL_TEXTURE_2D);
-  // Twice the product, so that the texture's mean of one half leaves colours as they are.
+  // Twice the product: the mean of the texture is one half and must leave colours unchanged.
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_COMBINE);
   glTexEnvi(GL_TEXTURE_ENV, GL_COMBINE_RGB, GL_MODULATE);
   glTexEnvi(GL_TEXTURE_ENV, GL_RGB_SCALE, 2);
@@ -195,11 +198,11 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   glActiveTexture(GL_TEXTURE1);
   if (shadow_ == 0) glGenTextures(1, &shadow_);
   glBindTexture(GL_TEXTURE_2D, shadow_);
-  // The mask is a picture of 512 x 512 texels; it is sent anew only when the casters have moved.
+  // The mask is a texture of 512 x 512 texels; it is uploaded only when the casters have moved.
   if (shadow_version_ != shadows.version()) {
     shadow_version_ = shadows.version();
-    // What is left of level ground's light without the sun. A shadow is not black: the sky still
-    // lights it, so colours go from that share up to themselves.
+    // Share of the light of level ground that remains without the sun. A shadow is not black: the
+    // sky still lights it, so colours are scaled between this share and one.
     const Vec3f level = lighting.sun * std::max(0.2f, lighting.to_sun.z()) + lighting.sky;
     const Vec3f left = lighting.sky.cwiseQuotient(level) * 0.92f;
     std::array<std::array<std::uint8_t, 4>, 256> tone;
@@ -214,7 +217,7 @@ void GlDraw::bind_shadow(const ShadowMap& shadows, const Lighting& lighting) {
   }
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  // Beyond the map everything is lit; its margin is kept lit for that.
+  // Everything beyond the map is lit; its margin is kept lit for this reason.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
@@ -228,15 +231,15 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view,
                     const ShadowMap& shadows, const Lighting& lighting) {
   bind_grain();
   if (!shadows.empty()) bind_shadow(shadows, lighting);
-  // Walls after tops, as the grain lies otherwise on them and the texture's planes are set once for
-  // all tiles.
+  // Draws walls after tops, since the texture is projected differently on them and its planes are
+  // set once for all tiles.
   for (const bool walls : {false, true}) {
     if (walls) place_grain(true);
     glActiveTexture(GL_TEXTURE1);
     for (const GroundPart& part : parts) {
       if (walls && part.mesh->walls.empty()) continue;
-      // A tile that no shadow reaches, or that is near, is drawn without the unit: software GL pays
-      // for it at every pixel.
+      // A tile that is near or that no shadow reaches is drawn without the texture unit: software
+      // GL pays for it at every pixel.
       set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
       set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
       if (!walls) draw(*part.mesh, part.skirts);
@@ -245,7 +248,7 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view,
       elements(part.mesh->walls);
     }
   }
-  // What follows, lumps and sky, has no texture.
+  // Particles and sky, which follow, have no texture.
   for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) {
     glActiveTexture(unit);
     glDisable(GL_TEXTURE_2D);
@@ -254,7 +257,7 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view,
   }
 }
 
-// Closed bodies: their far sides are never seen.
+// Closed bodies: their back faces are never visible.
 void GlDraw::lumps(const Mesh& mesh) {
   glEnable(GL_FOG);
   glEnable(GL_CULL_FACE);
@@ -267,7 +270,7 @@ void GlDraw::end() {
   glPopMatrix();
   glMatrixMode(GL_MODELVIEW);
   glPopMatrix();
-  // Attributes last, as they hold the matrix mode.
+  // Attributes are restored last, as they hold the matrix mode.
   glPopClientAttrib();
   glPopAttrib();
 }

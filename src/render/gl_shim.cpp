@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coin asks the process for glXGetProcAddress (dlsym) to fetch vertex arrays, buffers and textures.
-// Debian's would answer with functions of a GL that has no context: silent no-ops, pictures with
-// holes. These two answer for OSMesa instead. The link options in CMakeLists.txt keep and export
-// them in every program.
+// Coin looks up glXGetProcAddress in the process (dlsym) to get functions for vertex arrays,
+// buffers and textures. Debian's function would return those of a GL without a context: silent
+// no-ops and pictures with holes. The two functions here return OSMesa's instead. The link options
+// in CMakeLists.txt keep and export them in every program.
 #include <GL/osmesa.h>
 
 #include <cstring>

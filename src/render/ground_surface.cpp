@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light on the ground is worked out by column, once a change: what a column sees of sky and sun
-// depends on heights some columns around, so a changed rectangle is renewed with its surroundings.
+// Light on the ground is computed per column when columns change. The sky and sun that a column
+// sees depend on heights some columns around, so a changed rectangle is updated with its
+// surroundings.
 #include "render/ground_surface.h"
 
 #include <cstring>
@@ -10,28 +11,29 @@
 namespace navvy::render {
 namespace {
 
-/// The slope on one axis from its one-sided slopes: the mean where smooth, the flatter one at an
-/// edge, so that a floor next to a wall stays lit as a floor.
+/// Returns the slope along one axis from its one-sided slopes: the mean where the ground is smooth,
+/// the flatter one at an edge, so that a floor next to a wall stays lit as a floor.
 float edge_slope(float a, float b) {
-  constexpr float kEdge = 1.2f;  // difference of slopes that is an edge, about 50 degrees
+  // Difference of slopes that makes an edge, about 50 degrees.
+  constexpr float kEdge = 1.2f;
   if (std::abs(a - b) < kEdge) return 0.5f * (a + b);
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Towards the grey of equal brightness; a negative share makes it more colourful.
+/// Mixes a colour with the grey of equal brightness; a negative share makes it more colourful.
 Vec3f desaturate(const Vec3f& color, float share) {
   const float grey = color.dot(Vec3f(0.3f, 0.59f, 0.11f));
   return color + (Vec3f::Constant(grey) - color) * share;
 }
 
-/// By bits: any other colour is another ground to paint.
+/// Compares bits, because any other colour requires repainting the ground.
 bool same(const std::vector<scene::Color>& a, const std::vector<scene::Color>& b) {
   return a.size() == b.size() &&
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
-/// Unites what is cheaper to do at once: rectangles that, each with its surroundings of `reach`
-/// columns, cover no fewer columns than their union does with its own.
+/// Unites rectangles that are cheaper to update at once: those that, each with its surroundings of
+/// `reach` columns, cover no fewer columns than their union does with its own.
 std::vector<ColumnRect> united(std::vector<ColumnRect> rects, int reach, int nx, int ny) {
   for (std::size_t i = 0; i < rects.size(); ++i)
     for (std::size_t k = i + 1; k < rects.size();) {
@@ -41,7 +43,7 @@ std::vector<ColumnRect> united(std::vector<ColumnRect> rects, int reach, int nx,
         ++k;
         continue;
       }
-      // The larger one may now be worth uniting with those passed over before.
+      // The larger rectangle may now be worth uniting with those skipped before.
       rects[i] = both;
       rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(k));
       k = i + 1;
@@ -59,13 +61,13 @@ std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground,
       (!ground.soil.empty() && ground.soil.size() != n) || !(ground.cell > 0))
     throw Error("the frame's ground arrays do not have nx * ny = " + std::to_string(n) +
                 " entries");
-  // Anything that concerns all columns means starting anew.
+  // A change that concerns all columns starts from scratch.
   const bool fresh = nx_ != ground.nx || ny_ != ground.ny ||
                      cell_ != static_cast<float>(ground.cell) ||
                      x0_ != static_cast<float>(ground.origin.x()) ||
                      y0_ != static_cast<float>(ground.origin.y()) || !(lighting == lighting_) ||
                      !same(soil_color_, ground.soil_color) || height_.size() != n;
-  // A frame may be drawn more than once.
+  // A frame may be drawn several times.
   if (!fresh && revision_ == ground.revision) return {};
   const std::vector<ColumnRect> changed =
       fresh ? std::vector<ColumnRect>{{0, 0, ground.nx, ground.ny}} : changed_cells(ground);
@@ -73,8 +75,8 @@ std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground,
   revision_ = ground.revision;
   for (const ColumnRect& rect : changed) copy(ground, rect);
   if (fresh && n > 0) measure_relief();
-  // A column's light depends on the ground as far as shadows fall, so all heights are in place
-  // before any of it is made.
+  // Light depends on the ground as far as shadows reach, so all heights are updated before any
+  // light is computed.
   std::vector<ColumnRect> lit;
   for (const ColumnRect& rect : united(changed, kShadowReach, nx_, ny_)) {
     if (rect.empty()) continue;
@@ -105,7 +107,7 @@ void GroundSurface::start(const scene::FrameGround& ground, const Lighting& ligh
 }
 
 void GroundSurface::measure_relief() {
-  // Of the ground at the start, so that digging does not tint the whole site anew.
+  // Mean of the initial ground, so that digging does not change the tint of the whole site.
   double sum = 0;
   float low = height_[0] - change_[0], high = low;
   for (std::size_t i = 0; i < height_.size(); ++i) {
@@ -119,7 +121,7 @@ void GroundSurface::measure_relief() {
 }
 
 std::vector<ColumnRect> GroundSurface::changed_cells(const scene::FrameGround& ground) const {
-  // Frames in between were not seen: what they told is lost, so the heights themselves are
+  // Frames in between were skipped and their rectangles are unknown, so the heights themselves are
   // compared.
   if (ground.revision != revision_ + 1) return {compared(ground)};
   std::vector<ColumnRect> told;
@@ -132,7 +134,7 @@ std::vector<ColumnRect> GroundSurface::changed_cells(const scene::FrameGround& g
 
 ColumnRect GroundSurface::compared(const scene::FrameGround& ground) const {
   ColumnRect rect = {nx_, ny_, 0, 0};
-  // Whole rows first: hardly any differs.
+  // Compares whole rows first, as most are equal.
   for (int iy = 0; iy < ny_; ++iy) {
     const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);
     const bool equal =
@@ -160,14 +162,14 @@ void GroundSurface::copy(const scene::FrameGround& ground, const ColumnRect& rec
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);
-      // A hole in the heights must not spoil the shadows around it.
+      // A missing height must not spoil the shadows around it.
       height_[i] = std::isfinite(ground.height[i]) ? ground.height[i] : 0.0f;
       if (!ground.change.empty()) change_[i] = ground.change[i];
       if (!ground.soil.empty()) soil_[i] = ground.soil[i];
     }
 }
 
-// How much of the sky a column sees, from the mean height around it: a box mean by running sums
+// Share of the sky that a column sees, from the mean height around it: a box mean by running sums
 // along x, then y.
 void GroundSurface::find_openness(const ColumnRect& rect) {
   const int width = rect.x1 - rect.x0;
@@ -194,29 +196,30 @@ void GroundSurface::find_openness(const ColumnRect& rect) {
                         static_cast<std::size_t>(ix - rect.x0)];
       }
       const float above = sum * (1.0f / (2 * kOpenReach + 1)) - height_[index(ix, iy)];
-      const float hidden = above / (cell_ * kOpenReach);  // mean slope upwards to the neighbourhood
+      // Mean slope upwards to the surroundings.
+      const float hidden = above / (cell_ * kOpenReach);
       open_[index(ix, iy)] = to_byte(std::clamp(0.90f - 0.55f * hidden, 0.35f, 1.0f));
     }
 }
 
-// Share of the sun: the highest ground towards the sun against the ray, softened over the sun's
-// (widened) disc.
+// Share of the sun that a column sees: the highest ground towards the sun compared with the ray,
+// softened over the (widened) disc of the sun.
 void GroundSurface::find_sun(const ColumnRect& rect) {
   const Vec3f& to_sun = lighting_.to_sun;
   const float flat = to_sun.head<2>().norm();
-  // The sun overhead casts no shadow of the ground.
+  // With the sun overhead the ground casts no shadow.
   if (flat < 1e-3f) {
     for (int iy = rect.y0; iy < rect.y1; ++iy)
       for (int ix = rect.x0; ix < rect.x1; ++ix) sun_[index(ix, iy)] = 255;
     return;
   }
-  // Steps towards the sun in the plane, and how far a ray rises on the way.
+  // Steps towards the sun in the plane, and the rise of the ray per step.
   const float dx = to_sun.x() / flat, dy = to_sun.y() / flat, rise = to_sun.z() / flat;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const float base = height_[index(ix, iy)];
-      // Every column close by, every second farther off: far ground moves the edge of a shadow
-      // less.
+      // Samples every column nearby and every second one farther off: distant ground moves the edge
+      // of a shadow less.
       float worst = -1e9f;
       for (int k = 1; k <= kShadowReach; k += k < 8 ? 1 : 2) {
         const float d = static_cast<float>(k);
@@ -231,7 +234,7 @@ void GroundSurface::find_sun(const ColumnRect& rect) {
 }
 
 Vec3f GroundSurface::normal(int ix, int iy) const {
-  // One-sided at the edge of the ground.
+  // One-sided at the edge of the site.
   const float h = height_[index(ix, iy)], inverse = 1.0f / cell_;
   const float west = ix > 0 ? (h - height_[index(ix - 1, iy)]) * inverse : 0;
   const float east = ix + 1 < nx_ ? (height_[index(ix + 1, iy)] - h) * inverse : west;
@@ -243,23 +246,23 @@ Vec3f GroundSurface::normal(int ix, int iy) const {
 }
 
 Vec3f GroundSurface::albedo(int ix, int iy) const {
-  // A frame without soils is brown.
+  // A frame without soils is drawn brown.
   const std::size_t i = index(ix, iy);
   Vec3f base(0.50f, 0.40f, 0.28f);
   if (soil_[i] < soil_color_.size())
     base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
   const float x = (static_cast<float>(ix) + x0_ / cell_) * cell_,
               y = (static_cast<float>(iy) + y0_ / cell_) * cell_;
-  // Patches go with the place in the world, so that a moved window keeps its looks.
+  // Patches depend on the place in the world, so that a moved window keeps its appearance.
   const float broad =
       value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
   const float fine =
       2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
 
-  // The old surface: dried out, dusty, patchy, a little lighter with height.
+  // The old surface: dry, dusty, patchy, a little lighter with height.
   const float tint = std::clamp((height_[i] - mean_height_) / relief_, -0.5f, 0.5f);
   Vec3f color = desaturate(base, 0.28f) * (1.07f + 0.09f * broad + 0.03f * fine + 0.14f * tint);
-  // Freshly cut: moist, darker, more colourful. Dumped: loose and lighter, uneven.
+  // Freshly cut soil is moist, darker and more colourful. Dumped soil is loose, lighter and uneven.
   const float dug = smooth_step(0.008f, 0.07f, -change_[i]),
               dumped = smooth_step(0.008f, 0.06f, change_[i]);
   const Vec3f moist = desaturate(base, -0.18f) * (0.66f + 0.03f * broad + 0.03f * fine);
@@ -292,7 +295,7 @@ Vec3f GroundSurface::wall_color(int ix, int iy, const Vec3f& face) const {
 }
 
 bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
-  // The nearest column: who asks places lumps, which are larger than the difference.
+  // Uses the nearest column: callers place particles, which are larger than the difference.
   if (nx_ < 2 || ny_ < 2) return false;
   const float u = (x - x0_) / cell_ - 0.5f, v = (y - y0_) / cell_ - 0.5f;
   const int ix = static_cast<int>(std::floor(u + 0.5f)),

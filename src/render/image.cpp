@@ -11,7 +11,7 @@
 namespace navvy::render {
 
 std::vector<char> encode_png(const Image& image) {
-  // What a caller puts together by hand may not fit; libpng would read beyond the end.
+  // An image filled by a caller may be inconsistent; libpng would read beyond its end.
   if (image.width <= 0 || image.height <= 0 ||
       image.rgb.size() !=
           3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
@@ -23,9 +23,9 @@ std::vector<char> encode_png(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  // Larger files in a fraction of the time: pictures come by the hundred.
+  // Larger files in a fraction of the time: a run writes pictures by the hundred.
   png.flags = PNG_IMAGE_FLAG_FAST;
-  // A bound that libpng gives for any content, so that it writes once.
+  // An upper bound by libpng for any content, so that one write suffices.
   std::vector<char> out(PNG_IMAGE_PNG_SIZE_MAX(png));
   png_alloc_size_t size = out.size();
   if (png_image_write_to_memory(&png, out.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0)
@@ -44,7 +44,7 @@ Image read_png(const std::string& path) {
   png.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0)
     throw Error("'" + path + "' is no readable PNG: " + png.message);
-  // Whatever the file holds, grey or with alpha, libpng turns it into this.
+  // libpng converts grey and alpha to this format.
   png.format = PNG_FORMAT_RGB;
   Image out;
   out.width = static_cast<int>(png.width);

@@ -6,7 +6,7 @@
 namespace navvy::render {
 namespace {
 
-/// A round body to be dented: unit vertices and triangles.
+/// A round body before it is dented: unit vertices and triangles.
 struct Body {
   std::vector<Vec3f> points;
   std::vector<std::array<std::uint32_t, 3>> faces;
@@ -17,8 +17,8 @@ Body octahedron() {
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 }
 
-// Corners of three golden rectangles. Back faces are culled, so the corners' order has all faces
-// turned outwards.
+// Corners of three golden rectangles. Back faces are culled, so the corners are ordered such that
+// all faces point outwards.
 Body icosahedron() {
   const float t = 0.5f * (1.0f + std::sqrt(5.0f));
   Body b{{{-1, t, 0},
@@ -40,12 +40,12 @@ Body icosahedron() {
   return b;
 }
 
-/// Farthest corner of a lump in units of its radius: dents go both ways, and a body of eight faces
-/// is drawn larger.
+/// Farthest corner of a particle's body in units of its radius: dents go both ways, and a body of
+/// eight faces is drawn larger.
 constexpr float kFarthestCorner = 1.26f * 1.25f;
 
-/// Eight dented and turned copies of a body, so that no two neighbours look alike. Lumps are dented
-/// by up to a quarter of their radius.
+/// Returns eight dented and rotated copies of a body, so that neighbours differ. Dents are up to a
+/// quarter of the radius.
 std::vector<Body> variants(const Body& base, std::uint32_t seed) {
   std::vector<Body> out;
   for (std::uint32_t v = 0; v < 8; ++v) {
@@ -60,9 +60,9 @@ std::vector<Body> variants(const Body& base, std::uint32_t seed) {
   return out;
 }
 
-// A cell's three numbers in 21 bits each, with an offset for negative ones; the highest bit keeps a
-// key from being 0, which marks a free slot. A cell more than a million cells from the origin would
-// wrap around; sites are far smaller.
+// Packs the three indices of a cell in 21 bits each, with an offset for negative ones. The highest
+// bit keeps a key from being 0, which marks a free slot. A cell more than a million cells from the
+// origin would wrap around; sites are far smaller.
 std::uint64_t key(std::int32_t x, std::int32_t y, std::int32_t z) {
   constexpr std::uint64_t kMask = (1u << 21) - 1;
   const auto part = [](std::int32_t k) {
@@ -72,12 +72,12 @@ std::uint64_t key(std::int32_t x, std::int32_t y, std::int32_t z) {
 }
 
 std::size_t slot(std::uint64_t k) {
-  // Multiplying mixes the low bits into the high ones, which are then used.
+  // Multiplying mixes the low bits into the high ones, which select the slot.
   k *= 0x9E3779B97F4A7C15ull;
   return static_cast<std::size_t>(k >> 20);
 }
 
-// What is not finite, or farther than any site, goes to the outermost cell.
+// A position that is not finite, or beyond any site, is put into the outermost cell.
 std::int32_t cell_of(float x, float pitch) {
   constexpr float kFarthest = 1 << 20;
   const float cell = std::floor(x / pitch);
@@ -87,7 +87,7 @@ std::int32_t cell_of(float x, float pitch) {
 }  // namespace
 
 void ParticleMesh::fill_table(const scene::FrameParticles& particles) {
-  // At most a quarter full, so that a search meets a free slot soon.
+  // At most a quarter full, so that a search soon reaches a free slot.
   const std::size_t n = particles.position.size() / 3;
   std::size_t size = 1024;
   while (size < 4 * n) size *= 2;
@@ -113,9 +113,9 @@ bool ParticleMesh::occupied(std::int32_t x, std::int32_t y, std::int32_t z) cons
   return false;
 }
 
-// Hidden: the seven neighbouring cells towards the eye all hold soil. What is left out are lumps
-// within the soil; one that shows through a gap between its neighbours is missed, which nobody
-// sees.
+// A particle is hidden if the seven neighbouring cells towards the camera all hold soil. Only
+// particles within the soil are omitted; one that would show through a gap between its neighbours
+// is missing, which is not noticeable.
 bool ParticleMesh::hidden(const Vec3f& local, const Vec3f& to_eye) const {
   const std::int32_t x = cell_of(local.x(), pitch_), y = cell_of(local.y(), pitch_),
                      z = cell_of(local.z(), pitch_);
@@ -137,11 +137,11 @@ void ParticleMesh::look_around(const Vec3f& local, Vec3f& outward, float& open) 
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if ((dx | dy | dz) == 0 || !occupied(x + dx, y + dy, z + dz)) continue;
-        // Neighbours above shut out more of the sky than those beside.
+        // Neighbours above hide more of the sky than those at the side.
         above += dz >= 0 ? 1 + dz : 0;
         outward -= Vec3f(static_cast<float>(dx), static_cast<float>(dy), static_cast<float>(dz));
       }
-  // Shut in from all sides and above, a lump keeps a third of the sky.
+  // A particle enclosed from all sides and above keeps a third of the sky.
   open = 1.0f - 0.025f * static_cast<float>(above);
   const float length = outward.norm();
   outward = length > 0.5f ? Vec3f(outward / length) : Vec3f(0, 0, 1);
@@ -156,7 +156,7 @@ void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Ve
   const float size = radius * (detail > 0 ? 1.0f : 1.25f);
   const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
   for (const Vec3f& point : body.points) {
-    // Between the lump's own roundness and the heap's slope.
+    // A blend of the particle's own roundness and the slope of the heap.
     const Vec3f normal = (0.75f * point + 0.6f * lump.outward).normalized();
     // Undersides are darker, as if light came from above only.
     const float low = 0.86f + 0.14f * point.z();
@@ -174,7 +174,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
                                 const View& view) {
   const scene::FrameParticles& particles = frame.particles;
   const std::size_t n = particles.position.size() / 3;
-  // Arrays come from outside; one that is too short would be read beyond its end.
+  // Arrays come from a caller; one that is too short would be read beyond its end.
   if (particles.position.size() % 3 != 0 ||
       (!particles.soil.empty() && particles.soil.size() != n) ||
       (!particles.id.empty() && particles.id.size() != n) ||
@@ -194,7 +194,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3f local(particles.position[3 * i], particles.position[3 * i + 1],
                       particles.position[3 * i + 2]);
-    // A particle that is no number is a fault of the run and not of the picture.
+    // A particle without finite position is a fault of the run, not of the picture.
     if (!local.allFinite()) continue;
     Lump lump;
     lump.center = origin + local;
@@ -203,18 +203,18 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     if (hidden(local, view.eye - lump.center)) continue;
     look_around(local, lump.outward, lump.open);
     lump.distance = (lump.center - view.eye).norm();
-    // By its id, so that a lump keeps its looks when the list is sorted anew.
+    // Seeded by id, so that a particle keeps its appearance when the list is sorted again.
     lump.seed = hash_u32(particles.id.empty() ? static_cast<std::uint32_t>(i) : particles.id[i]);
     lump.soil = particles.soil.empty() ? std::uint8_t{0} : particles.soil[i];
-    // What lies on a plate stays a crumb that can be seen.
+    // A particle on a plate keeps a minimum size that remains visible.
     lump.most = particles.room.empty()
                     ? 2 * radius
                     : std::max(particles.room[i] / kFarthestCorner, 0.2f * radius);
     lumps_.push_back(lump);
   }
 
-  // Twenty faces where a lump is larger than a few pixels and the budget allows, eight elsewhere.
-  // The budget bounds what a picture costs when a whole heap is in view.
+  // Twenty faces if a particle is larger than a few pixels and the budget allows it, eight
+  // otherwise. The budget bounds the cost of a picture when a whole heap is in view.
   const bool many = 20 * lumps_.size() > kTriangleBudget;
   mesh_.vertices.reserve(12 * lumps_.size());
   mesh_.indices.reserve(60 * lumps_.size());
@@ -226,10 +226,10 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     if (lump.soil < colors.size())
       albedo = {colors[lump.soil].r, colors[lump.soil].g, colors[lump.soil].b};
     albedo *= 0.80f + 0.22f * hash_unit(lump.seed, 5);
-    // Asked a little towards the sun, or a lump would stand in its own shadow.
+    // Sampled a little towards the sun, or a particle would be in its own shadow.
     const Vec3f sunward = lump.center + 1.5f * radius * lighting.to_sun;
     float sun = shadows.sun_at(sunward, 2.5f * radius), height = 0, ground_sun = 1;
-    // Low over the ground the ground's own shadow counts as well.
+    // Close to the ground the shadow of the ground counts as well.
     if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) &&
         lump.center.z() < height + 0.25f)
       sun *= 0.35f + 0.65f * ground_sun;

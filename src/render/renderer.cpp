@@ -27,8 +27,8 @@
 namespace navvy::render {
 namespace {
 
-/// Something to draw with Coin: a cached body at a pose that may stretch it. Two that are equal
-/// throw the same shadow, which is what the comparison is for.
+/// An object for Coin to draw: a cached body at a pose that may stretch it. Two equal ones cast the
+/// same shadow, which is why they are compared.
 struct Placed {
   const Shape* shape;
   Eigen::Matrix4f X_WS;
@@ -37,7 +37,7 @@ struct Placed {
 
 SbColor to_coin(const Vec3f& c) { return {c.x(), c.y(), c.z()}; }
 
-// Transposed, for the reason below.
+// Converts a matrix for Coin, transposed as explained below.
 SbMatrix to_coin(const Eigen::Matrix4f& m) {
   // Coin multiplies row vectors from the left.
   SbMatrix out;
@@ -46,8 +46,8 @@ SbMatrix to_coin(const Eigen::Matrix4f& m) {
   return out;
 }
 
-/// Affine map that lays the unit body (x from 0 to 1, radius 1) from `from` along `axis`. The two
-/// other axes may turn about it, as the body is round.
+/// Returns the affine map that places the unit body (x from 0 to 1, radius 1) from `from` along
+/// `axis`. The two other axes may turn about it, as the body is round.
 Eigen::Matrix4f stretch(const Vec3& from, const Vec3& axis, double length, double radius) {
   const Vec3 side = axis.unitOrthogonal();
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
@@ -81,7 +81,7 @@ class Renderer::Impl {
   ParticleMesh particles_;
   ShapeCache shapes_;
   std::vector<Placed> placed_;
-  /// What the shadow map holds, with `falling_` under `shadow_lighting_`.
+  /// Content of the shadow map, with `falling_` under `shadow_lighting_`.
   std::vector<Placed> casters_;
   std::vector<Vec3f> falling_;
   Lighting shadow_lighting_;
@@ -94,19 +94,17 @@ class Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RenderOptions& options) : options_(options) {
-  // Once a process, whichever renderer comes first.
+  // Once per process, by the first renderer.
   static std::once_flag started;
   std::call_once(started, [] { SoDB::init(); });
-  // Coin keeps display lists by context; with one of our own it never finds another renderer's.
+  // Coin keeps display lists by context; a context id per renderer keeps their lists apart.
   cache_context_ = SoGLCacheContextElement::getUniqueCacheContext();
   root_ = new SoSeparator;
   root_->ref();
-  // Everything below changes from picture to picture, so a cache would be made and thrown away each
-  // time.
+  // Everything below changes with each picture, so a cache would be rebuilt each time.
   root_->renderCaching = SoSeparator::OFF;
   camera_ = new SoPerspectiveCamera;
-  // The aspect ratio is set with each picture's size; Coin must not fit it to the viewport in its
-  // own way.
+  // The aspect ratio is set with the size of each picture; Coin must not adapt it to the viewport.
   camera_->viewportMapping = SoCamera::LEAVE_ALONE;
   root_->addChild(camera_);
   environment_ = new SoEnvironment;
@@ -134,7 +132,7 @@ void Renderer::Impl::place(const scene::Frame& frame) {
       placed_.push_back({&shapes_.get(*shape.visual), shape.X_WV.matrix().cast<float>()});
   for (const scene::FrameCylinder& c : frame.cylinders) {
     const double length = (c.p_rod - c.p_base).norm();
-    // A cylinder that is shut has no axis to draw along.
+    // A fully retracted cylinder has no axis to draw along.
     if (!(length > 1e-6)) continue;
     const Vec3 axis = (c.p_rod - c.p_base) / length;
     const double barrel = std::clamp(c.barrel_length, 0.0, length);
@@ -146,8 +144,8 @@ void Renderer::Impl::place(const scene::Frame& frame) {
 }
 
 void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lighting) {
-  // The box around all casters in W, from the corners of their own boxes: larger than needed where
-  // they are turned, never smaller.
+  // Box around all casters in W, from the corners of their own boxes: larger than needed if they
+  // are rotated, never smaller.
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
   for (const Placed& p : placed_)
     for (int k = 0; k < 8; ++k) {
@@ -158,8 +156,8 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
       low = low.cwiseMin(w);
       high = high.cwiseMax(w);
     }
-  // Only soil in the air throws a shadow here; soil that lies on the ground would only darken its
-  // own feet.
+  // Only soil in the air casts a shadow here; soil on the ground would only darken the ground right
+  // below it.
   const std::vector<float>& xyz = frame.particles.position;
   const Vec3f origin = frame.particles.origin.cast<float>();
   std::vector<Vec3f> falling;
@@ -173,14 +171,14 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  // Another camera at the same instant finds the shadow made.
+  // Another camera at the same time reuses the shadow.
   if (casters_ == placed_ && falling_ == falling && shadow_lighting_ == lighting &&
       shadows_.version() != 0)
     return;
   casters_ = placed_;
   falling_ = falling;
   shadow_lighting_ = lighting;
-  // Nothing to throw a shadow: an empty map answers that everything is lit.
+  // No casters: an empty map reports everything as lit.
   if (!(low.x() <= high.x()) || !options_.shadows) {
     shadows_.begin(lighting, Vec3f::Zero(), Vec3f::Ones());
     return;
@@ -219,14 +217,14 @@ void Renderer::Impl::draw_machines(const View& view, const scene::FrameCamera& c
   camera_->heightAngle = static_cast<float>(2 * std::atan(view.tan_y));
   camera_->nearDistance = static_cast<float>(View::kNear);
   camera_->farDistance = static_cast<float>(View::kFar);
-  // Three lights and an ambient part imitate the sky above and the light from the ground, so that
-  // bodies drawn by Coin look as if they stood on ground that is lit by shading.h.
+  // Three lights and an ambient part imitate the sky and the light from the ground, so that bodies
+  // drawn by Coin match the ground lit by shading.h.
   environment_->ambientIntensity = 1.0f;
   environment_->ambientColor = to_coin(Vec3f(0.62f * (lighting.sky + lighting.ground)));
   environment_->fogType = SoEnvironment::HAZE;
   environment_->fogColor = to_coin(lighting.haze);
 
-  environment_->fogVisibility = 2 * GlDraw::kFogEnd;  // Coin's haze starts at the eye
+  environment_->fogVisibility = 2 * GlDraw::kFogEnd;  // Coin's haze starts at the camera
   sun_->direction = SbVec3f(-lighting.to_sun.x(), -lighting.to_sun.y(), -lighting.to_sun.z());
   sun_->color = to_coin(lighting.sun);
   sky_->direction = SbVec3f(0.25f * lighting.to_sun.x(), 0.25f * lighting.to_sun.y(), -1);
@@ -251,8 +249,8 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   context_.begin(camera.width, camera.height, options_.samples);
   const View view(camera);
   const Lighting lighting = make_lighting(frame.lights);
-  // The ground goes first: whether a particle is falling, and how the sun reaches it, is asked of
-  // its surface.
+  // The ground is updated first: its surface determines which particles are falling and how the sun
+  // reaches them.
   terrain_.update(frame.ground, lighting);
   const std::size_t known = shapes_.size();
   place(frame);
@@ -269,11 +267,10 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   stats.tiles_rebuilt = terrain_.rebuilt();
   stats.prepare_ms = 1e3 * watch.seconds();
 
-  // Coin draws a body another way the first time (rounding differs): draw new ones once for
-  // nothing.
+  // Coin's first drawing of a body differs by rounding, so new bodies are drawn once and discarded.
   if (shapes_.size() != known) draw_machines(view, camera, lighting);
-  // Ground first, as it hides most of the sky; machines last, because Coin blends what is
-  // transparent over all the rest.
+  // Ground first, as it hides most of the sky; machines last, because Coin blends transparent parts
+  // over the rest.
   draw_.begin(view, lighting);
   draw_.ground(tiles, view, shadows_, lighting);
   draw_.lumps(soil);
@@ -288,8 +285,8 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
     depth->width = view.width;
     depth->height = view.height;
     depth->depth.resize(w * h);
-    // From the depth buffer's scale, which is finer near the eye, to metres along the camera's
-    // axis.
+    // Converts the scale of the depth buffer, which is finer near the camera, to metres along the
+    // camera's axis.
     constexpr double kNear = View::kNear, kFar = View::kFar;
     for (std::size_t y = 0; y < h; ++y)
       for (std::size_t x = 0; x < w; ++x) {
@@ -301,7 +298,7 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   }
   context_.finish();
 
-  // OpenGL's first row is the bottom one.
+  // The first row of OpenGL is the bottom one.
   Image image{view.width, view.height, {}};
   image.rgb.resize(3 * w * h);
   const std::uint8_t* pixels = context_.pixels().data();

@@ -5,9 +5,10 @@
 
 namespace navvy::render {
 namespace {
-// Below every height: no caster has been seen there.
+// Below every height: marks a texel without a caster.
 constexpr float kNothing = -1e30f;
-constexpr int kMargin = 4;  // texels kept lit along the border
+// Texels kept lit along the border.
+constexpr int kMargin = 4;
 }  // namespace
 
 void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high) {
@@ -15,7 +16,7 @@ void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& h
   ++version_;
   to_sun_ = lighting.to_sun;
   nearest_.assign(kSize * kSize, kNothing);
-  // Any two axes across the rays do; the one that is nearly along them would give none.
+  // Any two axes across the rays suffice, unless one is nearly parallel to them.
   const Vec3f side = std::abs(to_sun_.z()) > 0.95f ? Vec3f::UnitX() : Vec3f::UnitZ();
   const Vec3f u = side.cross(to_sun_).normalized(), v = to_sun_.cross(u);
   Eigen::Vector2f least(1e30f, 1e30f), most(-1e30f, -1e30f);
@@ -26,10 +27,10 @@ void ShadowMap::begin(const Lighting& lighting, const Vec3f& low, const Vec3f& h
     least = least.cwiseMin(q);
     most = most.cwiseMax(q);
   }
-  // The longer side sets the scale, so texels are square; half a metre at least also keeps the
-  // scale finite.
+  // The longer side sets the scale, so texels are square; a minimum of half a metre keeps the scale
+  // finite.
   const float extent = std::max({most.x() - least.x(), most.y() - least.y(), 0.5f});
-  // Within the margin and two texels for the blur.
+  // Leaves the margin and two texels for the blur.
   const float scale = (1.0f - 2.0f * (kMargin + 2) / kSize) / extent;
   const Eigen::Vector2f middle = 0.5f * (least + most);
   plane_s_ = {scale * u.x(), scale * u.y(), scale * u.z(), 0.5f - scale * middle.x()};
@@ -41,11 +42,12 @@ Vec3f ShadowMap::project(const Vec3f& p) const {
           (plane_t_.head<3>().dot(p) + plane_t_.w()) * kSize, to_sun_.dot(p)};
 }
 
-// Row by row: the three edges bound the texels of a row, so that the inner loop is only depth.
+// Rasterises row by row: the three edges bound the texels of a row, so that the inner loop only
+// compares depths.
 void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, bool solid) {
   const Vec3f a = project(wa), b = project(wb), c = project(wc);
-  // Twice the area in texels. Seen from the sun a front face turns counter-clockwise; of a solid
-  // body its back faces lie in the shadow of the front ones.
+  // Twice the area in texels. Seen from the sun a front face is counter-clockwise; back faces of a
+  // solid body are in the shadow of its front faces.
   const float area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
   if (solid ? area < 1e-6f : std::abs(area) < 1e-6f) return;
   used_ = true;
@@ -54,20 +56,22 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
   const int high_x = std::min(kSize - 1 - kMargin, floor_of(std::max({a.x(), b.x(), c.x()})) + 1);
   const int low_y = std::max(kMargin, floor_of(std::min({a.y(), b.y(), c.y()})));
   const int high_y = std::min(kSize - 1 - kMargin, floor_of(std::max({a.y(), b.y(), c.y()})) + 1);
-  // Shares of b and c (and a, the rest) at a texel's centre are linear in x and y.
+  // The weights of b and c (and of a, the rest) at a texel's centre are linear in x and y.
   const float inverse = 1.0f / area;
   const std::array<float, 3> per_x = {(c.y() - a.y()) * inverse, (a.y() - b.y()) * inverse,
                                       (b.y() - c.y()) * inverse};
   const std::array<float, 3> per_y = {(a.x() - c.x()) * inverse, (b.x() - a.x()) * inverse,
                                       (c.x() - b.x()) * inverse};
   const float slope = per_x[0] * (b.z() - a.z()) + per_x[1] * (c.z() - a.z());
-  constexpr float kSlack = -0.02f;  // no gaps between neighbours
+  // Closes gaps between neighbours.
+  constexpr float kSlack = -0.02f;
   for (int y = low_y; y <= high_y; ++y) {
     const float px = static_cast<float>(low_x) + 0.5f - a.x(),
                 py = static_cast<float>(y) + 0.5f - a.y();
     std::array<float, 3> share = {per_x[0] * px + per_y[0] * py, per_x[1] * px + per_y[1] * py, 0};
     share[2] = 1 - share[0] - share[1];
-    // Each edge bounds the row from one side. An edge along the row has it wholly in or out.
+    // Each edge bounds the row from one side. An edge parallel to the row includes or excludes all
+    // of it.
     float first = 0, last = static_cast<float>(high_x - low_x);
     for (std::size_t k = 0; k < 3; ++k) {
       const float room = kSlack - share[k];
@@ -79,8 +83,7 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
         last = -1;
     }
     if (!(first <= last)) continue;
-    // The height along the sun's direction changes linearly over a triangle, so the inner loop only
-    // adds.
+    // The height along the sun's direction is linear over a triangle, so the inner loop only adds.
     float* row = &nearest_[static_cast<std::size_t>(y * kSize + low_x)];
     const float start = a.z() + share[0] * (b.z() - a.z()) + share[1] * (c.z() - a.z());
     const int end = static_cast<int>(last);
@@ -91,7 +94,7 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
 
 void ShadowMap::add_point(const Vec3f& p, float radius) {
   const Vec3f q = project(p);
-  // A round particle counts as a square of its width: it is blurred anyway.
+  // A particle counts as a square of its diameter, since the map is blurred anyway.
   const float r = radius * plane_s_.head<3>().norm() * kSize;
   used_ = true;
   for (int y = std::max(kMargin, static_cast<int>(q.y() - r));
@@ -105,7 +108,7 @@ void ShadowMap::add_point(const Vec3f& p, float radius) {
 
 namespace {
 
-/// Weighted mean (1 2 2 2 1) / 8 of five values `stride` apart, along a run of texels.
+/// Computes the weighted mean (1 2 2 2 1) / 8 of five values `stride` apart, along a run of texels.
 void smooth(const std::uint8_t* __restrict in, std::uint8_t* __restrict out, int n, int stride) {
   for (int i = 0; i < n; ++i) {
     const int sum =
@@ -120,7 +123,7 @@ void ShadowMap::finish() {
   mask_.resize(nearest_.size());
   blur_.assign(nearest_.size(), 255);
   for (std::size_t i = 0; i < nearest_.size(); ++i) mask_[i] = nearest_[i] > kNothing ? 0 : 255;
-  // Rows run on into each other: their ends are margin, all lit
+  // Rows run on into each other, because their ends are margin and lit.
   constexpr int kInner = (kSize - 4) * kSize - 4;
   smooth(&mask_[2 * kSize + 2], &blur_[2 * kSize + 2], kInner, 1);
   smooth(&blur_[2 * kSize + 2], &mask_[2 * kSize + 2], kInner, kSize);
@@ -130,8 +133,8 @@ bool ShadowMap::reaches(const Vec3f& low, const Vec3f& high) const {
   if (!used_) return false;
   const Vec3f middle = 0.5f * (low + high), half = 0.5f * (high - low);
   for (const Eigen::Vector4f* plane : {&plane_s_, &plane_t_}) {
-    // The box's reach along a direction; the test may say yes for a box near the map, never no for
-    // one in it.
+    // Extent of the box along a direction; the test may be true for a box near the map, but is
+    // never false for one in it.
     const float at = plane->head<3>().dot(middle) + plane->w(),
                 reach = plane->head<3>().cwiseAbs().dot(half);
     if (at + reach < 0 || at - reach > 1) return false;
@@ -141,11 +144,11 @@ bool ShadowMap::reaches(const Vec3f& low, const Vec3f& high) const {
 
 float ShadowMap::sun_at(const Vec3f& p, float bias) const {
   if (!used_) return 1;
-  // Beyond the map nothing throws a shadow. One texel of margin for the mean below.
+  // Beyond the map there are no casters. One texel of margin for the mean below.
   const Vec3f q = project(p);
   const int x = static_cast<int>(std::floor(q.x())), y = static_cast<int>(std::floor(q.y()));
   if (x < 1 || y < 1 || x >= kSize - 1 || y >= kSize - 1) return 1;
-  // The mean of nine comparisons softens the shadow's edge on soil in the air.
+  // The mean of nine comparisons softens the shadow's edge on airborne soil.
   int lit = 0;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)

@@ -27,7 +27,8 @@ struct Look {
 /// Faces of one material over shared points.
 struct Part {
   Look look;
-  std::vector<std::int32_t> indices;  ///< as Coin wants them: -1 ends a face
+  /// Indices in Coin's format: -1 ends a face.
+  std::vector<std::int32_t> indices;
 };
 
 struct Body {
@@ -35,7 +36,8 @@ struct Body {
   std::vector<Part> parts;
 };
 
-constexpr float kCrease = 0.62f;  // [rad] flatter edges are drawn round
+// Edges flatter than this are drawn round [rad].
+constexpr float kCrease = 0.62f;
 
 void add_face(Body& body, std::initializer_list<std::int32_t> face) {
   auto& indices = body.parts.back().indices;
@@ -43,7 +45,7 @@ void add_face(Body& body, std::initializer_list<std::int32_t> face) {
   indices.push_back(-1);
 }
 
-// Corners counted by bits, so that a face is a list of four numbers; all faces turn outwards.
+// Corners are numbered by bits, so that a face is a list of four numbers. All faces point outwards.
 Body box(const Vec3f& size, const Look& look) {
   Body b;
   b.parts.push_back({look, {}});
@@ -65,7 +67,7 @@ Body box(const Vec3f& size, const Look& look) {
 Body cylinder(float radius, float length, const Look& look, int sides = 28) {
   Body b;
   b.parts.push_back({look, {}});
-  // The side's corners come in pairs, lower and upper; the two middles of the ends follow at 2
+  // Corners of the side come in pairs, lower and upper; the centres of the two ends follow at 2
   // sides.
   for (int i = 0; i < sides; ++i) {
     const float a = 2 * static_cast<float>(kPi) * static_cast<float>(i) / static_cast<float>(sides);
@@ -83,7 +85,7 @@ Body cylinder(float radius, float length, const Look& look, int sides = 28) {
   return b;
 }
 
-/// Cone along z, its foot at -length / 2.
+/// Cone along z with its base at -length / 2.
 Body cone(float radius, float length, const Look& look, int sides = 28) {
   Body b;
   b.parts.push_back({look, {}});
@@ -101,7 +103,7 @@ Body cone(float radius, float length, const Look& look, int sides = 28) {
   return b;
 }
 
-/// Sphere, or with a `length` a capsule along z: the two halves of a sphere that far apart.
+/// Sphere, or with a `length` a capsule along z: two hemispheres at that distance.
 Body sphere(float radius, const Look& look, float length = 0) {
   constexpr int kSides = 24, kHalf = 6;
   // A capsule has its widest ring twice, below and above.
@@ -110,7 +112,7 @@ Body sphere(float radius, const Look& look, float length = 0) {
   b.parts.push_back({look, {}});
   for (int r = 0; r <= rings; ++r)
     for (int i = 0; i < kSides; ++i) {
-      // Rings of the poles have all corners in one place; their empty triangles are left out below.
+      // All corners of the rings at the poles coincide; their empty triangles are omitted below.
       const int of_sphere = r <= kHalf ? r : r - (rings - 2 * kHalf);
       const double up = kPi * (static_cast<double>(of_sphere) / (2 * kHalf) - 0.5),
                    a = 2 * kPi * i / kSides;
@@ -128,14 +130,14 @@ Body sphere(float radius, const Look& look, float length = 0) {
   return b;
 }
 
-/// Numbers of the points and faces of `mesh` as Coin wants them, part by part.
+/// Points and faces of `mesh` in Coin's format, part by part.
 Body mesh_body(const geometry::TriangleMesh& mesh, const Vec3f& scale, const Look& plain) {
   Body b;
   for (const Vec3& v : mesh.vertices) b.points.push_back(v.cast<float>().cwiseProduct(scale));
   // Part 0 has the visual's own colour, part k+1 the file's material k.
   b.parts.push_back({plain, {}});
   for (const geometry::MeshMaterial& m : mesh.materials) {
-    // OpenGL's exponents end at 128.
+    // Exponents of OpenGL end at 128.
     const auto shine =
         static_cast<float>(std::clamp(static_cast<double>(m.shininess) / 128.0, 0.0, 1.0));
     b.parts.push_back(
@@ -173,7 +175,7 @@ Body make_body(const scene::Visual& visual) {
       return cone(static_cast<float>(g.radius), static_cast<float>(g.length), look);
     case scene::Geometry::Kind::kCapsule:
       return sphere(static_cast<float>(g.radius), look, static_cast<float>(g.length));
-    // Drawn as a thin plate of its size.
+    // A plane is drawn as a thin plate of its size.
     case scene::Geometry::Kind::kPlane:
       return box(Vec3(g.size.x(), g.size.y(), 0.002).cast<float>(), look);
     case scene::Geometry::Kind::kMesh:
@@ -196,7 +198,7 @@ SoNode* make_node(const Body& body, const std::vector<bool>& solid) {
     if (part.indices.empty()) continue;
     auto* hints = new SoShapeHints;
     hints->vertexOrdering = SoShapeHints::COUNTERCLOCKWISE;
-    // Open parts are lit from both sides, the inner side of solid ones is left out.
+    // Open parts are lit from both sides; the inner side of solid ones is omitted.
     hints->shapeType = solid[k] ? SoShapeHints::SOLID : SoShapeHints::UNKNOWN_SHAPE_TYPE;
     hints->creaseAngle = kCrease;
     root->addChild(hints);
@@ -227,7 +229,7 @@ Shape make_shape(const Body& body) {
     std::size_t first = 0;
     for (std::size_t i = 0; i < part.indices.size(); ++i) {
       if (part.indices[i] >= 0) continue;
-      // A face with more than three corners is cut into a fan; that is exact for the flat and
+      // A face with more than three corners is cut into a fan, which is exact for the flat and
       // convex faces made here.
       for (std::size_t k = first + 2; k < i; ++k)
         for (const std::size_t j : {first, k - 1, k})
@@ -244,7 +246,7 @@ Shape make_shape(const Body& body) {
 }
 
 std::string name_of(const scene::Visual& visual) {
-  // The whole look as text: numbers to the last digit that a float shows, colours to four.
+  // Appearance as a text key: numbers to the last digit of a float, colours to four digits.
   const scene::Geometry& g = visual.geometry;
   char text[400];
   std::snprintf(text, sizeof text,

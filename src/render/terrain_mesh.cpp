@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tile is a grid of vertices at a stride of 2^level columns. Levels follow the size of a cell in
-// the picture; where two levels meet, skirts hang down behind the seam instead of matching
+// A tile is a grid of vertices at a stride of 2^level columns. The level follows from the size of a
+// cell in the picture; where two levels meet, skirts hang down behind the seam instead of matching
 // vertices.
 #include "render/terrain_mesh.h"
 
 namespace navvy::render {
 namespace {
 
-constexpr float kFinest = 7.0f;     // [pixels] smaller cells than this show nothing more
-constexpr float kWallSlope = 1.6f;  // steeper than this (58 degrees) is a wall with own triangles
+// Cells smaller than this show no more detail [pixels].
+constexpr float kFinest = 7.0f;
+// A steeper slope (58 degrees) is a wall with separate triangles.
+constexpr float kWallSlope = 1.6f;
 
-/// Node coordinates along one axis of a tile at a stride, always with both ends.
+/// Returns the node coordinates along one axis of a tile at a stride, including both ends.
 std::vector<int> nodes(int first, int cells, int stride) {
   std::vector<int> out;
   for (int k = 0; k < cells; k += stride) out.push_back(first + k);
@@ -22,7 +24,7 @@ Vertex colored(const Vec3f& p, const Vec3f& color) {
   return {p.x(), p.y(), p.z(), to_byte(color.x()), to_byte(color.y()), to_byte(color.z()), 255};
 }
 
-/// Mean colour over the stride x stride columns around a node, so that coarse levels do not
+/// Averages the colour of the stride x stride columns around a node, so that coarse levels do not
 /// flicker.
 Vertex node_vertex(const GroundSurface& surface, int ix, int iy, int stride) {
   const Vec3f p = surface.point(ix, iy);
@@ -40,12 +42,12 @@ Vertex node_vertex(const GroundSurface& surface, int ix, int iy, int stride) {
   return {p.x(), p.y(), p.z(), mean(sum[0]), mean(sum[1]), mean(sum[2]), 255};
 }
 
-// Split along a - c.
+// Split along the diagonal a - c.
 void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
 }
 
-/// Two triangles of one cell as walls: own vertices, light by the face.
+/// Adds the two triangles of a cell as walls: separate vertices, lit by face.
 void add_wall(Mesh& mesh, const GroundSurface& surface,
               const std::array<std::array<int, 2>, 4>& corner, const std::array<int, 6>& order) {
   for (std::size_t t = 0; t < 6; t += 3) {
@@ -55,7 +57,7 @@ void add_wall(Mesh& mesh, const GroundSurface& surface,
       p[k] = surface.point(c[0], c[1]);
     }
     const Vec3f n = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
-    const bool wall = n.z() < 0.62f;  // the cell's other triangle may be level
+    const bool wall = n.z() < 0.62f;  // The other triangle may be level.
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = corner[static_cast<std::size_t>(order[t + k])];
       (wall ? mesh.walls : mesh.indices)
@@ -69,7 +71,7 @@ void add_wall(Mesh& mesh, const GroundSurface& surface,
   }
 }
 
-/// A strip hanging down from a line of vertices.
+/// Adds a strip that hangs down from a line of vertices.
 void add_skirt(Mesh& mesh, std::vector<std::uint32_t>& skirt,
                const std::vector<std::uint32_t>& line, float drop) {
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -102,7 +104,8 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
     if (surface_.nx() < 2 || surface_.ny() < 2) tiles_x_ = tiles_y_ = 0;
     tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), {});
   }
-  // A tile shares its last nodes with the next one, and coarse colours look half a stride around.
+  // A tile shares its last nodes with the next one, and coarse colours average half a stride around
+  // them.
   std::vector<ColumnRect> wide;
   for (const ColumnRect& rect : changed)
     wide.push_back(rect.grown(1 << (kMaxLevel - 1), surface_.nx(), surface_.ny()));
@@ -113,7 +116,7 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
                (ty + 1) * kTile >= rect.y0;
       });
       if (!touched) continue;
-      // Its mesh is made anew when it is next seen, at whatever level that asks for.
+      // Its mesh is rebuilt when it is next visible, at the level that applies then.
       measure(tx, ty);
       tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)].level = -1;
     }
@@ -124,7 +127,7 @@ void TerrainMesh::update(const scene::FrameGround& ground, const Lighting& light
 }
 
 void TerrainMesh::measure(int tx, int ty) {
-  // The box decides what the camera sees, walls how fine a tile has to be.
+  // The box decides visibility; walls limit how coarse a tile may be.
   Tile& tile = tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)];
   const int x0 = tx * kTile, y0 = ty * kTile;
   tile.low = surface_.point(x0, y0);
@@ -142,12 +145,12 @@ void TerrainMesh::measure(int tx, int ty) {
 }
 
 int TerrainMesh::wanted_level(const Tile& tile, const View& view, float pixels) const {
-  // By the nearest point of the box: no part of a tile is coarser than it should be.
+  // Uses the nearest point of the box: no part of a tile is coarser than it should be.
   const Vec3f nearest = view.eye.cwiseMax(tile.low).cwiseMin(tile.high);
   const float distance = (nearest - view.eye).norm();
   const float cell_pixels = surface_.cell() * view.pixels_per_radian / std::max(distance, 0.1f);
-  // Level ground seen at a low angle is short in the picture: what counts is the mean of a cell's
-  // two sides there.
+  // Level ground at a low viewing angle is short in the picture: the mean of the two sides of a
+  // cell counts there.
   const float rise = std::max(0.0f, view.eye.z() - tile.high.z()) / std::max(distance, 0.1f);
   pixels *= tile.rough ? 0.35f : 1.0f / std::sqrt(std::clamp(rise, 0.15f, 1.0f));
   int level = 0;
@@ -156,7 +159,7 @@ int TerrainMesh::wanted_level(const Tile& tile, const View& view, float pixels) 
 }
 
 int TerrainMesh::neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const {
-  // As it will be chosen, not as it was built.
+  // The level to be chosen, not the one last built.
   const int tx = tile % tiles_x_ + dx, ty = tile / tiles_x_ + dy;
   if (tx < 0 || ty < 0 || tx >= tiles_x_ || ty >= tiles_y_) return -1;
   return wanted_level(tiles_[static_cast<std::size_t>(ty * tiles_x_ + tx)], view, pixels);
@@ -167,7 +170,7 @@ std::vector<GroundPart> TerrainMesh::select(const View& view, int budget) {
     float distance;
     int tile;
   };
-  // Nearest first, ties by number: the order of drawing is repeatable.
+  // Nearest first, ties by number: the drawing order is repeatable.
   std::vector<Candidate> seen;
   for (int i = 0; i < tiles_x_ * tiles_y_; ++i) {
     const Tile& tile = tiles_[static_cast<std::size_t>(i)];
@@ -177,8 +180,9 @@ std::vector<GroundPart> TerrainMesh::select(const View& view, int budget) {
   std::sort(seen.begin(), seen.end(), [](const Candidate& a, const Candidate& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.tile < b.tile;
   });
-  // The finest detail whose triangles fit: a coarse cell covers at most `pixels` of the picture.
-  // Coarser by a quarter until it fits: a few rounds over boxes, cheap beside one tile too many.
+  // Finds the finest detail whose triangles fit the budget: a coarse cell covers at most `pixels`
+  // of the picture. Coarsens by a quarter until it fits: a few rounds over boxes are cheap compared
+  // with one tile too many.
   float pixels = kFinest;
   for (; pixels < 64; pixels *= 1.25f) {
     std::int64_t triangles = 0;
@@ -194,7 +198,7 @@ std::vector<GroundPart> TerrainMesh::select(const View& view, int budget) {
   for (const Candidate& c : seen) {
     Tile& tile = tiles_[static_cast<std::size_t>(c.tile)];
     const int level = wanted_level(tile, view, pixels);
-    // Kept from the last picture where neither ground nor level changed.
+    // Reuses the mesh of the last picture if neither ground nor level changed.
     if (tile.level != level) build(c.tile % tiles_x_, c.tile / tiles_x_, level);
     GroundPart part{&tile.mesh, {}, tile.low, tile.high};
     for (std::size_t k = 0; k < 4; ++k)
@@ -218,21 +222,21 @@ void TerrainMesh::build(int tx, int ty, int level) {
                          ys = nodes(ty * kTile, nodes_y(ty), stride);
   const auto width = static_cast<std::uint32_t>(xs.size()),
              rows = static_cast<std::uint32_t>(ys.size());
-  // Shared vertices of the level part; walls add their own.
+  // Shared vertices of the level part; walls add separate ones.
   for (const int iy : ys)
     for (const int ix : xs) mesh.vertices.push_back(node_vertex(surface_, ix, iy, stride));
 
-  // A drop that makes a cell a wall [m].
+  // Height difference that makes a cell a wall [m].
   const float wall = kWallSlope * surface_.cell();
   for (std::uint32_t j = 0; j + 1 < rows; ++j)
     for (std::uint32_t i = 0; i + 1 < width; ++i) {
       const std::uint32_t a = j * width + i, b = a + 1, c = b + width, d = a + width;
       const float ha = mesh.vertices[a].z, hb = mesh.vertices[b].z, hc = mesh.vertices[c].z,
                   hd = mesh.vertices[d].z;
-      // Cut along the diagonal of more equal heights
+      // Split along the diagonal whose heights differ less.
       const bool other = std::abs(ha - hc) > std::abs(hb - hd);
       const float range = std::max({ha, hb, hc, hd}) - std::min({ha, hb, hc, hd});
-      // Coarser levels are too far away for walls to be told apart.
+      // At coarser levels walls are too far away to be visible.
       if (level == 0 && range > wall) {
         const int x = xs[i], y = ys[j];
         const std::array<std::array<int, 2>, 4> corner = {
@@ -248,7 +252,7 @@ void TerrainMesh::build(int tx, int ty, int level) {
 
   // Long enough to close any seam to a neighbour of another level.
   const float drop = 0.1f + std::min(3.0f, tile.high.z() - tile.low.z());
-  // Each line runs so that its skirt faces outwards.
+  // Each line is ordered such that its skirt faces outwards.
   std::vector<std::uint32_t> south, east, north, west;
   for (std::uint32_t i = 0; i < width; ++i) {
     south.push_back(i);
@@ -269,8 +273,8 @@ GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
   if (!surroundings_stale_ || tiles_.empty()) return part;
   surroundings_stale_ = false;
   surroundings_ = {};
-  // The edge as one closed line, counter-clockwise from the lower-left corner, with its way
-  // outwards.
+  // The edge as one closed line, counter-clockwise from the lower-left corner, with its outward
+  // directions.
   constexpr int kStep = 4;
   const int nx = surface_.nx(), ny = surface_.ny();
   std::vector<std::array<int, 2>> edge;
@@ -279,7 +283,7 @@ GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
   for (int x = nx - 1; x > 0; x -= kStep) edge.push_back({x, ny - 1});
   for (int y = ny - 1; y > 0; y -= kStep) edge.push_back({0, y});
 
-  // Far out the ground is level and of the mean colour of the edge.
+  // Far out the ground is level and has the mean colour of the edge.
   float mean = 0;
   Vec3f color = Vec3f::Zero();
   for (const auto& [x, y] : edge) {
@@ -289,7 +293,8 @@ GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
   }
   // Rings of the same points, moved outwards.
   const Vec3f center = 0.5f * (surface_.point(0, 0) + surface_.point(nx - 1, ny - 1));
-  constexpr std::array<float, 8> kReach = {0, 0.6f, 2, 5, 12, 40, 150, 900};  // [m] beyond the edge
+  // Distances beyond the edge [m].
+  constexpr std::array<float, 8> kReach = {0, 0.6f, 2, 5, 12, 40, 150, 900};
   const auto around = static_cast<std::uint32_t>(edge.size());
   for (std::size_t ring = 0; ring < kReach.size(); ++ring)
     for (const auto& [x, y] : edge) {
@@ -315,7 +320,7 @@ GroundPart TerrainMesh::surroundings(const Lighting& lighting) {
       add_quad(surroundings_, ring * around + k, ring * around + i, (ring + 1) * around + i,
                (ring + 1) * around + k);
     }
-  // The site's edge is finer than this one: what shows between the two is soil, not sky.
+  // The edge of the site is finer than this mesh: gaps between the two show soil, not sky.
   std::vector<std::uint32_t> line;
   for (std::uint32_t i = 0; i <= around; ++i) line.push_back(i % around);
   add_skirt(surroundings_, surroundings_.skirts[0], line, 2.0f);

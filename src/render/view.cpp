@@ -8,14 +8,14 @@ View::View(const scene::FrameCamera& camera)
       rotation(camera.X_WC.linear()),
       width(camera.width),
       height(camera.height) {
-  // At 0 and at 180 degrees there would be no picture.
+  // Angles of 0 and 180 degrees give no picture.
   const double fov = std::clamp(camera.fov, radians(1), radians(170));
   tan_x = std::tan(0.5 * fov);
   // Pixels are square, so the height follows from the width.
   tan_y = tan_x * height / width;
   pixels_per_radian = static_cast<float>(0.5 * width / tan_x);
 
-  // The usual perspective of OpenGL, looking along -z, with depth from -1 to 1.
+  // Standard perspective projection of OpenGL, looking along -z, with depth from -1 to 1.
   Eigen::Matrix4d p = Eigen::Matrix4d::Zero();
   p(0, 0) = 1 / tan_x;
   p(1, 1) = 1 / tan_y;
@@ -25,7 +25,7 @@ View::View(const scene::FrameCamera& camera)
   Eigen::Map<Eigen::Matrix4d>(projection.data()) = p;
   Eigen::Map<Eigen::Matrix4d>(model_view.data()) = camera.X_WC.inverse().matrix();
 
-  // Each side plane holds the eye and an edge of the picture; its normal points inwards.
+  // Each side plane contains the camera and an edge of the picture; its normal points inwards.
   const Vec3 right = rotation.col(0), up = rotation.col(1), forward = -rotation.col(2);
   const std::array<Vec3, 5> normals = {
       (forward * tan_x + right).eval(), (forward * tan_x - right).eval(),
@@ -39,8 +39,7 @@ View::View(const scene::FrameCamera& camera)
 
 bool View::sees(const Vec3f& low, const Vec3f& high) const {
   for (const Eigen::Vector4f& plane : planes) {
-    // The corner that lies farthest inside decides: a box is left out only when it lies wholly
-    // beyond one plane.
+    // The corner farthest inside decides: a box is culled only when it is wholly beyond one plane.
     float most = plane.w();
     for (int i = 0; i < 3; ++i) most += plane[i] * (plane[i] > 0 ? high[i] : low[i]);
     if (most < 0) return false;

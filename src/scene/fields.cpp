@@ -90,7 +90,7 @@ std::string short_text(double value, int digits) {
 
 std::string exact_text(double in_si, double factor) {
   char text[40];
-  // Adding zero turns -0 into 0: no run can tell them apart.
+  // Adding zero turns -0 into 0, which no run distinguishes.
   const double value = (in_si + 0.0) / factor;
   for (const int digits : {12, 15, 16, 17}) {
     const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, digits);
@@ -126,7 +126,7 @@ std::string value_text(const Value& value, double factor) {
                  [](const std::optional<int>* v) { return *v ? std::to_string(**v) : "none"; },
                  [&](const Direction& v) { return numbers(v.value->data(), 3); },
                  [&](const Rgb& v) { return numbers(v.value, 3); },
-                 [](const Choice& v) { return std::string(v.names.at(v.get())); },
+                 [](const NamedChoice& v) { return std::string(v.names.at(v.get())); },
                  [](const Computed& v) { return v(); }, [](const Pose*) { return std::string(); }},
       value);
 }

@@ -67,7 +67,7 @@ inline Mark given(bool& flag) { return {0, &flag}; }
 constexpr Mark operator|(Mark a, Mark b) { return {a.bits | b.bits, a.given ? a.given : b.given}; }
 
 /// Reference to an enumeration or flag that a file writes by name.
-struct Choice {
+struct NamedChoice {
   std::vector<const char*> names;
   std::function<std::size_t()> get;
   std::function<void(std::size_t)> set;
@@ -85,7 +85,7 @@ using Computed = std::function<std::string()>;
 /// Reference to the member behind a field.
 using Value = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, Vec2*, Vec3*, Pose*,
                            Mat3*, std::vector<double>*, std::vector<Vec3>*, std::optional<int>*,
-                           Direction, Rgb, Choice, Computed>;
+                           Direction, Rgb, NamedChoice, Computed>;
 
 /// Returns the value of a field as text in the unit of its file, exact to the last bit.
 std::string value_text(const Value& value, double factor);
@@ -182,7 +182,7 @@ class Fields {
   template <class T>
   void operator()(const char* name, T& member, std::vector<std::pair<const char*, T>> choices,
                   const char* text, Mark mark = {}) {
-    Choice choice;
+    NamedChoice choice;
     for (const auto& [key, value] : choices) choice.names.push_back(key);
     choice.get = [&member, choices] {
       std::size_t i = 0;

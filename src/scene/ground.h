@@ -181,7 +181,7 @@ struct StartGround {
     f("layer", layers, limits::kGroundLayers,
       "Layers of soil from the surface down; a world of one soil needs none.");
     f("patch", patches, limits::kGroundParts, "Other layers in a rectangle; later ones win.");
-    f("awake", active, limits::kGroundParts, "Soil in a rectangle that starts as particles.");
+    f("active", active, limits::kGroundParts, "Soil in a rectangle that starts as particles.");
     using Kind = GroundFeature::Kind;
     f.list("shape", features, limits::kGroundParts,
            std::vector<Start<GroundFeature>>{

@@ -38,7 +38,7 @@ struct SolverSettings {
       "Rate whose period is a whole number of base steps.", kShown);
     f("max_particles", max_particles, {1000, limits::kParticles},
       "Budget of particles. Beyond it, the ground farthest from the tools is not activated.");
-    f("awake_zone", active_zone, {0.5, 4},
+    f("active_zone", active_zone, {0.5, 4},
       "Factor of the zone around and below a tool in which soil is active.");
     f.derived("exchange", exchange);
   }
@@ -193,7 +193,7 @@ struct Scene {
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the scene and of the folder of its results.", kSdf | kShown);
-    f("gravity", gravity, "Acceleration of gravity in W [m/s2].", kSdf);
+    f("gravity", gravity, {-100, 100}, "Acceleration of gravity in W [m/s2].", kSdf);
     f("navvy:seed", seed, "Seed of everything random: hills and faults of encoders.");
     f("navvy:soil", soils, limits::kSoils, "Soil, by values of its own or by a shipped one.",
       kNeeded);

@@ -18,6 +18,7 @@ struct Soil {
   double swell = 1.23;
   double friction_angle = 0.5236;
   double repose_angle = 0;
+  bool has_repose_angle = false;
   double static_friction_share = 0.1;
   double cohesion = 5000;
   double residual_cohesion = 1000;
@@ -53,7 +54,8 @@ struct Soil {
     f("friction_angle_deg", friction_angle, {0, 60},
       "Internal friction angle phi in plane strain.");
     f("repose_angle_deg", repose_angle, {0, 44},
-      "Angle of repose t, to give instead of phi: sin phi = tan t.", kShown);
+      "Angle of repose t, to give instead of phi: sin phi = tan t.",
+      kShown | given(has_repose_angle));
     f("static_friction_share", static_friction_share, {0, 0.1},
       "Share by which soil at rest, or sheared slower than 0.1 /s, is stronger than flowing soil.");
     f("cohesion_pa", cohesion, {0, 1e6}, "Cohesion of intact soil.");

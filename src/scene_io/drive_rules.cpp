@@ -82,12 +82,12 @@ void finish_engine(Element& drive_element, scene::AckermannDrive& drive, Faults&
       faults.error(*child, text_of(*child), "follows from the drive's engine and gears",
                    "remove it, or <engine>");
   // Elements with faults of their own are not reported a second time.
-  if (faults.blamed(*element) || !drive.engine) return;
+  if (faults.has_fault(*element) || !drive.engine) return;
   scene::CombustionEngine& engine = *drive.engine;
   check_curve(*element, engine, faults);
   check_engine_kind(*element, engine, faults);
   check_gears(*element, engine.gears, faults);
-  if (faults.blamed(*element) || !engine.shared_with_pump) return;
+  if (faults.has_fault(*element) || !engine.shared_with_pump) return;
   const scene::CombustionEngine::Point rated = scene::rated_point(engine);
   drive.engine_power = rated.speed * rated.torque;
 }

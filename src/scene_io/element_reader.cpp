@@ -116,7 +116,7 @@ struct ValueReader {
     else if (numbers(3, v))
       for (std::size_t i = 0; i < 3; ++i) out.value[i] = static_cast<float>(v[i]);
   }
-  void operator()(const scene::Choice& out) const {
+  void operator()(const scene::NamedChoice& out) const {
     const std::string value = text_of(at);
     std::string rule = "must be one of";
     for (std::size_t i = 0; i < out.names.size(); ++i) {

@@ -38,7 +38,7 @@ void check_rectangles(Element& element, const scene::StartGround& ground, Faults
     check_layers(*patch, ground.patches[i++].layers, faults);
   }
   i = 0;
-  for (Element* active : children_of(element, {"awake"})) {
+  for (Element* active : children_of(element, {"active"})) {
     check_rectangle(*active, ground.active[i].min, ground.active[i].max, faults);
     ++i;
   }

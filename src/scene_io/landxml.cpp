@@ -50,7 +50,7 @@ double read_unit(const Element& root, const Reading& reading) {
   if (name == nullptr) {
     const Element& at = kind != nullptr ? *kind : units != nullptr ? *units : root;
     reading.error(
-        at, "", "gives no unit; feet and metres cannot be told apart by numbers",
+        at, "", "gives no unit; numbers do not distinguish feet and metres",
         "add <Units><Metric linearUnit=\"meter\"/></Units>, or <Imperial linearUnit=\"foot\"/> or "
         "\"USSurveyFoot\"");
     return 0;

@@ -135,11 +135,11 @@ void check_materials(const scene::Scene& world, Faults& faults) {
         uses.push_back({m, &material, stands});
     }
   }
-  std::set<std::set<std::string>> told;
+  std::set<std::set<std::string>> reported;
   for (const Use& use : uses) {
     const std::string& name = use.material->name;
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      if (told.insert({name}).second)
+      if (reported.insert({name}).second)
         faults.add(at_use(world, use, "no pair of the scene's <navvy:materials> has this material",
                           faults.nearest(name, known)));
       continue;
@@ -147,7 +147,7 @@ void check_materials(const scene::Scene& world, Faults& faults) {
     const auto look = [&](const std::string& other) {
       const bool both_known = std::find(known.begin(), known.end(), other) != known.end();
       if (!both_known || world.materials.pair(name, other) != nullptr ||
-          !told.insert({name, other}).second)
+          !reported.insert({name, other}).second)
         return;
       faults.add(at_use(
           world, use, "touches '" + other + "', and the scene's <navvy:materials> has no such pair",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/renamed_names.h"
 #include "core/utf8.h"
 #include "scene_io/element_reader.h"
 #include "scene_io/schema.h"
@@ -33,6 +34,7 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
       at = end + 1;
     }
     if (part.name.empty() || (at < key.size() && key[at] != '.')) return false;
+    part.name = current_name(NameKind::kElement, part.name);
     parts.push_back(part);
     if (at++ == key.size()) break;
   }
@@ -41,16 +43,9 @@ bool split_key(const std::string& key, std::vector<Part>& parts) {
 }
 
 void key_fault(const std::string& key, const std::string& value, const std::string& rule,
-               const std::string& remedy,
-               // The key stands for the element.
-               Faults& faults) {
-  Fault fault;
-  fault.file = "command line";
-  fault.element = key;
-  fault.value = value;
-  fault.rule = rule;
-  fault.remedy = remedy;
-  faults.add(fault);
+               const std::string& remedy, Faults& faults) {
+  // The key stands for the element.
+  faults.add({Fault::Severity::kError, "command line", 0, key, value, rule, remedy});
 }
 
 /// Returns "ew180" for model://ew180, ../ew180/model.sdf, ew180/ and ew180.sdf.

@@ -44,9 +44,13 @@ class Builder final : public scene::Fields {
     if (number) out.range = f.range;
     out.repeats = std::holds_alternative<std::vector<Vec3>*>(f.value);
     if (out.repeats) out.most = limits::kLinks;
-    if (const auto* choice = std::get_if<scene::Choice>(&f.value))
+    if (const auto* choice = std::get_if<scene::NamedChoice>(&f.value))
       out.choices.assign(choice->names.begin(), choice->names.end());
-    if (!out.needed && !f.mark.given && out.type != "pose")
+    // A number out of its range, such as 0 for a rate, stands for "not given".
+    double* const* value = std::get_if<double*>(&f.value);
+    const bool none = value != nullptr &&
+                      (**value < f.range.min * unit.factor || **value > f.range.max * unit.factor);
+    if (!out.needed && !f.mark.given && !none && out.type != "pose")
       out.initial = scene::value_text(f.value, unit.factor);
   }
   void group(const scene::Group& group, const std::function<void(Fields&)>& describe) override {

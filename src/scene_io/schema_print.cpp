@@ -28,7 +28,26 @@ std::string unit_or_type(const SchemaNode& node) {
   return node.type + (node.unit.empty() ? "" : " [" + node.unit + "]");
 }
 
-std::string initial_of(const SchemaNode& node) { return node.needed ? "needed" : node.initial; }
+/// Returns the fewest digits that a reader of the page needs: floats and angles in radians have
+/// many.
+std::string rounded(const std::string& word) {
+  double value = 0;
+  if (!to_number(word, value)) return word;
+  for (int digits = 4; digits < 9; ++digits) {
+    double back = 0;
+    const std::string text = scene::short_text(value, digits);
+    if (to_number(text, back) && std::abs(back - value) <= 1e-5 * std::abs(value)) return text;
+  }
+  return word;
+}
+
+std::string initial_of(const SchemaNode& node) {
+  if (node.needed) return "needed";
+  std::string out;
+  for (const std::string& word : words_of(node.initial))
+    out += (out.empty() ? "" : " ") + rounded(word);
+  return out;
+}
 
 std::string sentence(const SchemaNode& node) {
   return node.text + (node.only.empty() ? "" : " Only of type " + node.only + ".");
@@ -60,7 +79,7 @@ void print_json(const SchemaNode& node, const std::string& indent, std::string& 
   };
   if (node.key != node.name) add("set", node.key);
   add("unit", node.unit);
-  add("default", node.initial);
+  if (!node.needed) add("default", initial_of(node));
   if (bounded(node.range.min))
     out += ", \"min\": " + scene::exact_text(node.range.min) +
            ", \"max\": " + scene::exact_text(node.range.max);

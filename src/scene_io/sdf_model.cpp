@@ -72,7 +72,7 @@ std::string as_sdf_text(const Element& model) {
 
 // Returns the element that a message of libsdformat, which has no lines, names in brackets or
 // quotes.
-const Element& blamed(const Element& model, const std::string& message) {
+const Element& named_in(const Element& model, const std::string& message) {
   for (const Element* child = model.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
     const std::string name = attribute(*child, "name");
@@ -88,7 +88,7 @@ const Element& blamed(const Element& model, const std::string& message) {
 void report(const Element& model, const sdf::Errors& errors, Faults& faults) {
   for (const sdf::Error& error : errors) {
     const std::string message = unveiled(error.Message());
-    faults.error(blamed(model, message), "", "libsdformat: " + message);
+    faults.error(named_in(model, message), "", "libsdformat: " + message);
   }
 }
 

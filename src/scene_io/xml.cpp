@@ -49,7 +49,7 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
 void Faults::error(const Element& at, const std::string& value, const std::string& rule,
                    const std::string& remedy) {
   for (const tinyxml2::XMLNode* up = &at; up != nullptr && up->ToElement(); up = up->Parent())
-    blamed_.insert(up->ToElement());
+    faulty_.insert(up->ToElement());
   add_at(Fault::Severity::kError, at, value, rule, remedy);
 }
 

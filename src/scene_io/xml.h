@@ -51,7 +51,7 @@ class Faults {
   void add(Fault fault);
   /// Returns true if an error was reported at `element` or inside it. Rules among several fields
   /// skip elements with faults of their own.
-  bool blamed(const Element& element) const { return blamed_.count(&element) > 0; }
+  bool has_fault(const Element& element) const { return faulty_.count(&element) > 0; }
   bool has_errors() const { return error_count() > 0; }
   /// Returns the number of all faults, shown or not.
   std::size_t error_count() const { return errors_.all; }
@@ -77,7 +77,7 @@ class Faults {
   std::vector<Fault> list_;
   Counted errors_, warnings_;
   mutable std::set<std::string> listed_;
-  std::set<const void*> blamed_;  ///< elements with errors, and all around them
+  std::set<const void*> faulty_;  ///< elements with errors, and all around them
 };
 
 /// Place where an element was written.

@@ -47,7 +47,7 @@ void check_active(const scene::Scene& scene, const heightfield::Ground& ground) 
         particles += thickness * ground.cell() * ground.cell() / each;
         if (particles <= most && ++columns <= most) continue;
         throw InputError(Fault{Fault::Severity::kError, scene.file, 0,
-                               "world/navvy:ground/awake[" + std::to_string(i + 1) + "]",
+                               "world/navvy:ground/active[" + std::to_string(i + 1) + "]",
                                std::to_string(rect.area()) + " columns",
                                "holds more soil than the " +
                                    std::to_string(scene.solver.max_particles) +

@@ -29,7 +29,7 @@ ActivePlaces active_places(const World& world) {
   const std::vector<std::uint8_t> held = parts(world).coupling.held(particles);
   const std::size_t soils = world.description().soils.size();
   ActivePlaces out;
-  out.lies.resize(soils);
+  out.resting.resize(soils);
   out.held.resize(soils);
   out.elsewhere.resize(soils);
   // Soil that no tool holds is elsewhere until it is found on a column.
@@ -40,7 +40,7 @@ ActivePlaces active_places(const World& world) {
   }
   out.lying = heightfield::LooseSoil(world.ground(), std::move(grains));
   for (const heightfield::LooseGrain& grain : out.lying.grains()) {
-    out.lies[grain.soil] += grain.mass;
+    out.resting[grain.soil] += grain.mass;
     out.elsewhere[grain.soil] -= grain.mass;
   }
   return out;

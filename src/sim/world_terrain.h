@@ -23,7 +23,7 @@ struct ActivePlaces {
   /// Soil on columns, which maps add to them.
   heightfield::LooseSoil lying;
   /// Its mass.
-  std::vector<std::int64_t> lies;
+  std::vector<std::int64_t> resting;
   /// Mass in buckets and beds, which payloads count.
   std::vector<std::int64_t> held;
   /// Mass in the air, or on a tool above its rim.

@@ -48,7 +48,7 @@ TEST(BenchRow, RatesAndSharesFollowFromTheFastestRun) {
   EXPECT_EQ(cell(row, "kernel_particle_steps_per_s"), "2.5e+04");
 }
 
-TEST(BenchRow, WhatWasNotMeasuredIsEmpty) {
+TEST(BenchRow, LeavesUnmeasuredFieldsEmpty) {
   Row row = example();
   row.peak = {};
   row.simulated = 0;

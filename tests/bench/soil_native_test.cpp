@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The native loop of bench/native compared with the double-precision twin: a bench cannot measure
-// what no test checks.
+// Compares the native loop of bench/native with the double-precision twin, so that benches measure
+// checked code.
 #include "native/native_soil.h"
 
 #include <gtest/gtest.h>
@@ -89,14 +89,14 @@ TEST(NativeLoop, AgreesWithTheDoubleTwinOnTheGround) {
   }
   const Worst worst = compare(native, twin);
   std::printf("[ VALUE    ] native loop against double twin after 6 steps: %.2g cells\n", worst.x);
-  // The bounds of the kernels (SoilSolver.AgreesWithTheDoubleTwin).
+  // Same bounds as for the kernels (SoilSolver.AgreesWithTheDoubleTwin).
   EXPECT_LT(worst.x, 2e-5);
   EXPECT_LT(worst.v, 2e-3);
   EXPECT_LT(worst.s, 20);
   EXPECT_LT(worst.j, 1e-5);
 }
 
-TEST(NativeLoop, SortingChangesNothingButTheOrderOfSums) {
+TEST(NativeLoop, SortingOnlyChangesTheOrderOfSums) {
   // Long enough for several sorts. The twin keeps the blocks of the start, so only the mean fall is
   // compared.
   const auto start = lump(10, 10, 10);

@@ -14,8 +14,8 @@
 namespace navvy::bench {
 namespace {
 
-// Ground and soil are restored together between runs: otherwise the mass ledger opens, and the
-// solver stops.
+// Ground and soil must be restored together between runs; otherwise the mass ledger has an error
+// and the solver stops.
 TEST(SoilRows, TheSameCaseTwiceDoesTheSameWork) {
   device::Device device;
   for (const SoilCase& c : soil_cases()) {
@@ -26,7 +26,7 @@ TEST(SoilRows, TheSameCaseTwiceDoesTheSameWork) {
   }
 }
 
-TEST(SoilRows, RowsHoldWhatTheirColumnsNeed) {
+TEST(SoilRows, FillsEveryColumnOfItsRows) {
   device::Device device;
   std::vector<Row> rows;
   run_soil_cases(device, "", true, [&](const Row& row) { rows.push_back(row); });
@@ -59,14 +59,14 @@ TEST(SoilRows, RowsHoldWhatTheirColumnsNeed) {
   }
 }
 
-TEST(SoilRows, AWordPicksTheCasesThatHoldIt) {
+TEST(SoilRows, SelectsTheCasesWhoseNamesContainAWord) {
   device::Device device;
   std::vector<std::string> names;
   run_soil_cases(device, "held", false, [&](const Row& row) { names.push_back(row.bench); });
   EXPECT_EQ(names, std::vector<std::string>{"soil_held_bucket"});
 }
 
-TEST(Peak, IsWithinWhatAnyDeviceCanDo) {
+TEST(Peak, IsWithinTheRangeOfRealDevices) {
   device::Device device;
   const double flops = fma_peak(device), copy = copy_bandwidth(device, std::size_t{1} << 24);
   EXPECT_TRUE(flops > 1e8 && flops < 1e15) << flops;
@@ -77,7 +77,7 @@ TEST(SoilRows, AnUnknownNameIsRefusedWithTheKnownOnes) {
   device::Device device;
   try {
     run_soil_cases(device, "no such case", false, [](const Row&) {});
-    FAIL() << "nothing was thrown";
+    FAIL() << "no exception was thrown";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("soil_held_bucket"), std::string::npos)
         << error.what();

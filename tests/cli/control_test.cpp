@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers that slip, flood, or go away.
+// Controllers that send faulty lines, flood the program, or disconnect.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -34,7 +34,7 @@ class Control : public testing::Test {
             "stdio",        "--out",
             folder_ / "out"};
   }
-  /// Exit status of a run that is handed `input` at once; what it said, line by line, goes to
+  /// Runs the program with `input` sent at once and returns its exit status; its output lines go to
   /// `lines`.
   int drive(const std::string& input, std::vector<json>& lines,
             const std::string& scene = "bucket_path") {
@@ -57,7 +57,7 @@ class Control : public testing::Test {
   const test::Folder folder_;
 };
 
-TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
+TEST_F(Control, AnswersAFaultyLineAndContinuesTheRun) {
   const std::vector<std::pair<std::string, std::string>> bad = {
       {R"({"inputs": {"bucket/slyde_x/velocity": 1}})", "bucket/slide_x/velocity"},
       {R"({"inputs": {"bucket/slide_x/velocity": 1, "bucket/slyde_x/velocity": 1}})",
@@ -83,16 +83,16 @@ TEST_F(Control, ABadLineIsAnsweredAndTheRunGoesOn) {
   for (std::size_t i = 0; i < bad.size(); ++i) {
     EXPECT_EQ(lines[i + 1].at("line"), i + 1);
     EXPECT_NE(lines[i + 1].at("error").get<std::string>().rfind("error", 0), 0u)
-        << "the key says so";
+        << "the key identifies the fault";
     EXPECT_NE(lines[i + 1].at("error").get<std::string>().find(bad[i].second), std::string::npos)
         << bad[i].first << ": " << lines[i + 1];
   }
-  // The second bad line named a good input as well: none of it acted.
+  // The second bad line also names a valid input, which must not take effect.
   EXPECT_NEAR(lines.back().at("time").get<double>(), 0.02, 0.003);
   EXPECT_EQ(summary().at("status"), "finished");
 }
 
-TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
+TEST_F(Control, AnswersRequestsWhileTimeIsPaused) {
   const std::string snapshot = folder_ / "s.snapshot";
   const std::string input = R"({"info": true}
 {"heights": {"min_m": [-0.5, -0.5], "max_m": [0.5, 0], "cell_m": 0.25}}
@@ -127,19 +127,19 @@ TEST_F(Control, AnswersRequestsWhileTimeStandsStill) {
   EXPECT_EQ(lines[5].at("changed").at("rects_m").size(), 0u);
   EXPECT_EQ(lines[6].at("save").at("file"), snapshot);
   EXPECT_EQ(lines[7], lines[6]) << "a snapshot may be replaced";
-  // One control step on, and back: the outputs come again.
+  // One control step forwards and back: the outputs repeat.
   EXPECT_NEAR(lines[8].at("time").get<double>(), 0.02, 0.003);
   EXPECT_EQ(lines[9].at("load").at("time"), 0);
   EXPECT_EQ(lines[10], lines[0]);
-  EXPECT_EQ(lines[11], lines[8]) << "the same step again gives the same bits";
+  EXPECT_EQ(lines[11], lines[8]) << "repeating the step is bit-identical";
   EXPECT_NEAR(lines[12].at("time").get<double>(), 0.04, 0.003);
   EXPECT_EQ(lines[13].at("reset").at("time"), 0);
   EXPECT_EQ(lines[14], lines[0]);
 }
 
-TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
-  // The bucket goes down at 1 m/s from 0.2 m above the ground and asks before it is there, and in
-  // the ground.
+TEST_F(Control, ReportsChangesSinceTheSequenceNumberOfHeights) {
+  // The bucket goes down at 1 m/s from 0.2 m above the ground; heights are requested before it
+  // reaches the ground and when it is in it.
   std::string down = "{\"inputs\": {\"bucket/slide_z/velocity\": -1}}\n",
               input = "{\"heights\": {\"cell_m\": 1}}\n" + down;
   for (int i = 0; i < 25; ++i) input += "{}\n";
@@ -168,7 +168,7 @@ TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
   }
   ASSERT_EQ(heights.size(), 5u);
   ASSERT_EQ(changed.size(), 6u);
-  // One map a change, whoever asks: the start, what the bucket has done, two steps more, the start
+  // One map per change, for all requests: the start, after the dig, two steps later, and the start
   // again.
   EXPECT_EQ(heights[0].at("sequence"), 1);
   EXPECT_EQ(heights[1].at("sequence"), 2);
@@ -176,7 +176,8 @@ TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
   EXPECT_EQ(changed[0].at("since"), 1);
   EXPECT_EQ(changed[0].at("sequence"), 2);
   EXPECT_GT(changed[0].at("columns"), 0);
-  // Soil moves in every step: the number of the map that was seen leads to what changed after it.
+  // Soil moves in every step: the number of the last map that was read selects the changes after
+  // it.
   EXPECT_EQ(changed[1].at("since"), 2);
   EXPECT_EQ(changed[1].at("sequence"), 3);
   EXPECT_GT(changed[1].at("columns"), 0);
@@ -186,8 +187,7 @@ TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
   EXPECT_EQ(changed[2].at("columns"), 0);
   EXPECT_EQ(changed[2].at("time"), changed[1].at("time"));
   EXPECT_EQ(changed[3].at("since"), 0);
-  // Known from the first question on: where the soil has changed, and not where a slope has, beside
-  // it.
+  // After the first request, soil that changed is known; a changed slope beside it is not.
   const auto known = [](const json& answer) {
     const json& values = answer.at("values");
     return std::count_if(values.begin(), values.end(),
@@ -195,8 +195,8 @@ TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
   };
   EXPECT_GT(known(heights[2]), 0);
   EXPECT_LE(known(heights[2]), changed[0].at("columns"));
-  // The start again: its time is earlier, nothing is known of what was, and no number of before
-  // leads to it.
+  // After the reset: time is earlier, the earlier history is unknown, and no earlier number is
+  // valid.
   EXPECT_EQ(heights[4].at("sequence"), 4);
   EXPECT_EQ(heights[4].at("map_time"), 0);
   EXPECT_EQ(known(heights[4]), 0);
@@ -205,7 +205,7 @@ TEST_F(Control, ChangesAreReportedFromTheNumberThatHeightsGave) {
   EXPECT_EQ(changed[5].at("columns"), 0);
 }
 
-TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
+TEST_F(Control, AFailedRequestDoesNotAffectTheRun) {
   std::ofstream(folder_ / "bad.snapshot") << "navvy state of nothing";
   std::ofstream(folder_ / "ctl.py") << "print('drive')";
   const std::vector<std::pair<std::string, std::string>> bad = {
@@ -242,7 +242,7 @@ TEST_F(Control, ARequestThatCannotBeAnsweredLeavesTheRunGoingAsItWas) {
   EXPECT_EQ(lines.back(), plain.back()) << "no request leaves a trace";
 }
 
-TEST_F(Control, WatchesALinkFromTheNextOutputsOn) {
+TEST_F(Control, IncludesAWatchedLinkInTheNextOutputs) {
   std::vector<json> lines;
   ASSERT_EQ(drive("{\"watch\": \"bucket/carriage\"}\n{}\n{\"end\": true}\n", lines), 0)
       << complained();
@@ -260,11 +260,11 @@ TEST_F(Control, SendsThePictureOfACamera) {
   const json& image = lines[1].at("image");
   EXPECT_EQ(image.at("camera"), "side");
   EXPECT_GT(image.at("width"), 0);
-  // The first eight bytes of every PNG.
+  // First eight bytes of every PNG.
   EXPECT_EQ(image.at("png_base64").get<std::string>().substr(0, 10), "iVBORw0KGg");
 }
 
-TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
+TEST_F(Control, RefusesLinesOfAnySizeAndDepthInOnePass) {
   const std::string deep(100000, '['),
       wide = "{\"inputs\": {\"" + std::string(900000, 'x') + "\": 1}}";
   std::string hidden = R"({"inputs": {"a)" + std::string(1000, '[') + R"(": 1}})", endless;
@@ -289,7 +289,7 @@ TEST_F(Control, LinesOfAnySizeAndDepthAreRefusedInOnePass) {
               spent.count());
 }
 
-TEST_F(Control, ReportsATargetBeyondAJointsLimitsOnceAnInput) {
+TEST_F(Control, ReportsATargetBeyondAJointsLimitsOncePerInput) {
   const std::string
       beyond = R"({"inputs": {"excavator/boom_joint/position": 90}})",
       other =
@@ -301,7 +301,7 @@ TEST_F(Control, ReportsATargetBeyondAJointsLimitsOnceAnInput) {
                   lines, "trench"),
             0)
       << complained();
-  EXPECT_EQ(lines.size(), 6u) << "the run goes on";
+  EXPECT_EQ(lines.size(), 6u) << "the run continues";
   const std::string said = complained();
   const auto count = [&](const std::string& part) {
     int found = 0;
@@ -309,7 +309,7 @@ TEST_F(Control, ReportsATargetBeyondAJointsLimitsOnceAnInput) {
       ++found;
     return found;
   };
-  // Degrees instead of radians, as a rule.
+  // The usual cause: degrees instead of radians.
   EXPECT_EQ(count("input excavator/boom_joint/position: 90 rad is beyond the joint's limits, -0.85 "
                   "to 1.05 rad"),
             1)
@@ -326,7 +326,7 @@ TEST_F(Control, ReportsATargetBeyondAJointsLimitsOnceAnInput) {
   EXPECT_EQ(count("beyond the joint's limits"), 4) << said;
 }
 
-TEST_F(Control, TheEndOfTheStreamWithoutAWordIsInterrupted) {
+TEST_F(Control, AnInputStreamWithoutAnEndMessageEndsAsInterrupted) {
   std::vector<json> lines;
   EXPECT_EQ(drive("{}\n{}\n", lines), 130) << complained();
   EXPECT_EQ(lines.size(), 3u);
@@ -336,7 +336,7 @@ TEST_F(Control, TheEndOfTheStreamWithoutAWordIsInterrupted) {
 }
 
 TEST_F(Control, AClosedStandardOutputEndsTheRun) {
-  // Pipes both ways; ours of its output is closed after the first line.
+  // Pipes in both directions; our end of its output is closed after the first line.
   int in[2], out[2];
   ASSERT_EQ(pipe2(in, O_CLOEXEC), 0);
   ASSERT_EQ(pipe2(out, O_CLOEXEC), 0);
@@ -348,7 +348,7 @@ TEST_F(Control, AClosedStandardOutputEndsTheRun) {
   char first[4096];
   ASSERT_GT(read(out[0], first, sizeof first), 0);
   close(out[0]);
-  // Many answers at once: the run is not held up by a question.
+  // Many answers at once: the run does not wait for each of them.
   std::string answers;
   for (int i = 0; i < 1000; ++i) answers += "{}\n";
   ASSERT_GT(write(in[1], answers.data(), answers.size()), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the program says that a run ended and a program of its scene did not: status, exit status,
-// last lines.
+// Reports of runs that end while a program of the scene did not finish: status, exit status, last
+// lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace {
 
 class Ending : public test::ProgramRun {
  protected:
-  /// Two buckets on posts, each with a program, on a site of 4 m; the whole scene ends after
-  /// `duration` [s].
+  /// Returns a scene with two buckets on posts, each with a program, on a site of 4 m; the whole
+  /// scene ends after `duration` [s].
   std::string two_buckets(const std::string& first, const std::string& second,
                           const std::string& duration) {
     const auto bucket = [](const std::string& name, const std::string& x,
@@ -51,7 +51,7 @@ class Ending : public test::ProgramRun {
 
 const char* const kWait = "<wait><duration_s>0.2</duration_s></wait>";
 
-TEST_F(Ending, OfProgramsThatAreAllDoneIsFinished) {
+TEST_F(Ending, IsFinishedWhenAllProgramsAreDone) {
   ASSERT_EQ(run({two_buckets(kWait, kWait, "5")}), 0) << complained();
   EXPECT_EQ(summary().at("status"), "finished");
   for (const nlohmann::json& program : summary().at("programs"))
@@ -59,7 +59,7 @@ TEST_F(Ending, OfProgramsThatAreAllDoneIsFinished) {
   EXPECT_EQ(said().find("incomplete"), std::string::npos) << said();
 }
 
-TEST_F(Ending, OfAProgramThatFellShortHasAStatusOfItsOwnWhileTheOtherGoesOn) {
+TEST_F(Ending, HasItsOwnStatusWhenAProgramFailedWhileTheOtherContinues) {
   const std::string impatient =
       "<wait_for><machine>late</machine><longest_s>0.05</longest_s></wait_for>" +
       std::string(kWait);
@@ -81,27 +81,27 @@ TEST_F(Ending, OfAProgramThatFellShortHasAStatusOfItsOwnWhileTheOtherGoesOn) {
   EXPECT_EQ(first.at("step_list").size(), 1u);
   EXPECT_EQ(second.at("state"), "done");
   EXPECT_GT(second.at("time_s").get<double>(), 0.19);
-  // Once when it happens, and in the last lines.
+  // Reported once when it happens, and again in the last lines.
   const std::string line = "'early', step 1 of 2 (wait_for): out_of_time: ";
   EXPECT_NE(complained().find("warning: " + line), std::string::npos) << complained();
   EXPECT_NE(said().find("incomplete: " + line), std::string::npos) << said();
 }
 
-TEST_F(Ending, OfAProgramThatTheDurationCutsOffIsIncompleteAndAFailureOnlyUnasked) {
+TEST_F(Ending, IsIncompleteWhenTheDurationCutsAProgramOffAndFailsOnlyUnrequested) {
   const std::string scene = two_buckets(kWait, "<wait><duration_s>100</duration_s></wait>", "0.3");
   EXPECT_EQ(run({scene}), 6) << complained();
   EXPECT_EQ(summary().at("status"), "incomplete");
   EXPECT_EQ(summary().at("programs").at(0).at("state"), "done");
   EXPECT_EQ(summary().at("programs").at(1).at("state"), "out_of_time");
   EXPECT_NE(said().find("the run's duration of 0.3 s was over first"), std::string::npos) << said();
-  // Whoever asks for so much time gets it, with the same words and no failure.
+  // A user who asks for this duration gets the same report and no failure.
   EXPECT_EQ(run({scene, "--duration", "0.25"}), 0) << complained();
   EXPECT_EQ(summary().at("status"), "incomplete");
   EXPECT_NE(said().find("the run's duration of 0.25 s was over first"), std::string::npos)
       << said();
 }
 
-TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
+TEST_F(Ending, ReportsProgramsOfAnInterruptedRunAsInterrupted) {
   const std::string scene =
       two_buckets(kWait, "<wait><duration_s>100000</duration_s></wait>", "100000");
   const pid_t child = begin({scene});
@@ -122,7 +122,7 @@ TEST_F(Ending, OfAnInterruptedRunCallsItsProgramsInterrupted) {
   EXPECT_NE(said().find("interrupted: SIGINT, at "), std::string::npos) << said();
 }
 
-TEST_F(Ending, OfARunThatItsControllerEndsCallsNoProgramRunning) {
+TEST_F(Ending, ReportsNoProgramAsRunningWhenTheControllerEndsTheRun) {
   const std::string scene = two_buckets(kWait, kWait, "100");
   EXPECT_EQ(ProgramRun::run({"run", scene, "--no-render", "--out", out(), "--control", "stdio"},
                             "{}\n{\"end\": true}\n"),

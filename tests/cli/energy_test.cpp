@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy run --energy`: the soil's account in the summary, and the same bits as without.
+// `navvy run --energy` writes the soil's energy account to the summary and gives bit-identical
+// results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ class Energy : public test::ProgramRun {
   }
 };
 
-TEST_F(Energy, OfADigStandsInItsSummaryAndChangesNoBit) {
+TEST_F(Energy, OfADigIsInTheSummaryAndResultsAreBitIdentical) {
   const nlohmann::json with = dig({"--energy"});
   const nlohmann::json& energy = with.at("soil_energy_j");
   double spent = 0;

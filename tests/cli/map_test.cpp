@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy map` from outside: of a scene, a run's folder and a snapshot, and what it says to slips.
+// `navvy map` as a process: of a scene, a run's folder and a snapshot, and its messages on wrong
+// arguments.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -22,13 +23,13 @@ class Map : public test::ProgramRun {
  protected:
   void SetUp() override {
     ProgramRun::SetUp();
-    // A block of sand that slumps at once, on 48 x 32 columns.
+    // A block of sand that slumps immediately, on 48 x 32 columns.
     scene_ = (directory_ / "scene.sdf").string();
     std::ofstream(scene_)
         << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="slump"><navvy:soil ref="sand_dry"/>
 <navvy:ground><size_m>4.8 3.2</size_m>
 <block><center_m>1 0.5</center_m><length_m>0.8</length_m><width_m>0.8</width_m><height_m>0.6</height_m></block>
-<awake><min_m>0.6 0.1</min_m><max_m>1.4 0.9</max_m><bottom_m>0</bottom_m></awake></navvy:ground></world></sdf>
+<active><min_m>0.6 0.1</min_m><max_m>1.4 0.9</max_m><bottom_m>0</bottom_m></active></navvy:ground></world></sdf>
 )";
   }
   void expect_complained(const std::string& part) const {
@@ -37,7 +38,7 @@ class Map : public test::ProgramRun {
   }
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
 
-  /// The floats of a layer in an NPZ, found by its name: entries are stored as they are.
+  /// Returns the floats of a layer in an NPZ, found by name: entries are stored uncompressed.
   std::vector<float> layer(const std::string& npz, const std::string& name) const {
     const std::string all = test_text(npz);
     const std::size_t entry = all.find(name + ".npy"), data = all.find('\n', entry);
@@ -54,7 +55,7 @@ class Map : public test::ProgramRun {
   std::string scene_;
 };
 
-TEST_F(Map, OfASceneIsItsUntouchedSite) {
+TEST_F(Map, OfASceneShowsItsUntouchedSite) {
   ASSERT_EQ(run({"map", scene_, "--format", "npz", "--out", path("a.npz")}), 0) << complained();
   const std::vector<float> z = layer(path("a.npz"), "elevation"),
                            slope = layer(path("a.npz"), "slope");
@@ -65,7 +66,7 @@ TEST_F(Map, OfASceneIsItsUntouchedSite) {
   EXPECT_NE(said().find("48 x 32 columns of 0.1 m"), std::string::npos) << said();
 }
 
-TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
+TEST_F(Map, OfARunShowsItsFinalGroundAndOfASnapshotAlsoActiveSoil) {
   ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot",
                  path("half.snapshot"), "--snapshot-at", "0.1", "--out", out()}),
             0)
@@ -84,7 +85,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
                            loose = layer(path("half.npz"), "loose_depth"),
                            density = layer(path("half.npz"), "density");
   ASSERT_EQ(half.size(), start.size());
-  // Every column as the run's own file has it, which a test of GDAL's reads elsewhere: row 0 is the
+  // Every column equals that in the run's own file, which a GDAL test reads elsewhere; row 0 is the
   // north.
   ASSERT_EQ(
       run({"map", out(), "--format", "geotiff", "--layers", "elevation", "--out", path("end.tif")}),
@@ -99,7 +100,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
       const std::string theirs = raw(out() + "/terrain_end.tif", "theirs"),
                         ours = raw(path("end.tif"), "ours");
       ASSERT_EQ(theirs.size(), 48u * 32u * sizeof(float));
-      EXPECT_EQ(ours, theirs) << "to the bit: files of a run count in W here";
+      EXPECT_EQ(ours, theirs) << "bit-identical: files of a run are in W here";
     }
   double changed = 0, lying = 0, volume = 0;
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -110,9 +111,9 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
     ASSERT_GT(density[i], 0);
   }
   EXPECT_GT(changed, 0.1) << "the block has not moved";
-  // 0.8 x 0.8 x 0.6 m of sand are 38.4 columns' worth of a metre, above ground at 0. They lie there
-  // still, on ground that woke with them; a tenth for what is in the air and what has loosened.
-  // Columns alone would show a pit.
+  // 0.8 x 0.8 x 0.6 m of sand are 38.4 columns' worth of a metre, above ground at 0. They are still
+  // there, on ground that became active with them; the tolerance of a tenth covers soil in the air
+  // and loosening. A map of columns alone would show a pit.
   EXPECT_NEAR(volume, 38.4, 3.84);
   EXPECT_GT(lying, 0.9 * 38.4);
   EXPECT_LT(volume - lying, 0);
@@ -124,7 +125,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
             std::string::npos)
       << said();
   EXPECT_EQ(complained(), "");
-  // What lies loose at the end is what a snapshot of the same moment says, rounded once.
+  // Loose soil at the end equals that of a snapshot at the same time, rounded once.
   ASSERT_EQ(run({"run", scene_, "--no-render", "--duration", "0.2", "--snapshot",
                  path("end.snapshot"), "--snapshot-at", "0.2", "--out", path("again")}),
             0)
@@ -136,7 +137,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
   EXPECT_EQ(layer(path("end.npz"), "active"), layer(path("state.npz"), "active"));
   const std::vector<float> last = layer(path("end.npz"), "loose_depth");
   EXPECT_GT(std::count_if(last.begin(), last.end(), [](float depth) { return depth > 0; }), 60);
-  // Beside the run's scene a snapshot needs no --scene.
+  // A snapshot next to the run's scene needs no --scene.
   std::filesystem::copy_file(path("half.snapshot"), out() + "/half.snapshot");
   EXPECT_EQ(run({"map", out() + "/half.snapshot", "--format", "npz", "--out", path("again.npz")}),
             0)
@@ -144,7 +145,7 @@ TEST_F(Map, OfARunIsItsGroundAtTheEndAndOfASnapshotItsActiveSoilToo) {
   EXPECT_EQ(test_text(path("again.npz")), test_text(path("half.npz")));
 }
 
-TEST_F(Map, AsksWhatWasMeantAndWritesNothingThen) {
+TEST_F(Map, SuggestsWhatWasMeantAndWritesNothing) {
   const std::string to = path("none.tif");
   EXPECT_EQ(run({"map", scene_, "--layers", "elevation,slop", "--format", "geotiff", "--out", to}),
             2);
@@ -163,8 +164,8 @@ TEST_F(Map, AsksWhatWasMeantAndWritesNothingThen) {
   EXPECT_FALSE(std::filesystem::exists(to));
 }
 
-TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
-  // A site from a map, with a design from another.
+TEST_F(Map, NeverReplacesItsInputsOrSpecialFiles) {
+  // A site from a map, with a design from another map.
   const auto grid = [&](const std::string& name, double z) {
     std::ofstream file(path(name));
     file << "ncols 20\nnrows 16\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
@@ -198,14 +199,14 @@ TEST_F(Map, LeavesWhatItReadsAndWhatIsNoFileAsTheyAre) {
   EXPECT_EQ(run({"map", own, "--format", "npz", "--out", path("away.npz")}), 0) << complained();
   EXPECT_EQ(test_text(path("there.npz")), test_text(path("a.npz")));
   EXPECT_TRUE(std::filesystem::is_symlink(path("away.npz")));
-  // And the check of such a scene reports its design: 16 m2, from 9.x to 10.x, a metre below
-  // the ground.
+  // The check of such a scene reports its design: 16 m2, from 9.x to 10.x, a metre below the
+  // ground.
   EXPECT_EQ(run({"check", own}), 0) << said();
   EXPECT_NE(said().find("wanted.asc: 16 m2 of the site"), std::string::npos) << said();
   EXPECT_NE(said().find("16 m3 to cut, 0 m3 to fill"), std::string::npos) << said();
 }
 
-TEST_F(Map, WarnsOfLayersOfWhichNothingIsKnown) {
+TEST_F(Map, WarnsOfLayersWithoutKnownValues) {
   const std::string to = path("a.npz");
   EXPECT_EQ(run({"map", scene_, "--layers", "elevation,target,cut_fill,disturbed_at", "--format",
                  "npz", "--out", to}),
@@ -224,7 +225,7 @@ TEST_F(Map, WarnsOfLayersOfWhichNothingIsKnown) {
   EXPECT_FALSE(std::filesystem::exists(path("t")));
 }
 
-TEST_F(Map, ReplacesItsOwnFoldersAndNoOthers) {
+TEST_F(Map, ReplacesOnlyFoldersThatItWrote) {
   std::string text = test_text(scene_);
   text.insert(text.find("</world>"),
               "<navvy:design><area><polygon_m>-1 -1 0 -1 0 0 -1 0</polygon_m><depth_m>0.5</depth_m>"
@@ -242,7 +243,7 @@ TEST_F(Map, ReplacesItsOwnFoldersAndNoOthers) {
   }
 }
 
-TEST_F(Map, ReportsLayersAndFormatsInItsHelp) {
+TEST_F(Map, ListsLayersAndFormatsInItsHelp) {
   EXPECT_EQ(run({"map", "--help"}), 0);
   for (const char* part :
        {"traversability", "nav2-scale", "--slope-limit-deg", "Examples: navvy map"})

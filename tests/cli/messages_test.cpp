@@ -39,7 +39,7 @@ class Messages : public test::ProgramRun {
   }
 };
 
-TEST_F(Messages, ListWhatIsShippedOneLineEach) {
+TEST_F(Messages, ListShippedDataWithOneLineEach) {
   EXPECT_EQ(run({"scenes"}), 0);
   expect_said("trench");
   expect_said("An 18 t wheeled excavator drives 5 m to its place");
@@ -61,7 +61,7 @@ TEST_F(Messages, ReportEveryValueOfASoilWithItsUnit) {
   expect_complained("did you mean 'sand_dry'?");
 }
 
-TEST_F(Messages, ReportWhatAMachineIsMadeOf) {
+TEST_F(Messages, ListTheComponentsOfAMachine) {
   EXPECT_EQ(run({"machines", "ew180"}), 0) << complained();
   expect_said("Wheeled excavator of the 18 t class.");
   expect_said("vehicles/ew180/model.sdf\n");
@@ -79,7 +79,7 @@ TEST_F(Messages, ReportWhatAMachineIsMadeOf) {
   expect_complained("did you mean 'ew180'?");
 }
 
-TEST_F(Messages, SayWhatACommandNeeds) {
+TEST_F(Messages, StateTheArgumentsThatACommandNeeds) {
   EXPECT_EQ(run({"check"}), 2);
   expect_complained(
       "`navvy check` needs files: SDF files, or names of shipped scenes (navvy check --help)");
@@ -91,10 +91,10 @@ TEST_F(Messages, NameTheSeverityOfAWarningOnce) {
   const std::string file = scene("<slope><angle_deg>0.2618</angle_deg></slope>", "");
   EXPECT_EQ(run({"run", file, "--no-render", "--duration", "0.01", "--out", out()}), 0)
       << complained();
-  // As editors read it: file and line come first.
+  // Editors expect file and line first.
   expect_complained(file + ":2: warning: ");
   EXPECT_EQ(complained().find("warning: " + file), std::string::npos) << complained();
-  // Of what carries no severity it still comes first.
+  // A message without a severity also begins with the file.
   EXPECT_EQ(run({"check", file}), 0);
   expect_said(file + ":2: warning: ");
   EXPECT_EQ(said().find("warning: " + file), std::string::npos) << said();
@@ -108,7 +108,7 @@ TEST_F(Messages, CountEveryFault) {
   expect_said("1 file checked: 3000 errors, 0 warnings");
 }
 
-TEST_F(Messages, AskWhatWasMeant) {
+TEST_F(Messages, SuggestTheNearestName) {
   EXPECT_EQ(run({"chekc", "trench"}), 2);
   expect_complained("did you mean 'check'?");
   EXPECT_EQ(run({"run", "trnch"}), 2);
@@ -122,7 +122,7 @@ TEST_F(Messages, AskWhatWasMeant) {
   expect_said("did you mean 'model://ew180'?");
 }
 
-TEST_F(Messages, OfAWrongSeedTakeOneLine) {
+TEST_F(Messages, ReportAWrongSeedInOneLine) {
   for (const std::string wrong : {"abc", "-1", "1.5"}) {
     EXPECT_EQ(run({"run", "trench", "--seed", wrong}), 2);
     const std::string text = complained();
@@ -136,12 +136,12 @@ TEST_F(Messages, OfAWrongSeedTakeOneLine) {
 TEST_F(Messages, CheckFindsShippedScenesByName) {
   EXPECT_EQ(run({"check", "trench", "bucket_path.sdf"}), 0) << said();
   expect_said("2 files checked: 0 errors, 0 warnings");
-  // The stance of the excavator is reported without a device.
+  // `check` reports how the excavator stands without a device.
   expect_said("'excavator' stands: tilt 0.");
   expect_said("within its feet");
 }
 
-TEST_F(Messages, CheckDoesNotSayThatWhatFallsStands) {
+TEST_F(Messages, CheckDoesNotReportAFallingMachineAsStanding) {
   EXPECT_EQ(
       run({"check",
            scene("",
@@ -167,7 +167,7 @@ TEST_F(Messages, RunRefusesMachinesThatOverlapAsCheckDoes) {
   const std::string file =
       scene("", machine("one", "0 0 0 0 0 0") + machine("other", "1 1.5 0 0 0 0"));
   EXPECT_EQ(run({"check", file}), 2);
-  // Word for word.
+  // The messages are identical.
   const std::size_t begin = said().find(file), end = said().find('\n', begin);
   ASSERT_NE(end, std::string::npos) << said();
   const std::string message = said().substr(begin, end - begin);
@@ -184,7 +184,7 @@ TEST_F(Messages, ARunWithoutADeviceLeavesNoFolderBehind) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "results"));
 }
 
-TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
+TEST_F(Messages, CheckAndRunRefuseMachinesThatStartBelowTheGround) {
   const std::string file =
       scene("",
             "<include><uri>model://ew180</uri><name>digger</name><pose>0 0 -0.8 0 0 0</pose>"
@@ -197,7 +197,7 @@ TEST_F(Messages, CheckAndRunRefuseWhatStartsBelowTheGround) {
   EXPECT_FALSE(std::filesystem::exists(out() + "/summary.json"));
 }
 
-TEST_F(Messages, CheckReportsWhatFollowsFromAMachinesFile) {
+TEST_F(Messages, CheckReportsDerivedPropertiesOfAMachine) {
   const std::string crate =
       "<model name=\"crate\"><pose>3 0 0.5 0 0 0</pose><link name=\"a\">"
       "<navvy:density_kg_per_m3>500</navvy:density_kg_per_m3><visual "
@@ -213,13 +213,13 @@ TEST_F(Messages, CheckRefusesAMachineThatTipsOver) {
   EXPECT_EQ(run({"check", scene(slope, machine("digger", "0 0 0 0 0 0"))}), 2);
   expect_said("include[digger]");
   expect_said("tips over within its first second");
-  // Along a gentle one it stands.
+  // On a gentle slope it stands.
   const std::string gentle = "<slope><angle_deg>15</angle_deg></slope>";
   EXPECT_EQ(run({"check", scene(gentle, machine("digger", "0 0 0 0 0 0"))}), 0) << said();
   expect_said("'digger' stands: tilt 1");
 }
 
-TEST_F(Messages, AskAboutAnglesThatLookLikeTheOtherUnit) {
+TEST_F(Messages, WarnOfAnglesThatLookLikeTheOtherUnit) {
   EXPECT_EQ(run({"check", scene("", machine("digger", "0 0 0 0 0 90"))}), 0) << said();
   expect_said("warning");
   expect_said(
@@ -228,7 +228,7 @@ TEST_F(Messages, AskAboutAnglesThatLookLikeTheOtherUnit) {
       "degrees=\"true\">");
   EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.2618</angle_deg></slope>", "")}), 0);
   expect_said("is 15 deg in radians; were radians meant? (this element counts in degrees");
-  // No false alarm: a turn and a half in radians, small angles in degrees.
+  // No false alarm for one and a half turns in radians, or for small angles in degrees.
   EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.25</angle_deg></slope>",
                                 machine("digger", "0 0 0 0 0 -4.7124"))}),
             0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy` from outside: a test's own folder, the program run in it, what it said.
+// `navvy` as a process: a folder per test, the program run in it, and its output.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace navvy::test {
 
-/// The folder stays after the test, to be looked at.
+/// Runs the program in a folder of the test, which remains after the test for inspection.
 class ProgramRun : public testing::Test {
  protected:
   void SetUp() override {
@@ -28,14 +28,14 @@ class ProgramRun : public testing::Test {
     std::filesystem::create_directories(directory_);
   }
 
-  /// Starts navvy; its standard input holds `input`, both outputs go to files.
+  /// Starts navvy with `input` as its standard input; both outputs go to files.
   pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") {
     const std::string in = (directory_ / "stdin").string();
     std::ofstream(in) << input;
     return test::start({NAVVY_PROGRAM, arguments, environment_, in,
                         (directory_ / "stdout").string(), (directory_ / "stderr").string()});
   }
-  /// Exit status, or minus the signal that ended it.
+  /// Runs navvy and returns its exit status, or minus the signal that ended it.
   int run(const std::vector<std::string>& arguments, const std::string& input = "") {
     return wait_for(start(arguments, input));
   }
@@ -47,7 +47,7 @@ class ProgramRun : public testing::Test {
   }
 
   std::filesystem::path directory_;
-  /// Of the program, on top of the test's own.
+  /// Environment of the program, added to that of the test.
   std::vector<std::pair<std::string, std::string>> environment_;
 };
 

@@ -33,8 +33,8 @@ class Program : public test::ProgramRun {
   }
 };
 
-/// Every file of a run, if it is there at all, is whole; of one that was killed the last row of
-/// telemetry may lack its end.
+/// Expects every file of a run, if it exists, to be complete; if the run was killed, the last row
+/// of telemetry may lack its line end.
 void expect_readable(const std::string& out, bool killed = false) {
   const fs::path summary = fs::path(out) / "summary.json",
                  telemetry = fs::path(out) / "telemetry.csv";
@@ -43,7 +43,7 @@ void expect_readable(const std::string& out, bool killed = false) {
     std::string text = text_of(telemetry);
     ASSERT_FALSE(text.empty());
     if (!killed) EXPECT_EQ(text.back(), '\n');
-    // As every reader does: a line without an end is no row.
+    // Readers ignore a line without a line end.
     text.erase(text.rfind('\n') + 1);
     ASSERT_FALSE(text.empty());
     std::istringstream lines(text);
@@ -62,7 +62,7 @@ void expect_readable(const std::string& out, bool killed = false) {
   for (const auto& frame : fs::directory_iterator(frames)) {
     if (frame.path().extension() != ".png") continue;
     const std::string bytes = text_of(frame.path());
-    const std::string end("IEND\xAE\x42\x60\x82", 8);  // every PNG's last chunk
+    const std::string end("IEND\xAE\x42\x60\x82", 8);  // last chunk of a PNG
     EXPECT_TRUE(bytes.size() > end.size() &&
                 bytes.compare(bytes.size() - end.size(), end.size(), end) == 0)
         << frame.path();
@@ -101,7 +101,7 @@ TEST_F(Program, LeavesAllResultsAndClosesTheLedger) {
 }
 
 TEST_F(Program, RepeatsARunFromTheSceneInItsFolder) {
-  // Every way of changing a scene from the command line; 1.3 s reach into the soil.
+  // Uses every option that changes a scene; 1.3 s reach into the soil.
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.3", "--seed", "9",
                  "--size", "8.4,5.2", "--set", "soil.cohesion_pa=8000", "--set",
                  "machine[bucket].x_m=0.05", "--out", out()}),
@@ -113,10 +113,10 @@ TEST_F(Program, RepeatsARunFromTheSceneInItsFolder) {
   EXPECT_EQ(info.at("command").at(1), "run");
   EXPECT_EQ(info.at("command").back(), out());
   EXPECT_FALSE(info.at("navvy").get<std::string>().empty());
-  // From another place and without any option.
+  // From another place and without options.
   const std::string moved = (directory_ / "moved.sdf").string();
   fs::copy_file(out() + "/scene.sdf", moved);
-  // What the command line cut off before, the scene's own duration cuts off now: that counts as
+  // The duration that the command line set before now comes from the scene: the run counts as
   // incomplete.
   ASSERT_EQ(run({"run", moved, "--out", out() + "2"}), 6) << complained();
   const auto again = nlohmann::json::parse(text_of(out() + "2/summary.json"));
@@ -153,10 +153,9 @@ TEST_F(Program, ReportsBadInputByStatusAndMessage) {
   EXPECT_NE(complained().find("no such device"), std::string::npos) << complained();
 }
 
-// Faults that scene_io's table (broken_scenes.txt) cannot hold, as they show only with the ground
-// laid and the machine on it: every broken/NAME.sdf is refused with all the lines of
-// broken/NAME.txt.
-TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
+// Faults that the table of scene_io (broken_scenes.txt) cannot hold, because they need the ground
+// and the machine on it: every broken/NAME.sdf is refused with all lines of broken/NAME.txt.
+TEST_F(Program, CheckRefusesTheScenesThatARunRefuses) {
   int files = 0;
   for (const auto& entry : fs::directory_iterator(navvy::source_dir() + "/tests/cli/broken")) {
     if (entry.path().extension() != ".sdf") continue;
@@ -178,7 +177,7 @@ TEST_F(Program, CheckRefusesWhatARunWouldRefuse) {
                                                            << complained();
 }
 
-TEST_F(Program, ReportsBadFilesAndNumbersShortlyAndBeforeTheRun) {
+TEST_F(Program, ReportsBadFilesAndNumbersInOneLineBeforeTheRun) {
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--resume", "no_such.snapshot", "--out", out()}),
             2);
   EXPECT_NE(complained().find("--resume: 'no_such.snapshot': no such snapshot"), std::string::npos)
@@ -196,7 +195,8 @@ TEST_F(Program, ReportsBadFilesAndNumbersShortlyAndBeforeTheRun) {
   EXPECT_NE(complained().find("/friction_angle_deg: '75': must be a number from 0 to 60"),
             std::string::npos)
       << complained();
-  // Hours of a rig are not lost to a path that cannot be written: its minute is not even begun.
+  // A path that cannot be written is refused before the experiment starts, so that no hours are
+  // lost.
   const std::string impossible = (directory_ / "stdin" / "rest.json").string();
   EXPECT_EQ(run({"lab", "column", "--json", impossible}), 4) << complained();
   EXPECT_NE(complained().find(impossible), std::string::npos) << complained();
@@ -204,29 +204,29 @@ TEST_F(Program, ReportsBadFilesAndNumbersShortlyAndBeforeTheRun) {
 }
 
 TEST_F(Program, LabHasItsOwnExitStatusForResultsOutsideTolerance) {
-  // Seen while it still settles, the plate neither rests nor lies on the soil.
+  // Measured while it settles, the plate is neither at rest nor on the soil.
   const std::string json = (directory_ / "light.json").string();
   ASSERT_EQ(
       run({"lab", "light-tool", "--height", "0.2", "--time", "0.4", "--quiet", "--json", json}), 7)
       << complained();
   EXPECT_NE(said().find("MISS"), std::string::npos) << said();
-  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("missed").size(), 2u);
+  EXPECT_EQ(nlohmann::json::parse(text_of(json)).at("outside_tolerance").size(), 2u);
 }
 
-TEST_F(Program, LabJudgesNothingByAToleranceForOtherSetups) {
-  // A plane less steep than the soil's friction on it: nothing slides, and there is no acceleration
-  // to hold it against.
+TEST_F(Program, LabAppliesNoToleranceToOtherSetups) {
+  // A plane less steep than the soil's friction on it: nothing slides, so there is no acceleration
+  // to compare.
   const std::string json = (directory_ / "slide.json").string();
   run({"lab", "slide", "--tilt-deg", "10", "--time", "0.1", "--quiet", "--json", json});
   const auto result = nlohmann::json::parse(text_of(json));
   for (const char* name : {"soil_block__acceleration_m_s2", "rigid_plate__acceleration_m_s2"}) {
     EXPECT_TRUE(result.at("not_judged").contains(name)) << result.dump(1);
-    EXPECT_FALSE(result.contains("missed") &&
-                 result.at("missed").dump().find(name) != std::string::npos);
+    EXPECT_FALSE(result.contains("outside_tolerance") &&
+                 result.at("outside_tolerance").dump().find(name) != std::string::npos);
   }
-  EXPECT_NE(
-      said().find("not judged: soil block, acceleration; its tolerance applies to a plane so steep"),
-      std::string::npos)
+  EXPECT_NE(said().find(
+                "not judged: soil block, acceleration; its tolerance applies to a plane so steep"),
+            std::string::npos)
       << said();
 }
 
@@ -278,7 +278,7 @@ TEST_F(Program, LabRunsEveryCombinationOfListsAndDrawsThem) {
   EXPECT_NE(complained().find("drawn over a list of values"), std::string::npos) << complained();
 }
 
-TEST_F(Program, LabNamesAWrongWordOrNumberOfTheRig) {
+TEST_F(Program, LabNamesAWrongArgumentOfTheRig) {
   EXPECT_EQ(run({"lab", "column", "--shape", "plain"}), 2);
   EXPECT_NE(complained().find("did you mean 'plane'?"), std::string::npos) << complained();
   EXPECT_EQ(run({"lab", "cycle", "--cycles", "2.5"}), 2);
@@ -296,9 +296,9 @@ TEST_F(Program, LabNamesAWrongNumberOfTheSoil) {
   EXPECT_NE(complained().find("opening_strain"), std::string::npos) << complained();
 }
 
-TEST_F(Program, SaysWhenItCannotWriteThere) {
-  // A directory below a file cannot be made. (Core's tests have the full disk: PoCL's own cache
-  // would fail first here.)
+TEST_F(Program, ReportsAFolderThatItCannotWriteTo) {
+  // A directory below a file cannot be created. (Tests of core cover the full disk: PoCL's own
+  // cache would fail first here.)
   const std::string impossible = (directory_ / "stdin" / "out").string();
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.1", "--out",
                  impossible}),
@@ -319,8 +319,8 @@ TEST_F(Program, StopsCleanlyAtCtrlC) {
   expect_readable(out());
 }
 
-TEST_F(Program, StopsAtCtrlCWhileItWaitsForALineOfControl) {
-  // A controller that never answers: a pipe that nobody writes into and nobody closes.
+TEST_F(Program, StopsAtCtrlCWhileItWaitsForAControlLine) {
+  // A controller that never answers: a pipe that nobody writes to and nobody closes.
   const std::string pipe = (directory_ / "pipe").string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const int held = open(pipe.c_str(), O_RDWR);
@@ -351,7 +351,7 @@ TEST_F(Program, TakesAnOutputFolderWithASlashAtItsEnd) {
   EXPECT_TRUE(fs::exists(out() + ".previous/summary.json"));
 }
 
-TEST_F(Program, CheckTakesValuesAsARunDoes) {
+TEST_F(Program, CheckAcceptsTheOverridesOfARun) {
   EXPECT_EQ(run({"check", scene("trench.sdf"), "--set", "soil.cohesion_pa=9000"}), 0) << said();
   EXPECT_EQ(run({"check", scene("trench.sdf"), "--set", "soil.cohesion_pa=-1"}), 2);
   EXPECT_NE(said().find("cohesion_pa"), std::string::npos) << said();
@@ -366,7 +366,7 @@ TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {
   Random random(7);
   int with_results = 0, with_pictures = 0;
   const std::vector<std::string> drawing{"--set", "camera.rate_hz=50"};
-  // As long as it takes here until pictures come: kills are spread over twice that.
+  // Time until pictures are drawn on this machine: kills are spread over twice that time.
   const auto begun = std::chrono::steady_clock::now();
   std::vector<std::string> first{"run", scene("bucket_path.sdf"), "--out", out()};
   first.insert(first.end(), drawing.begin(), drawing.end());
@@ -381,7 +381,7 @@ TEST_F(Program, LeavesReadableFilesWhereverItIsKilled) {
   for (int i = 0; i < 20; ++i) {
     fs::remove_all(out());
     fs::remove_all(out() + ".previous");
-    // Every other run draws, all the time.
+    // Every other run draws pictures continuously.
     std::vector<std::string> arguments{"run", scene("bucket_path.sdf"), "--out", out()};
     if (i % 2 == 0)
       arguments.push_back("--no-render");
@@ -428,8 +428,8 @@ TEST_F(Program, IsDrivenOverStandardInputInLockStep) {
   EXPECT_NEAR(time, 10 / 50.0, 1e-9);
 }
 
-TEST_F(Program, IsDrivenAtTheRateAskedFor) {
-  // None of these periods is a whole number of the steps that this scene takes by itself.
+TEST_F(Program, IsDrivenAtTheRequestedRate) {
+  // None of these periods is a whole number of the scene's own steps.
   for (const int rate : {500, 20, 7, 1000}) {
     const int exchanges = rate < 100 ? 2 : 8;
     std::string lines;
@@ -450,7 +450,7 @@ TEST_F(Program, IsDrivenAtTheRateAskedFor) {
     EXPECT_NE(complained().find("a whole number of base steps makes up a control step"),
               std::string::npos)
         << complained();
-    // The step is part of what repeats the run.
+    // The control step is part of what reproduces the run.
     EXPECT_NE(text_of(out() + "/scene.sdf").find("control_rate_hz"), std::string::npos);
   }
   EXPECT_EQ(run({"run", scene("bucket_path.sdf"), "--control", "stdio", "--control-rate", "0",
@@ -458,9 +458,9 @@ TEST_F(Program, IsDrivenAtTheRateAskedFor) {
             2);
 }
 
-/// Results depend on the control rate through the base step alone: whoever answers every exchange
-/// and asks for nothing has the run that the scene makes by itself when it says the same rate.
-TEST_F(Program, IsTheSameWithoutAControllerWhereTheSceneSaysTheRate) {
+/// Results depend on the control rate only through the base step: a controller that answers every
+/// exchange and sets nothing gets the run that the scene makes by itself at the same rate.
+TEST_F(Program, IsTheSameWithoutAControllerWhenTheSceneSetsTheRate) {
   const std::vector<std::string> common = {
       "run", scene("bucket_path.sdf"), "--no-render", "--duration", "0.5", "--hash-every", "0.1"};
   const auto hashes = [&](const std::string& out, std::vector<std::string> more,
@@ -476,11 +476,11 @@ TEST_F(Program, IsTheSameWithoutAControllerWhereTheSceneSaysTheRate) {
   const std::string alone = hashes(out() + "2", {"--set", "solver.control_rate_hz=70"}, "");
   EXPECT_GE(std::count(driven.begin(), driven.end(), '\n'), 5);
   EXPECT_EQ(driven, alone);
-  // And it is the rate that does it.
+  // Without the rate, results differ.
   EXPECT_NE(hashes(out() + "3", {}, ""), alone);
 }
 
-TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
+TEST_F(Program, ResumesFromASnapshotToTheSameEnd) {
   const std::string snapshot = (directory_ / "middle.snapshot").string();
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "1.5", "--out",
                  out(), "--snapshot", snapshot, "--snapshot-at", "1.2"}),
@@ -496,8 +496,8 @@ TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   EXPECT_EQ(resumed.at("state_hash"), whole.at("state_hash"));
   EXPECT_NE(complained().find("telemetry (100 Hz) takes the nearest step"), std::string::npos)
       << complained();
-  // Its telemetry begins with the state of the snapshot and goes on with the rows of the whole run,
-  // byte for byte.
+  // Its telemetry begins with the state of the snapshot and continues with the rows of the whole
+  // run, byte for byte.
   const std::string all = text_of(out() + "/telemetry.csv"),
                     later = text_of(out() + "2/telemetry.csv");
   const std::string header = all.substr(0, all.find('\n') + 1);
@@ -509,7 +509,7 @@ TEST_F(Program, GoesOnFromASnapshotToTheSameEnd) {
   EXPECT_EQ(all.substr(all.size() - rows.size()), rows);
 }
 
-TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatGoesOn) {
+TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatResumes) {
   environment_ = {{"NAVVY_DEVICE_MEMORY_MIB", "9"}};
   ASSERT_EQ(
       run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "4", "--out", out()}), 3)
@@ -531,13 +531,13 @@ TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatGoesOn) {
   EXPECT_GT(resumed.at("steps").get<int>(), failed.at("steps").get<int>());
 }
 
-TEST_F(Program, StopsOnAToolFasterThanWavesAndLeavesASnapshotThatGoesOn) {
+TEST_F(Program, StopsOnAToolFasterThanWavesAndLeavesASnapshotThatResumes) {
   const std::string middle = (directory_ / "middle.snapshot").string();
   ASSERT_EQ(run({"run", scene("bucket_path.sdf"), "--no-render", "--duration", "2", "--out", out(),
                  "--snapshot", middle, "--snapshot-at", "1.9"}),
             0)
       << complained();
-  // From there by hand: slowly on, then at 60 m/s through the soil.
+  // Continue with manual inputs: slowly, then at 60 m/s through the soil.
   const auto drive = [&](const std::string& snapshot, const std::string& to,
                          const std::vector<int>& speeds) {
     std::string lines;

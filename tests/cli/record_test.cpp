@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene records while it runs, what it publishes, and how far it is from its design.
+// Recordings and publications of a scene during a run, and its deviation from the design.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -28,7 +28,7 @@ namespace {
 using nlohmann::json;
 using test::text_of;
 
-/// A machine that waits for 0.3 s beside a pit that nobody digs: 2 m x 2 m x 0.5 m.
+/// A machine that waits for 0.3 s beside a designed pit that nobody digs: 2 m x 2 m x 0.5 m.
 std::string scene(const std::string& records, const std::string& active = "") {
   return R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="sand_dry"/>
 <navvy:ground><size_m>6 4</size_m><depth_m>1</depth_m>)" +
@@ -43,8 +43,8 @@ std::string scene(const std::string& records, const std::string& active = "") {
 <navvy:program><wait><duration_s>0.3</duration_s></wait></navvy:program></model></world></sdf>)";
 }
 
-/// z of the vertices of a binary PLY, row by row from the least y: x y z as doubles first, then
-/// the content of its head.
+/// Returns z of the vertices of a binary PLY, row by row from the least y: the header first, then x
+/// y z as doubles.
 std::vector<float> heights_of_ply(const std::string& bytes) {
   const std::size_t begin = bytes.find("end_header\n") + 11;
   std::istringstream head(bytes.substr(0, begin));
@@ -67,10 +67,10 @@ std::vector<float> heights_of_ply(const std::string& bytes) {
   return out;
 }
 
-/// Soil that falls apart from the start on.
+/// Soil that collapses from the start.
 const char* const kHeap =
     "<block><center_m>1 1</center_m><length_m>1</length_m><width_m>1</width_m>"
-    "<height_m>1</height_m></block><awake><min_m>0.4 0.4</min_m><max_m>1.6 1.6</max_m></awake>";
+    "<height_m>1</height_m></block><active><min_m>0.4 0.4</min_m><max_m>1.6 1.6</max_m></active>";
 
 class Record : public testing::Test {
  protected:
@@ -85,12 +85,12 @@ class Record : public testing::Test {
   std::string metadata(const std::string& bag) const {
     return text_of(folder_ / "out/" + bag + "/metadata.yaml");
   }
-  /// Of a topic of a bag.
+  /// Returns the number of messages of a topic of a bag.
   int messages(const std::string& bag, const std::string& topic) const {
     const std::string text = metadata(bag), key = "message_count: ";
     return std::stoi(text.substr(text.find(key, text.find("name: " + topic + "\n")) + key.size()));
   }
-  /// Headers of a folder's patches, and the elevation that they end in.
+  /// Returns the headers of a folder's patches, and applies their elevation.
   std::vector<json> patches(const std::string& place, std::vector<float>& elevation) const {
     std::vector<json> headers;
     for (int number = 1;; ++number) {
@@ -113,7 +113,7 @@ class Record : public testing::Test {
       EXPECT_EQ(at, bytes.size()) << name;
     }
   }
-  /// Elevation of the run's end from its own map, by `navvy map`.
+  /// Returns the elevation at the run's end from its own map, by `navvy map`.
   std::vector<float> elevation_at_the_end() const {
     const std::string points = folder_ / "end.ply";
     EXPECT_EQ(test::wait_for(test::start({NAVVY_PROGRAM,
@@ -149,7 +149,7 @@ TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
     EXPECT_TRUE(has("out/" + file)) << file;
     EXPECT_NE(list.find(file), std::string::npos) << file << " in: " << list;
   }
-  // Both ends of an MCAP file are its magic; a bag counts what it holds: clock, tf, odometry,
+  // An MCAP file begins and ends with its magic; a bag counts its messages: clock, tf, odometry,
   // joints, three maps.
   const std::string mcap = text_of(folder_ / "out/all.mcap");
   ASSERT_GT(mcap.size(), 16u);
@@ -159,7 +159,8 @@ TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
        {"/clock", "/tf", "/m/odom", "/m/joint_states", "/terrain/grid_map", "/terrain/occupancy"})
     EXPECT_NE(metadata.find(topic), std::string::npos) << topic;
   EXPECT_EQ(text_of(folder_ / "patches/patch_000000001.navvymap").substr(0, 8), "NAVVYMAP");
-  // The pit's 2 m x 2 m x 0.5 m are all still there, in columns of 0.2 m: 10 x 10 of them.
+  // The volume of the pit is all left to dig: 2 m x 2 m x 0.5 m in columns of 0.2 m, 10 x 10 of
+  // them.
   const json design = json::parse(text_of(folder_ / "out/summary.json")).at("design");
   EXPECT_NEAR(design.at("area_m2").get<double>(), 4, 1e-9);
   EXPECT_NEAR(design.at("design_cut_m3").get<double>(), 2, 1e-5);
@@ -169,8 +170,8 @@ TEST_F(Record, WritesMapsAndBagsAtTheirRatesAndListsThem) {
   EXPECT_NEAR(design.at("largest_error_m").get<double>(), 0.5, 1e-5);
 }
 
-TEST_F(Record, TheLastPublishedMapIsTheSimulatorsEnd) {
-  // Once a second, a run of 0.4 s in which soil falls.
+TEST_F(Record, TheLastPublishedMapShowsTheEndOfTheRun) {
+  // Once per second, in a run of 0.4 s in which soil falls.
   ASSERT_EQ(navvy({"run", "--out", folder_ / "out", "--publish", folder_ / "patches",
                    "--publish-rate", "1", "--publish-layers", "elevation"},
                   "", kHeap),
@@ -186,8 +187,8 @@ TEST_F(Record, TheLastPublishedMapIsTheSimulatorsEnd) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "patches/end"));
   const std::vector<float> end = elevation_at_the_end();
   ASSERT_EQ(end.size(), last.size());
-  // Both are float32 of one surface, of which the run's went through columns once more: 1 m has a
-  // last digit of 1e-7.
+  // Both are float32 of one surface, but that of the run was stored in columns once more: the last
+  // digit of 1 m is 1e-7.
   for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(end[i], last[i], 1e-6) << "column " << i;
 }
 
@@ -216,10 +217,10 @@ TEST_F(Record, AResetBeginsNewFilesAndReportsReadersThatTimeWentBack) {
     EXPECT_TRUE(has("out/" + file)) << file;
     EXPECT_NE(list.find(file + "\n"), std::string::npos) << file << " in: " << list;
   }
-  // Nothing was written over: 4 maps to 0.3 s, 2 to 0.12 s, 1 of the start.
+  // No map was overwritten: 4 maps up to 0.3 s, 2 up to 0.12 s, 1 of the start.
   const auto maps = std::filesystem::directory_iterator(folder_ / "out/maps");
   EXPECT_EQ(std::distance(begin(maps), end(maps)), 7);
-  // Each bag has its own times: poses at 50 Hz, of 0.3 s and of 0.12 s.
+  // Each bag has its own times: poses at 50 Hz for 0.3 s and for 0.12 s.
   EXPECT_EQ(messages("run", "/tf"), 16);
   EXPECT_EQ(messages("run", "/clock"), 16);
   EXPECT_EQ(messages("run", "/terrain/grid_map"), 4);
@@ -230,7 +231,7 @@ TEST_F(Record, AResetBeginsNewFilesAndReportsReadersThatTimeWentBack) {
       << metadata("run_2");
   for (const char* bag : {"run", "run_2", "run_3"})
     EXPECT_NE(metadata(bag).find("nanoseconds_since_epoch: 0\n"), std::string::npos) << bag;
-  // Readers of patches: whole maps where time goes back, and the end is the start again.
+  // Readers of patches get whole maps when time goes back, and the last map is that of the start.
   std::vector<float> last;
   const std::vector<json> headers = patches("patches", last);
   int anew = 0;
@@ -239,29 +240,29 @@ TEST_F(Record, AResetBeginsNewFilesAndReportsReadersThatTimeWentBack) {
     EXPECT_EQ(headers[i].at("since") == 0, back) << headers[i];
     anew += back ? 1 : 0;
   }
-  // Twice, unless the disk was so slow that both went into one patch.
+  // Two whole maps, unless the disk was so slow that both went into one patch.
   EXPECT_GE(anew, 1);
   const std::vector<float> end = elevation_at_the_end();
   ASSERT_EQ(end.size(), last.size());
   for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(end[i], last[i], 1e-6) << "column " << i;
 }
 
-TEST_F(Record, OfABagHasItsMachinesAtTheirOwnRate) {
+TEST_F(Record, ABagHasItsMachinesAtTheirOwnRate) {
   const std::string records = R"(<navvy:record name="a"><format>bag</format></navvy:record>
 <navvy:record name="b"><format>bag</format><rate_hz>5</rate_hz><machine_rate_hz>20</machine_rate_hz></navvy:record>
 )";
   ASSERT_EQ(navvy({"run", "--out", folder_ / "out"}, records), 0) << text_of(folder_ / "stderr");
-  // 0.4 s: 50 Hz and the map once a second where nothing is said.
+  // 0.4 s at the default rates: 50 Hz, and a map per second.
   for (const char* topic : {"/clock", "/tf", "/m/odom", "/m/joint_states"}) {
     EXPECT_EQ(messages("a", topic), 21) << topic;
     EXPECT_EQ(messages("b", topic), 9) << topic;
   }
   EXPECT_EQ(messages("a", "/terrain/grid_map"), 1);
   EXPECT_EQ(messages("b", "/terrain/grid_map"), 3);
-  // The scene that lies among the results asks for the same.
+  // The scene in the results records the same.
   EXPECT_NE(text_of(folder_ / "out/scene.sdf").find("<machine_rate_hz>20</machine_rate_hz>"),
             std::string::npos);
-  // Where it does nothing it is a slip.
+  // An element without effect is reported as a mistake.
   EXPECT_EQ(
       navvy(
           {"check"},
@@ -273,7 +274,7 @@ TEST_F(Record, OfABagHasItsMachinesAtTheirOwnRate) {
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
-TEST_F(Record, OfAnUnknownFormatOrLayerIsReportedWithItsLineBeforeTheRun) {
+TEST_F(Record, ReportsAnUnknownFormatOrLayerWithItsLineBeforeTheRun) {
   const std::string records = R"(<navvy:record name="a"><format>npzz</format></navvy:record>
 <navvy:record name="b"><format>npz</format><layers>slop</layers></navvy:record>
 )";
@@ -285,7 +286,7 @@ TEST_F(Record, OfAnUnknownFormatOrLayerIsReportedWithItsLineBeforeTheRun) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
-TEST_F(Record, OfADigSetWithoutADesignIsRefused) {
+TEST_F(Record, RefusesADigSetWithoutADesign) {
   std::string bare = scene(R"(<navvy:record name="dig"><format>terra</format></navvy:record>)");
   const std::size_t from = bare.find("<navvy:design>"), end = bare.find("</navvy:design>") + 15;
   bare.erase(from, end - from);
@@ -303,11 +304,11 @@ TEST_F(Record, OfADigSetWithoutADesignIsRefused) {
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
-TEST_F(Record, ABadPlaceOrLayerToPublishCostsNoEarlierResult) {
+TEST_F(Record, AWrongAddressOrLayerToPublishKeepsEarlierResults) {
   ASSERT_EQ(navvy({"run", "--out", folder_ / "out"}, ""), 0);
   const std::string before = text_of(folder_ / "out/summary.json");
   EXPECT_EQ(json::parse(before).at("status"), "finished");
-  // A port of somebody else's, a folder with something in it, and slips.
+  // A port in use, a folder that is not empty, and wrong names.
   const int taken = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -336,7 +337,7 @@ TEST_F(Record, ABadPlaceOrLayerToPublishCostsNoEarlierResult) {
   ::close(taken);
 }
 
-TEST_F(Record, AnAddressOfAnotherKindIsNoFolder) {
+TEST_F(Record, RefusesAnAddressOfAnUnknownKind) {
   EXPECT_EQ(navvy({"run", "--out", folder_ / "out", "--publish", "udp:5005"}, ""), 2);
   const std::string said = text_of(folder_ / "stderr");
   for (const char* part : {"'udp:5005'", "tcp:PORT", "./udp:5005"})

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of `navvy run` that cannot come true are refused before the run, or end it with a status.
+// Options of `navvy run` that cannot be fulfilled are refused before the run, or end it with a
+// status of their own.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 class RunOptions : public test::ProgramRun {
  protected:
-  /// A run of some steps, with more words.
+  /// Runs a few steps with additional arguments.
   int short_run(const std::vector<std::string>& more, const std::string& input = "") {
     std::vector<std::string> words = {"run",  kScene,  "--no-render", "--duration",
                                       "0.05", "--out", out()};
@@ -31,7 +32,7 @@ class RunOptions : public test::ProgramRun {
   std::string snapshot() const { return (directory_ / "state.snapshot").string(); }
 };
 
-TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
+TEST_F(RunOptions, RefusesASnapshotTimeBeyondTheDurationAndAcceptsThatOfTheEnd) {
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "5"}), 2);
   expect_reported("the run lasts at most 0.05 s");
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "-3"}), 2);
@@ -39,12 +40,12 @@ TEST_F(RunOptions, ASnapshotBeyondTheDurationIsRefusedAndThatOfTheEndIsTaken) {
   EXPECT_FALSE(std::filesystem::exists(snapshot()));
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.05"}), 0) << complained();
   EXPECT_TRUE(std::filesystem::exists(snapshot()));
-  // There is nothing behind it.
+  // Nothing is left to run after it.
   EXPECT_EQ(short_run({"--resume", snapshot()}), 2);
   expect_reported("nothing is left to run");
 }
 
-TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
+TEST_F(RunOptions, ASnapshotReplacesNeitherForeignFilesNorThoseOfTheRun) {
   const std::string notes = (directory_ / "notes.txt").string();
   std::ofstream(notes) << "mine";
   EXPECT_EQ(short_run({"--snapshot", notes, "--snapshot-at", "0"}), 2);
@@ -53,13 +54,13 @@ TEST_F(RunOptions, ASnapshotReplacesNobodysFileAndNoneOfTheRunsOwn) {
   EXPECT_EQ(short_run({"--snapshot", out() + "/telemetry.csv", "--snapshot-at", "0"}), 2);
   expect_reported("is the name of a file that the run itself writes");
   EXPECT_FALSE(std::filesystem::exists(out()));
-  // A snapshot takes the place of an older one, also beside the results.
+  // A snapshot replaces an older one, also next to the results.
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0"}), 0) << complained();
   }
 }
 
-TEST_F(RunOptions, ARunThatEndsBeforeTheSnapshotAskedForHasAStatusOfItsOwn) {
+TEST_F(RunOptions, ARunThatEndsBeforeTheRequestedSnapshotHasItsOwnStatus) {
   EXPECT_EQ(short_run({"--control", "stdio", "--snapshot", snapshot(), "--snapshot-at", "0.04"},
                       "{\"end\": true}\n"),
             4);
@@ -71,7 +72,7 @@ TEST_F(RunOptions, AnEmptyFolderNameIsRefused) {
   expect_reported("the folder's name is empty");
 }
 
-TEST_F(RunOptions, PipesAndFoldersAreReportedAsWhatTheyAre) {
+TEST_F(RunOptions, ReportsPipesAndFoldersByTheirKind) {
   const std::string pipe = (directory_ / "pipe").string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(short_run({"--resume", pipe}), 2);
@@ -80,8 +81,8 @@ TEST_F(RunOptions, PipesAndFoldersAreReportedAsWhatTheyAre) {
   expect_reported("it is a directory");
 }
 
-TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
-  // A column that no ground is as high as, and no word on what that means.
+TEST_F(RunOptions, ReportsMissingHeightsOfAMapBeforeTheyAreFilled) {
+  // A column higher than any ground, and no declared meaning for it.
   const std::string map = (directory_ / "map.asc").string();
   std::string text = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
   for (int row = 0; row < 20; ++row) {
@@ -94,10 +95,10 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   expect_reported("10 of 100 map cells on the site (10 %, 10 m2) have no height");
   expect_reported("1e+38 cannot be a height of ground, and the file does not declare it as nodata");
   expect_reported("0 errors, 1 warning");
-  // And what else was found in the map.
+  // Other findings in the map are reported too.
   expect_reported("source   Arc/Info ASCII Grid, 20 x 20 cells of 1 x 1 m");
   expect_reported("none declared: 10 of 100 cells on the site (10 %), filled from up to 1 m away");
-  // Declared it is a gap like others.
+  // Once declared, it is a gap like any other.
   text.insert(text.find("1.5"), "NODATA_value 1e38\n");
   std::ofstream(map) << text;
   EXPECT_EQ(run({"check", scene, "--terrain", map, "--size", "10,10"}), 0);
@@ -105,7 +106,7 @@ TEST_F(RunOptions, HeightsThatAMapDoesNotHaveAreReportedBeforeTheyAreMadeUp) {
   expect_reported("declared as 1e+38: 10 of 100 cells on the site");
 }
 
-TEST_F(RunOptions, ASnapshotOfAnotherSceneIsReportedByBothNames) {
+TEST_F(RunOptions, ReportsASnapshotOfAnotherSceneWithBothNames) {
   ASSERT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.02"}), 0) << complained();
   const std::string other = navvy::source_dir() + "/scenarios/block_collapse.sdf";
   for (const bool anyway : {false, true}) {

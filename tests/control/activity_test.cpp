@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Activities one at a time, each on a machine whose joints go where they are told; and the parts
-// that they share.
+// Tests activities one at a time, each on a machine whose joints follow their targets; and the
+// parts that they share.
 #include "control/activity.h"
 
 #include <gtest/gtest.h>
@@ -38,15 +38,15 @@ namespace {
 
 constexpr double kStep = 0.01;  // [s]
 
-/// The excavator of the other tests with a bed on its bucket joint, so that one machine can do
-/// every step.
+/// Returns the excavator of the other tests with a bed on its bucket joint, so that one machine can
+/// perform every step.
 scene::Machine able_machine() {
   scene::Machine machine = ew180_like();
   machine.beds.push_back({"bucket", "bucket", "bucket_joint", 1, ""});
   return machine;
 }
 
-/// Straight ahead on ground that is good everywhere.
+/// Plans straight ahead on ground that is drivable everywhere.
 class StraightPlanner final : public PathPlanner {
  public:
   void look(const SurfaceView&) override {}
@@ -56,7 +56,7 @@ class StraightPlanner final : public PathPlanner {
   }
 };
 
-/// One step's activity, begun, with nothing round it but a workplace and what it sees.
+/// The activity of one step, started, with only an operator context and the observed state.
 class Alone {
  public:
   explicit Alone(const scene::ProgramStep& step_in) : step(step_in), place(able_machine()) {
@@ -75,7 +75,7 @@ class Alone {
     activity->begin(seen);
   }
 
-  /// One control step, then the machine follows.
+  /// Advances by one control step; then the machine follows.
   bool advance() {
     Command command;
     command.joints.resize(seen.joints.size());
@@ -91,12 +91,12 @@ class Alone {
       seen.X_WB.translation().x() += command.drive->brake ? 0 : command.drive->speed * kStep;
     return over;
   }
-  /// Until it is over; how long that took, or `limit` [s].
+  /// Runs until the activity ends; returns its duration, or `limit` [s].
   double run(double limit) {
     while (!advance() && time < limit) continue;
     return time;
   }
-  /// At once, but for the joint that something holds, or that is slower than it is told to be.
+  /// Moves a joint to its target at once, unless it is blocked or limited in rate.
   void follow(std::size_t j, double target) {
     vehicle::JointState& joint = seen.joints[j];
     const double rest = target - joint.position;
@@ -137,7 +137,7 @@ DriveTo ahead() {
   return step;
 }
 
-/// A step of every kind but the dig, which has tests of its own.
+/// A step of every kind except the dig, which has its own tests.
 GoTo there() {
   GoTo step;
   step.target = Vec2(3, 0);
@@ -149,7 +149,7 @@ std::vector<scene::ProgramStep> one_of_each() {
           path(),  there(),    Unhitch("tow")};
 }
 
-TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
+TEST(Activity, EveryKindOfStepIsTestedHere) {
   std::set<std::string> tried, known;
   for (const scene::ProgramStep& step : one_of_each()) tried.insert(step->element());
   for (const scene::StepKind& kind : step_kinds()) known.insert(kind.element);
@@ -157,7 +157,7 @@ TEST(Activity, OfEveryKindThatTheProgramKnowsIsTriedHere) {
   EXPECT_EQ(tried, known);
 }
 
-TEST(Activity, OfEveryStepEndsAloneAndGivesItsPhaseTheStepsName) {
+TEST(Activity, EndsByItselfForEveryStepAndNamesItsPhaseAfterTheStep) {
   const std::map<std::string, std::set<std::string>> names = {
       {"drive_to", {"drive"}}, {"go_to", {"plan", "turn", "drive", "stop"}}};
   for (const scene::ProgramStep& step : one_of_each()) {
@@ -169,7 +169,7 @@ TEST(Activity, OfEveryStepEndsAloneAndGivesItsPhaseTheStepsName) {
   }
 }
 
-TEST(Activity, ResumesFromASnapshotInTheMiddleBitForBit) {
+TEST(Activity, ResumesBitIdenticallyFromASnapshot) {
   for (const scene::ProgramStep& step : one_of_each()) {
     const double length = Alone(step).run(60);
     Alone whole(step), resumed(step);
@@ -213,7 +213,7 @@ TEST(Activity, DumpOpensTheBucketHoldsAndCurlsBack) {
     const double q = alone.place.handover.q[3];
     if (q > open + 1e-9) opened_for = 0;
     open = std::max(open, q);
-    // Level to 1e-9 rad: the smooth profile has arrived.
+    // Level to 1e-9 rad: the smooth profile has reached its end.
     if (q > open - 1e-9) opened_for += kStep;
   }
   EXPECT_GT(open, before + 0.7);
@@ -221,9 +221,9 @@ TEST(Activity, DumpOpensTheBucketHoldsAndCurlsBack) {
   EXPECT_DOUBLE_EQ(alone.place.handover.q[3], before);
 }
 
-TEST(Activity, TrajectoryHandsTheArmOnWhereItEnds) {
-  // Without an arm in the workplace it commands joints only; with one the next move begins where it
-  // ended.
+TEST(Activity, TrajectoryPassesItsEndPoseToTheNextMove) {
+  // Without an arm in the context it commands joints only; with one the next move begins at its
+  // end.
   Alone alone(path());
   alone.run(10);
   EXPECT_EQ(alone.place.handover.q[1], 0);
@@ -233,25 +233,25 @@ TEST(Activity, TrajectoryHandsTheArmOnWhereItEnds) {
   EXPECT_DOUBLE_EQ(with_an_arm.place.handover.q[1], 0.9);
 }
 
-TEST(Activity, TrajectoryNamesTheJointThatIsHeld) {
+TEST(Activity, TrajectoryNamesTheBlockedJoint) {
   Alone alone(path());
   alone.slow = "boom_joint";
   alone.seen.joints[1].stalled = true;
-  // Half a second of grace at most: what is held is told at once.
+  // Half a second of grace at most: a blocked joint is reported early.
   EXPECT_LT(alone.run(10), 2.5);
   EXPECT_EQ(alone.activity->state(), StepState::kBlocked);
-  // From 43 deg, where it began, to 0.9 rad.
+  // From 43 deg, the start, to 0.9 rad.
   EXPECT_EQ(alone.activity->reason(),
             "joint 'boom_joint' stopped 8.57 deg short of its last position, at its effort limit: "
             "something holds it");
 }
 
-TEST(Activity, TrajectoryWaitsForAMovingJointButNotForEver) {
+TEST(Activity, TrajectoryWaitsForAMovingJointUpToATimeout) {
   Alone late(path());
   late.slow = "boom_joint";
   late.pace = 0.1;
-  // 0.6 to 0.9 rad at 0.1 rad/s, where a second was given: about two seconds late, within 3 deg of
-  // the place.
+  // 0.6 to 0.9 rad at 0.1 rad/s with one second planned: about two seconds late, within 3 deg of
+  // the target.
   const double end = late.run(20);
   EXPECT_EQ(late.activity->state(), StepState::kDone) << late.activity->reason();
   EXPECT_GT(end, 2.5);
@@ -259,18 +259,18 @@ TEST(Activity, TrajectoryWaitsForAMovingJointButNotForEver) {
   EXPECT_NEAR(late.seen.joints[1].position, 0.9, radians(3));
   Alone never(path());
   never.slow = "boom_joint";
-  never.pace = 0.021;  // a hair faster than rest
+  never.pace = 0.021;  // slightly faster than rest
   EXPECT_NEAR(never.run(20), 2 + 5, 0.1);
   EXPECT_EQ(never.activity->state(), StepState::kBlocked);
 }
 
-TEST(Activity, DumpNamesTheBucketWhenItIsHeld) {
+TEST(Activity, DumpNamesTheBlockedBucket) {
   for (const std::string target : {"open", "closed"}) {
     Alone alone(Dump(1));
     double opened = -kPi;
     for (bool over = false; !over && alone.time < 20;) {
       opened = std::max(opened, alone.seen.joints[3].position);
-      // Held from the start, or as soon as it has begun to close.
+      // Blocked from the start, or as soon as it has begun to close.
       if (target == "open" || alone.seen.joints[3].position < opened - 0.1)
         alone.slow = "bucket_joint";
       over = alone.advance();
@@ -284,7 +284,7 @@ TEST(Activity, DumpNamesTheBucketWhenItIsHeld) {
   }
 }
 
-TEST(Activity, ReportsItsEventsOnceEach) {
+TEST(Activity, ReportsEachEventOnce) {
   Alone alone(Tip(-1, 0.5));
   EXPECT_EQ(alone.activity->take_event(), CycleEvent::kTipStart);
   EXPECT_EQ(alone.activity->take_event(), CycleEvent::kNone);
@@ -314,8 +314,8 @@ TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {
   to[0] += 0.8;
   ArmMove move;
   move.start(alone.place, to, alone.seen, {});
-  // 0.80 rad/s at the fastest moment, 1.5 times the mean; the joint's own limit of 0.85 x 0.9425
-  // rad/s is slower than that by a hair.
+  // 0.80 rad/s at the fastest moment, 1.5 times the mean; slightly faster than the joint's own
+  // limit of 0.85 x 0.9425 rad/s.
   EXPECT_NEAR(move.duration(), 1.5 * 0.8 / std::min(0.80, 0.85 * 0.9425), 1e-12);
   double fastest = 0, before = alone.place.handover.q[0];
   for (int i = 1; i * kStep < move.duration(); ++i) {
@@ -323,21 +323,21 @@ TEST(ArmMove, TakesTheTimeOfItsSlowestAxisAndRestsAtBothEnds) {
     fastest = std::max(fastest, (alone.place.handover.q[0] - before) / kStep);
     before = alone.place.handover.q[0];
   }
-  // A control step off the fastest moment, in which the parabola has lost 1e-3
+  // A control step off the peak, where the parabola has lost 1e-3.
   EXPECT_NEAR(fastest, 0.80, 0.002);
 }
 
-TEST(Stance, SmoothsShakingAndFeelsTheMachineTip) {
+TEST(Stance, FiltersShakingAndDetectsTipping) {
   Stance stance;
   stance.begin(make_pose(1, 2, 0, 0, 0, 0.3));
   const ArmKinematics arm(able_machine());
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
-  // One and a half degrees are the tyres', at three the bucket tips it.
+  // One and a half degrees come from the tyres; three mean that the bucket tips the machine.
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
   EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(3.1), 0.3)), 0);
   const Vec3 still = stance.swing_frame(arm).translation();
   stance.follow(make_pose(1, 2, 0.1, 0, 0, 0.3), 0.25);
-  // After one time constant 1 - 1/e of a jump has come through.
+  // After one time constant 1 - 1/e of a jump has passed the filter.
   EXPECT_NEAR(stance.swing_frame(arm).translation().z() - still.z(), 0.1 * (1 - std::exp(-1)),
               1e-12);
 }
@@ -353,7 +353,8 @@ TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
   EXPECT_NEAR(stance.rise(pitched(2), arm, kPi), -radians(2), 1e-12);       // the arm over the rear
   EXPECT_NEAR(stance.rise(pitched(2), arm, 0.5 * kPi), 0, 1e-12);           // to the side
   EXPECT_NEAR(stance.rise(make_pose(0, 0, 1, 0, 0, 2), arm, 0), 0, 1e-12);  // turned and moved only
-  // The front wheels have sunk: once it is settled that is how it stands, and only more is tipping.
+  // The front wheels have sunk: once settled, this is the new attitude, and only more counts as
+  // tipping.
   EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
   for (int i = 0; i < 500; ++i) stance.follow(pitched(-4.7), kStep);
   EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
@@ -364,7 +365,7 @@ TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
   EXPECT_EQ(stance.footing(pitched(-1.6)), 0);
 }
 
-TEST(TipPath, RisesWhenTheBucketLiftsTheNoseAndNotWhenItPullsItDown) {
+TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
   Alone alone(Swing(0));
   Stance stance;
   stance.begin(Pose::Identity());
@@ -374,25 +375,25 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheNoseAndNotWhenItPullsItDown) {
   const auto follow = [&](double nose_up_deg, double seconds) {
     alone.seen.X_WB = make_pose(0, 0, 0, 0, -radians(nose_up_deg), 0);
     for (int i = 0; i * kStep < seconds; ++i) {
-      // The arm follows at once: nothing is held, it is the machine that gives way.
+      // The arm follows at once: nothing blocks it, the machine itself moves.
       for (std::size_t k = 0; k < 4; ++k)
         alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
       tip.follow(alone.place, stance, p, alone.seen, kStep, true);
     }
   };
   follow(1.4, 1);
-  EXPECT_EQ(tip.lift, 0);  // the tyres' own
+  EXPECT_EQ(tip.lift, 0);  // within the tyres' compliance
   follow(-2.9, 1);
   EXPECT_EQ(tip.lift, 0);
   follow(2.6, 0.5);
   EXPECT_NEAR(tip.lift, 0.25, 0.01);  // 0.5 m/s, one control step of slack
-  EXPECT_GT(tip.slow, 0);             // and the path goes on meanwhile, if slowly
+  EXPECT_GT(tip.slow, 0);             // the path continues slowly
   EXPECT_LT(tip.slow, 0.3);
   follow(0, 1);
   EXPECT_NEAR(tip.lift, 0.15, 0.01);  // back at 0.1 m/s
 }
 
-TEST(TipPath, RisesWhileTheTipIsHeldAndSinksBackWhenFree) {
+TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
   Alone alone(Swing(0));
   Stance stance;
   stance.begin(Pose::Identity());
@@ -401,20 +402,20 @@ TEST(TipPath, RisesWhileTheTipIsHeldAndSinksBackWhenFree) {
   alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
   for (std::size_t i = 0; i < 4; ++i)
     alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
-  // The path goes down half a metre, the joints stay: held by soil.
+  // The path goes down half a metre while the joints stay, blocked by soil.
   tip.z = -0.3;
   for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false);
-  EXPECT_LT(tip.slow, 0.35);  // below this a tip that stands still counts as held
-  // 0.3 m/s for what is left of 2 s after the lag has grown and been felt
+  EXPECT_LT(tip.slow, 0.35);  // below this a tip at rest counts as blocked
+  // 0.3 m/s for the rest of 2 s after the lag has grown and been detected
   EXPECT_GT(tip.lift, 0.2);
   const double raised = tip.lift;
-  // Free again: the joints follow at once.
+  // Released: the joints follow at once.
   for (int i = 0; i < 50; ++i) {
     for (std::size_t k = 0; k < 4; ++k)
       alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
     tip.follow(alone.place, stance, p, alone.seen, kStep, false);
   }
-  EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; a step or two of being held before
+  EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; blocked for a step or two before
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST(ArmKinematics, ForwardAgreesWithTheTreesKinematics) {
   EXPECT_NEAR(pose.angle, q[0] + q[1] + q[2], 1e-12);
 }
 
-TEST(ArmKinematics, InverseReturnsToEveryPoseThatForwardGives) {
+TEST(ArmKinematics, InverseReproducesEveryForwardPose) {
   const ArmKinematics arm(testing::ew180_like());
   int tried = 0;
   for (double boom = -0.8; boom <= 1.0; boom += 0.15)
@@ -42,12 +42,12 @@ TEST(ArmKinematics, InverseReturnsToEveryPoseThatForwardGives) {
   EXPECT_GT(tried, 1000);
 }
 
-TEST(ArmKinematics, InverseRefusesWhatIsOutOfReachAndNearestTurnsTheBucket) {
+TEST(ArmKinematics, InverseRefusesPosesOutOfReachAndNearestTurnsTheBucket) {
   const ArmKinematics arm(testing::ew180_like());
   ArmAngles q;
   BucketPose far{12, 0, -kPi / 2};
   EXPECT_FALSE(arm.inverse_nearest(far, q));
-  // Too far for a bucket pointing down, possible with it stretched out.
+  // Out of reach for a bucket pointing down, reachable with it stretched out.
   BucketPose pose{7.9, -1.2, -kPi / 2};
   EXPECT_FALSE(arm.inverse(pose, q));
   ASSERT_TRUE(arm.inverse_nearest(pose, q));
@@ -55,12 +55,12 @@ TEST(ArmKinematics, InverseRefusesWhatIsOutOfReachAndNearestTurnsTheBucket) {
   EXPECT_NEAR(arm.forward(q).reach, 7.9, 1e-9);
 }
 
-TEST(ArmKinematics, NearestMovesWithoutJerksAlongALimit) {
+TEST(ArmKinematics, NearestMovesSmoothlyAlongALimit) {
   const ArmKinematics arm(testing::ew180_like());
   ArmAngles before{};
   bool first = true;
   double most = 0;
-  // Along the floor of a trench from far out: the wish of a digging angle is possible only nearer.
+  // Along the floor of a trench from far out: the preferred digging angle is possible only nearby.
   for (double reach = 7.8; reach > 4.4; reach -= 0.004) {
     BucketPose pose{reach, -1.98, -radians(112)};
     ArmAngles q;
@@ -70,17 +70,17 @@ TEST(ArmKinematics, NearestMovesWithoutJerksAlongALimit) {
     first = false;
     before = q;
   }
-  // 4 mm of tip path turn the bucket by 5 mrad in the mean; steps of 2 deg would be 35
+  // 4 mm of tip path turn the bucket by 5 mrad on average; steps of 2 deg would be 35 mrad.
   EXPECT_LT(most, 0.02);
 }
 
 TEST(ArmKinematics, ShellHangsBelowTheTipOnlyWhenTheBucketIsCurled) {
   const ArmKinematics arm(testing::ew180_like());
-  // digging: the floor plate rises behind the edge
+  // Digging: the floor plate rises behind the edge.
   EXPECT_NEAR(arm.below_tip(-radians(112)), 0, 1e-12);
   EXPECT_NEAR(arm.below_tip(-radians(180)), 0.63, 1e-9);  // level: the heel of the profile
-  // Upright cutting edge: nothing of the back is farther out than the tip; turned in, the back is.
-  // 3 deg over the plate's 0.31 m
+  // Upright cutting edge: no part of the bucket's heel is farther out than the tip; curled in, the
+  // heel is. 3 deg over the plate's 0.31 m
   EXPECT_NEAR(arm.beyond_tip(-radians(93) - arm.cut_angle(), 0.8), 0, 0.02);
   EXPECT_GT(arm.beyond_tip(-radians(130), 0.8), 0.5);
   EXPECT_LT(arm.beyond_tip(-radians(130), 0.1), arm.beyond_tip(-radians(130), 0.4));

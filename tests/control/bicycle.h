@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bicycle that rolls without slip, its steering rate limited, its speed following with a lag: the
-// drive of an ew180 as far as operators' laws see it.
+// A bicycle that rolls without slip, with limited steering rate and delayed speed: the drive of an
+// ew180 as the control laws see it.
 #pragma once
 
 #include <algorithm>

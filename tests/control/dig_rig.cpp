@@ -25,7 +25,8 @@ class Plane final : public vehicle::GroundQuery {
 
 double tip_angle(const Pose& X_WB) {
   const Vec3 x = X_WB.linear().col(0), upward = X_WB.linear().col(2);
-  // The bucket's x axis over the horizontal; past the vertical the tip points towards the cab.
+  // Angle of the bucket's x axis above the horizontal; beyond the vertical the tip points towards
+  // the cab.
   const double rise = std::asin(std::clamp(x.z(), -1.0, 1.0));
   return upward.z() >= 0 ? rise : -kPi - rise;
 }
@@ -86,10 +87,10 @@ Observation DigRig::look() const {
 bool DigRig::against_rock(const Command& command) const {
   const Vec3 tip = engine->link(0, machine_.link_index("bucket")).X_WL * machine_.buckets[0].p_tip;
   const bool rock = tip.x() >= rock_from && tip.x() <= rock_to && tip.z() <= rock_top;
-  // The slice is the uncut ground just ahead of the lip, which goes towards the machine.
+  // The slice is the uncut ground just ahead of the cutting edge, which moves towards the machine.
   const bool strong = ground.sample(tip.x() - 0.2, tip.y()) - tip.z() > thickest_slice;
   if (!rock && !strong) return false;
-  // Up is free, anything else is held.
+  // Upward motion is free, any other is blocked.
   const ArmKinematics arm(machine_);
   ArmAngles q;
   for (std::size_t i = 0; i < 3; ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operator in a closed loop with the kinematic engine and a soil that is geometry only: what the
-// bucket's shell sweeps leaves the ground and fills the bucket, what the opened bucket holds falls
+// An operator in a closed loop with the kinematic engine and a purely geometric soil: soil swept by
+// the bucket's shell leaves the ground and fills the bucket, and soil in an opened bucket falls
 // below it.
 #pragma once
 
@@ -26,9 +26,9 @@ class DigRig {
  public:
   DigRig(scene::Machine machine, scene::Program program, const Pose& X_WM);
 
-  /// One control step of 5 ms.
+  /// Advances by one control step of 5 ms.
   void step();
-  /// Until the program ends; false after `limit` [s].
+  /// Runs until the program ends; returns false after `limit` [s].
   bool run(double limit);
 
   struct Cycle {
@@ -38,29 +38,29 @@ class DigRig {
   };
   std::vector<Cycle> cycles;
   double time = 0;
-  /// Largest change of a joint's target in a step / its speed limit x step.
+  /// Largest change of a joint's target in a step, relative to its speed limit x step.
   double fastest_jump = 0;
-  /// Of the bucket from its carrying angle between lift-out and dump [rad].
+  /// Largest deviation of the bucket from its carrying angle between lift-out and dump [rad].
   double worst_tilt = 0;
   heightfield::Ground ground;
   std::unique_ptr<vehicle::PhysicsEngine> engine;
   Operator op;
   /// While the tip is inside this box of the swing plane (W x range, below z), boom, stick and
-  /// bucket are held.
+  /// bucket are blocked.
   double rock_from = 0, rock_to = 0, rock_top = -100;
   bool hit_rock = false;
-  /// Soil so strong that a thicker slice holds the bucket as rock does [m].
+  /// Soil so strong that a thicker slice blocks the bucket as rock does [m].
   double thickest_slice = 100;
-  /// Soil that stands in the mouth while it goes down, as if it were its load [kg].
+  /// Soil in the mouth of the bucket while it is lowered, counted as load [kg].
   double in_mouth = 0;
-  /// Angle of the line from pin to tip when a curl begins, at most [rad].
+  /// Largest angle of the line from pin to tip at the start of a curl [rad].
   double steepest_curl = -kPi;
-  /// How far the bucket's pin sank in a curl, at most [m].
+  /// Largest drop of the bucket's pin in a curl [m].
   double deepest_curl = 0;
-  /// Until then [s] the operator sees the machine stand level, and as it stands from then on:
-  /// ground that gave way.
+  /// Until this time [s] the operator sees the machine level, and from then on its actual attitude:
+  /// ground that yielded.
   double settled_at = 0;
-  /// What the bucket loses while it is lifted, and how long after the start of the lift.
+  /// Soil that the bucket loses while it is lifted, and for how long after the start of the lift.
   double leak_rate = 0, leak_time = 0;    // [kg/s], [s]
   double lift_since = -1, dry_since = 0;  ///< when the last lift and its leak began and ended [s]
 
@@ -87,7 +87,7 @@ class DigRig {
   double pin_ = 0;  // height of the bucket's pin before the last curl [m]
 };
 
-/// Ground now minus ground at the start, against the design.
+/// Final ground minus initial ground, compared with the design.
 struct TrenchMeasure {
   double removed_share = 0;  ///< of the design volume
   double overdug_share = 0;  ///< removed below the floor or beside the outline within 1.5 m

@@ -25,8 +25,8 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
   return out;
 }
 
-/// A figure of a step's account by name.
-double figure(const StepReport& step, const std::string& name) {
+/// Returns a value of a step's account by name.
+double value_of(const StepReport& step, const std::string& name) {
   for (const Measurement& one : step.figures)
     if (one.name == name) return one.value;
   ADD_FAILURE() << "no figure " << name;
@@ -62,24 +62,23 @@ TEST(Dig, MakesTheTrenchOfTheShippedScene) {
   expect_good(measured);
   EXPECT_EQ(log.text(), "");
   ASSERT_GE(rig.cycles.size(), 3u);
-  // 2.7 m3 bank at 0.6 m3 a bucket are 4.4 buckets, and some for the rests
+  // 2.7 m3 bank at 0.6 m3 per bucket are 4.4 buckets, and some more for the rest
   EXPECT_LE(rig.cycles.size(), 9u);
   double mean = 0;
   for (std::size_t i = 1; i < rig.cycles.size(); ++i)
     mean += (rig.cycles[i].start - rig.cycles[i - 1].start) /
             static_cast<double>(rig.cycles.size() - 1);
-  // A cycle of this class in loam takes 13-18 s at 60-90 deg; the operator is allowed to be
-  // careful.
+  // A cycle of this class in loam takes 13-18 s at 60-90 deg; the operator may be slower.
   EXPECT_GT(mean, 11);
   EXPECT_LT(mean, 19);
-  // A level bucket loses nothing; FK of three moving joints, exact to rounding
+  // A level bucket loses nothing; forward kinematics of three moving joints, exact to rounding
   EXPECT_LT(rig.worst_tilt, radians(3));
   for (const DigRig::Cycle& cycle : rig.cycles) EXPECT_EQ(cycle.spilt, 0);
   EXPECT_LE(rig.fastest_jump, 2);  // the servo follows a jump of two steps' travel without notice
 }
 
-TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
-  // Turned by 25 deg, the line passing the swing axis 0.1 m aside, spoil to the right.
+TEST(Dig, FollowsItsLineWhenTheMachineIsTurnedAndOffTheOrigin) {
+  // Turned by 25 deg, with the line 0.1 m beside the swing axis and the spoil to the right.
   const double yaw = radians(25);
   const Pose X_WM = make_pose(-5, -3, 0, 0, 0, yaw);
   const auto at = [&](double x, double y) -> Vec2 { return (X_WM * Vec3(x, y, 0)).head<2>(); };
@@ -94,9 +93,9 @@ TEST(Dig, LiesOnTheLineWhenTheMachineStandsTurnedAndOffTheOrigin) {
   expect_good(measured);
 }
 
-TEST(Dig, CurlsOnlyABucketThatHasTurnedIn) {
-  // What stands in the mouth of a bucket that goes down along the far end looks like a load. A curl
-  // from there presses the heel into the wall.
+TEST(Dig, CurlsOnlyNearTheDiggingAngle) {
+  // Soil in the mouth of a bucket that is lowered along the far end looks like a load. A curl from
+  // there would press the heel into the wall.
   Dig dig = trench();
   dig.max_cycles = 1;
   DigRig rig(ew180_like(), program({dig}), make_pose(-4, 0, 0));
@@ -106,20 +105,20 @@ TEST(Dig, CurlsOnlyABucketThatHasTurnedIn) {
   EXPECT_LT(rig.steepest_curl, with_cut(ArmKinematics(ew180_like()), -kPi + kAttack) + radians(6));
 }
 
-TEST(Dig, DigsOnWhenTheGroundHasTiltedTheMachine) {
-  // Its front wheels sink by 0.22 m after the dig has begun: 4.7 deg, for good.
+TEST(Dig, ContinuesWhenTheGroundHasTiltedTheMachine) {
+  // Its front wheels sink by 0.22 m after the dig has begun: 4.7 deg, permanently.
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0, 0, radians(4.7), 0));
   rig.settled_at = 0.5;
   ASSERT_TRUE(rig.run(400)) << rig.op.phase();
   const TrenchMeasure measured = measure(rig.ground, trench());
   report(rig, measured);
   expect_good(measured);
-  EXPECT_LE(rig.cycles.size(), 9u);  // as many as a level machine may take
+  EXPECT_LE(rig.cycles.size(), 9u);  // as for a level machine
 }
 
 TEST(Dig, YieldsToRockAndFinishesTheRest) {
-  // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: held there, the
-  // path rises over it.
+  // A boulder across the line from x = 2.6 to 3.2, its top 0.3 m below the surface: the bucket is
+  // blocked there and the path rises over it.
   LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.rock_from = 2.6;
@@ -128,7 +127,7 @@ TEST(Dig, YieldsToRockAndFinishesTheRest) {
   ASSERT_TRUE(rig.run(900)) << rig.op.phase() << "\n" << log.text();
   report(rig, measure(rig.ground, trench()));
   EXPECT_TRUE(rig.hit_rock);
-  // Behind and ahead of the rock the floor is down; on it something stays.
+  // Behind and ahead of the rock the floor is at its depth; over it some soil remains.
   const auto depth = [&](double x) { return -rig.ground.sample(x, 0); };
   EXPECT_GT(depth(4.2), 0.70);  // floor within 0.10 m
   EXPECT_GT(depth(2.1), 0.70);  // floor within 0.10 m
@@ -136,15 +135,15 @@ TEST(Dig, YieldsToRockAndFinishesTheRest) {
   for (const DigRig::Cycle& cycle : rig.cycles) EXPECT_LT(cycle.end - cycle.start, 60);
 }
 
-TEST(Dig, CurlsAboutTheBucketsPinAndNotOnItsHeel) {
-  // About the lip the pin would sink by 0.42 m and press the heel on the floor.
+TEST(Dig, CurlsAboutTheBucketPinAndNotOnTheHeel) {
+  // About the cutting edge the pin would sink by 0.42 m and press the heel on the floor.
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(400)) << rig.op.phase();
   std::printf("the pin sinks by %.3f m\n", rig.deepest_curl);
   EXPECT_LT(rig.deepest_curl, 0.35);
 }
 
-TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
+TEST(Dig, TakesThinnerSlicesOfSoilThatBlocksTheBucket) {
   LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.thickest_slice = 0.09;
@@ -157,8 +156,7 @@ TEST(Dig, TakesThinnerSlicesOfSoilThatHoldsTheBucket) {
 }
 
 TEST(Dig, EndsWhenScoopsBringNothing) {
-  // The whole line is rock at the surface: nothing can be dug, and the operator does not try for
-  // ever.
+  // The whole line is rock at the surface: nothing can be dug, and the operator gives up.
   LogLines log;
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.rock_from = 1;
@@ -167,14 +165,14 @@ TEST(Dig, EndsWhenScoopsBringNothing) {
   EXPECT_FALSE(rig.run(400));
   ASSERT_TRUE(rig.op.ended()) << rig.op.phase();
   report(rig, measure(rig.ground, trench()));
-  // 8: the kinematic rock gives way by some steps' travel, three empty ones end it
+  // 8: the kinematic rock yields by a few steps' travel, and three empty scoops end the dig
   EXPECT_LE(rig.cycles.size(), 8u);
   const StepReport end = rig.op.reports().back();
   EXPECT_EQ(end.state, StepState::kStalled) << end.reason;
   EXPECT_NE(end.reason.find("empty scoops"), std::string::npos) << end.reason;
-  EXPECT_GT(figure(end, "volume_left_m3"), 0.7 * figure(end, "design_volume_m3"));
-  EXPECT_LT(figure(end, "depth_reached_m"), 0.4);
-  EXPECT_EQ(figure(end, "depth_m"), 0.8);
+  EXPECT_GT(value_of(end, "volume_left_m3"), 0.7 * value_of(end, "design_volume_m3"));
+  EXPECT_LT(value_of(end, "depth_reached_m"), 0.4);
+  EXPECT_EQ(value_of(end, "depth_m"), 0.8);
 }
 
 TEST(Dig, EndsOutOfReachWhenTheMachineHasMovedAway) {
@@ -191,7 +189,7 @@ TEST(Dig, EndsOutOfReachWhenTheMachineHasMovedAway) {
   EXPECT_NE(end.reason.find("m from the swing axis, out of the bucket's reach"), std::string::npos)
       << end.reason;
   EXPECT_NE(end.reason.find("are left"), std::string::npos) << end.reason;
-  // Soon, and not after cycles that cannot bring anything.
+  // It ends soon, without cycles that cannot bring anything.
   EXPECT_LE(rig.cycles.size(), 2u);
 }
 
@@ -202,31 +200,31 @@ TEST(Dig, StopsAtItsLargestNumberOfCycles) {
   ASSERT_TRUE(rig.run(200));
   EXPECT_EQ(rig.cycles.size(), 2u);
   const StepReport end = rig.op.reports().back();
-  // As ordered, so the program goes on; what it left is told.
+  // As commanded, so the program continues; the rest is reported.
   EXPECT_EQ(end.state, StepState::kDone) << end.reason;
   EXPECT_NE(end.reason.find("made its 2 cycles; "), std::string::npos) << end.reason;
-  EXPECT_EQ(figure(end, "cycles"), 2);
-  EXPECT_GT(figure(end, "volume_left_m3"), 1);
+  EXPECT_EQ(value_of(end, "cycles"), 2);
+  EXPECT_GT(value_of(end, "volume_left_m3"), 1);
 }
 
-TEST(Dig, AccountsForWhatItDug) {
+TEST(Dig, AccountsForTheSoilDug) {
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   ASSERT_TRUE(rig.run(400));
   const StepReport end = rig.op.reports().back();
   const TrenchMeasure measured = measure(rig.ground, trench());
   EXPECT_EQ(end.state, StepState::kDone) << end.reason;
   EXPECT_EQ(end.reason, "");
-  EXPECT_EQ(figure(end, "cycles"), static_cast<double>(rig.cycles.size()));
-  EXPECT_DOUBLE_EQ(figure(end, "design_volume_m3"), 3.2 * 1.05 * 0.8);
+  EXPECT_EQ(value_of(end, "cycles"), static_cast<double>(rig.cycles.size()));
+  EXPECT_DOUBLE_EQ(value_of(end, "design_volume_m3"), 3.2 * 1.05 * 0.8);
   // Ten rows of 32 columns have their centres inside the outline, 1.05 m wide: all that the measure
   // can find removed. Its columns against the operator's 33 places along the line: a piece of 0.1 m
   // at an end.
-  EXPECT_NEAR(figure(end, "volume_left_m3"), 10 * 32 * 0.1 * 0.1 * 0.8 - measured.removed,
+  EXPECT_NEAR(value_of(end, "volume_left_m3"), 10 * 32 * 0.1 * 0.1 * 0.8 - measured.removed,
               0.1 * 1.05 * 0.8);
-  EXPECT_NEAR(figure(end, "depth_reached_m"), 0.8, 0.05);
+  EXPECT_NEAR(value_of(end, "depth_reached_m"), 0.8, 0.05);
 }
 
-TEST(Dig, ResumedFromASnapshotEndsBitForBitEqual) {
+TEST(Dig, ResumesBitIdenticallyFromASnapshot) {
   Dig dig = trench();
   dig.max_cycles = 2;
   const scene::Program steps = program({dig});
@@ -282,7 +280,7 @@ TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
   EXPECT_NEAR(rig.time - waiting, 1.5, 0.02);  // two control steps and a half
   const double start = rig.time;
   while (rig.time < start + 2) rig.step();
-  // Linear between the knots at 1 s and 3 s, one control step of 0.15 rad/s late
+  // Linear between the knots at 1 s and 3 s, one control step of 0.15 rad/s late.
   EXPECT_NEAR(joint(1), 0.75, 0.01);
   EXPECT_NEAR(joint(3), -1.3, 0.01);
   ASSERT_TRUE(rig.run(60));
@@ -300,7 +298,8 @@ TEST(Program, RefusesATrajectoryOfAnUnknownJoint) {
 struct Lift {
   double start = 0, end = 0, dry = 0;  ///< begins, swings away, last lost soil [s]
 };
-/// The first lift of the shipped trench with a bucket that loses `rate` [kg/s] for `seconds`.
+/// Returns the first lift of the shipped trench with a bucket that loses `rate` [kg/s] for
+/// `seconds`.
 Lift leaking_lift(double rate, double seconds) {
   DigRig rig(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
   rig.leak_rate = rate;
@@ -309,7 +308,7 @@ Lift leaking_lift(double rate, double seconds) {
   return {rig.lift_since, rig.cycles.empty() ? -1 : rig.cycles[0].lift_out, rig.dry_since};
 }
 
-TEST(Dig, SwingsWhenTheBucketDripsNoMore) {
+TEST(Dig, SwingsWhenTheBucketNoLongerLosesSoil) {
   const Lift dry = leaking_lift(0, 0);
   ASSERT_GT(dry.end, dry.start);
   const double longer = 0.8;  // than the arm takes to lift [s]
@@ -320,7 +319,7 @@ TEST(Dig, SwingsWhenTheBucketDripsNoMore) {
   EXPECT_LT(wet.end, wet.dry + 1.0);
 }
 
-TEST(Dig, DoesNotWaitForABucketThatDripsForEver) {
+TEST(Dig, DoesNotWaitForABucketThatKeepsLosingSoil) {
   const Lift dry = leaking_lift(0, 0), wet = leaking_lift(20, 100);
   EXPECT_GT(wet.end, dry.end + 0.5);
   EXPECT_LT(wet.end, dry.end + 4.0);

@@ -56,13 +56,13 @@ DriveTo to(double x, double y, double heading, double speed = 1.2) {
 TEST(Drive, StopsAtTheTargetFiveMetresAheadWithTheBrakeOn) {
   const Arrival a = drive(to(-4, 0, 0), {Vec2(-9, 0), 0});
   EXPECT_TRUE(a.done);
-  // The drive's lag of 0.2 s at creeping speed, and braking short by 0.02 m
+  // The drive's lag of 0.2 s at creeping speed, and braking 0.02 m short
   EXPECT_LT(a.miss, 0.05);
   EXPECT_LT(std::abs(a.turned), 1e-6);
   EXPECT_TRUE(a.bicycle.braked);
   EXPECT_LT(a.bicycle.fastest, 1.2 + 1e-9);
-  // The ramp is 0.5 m/s^2 both ways; the drive's lag carries it past the curve, which then
-  // asks for up to twice that.
+  // The ramp is 0.5 m/s^2 both ways; the drive's lag overshoots the curve, which then demands up to
+  // twice that.
   EXPECT_LT(a.bicycle.most_acceleration, 1.0);
   EXPECT_LT(a.time, 5 / 1.2 + 1.2 / 0.5 + 4);
 }
@@ -89,7 +89,7 @@ TEST(Drive, ArrivesBesideAndTurned) {
     }
 }
 
-TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
+TEST(Drive, FollowsTheStraightLineToATargetWithoutHeading) {
   DriveTo goal;
   goal.target = Vec2(10, 4);
   const Arrival a = drive(goal, {Vec2(0, 0), 0});
@@ -97,8 +97,8 @@ TEST(Drive, WithoutAHeadingFollowsTheStraightLineToTheTarget) {
   EXPECT_LT(a.miss, goal.tolerance);
 }
 
-/// A machine that stands whatever it is told: the wheels' spin [rad/s] and the tyres' push [N] are
-/// given.
+/// A machine that does not move whatever its command: the wheels' spin [rad/s] and the tyres' push
+/// [N] are given.
 StepReport stuck(double spin, const Vec3& push, double speed = 1) {
   scene::Machine machine = ew180_like();
   scene::Wheel wheel;
@@ -106,7 +106,7 @@ StepReport stuck(double spin, const Vec3& push, double speed = 1) {
   wheel.driven = true;
   wheel.radius = 0.5;
   machine.wheels.push_back(wheel);
-  // 18 t in all, whatever the links of the test machine weigh.
+  // 18 t in total, whatever the masses of the test machine's links.
   for (scene::Link& link : machine.links)
     link.mass = 18000.0 / static_cast<double>(machine.links.size());
   Operator op(machine, {{to(-4, 0, 0, speed)}, {}}, "digger");
@@ -120,8 +120,8 @@ StepReport stuck(double spin, const Vec3& push, double speed = 1) {
   return op.present(seen, time);
 }
 
-TEST(Drive, AgainstAnObstacleIsBlocked) {
-  // With wheels that hold and with wheels that spin: what counts is that something pushes back.
+TEST(Drive, IsBlockedByAnObstacle) {
+  // With wheels that hold and with wheels that spin: only the resistance matters.
   for (const double spin : {0.0, 2.0}) {
     const StepReport report = stuck(spin, Vec3(25e3, 0, 0));
     EXPECT_EQ(report.state, StepState::kBlocked);
@@ -132,33 +132,33 @@ TEST(Drive, AgainstAnObstacleIsBlocked) {
   }
 }
 
-TEST(Drive, WithWheelsThatSpinIsStalled) {
+TEST(Drive, IsStalledWhenItsWheelsSpin) {
   const StepReport report = stuck(2, Vec3::Zero());
   EXPECT_EQ(report.state, StepState::kStalled);
   EXPECT_NE(report.reason.find("its wheels have spun for 5.00 m"), std::string::npos)
       << report.reason;
 }
 
-TEST(Drive, ThatDoesNotTurnItsWheelsIsStalled) {
+TEST(Drive, IsStalledWhenItsWheelsDoNotTurn) {
   const StepReport report = stuck(0, Vec3::Zero());
   EXPECT_EQ(report.state, StepState::kStalled);
   EXPECT_NE(report.reason.find("does not turn its wheels"), std::string::npos) << report.reason;
 }
 
-TEST(Drive, ThatIsCommandedToCreepGetsEnoughTime) {
+TEST(Drive, GetsEnoughTimeToCreep) {
   // At 5 mm/s the 5 cm that count as motion take 10 s.
   EXPECT_NEAR(stuck(0, Vec3::Zero(), 0.005).end, 40, 0.1);
 }
 
-TEST(Pursuit, ForetellsWhereTheMachineEnds) {
+TEST(Pursuit, PredictsTheFinalPose) {
   const auto about = std::get<scene::AckermannDrive>(ew180_like().drive);
   const PlanePose start{Vec2(0, 0), 0};
-  // Two metres beside within four ahead is impossible at a least radius of 5 m, and told so.
+  // Two metres sideways within four ahead is impossible at a minimum radius of 5 m, and reported.
   for (const auto& [x, reachable] : {std::pair{12.0, true}, std::pair{3.0, false}}) {
     const DriveTo goal = to(x, 2, 0);
     const PlanePose end = Pursuit::of(goal, about, start).end_from(start, about.steer_rate);
     EXPECT_EQ((end.p - goal.target).norm() < goal.tolerance, reachable) << x;
-    // The bicycle of this test has a lag
+    // The bicycle of this test has a lag.
     EXPECT_NEAR((end.p - drive(goal, start).bicycle.at.p).norm(), 0, 0.08);
   }
 }

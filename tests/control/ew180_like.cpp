@@ -21,8 +21,8 @@ scene::Joint pitch(const char* name, int parent, double lower, double upper, dou
 }
 
 scene::Shell bucket_shell() {
-  // Profile from the tip over the heel to the top, as in the shipped model; its sides are of no
-  // matter here.
+  // Profile from the tip over the heel to the top, as in the shipped model; its sides do not matter
+  // here.
   const double profile[9][2] = {{1.4, 0},      {1.2, 0.235}, {1, 0.43},
                                 {0.79, 0.565}, {0.57, 0.63}, {0.36, 0.61},
                                 {0.19, 0.5},   {0.1, 0.32},  {0.08, 0.1}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A new program step needs its class and a row of the table, nothing else: this file adds one and
-// never leaves it.
+// A new program step needs only its class and a row of the table: this file adds one without
+// touching others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ namespace {
 
 constexpr double kStep = 0.01;  // [s]
 
-/// Nod with the boom a number of times, after another machine has done its program if one is named.
+/// Nods with the boom a number of times, after another machine has finished its program if one is
+/// named.
 struct Nod final : ActivityStep {
   static constexpr const char* kElement = "nod";
   static constexpr const char* kText = "Nods with the boom.";
@@ -55,7 +56,7 @@ struct Nod final : ActivityStep {
 
 struct NodMemory {
   ArmMove move;
-  std::int64_t left = 0;  // strokes, two a nod
+  std::int64_t left = 0;  // strokes, two per nod
   double high = 0;        // [rad]
 
   void visit(Archive& a) {
@@ -101,7 +102,7 @@ scene::StepKinds kinds_with_nod() {
   return kinds;
 }
 
-/// A scene with two excavators that run these programs.
+/// Returns a scene with two excavators that run these programs.
 scene::Scene load(const std::string& first, const std::string& second,
                   const scene::StepKinds& kinds) {
   const auto machine = [](const char* name, const char* x, const std::string& program) {
@@ -131,7 +132,7 @@ void expect_in(const std::string& part, const std::string& text) {
 
 const char* const kWait = "<wait><duration_s>1</duration_s></wait>";
 
-/// An operator on a machine that follows at once.
+/// An operator on a machine that follows its commands at once.
 struct Trial {
   explicit Trial(const scene::MachineInWorld& placed) : op(placed.machine, placed.program) {
     for (const scene::Joint& joint : placed.machine.joints) {
@@ -176,7 +177,7 @@ TEST(NewStep, IsReadAndRunsAfterOthersAndBeforeOthers) {
   EXPECT_NEAR(trial.seen.joints[trial.boom].position, high, 1e-9);
 }
 
-TEST(NewStep, ResumesFromASnapshotBitForBit) {
+TEST(NewStep, ResumesBitIdenticallyFromASnapshot) {
   const scene::Scene world = load("<nod><times>2</times></nod>", kWait, kinds_with_nod());
   Trial whole(world.machines[0]), resumed(world.machines[0]);
   while (whole.op.phase() != "up") whole.step();
@@ -201,7 +202,7 @@ TEST(NewStep, ReportsItsFaultsWithLineAndElement) {
   expect_in("needs an element <times>", failure("<nod/>", kWait, kinds_with_nod()));
 }
 
-TEST(NewStep, IsAskedWhatItCanReach) {
+TEST(NewStep, IsCheckedForItsReach) {
   const scene::Scene world =
       load(std::string(kWait) + "<nod><times>7</times></nod>", kWait, kinds_with_nod());
   const scene::MachineInWorld& placed = world.machines[0];
@@ -212,7 +213,7 @@ TEST(NewStep, IsAskedWhatItCanReach) {
   expect_in("step 2/nod/times", faults[0].text());
 }
 
-TEST(NewStep, CanWaitForOthersAndCirclesAreFound) {
+TEST(NewStep, CanWaitForOtherProgramsAndCyclesAreDetected) {
   const std::string second = "<wait_for><machine>first</machine></wait_for>";
   const std::string first = "<nod><times>1</times><after>second</after></nod>";
   expect_in("the machines wait for each other", failure(first, second, kinds_with_nod()));

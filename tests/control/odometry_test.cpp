@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dead reckoning against a plain reference, and one controller that drives the same robot through
+// Dead reckoning compared with a plain reference, and one controller that drives the same robot in
 // both engines.
 #include "control/odometry.h"
 
@@ -44,14 +44,14 @@ TEST(DifferentialOdometry, RollsTheArcOfBothSides) {
   const auto at = [&](double metres, std::uint64_t start) {
     return (start + static_cast<std::uint64_t>(std::llround(metres * per_metre))) & 0xFFFF;
   };
-  // Ten looks a second for 5 s: each wheel's register wraps after 512 mm, several times.
+  // Ten readings per second for 5 s: each wheel's register wraps after 512 mm, several times.
   for (int i = 1; i <= 50; ++i) odometry.update(at(0.05 * i, 65000), at(0.03 * i, 100));
   const double yaw_rate = (0.3 - 0.5) / track, radius = 0.4 / yaw_rate;
   EXPECT_NEAR(yaw_rate, -0.606, 5e-4);
   EXPECT_NEAR(odometry.distance(), 2.0, 1e-4);
   EXPECT_NEAR(odometry.pose().yaw, 0.3 + 5 * yaw_rate, 1e-4);
-  // The closed form of the arc, which many short arcs must give as well as one long one: half a
-  // count a look.
+  // The closed form of the arc, which many short arcs must match as well as one long one: half a
+  // count per reading.
   const double end = 0.3 + 5 * yaw_rate;
   EXPECT_NEAR(odometry.pose().p.x(), 1 + radius * (std::sin(end) - std::sin(0.3)), 1e-4);
   EXPECT_NEAR(odometry.pose().p.y(), 2 - radius * (std::cos(end) - std::cos(0.3)), 1e-4);
@@ -80,7 +80,7 @@ TEST(DifferentialOdometry, EqualsAPlainSumOfSmallStepsOnAPathThatTurnsLeftAndRig
   EXPECT_NEAR(odometry.pose().yaw, yaw, 1e-4);
 }
 
-TEST(DifferentialOdometry, OfAMachineNeedsEncodersOnBothSides) {
+TEST(DifferentialOdometry, NeedsEncodersOnBothSides) {
   scene::Machine robot = shipped_robot();
   EXPECT_NO_THROW(DifferentialOdometry::of(robot));
   robot.encoders.pop_back();
@@ -95,8 +95,8 @@ TEST(DifferentialOdometry, OfAMachineNeedsEncodersOnBothSides) {
   EXPECT_THROW(DifferentialOdometry::of(robot), InputError);
 }
 
-/// Drives a square of 1 m edges, its corners on the spot, as a robot's own computer does: it sees
-/// two registers and sets two wheel speeds.
+/// Drives a square with edges of 1 m, turning on the spot at its corners, as a robot's own computer
+/// does: it reads two registers and sets two wheel speeds.
 class SquareDriver {
  public:
   static constexpr double kPeriod = 0.02;
@@ -113,8 +113,7 @@ class SquareDriver {
     odometry_.update(left, right);
     trace_.push_back(odometry_.pose());
     if (edge_ == 4) return Vec2::Zero();
-    // Ramps that the motors follow: what tells the engines apart is then the ground and nothing of
-    // the motor.
+    // Ramps that the motors can follow: the engines then differ by the ground and not by the motor.
     const double heading = kPi / 2 * edge_;
     double speed = 0, turn = 0;
     if (turning_) {
@@ -134,7 +133,8 @@ class SquareDriver {
   const std::vector<PlanePose>& trace() const { return trace_; }
 
  private:
-  /// Speed towards a place `left` away: at most `most`, reached and left by `rate` a second.
+  /// Returns the speed towards a place `left` away: at most `most`, with ramps of `rate` per
+  /// second.
   double ramped(double left, double most, double rate) {
     const double stop = std::min(std::sqrt(2 * 0.7 * rate * std::abs(left)), 5 * std::abs(left));
     before_ = std::min({most, stop, before_ + rate * kPeriod});
@@ -150,12 +150,12 @@ class SquareDriver {
 };
 
 struct Drive {
-  std::vector<PlanePose> trace;  ///< what the controller believed
+  std::vector<PlanePose> trace;  ///< dead-reckoned poses
   PlanePose truth;
-  double turned = 0, rolled = 0;  ///< rims and middle, along the way [m]
+  double turned = 0, rolled = 0;  ///< travel of the rims and of the middle [m]
 };
 
-/// The whole square in an engine; the kinematic one may have its encoders falsified by `slip`.
+/// Drives the whole square in an engine; `slip` may falsify the encoders of the kinematic one.
 Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::PhysicsEngine> engine,
                    double slip = 0) {
   constexpr double kStep = SquareDriver::kPeriod / 16;
@@ -185,7 +185,7 @@ Drive drive_square(const scene::Machine& robot, std::unique_ptr<vehicle::Physics
   return out;
 }
 
-/// Largest distance of the two controllers' beliefs at the same moment [m].
+/// Largest distance between the dead-reckoned poses of the two controllers at the same time [m].
 double largest_difference(const std::vector<PlanePose>& a, const std::vector<PlanePose>& b) {
   double most = 0;
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
@@ -193,24 +193,24 @@ double largest_difference(const std::vector<PlanePose>& a, const std::vector<Pla
   return most;
 }
 
-TEST(OneController, DrivesBothPhysicsEnginesAndOnlySlipDiffers) {
+TEST(OneController, DrivesBothPhysicsEnginesWithSlipAsTheOnlyDifference) {
   const scene::Machine robot = shipped_robot();
   const Drive exact = drive_square(robot, vehicle::make_kinematic_engine());
   const Drive rolling = drive_square(robot, vehicle::make_bullet_engine(Vec3(0, 0, -kGravity)));
-  // What the controller sees and sets is the same: the ramps are the motors', so its beliefs in
-  // both are equal at any moment but for the solver's residual. 1 mm is an eighth of what it drives
-  // between two looks.
+  // The controller sees and sets the same in both: the ramps are those of the motors, so its poses
+  // are equal at any time except for the solver's residual. 1 mm is an eighth of the travel between
+  // two readings.
   const double apart = largest_difference(exact.trace, rolling.trace);
-  print_value("beliefs of both controllers apart [m]", apart, "0", "");
+  print_value("distance of both controllers' poses [m]", apart, "0", "");
   EXPECT_LT(apart, 1e-3);
-  // Both believe to be home.
+  // Both controllers estimate that they are back at the start.
   for (const Drive& each : {exact, rolling}) EXPECT_LT(each.trace.back().p.norm(), 0.02);
-  // In the kinematic engine it is true: half a count a look, and a step's chord.
+  // In the kinematic engine this is true: half a count per reading, and the chord of a step.
   print_value("odometry off, kinematic [m]", (exact.truth.p - exact.trace.back().p).norm(), "0",
               "");
   EXPECT_LT((exact.truth.p - exact.trace.back().p).norm(), 1e-3);
   EXPECT_NEAR(exact.truth.yaw, std::remainder(exact.trace.back().yaw, 2 * kPi), 1e-3);
-  // In the other one the wheels turn by more than they roll: smaller under load, and slipping.
+  // In the dynamic engine the wheels turn by more than they roll: smaller under load, and slipping.
   const double slip = 1 - rolling.rolled / rolling.turned,
                off = (rolling.truth.p - rolling.trace.back().p).norm();
   print_value("slip with tyres [1]", slip, "0.03 to 0.06", "4 mm of 100 under load, and the tread");
@@ -218,11 +218,11 @@ TEST(OneController, DrivesBothPhysicsEnginesAndOnlySlipDiffers) {
   EXPECT_GT(slip, 0.02);
   EXPECT_LT(slip, 0.07);
   EXPECT_GT(off, 0.02);
-  // Falsified by that slip, the kinematic robot goes where the other one went.
+  // With that slip applied, the kinematic robot ends where the dynamic one did.
   const Drive falsified = drive_square(robot, vehicle::make_kinematic_engine(), slip);
   const double left = (falsified.truth.p - rolling.truth.p).norm();
   print_value("falsified kinematics to tyres [m]", left, "0", "");
-  // A quarter: the slip of corners and edges is not the same, one number for all the way.
+  // A quarter: slip differs between corners and edges, while one number stands for the whole path.
   EXPECT_LT(left, 0.25 * off);
   EXPECT_LT((falsified.trace.back().p - rolling.trace.back().p).norm(), 0.02);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How steps and programs end: with a state, a reason and an account that outlive a snapshot.
+// How steps and programs end: with a state, a reason and an account that survive a snapshot.
 #include "control/outcome.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kStep = 0.01;  // [s]
 
-/// Turns the boom and drives, gives an account, and falls short after a while if it is told to.
+/// Turns the boom and drives, reports an account, and fails after a while if commanded to.
 struct Trying final : ActivityStep {
   StepState end = StepState::kDone;
   const char* element() const override { return "trying"; }
@@ -61,7 +61,7 @@ scene::Program program(StepState end) {
   return {{Wait(0.1), trying, Wait(0.1)}, {}};
 }
 
-/// An operator on a machine that stands at x = time.
+/// An operator on a machine at x = time.
 struct Trial {
   explicit Trial(StepState end) : op(ew180_like(), program(end), "digger") {
     seen.joints.resize(4);
@@ -81,7 +81,7 @@ struct Trial {
   double time = 0;
 };
 
-TEST(StepState, HasANameOfItsOwnEach) {
+TEST(StepState, HasADistinctNamePerState) {
   std::set<std::string> names;
   for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i)
     names.insert(name_of(static_cast<StepState>(i)));
@@ -91,7 +91,7 @@ TEST(StepState, HasANameOfItsOwnEach) {
   EXPECT_TRUE(fell_short(StepState::kBlocked));
 }
 
-TEST(Outcome, OfAStepThatIsDoneHasItsAccountAndTheProgramGoesOn) {
+TEST(Outcome, OfADoneStepHasItsAccountAndTheProgramContinues) {
   Trial trial(StepState::kDone);
   trial.run(5);
   EXPECT_TRUE(trial.op.done());
@@ -108,7 +108,7 @@ TEST(Outcome, OfAStepThatIsDoneHasItsAccountAndTheProgramGoesOn) {
   EXPECT_DOUBLE_EQ(report.figures[0].value, report.end);
 }
 
-TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
+TEST(Outcome, OfAFailedStepEndsTheProgramAndStopsTheMachine) {
   Trial trial(StepState::kBlocked);
   trial.run(5);
   EXPECT_TRUE(trial.op.ended());
@@ -116,8 +116,8 @@ TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
   EXPECT_EQ(trial.op.phase(), "blocked");
   EXPECT_TRUE(trial.op.progress().failed);
   EXPECT_EQ(trial.op.progress().done, 1);
-  // The joint that the program moved stands still, the others keep what they had; the drive brakes,
-  // its wheels as they are.
+  // The joint that the program moved stops, the others keep their commands; the drive brakes with
+  // its steering unchanged.
   ASSERT_TRUE(trial.last.joints[1].has_value());
   EXPECT_EQ(trial.last.joints[1]->mode, vehicle::JointMode::kVelocity);
   EXPECT_EQ(trial.last.joints[1]->target, 0);
@@ -128,13 +128,13 @@ TEST(Outcome, OfAStepThatFellShortEndsTheProgramAndStopsTheMachine) {
   ASSERT_EQ(trial.op.reports().size(), 2u);
   EXPECT_EQ(trial.op.reports()[1].reason, "it did not work");
   EXPECT_EQ(trial.op.reports()[1].figures.size(), 2u);
-  // And nothing more, ever.
+  // No further command follows.
   const Command after = trial.step();
   EXPECT_FALSE(after.drive.has_value());
   for (const auto& joint : after.joints) EXPECT_FALSE(joint.has_value());
 }
 
-TEST(Outcome, OfARunningStepIsReportedWithoutChangingIt) {
+TEST(Outcome, OfARunningStepIsReportedWithoutSideEffects) {
   Trial trial(StepState::kDone);
   trial.run(0.4);
   const std::uint64_t before = hash_of(trial.op).digest();
@@ -145,7 +145,8 @@ TEST(Outcome, OfARunningStepIsReportedWithoutChangingIt) {
   EXPECT_EQ(hash_of(trial.op).digest(), before);
 }
 
-/// What a program of one long wait comes to while the machine stands like this for `time` [s].
+/// Returns the outcome of a program of one long wait while the machine stands like this for `time`
+/// [s].
 StepReport standing(const vehicle::Stability& stands, double time, double wheels_under = 0) {
   Operator op(ew180_like(), {{Wait(100)}, {}});
   Observation seen;
@@ -186,10 +187,10 @@ TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
   EXPECT_EQ(report.state, StepState::kTipped);
   EXPECT_EQ(report.reason, "after its program was done: it tilts by 50.00 deg");
   EXPECT_GT(report.end, 1.5);
-  // What the program had moved stops.
+  // The joint that the program had moved stops.
   ASSERT_TRUE(last.joints[1].has_value());
   EXPECT_EQ(last.joints[1]->mode, vehicle::JointMode::kVelocity);
-  // The report outlives a snapshot, and is told once.
+  // The report survives a snapshot and is issued once.
   Trial resumed(StepState::kDone);
   load_saved(saved(trial.op), resumed.op);
   EXPECT_EQ(hash_of(resumed.op).digest(), hash_of(trial.op).digest());
@@ -197,7 +198,7 @@ TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
   EXPECT_EQ(trial.op.reports().size(), 4u);
 }
 
-TEST(Watch, LeavesAMachineAloneThatComesBackOrCannotTip) {
+TEST(Watch, IgnoresAMachineThatRecoversOrCannotTip) {
   EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning)
       << "steep, within its feet";
   EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning)
@@ -213,7 +214,7 @@ TEST(Watch, EndsAProgramWhoseMachineIsBuried) {
   EXPECT_EQ(standing({true, 0, 0, 1}, 1, 0.5).state, StepState::kBuried);
 }
 
-TEST(Outcome, IsSavedAndHashedToTheByte) {
+TEST(Outcome, SavesAndHashesEveryByte) {
   for (const double time : {0.05, 0.4, 5.0}) {
     Trial whole(StepState::kTipped), resumed(StepState::kTipped);
     whole.run(time);

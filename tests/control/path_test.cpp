@@ -30,7 +30,7 @@ TEST(Path, EndsWhereItsArcsEnd) {
   // From (3, 7) facing north, backwards on a circle about (1, 7).
   EXPECT_NEAR((end.p - Vec2(1, 5)).norm(), 0, 1e-12);
   EXPECT_NEAR(end.yaw, 0, 1e-12);
-  // Beyond its ends it stays there.
+  // Beyond its ends it stays at the end pose.
   EXPECT_NEAR((path.at(1000).p - end.p).norm(), 0, 1e-12);
   EXPECT_NEAR((path.at(-1).p - Vec2(1, 2)).norm(), 0, 1e-12);
 }
@@ -42,14 +42,14 @@ TEST(Path, HasALegForEachDirection) {
   EXPECT_DOUBLE_EQ(path.legs()[1].begin, 3);
   EXPECT_DOUBLE_EQ(path.legs()[1].end, 7);
   EXPECT_EQ(path.legs()[1].sense, -1);
-  // The mean over a stretch is cut to the leg; at a point it is the piece's.
+  // The mean over a stretch is limited to the leg; at a point it is that of the piece.
   EXPECT_NEAR(path.curvature(path.legs()[0], 2, 0.5), 0.05, 1e-12);
   EXPECT_NEAR(path.curvature(path.legs()[0], 3, 0.5), 0, 1e-12);
   EXPECT_NEAR(path.curvature(path.legs()[1], 3, 0), -0.1, 1e-12);
   EXPECT_EQ(Path().length(), 0);
 }
 
-TEST(Path, ComesBackFromASnapshotAndRefusesOneThatDoesNotEnd) {
+TEST(Path, IsRestoredFromASnapshotAndRefusesOneWithoutEnd) {
   Path path({Vec2(1, 2), 3}, {{2, 0.1}, {-1, 0}}), back;
   load_saved(saved(path), back);
   EXPECT_EQ(hash_of(back).digest(), hash_of(path).digest());
@@ -58,15 +58,15 @@ TEST(Path, ComesBackFromASnapshotAndRefusesOneThatDoesNotEnd) {
   EXPECT_THROW(load_saved(saved(endless), back), InputError);
 }
 
-/// Largest distance beside the path, and the bicycle at its end.
+/// Largest distance from the path, and the bicycle at its end.
 struct Followed {
   Bicycle bicycle;
   double aside = 0;  // [m]
   double time = 0;
 };
 
-/// From `start`, beside the path's own start: each leg from a stand, with the wheels turned before
-/// it begins.
+/// Follows from `start`, beside the path's own start: each leg begins at rest, with the wheels
+/// turned before.
 Followed follow(const Path& path, const PlanePose& start, double speed) {
   const PathFollower law(ew180_like().drive);
   Followed out;
@@ -89,8 +89,8 @@ Followed follow(const Path& path, const PlanePose& start, double speed) {
 }
 
 TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
-  // Bends as planned ones, 1.2 times as wide as the tightest: left, straight, right, then
-  // backwards, then forwards.
+  // Bends as in plans, 1.2 times as wide as the tightest: left, straight, right, then backwards,
+  // then forwards.
   const double k = 1 / (kRadiusReserve * PathFollower(ew180_like().drive).least_radius());
   const std::vector<Path> paths = {
       Path({Vec2(0, 0), 0.3}, {{6, k}, {4, 0}, {6, -k}}),
@@ -104,21 +104,21 @@ TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
       const PlanePose end = path.at(path.length());
       most = std::max(most, run.aside);
       miss = std::max(miss, (run.bicycle.at.p - end.p).norm());
-      // From one lock to the other at 0.55 m/s; from a stand the drive's lag and creeping cost
-      // seconds, no more.
+      // From one lock to the other at 0.55 m/s; starting from rest, the drive's lag and creeping
+      // cost only seconds.
       EXPECT_LT(run.time, path.length() / std::min(speed, 0.55) +
                               12.0 * static_cast<double>(path.legs().size()))
           << speed;
       EXPECT_LT(std::abs(std::remainder(run.bicycle.at.yaw - end.yaw, 2 * kPi)), radians(3))
           << speed;
     }
-  print_value("largest distance beside the path [m]", most, "<= 0.03", "a bicycle");
+  print_value("largest distance from the path [m]", most, "<= 0.03", "a bicycle");
   print_value("largest miss at the end [m]", miss, "<= 0.12", "a bicycle");
   EXPECT_LT(most, 0.03);  // of the 0.2 m that a plan keeps over the clearance asked for
   EXPECT_LT(miss, 0.12);
 }
 
-TEST(PathFollower, ComesBackToItsPath) {
+TEST(PathFollower, ReturnsToItsPath) {
   const Path ahead({Vec2(0, 0), 0}, {{15, 0}}), back({Vec2(0, 0), 0}, {{-15, 0}});
   for (const Path* path : {&ahead, &back}) {
     const Followed run = follow(*path, {Vec2(0, 0.15), radians(4)}, 1);

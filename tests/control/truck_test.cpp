@@ -49,7 +49,7 @@ Trial run(Operator& op, double rate, double stop, Observation seen = {}) {
     const Command command = op.update(seen, out.time, kStep);
     if (op.event() == CycleEvent::kTipStart) out.started = out.time;
     if (op.event() == CycleEvent::kTipEnd) out.ended = out.time;
-    // Of a program that has fallen short only the stop is left.
+    // After a program has failed, only the stop command remains.
     if (!command.joints[0] || op.ended()) continue;
     EXPECT_EQ(command.joints[0]->mode, vehicle::JointMode::kPosition);
     const double target = std::min(command.joints[0]->target, stop);
@@ -66,7 +66,7 @@ TEST(Truck, TipsToTheAngleHoldsItAndReportsWhen) {
   EXPECT_TRUE(op.done());
   EXPECT_NEAR(tip.angle, 1.2, radians(1));
   EXPECT_EQ(tip.started, 0);
-  // 12 s for the way, 2 s of holding; it counts as there a degree before.
+  // 12 s for the lift, 2 s of holding; the target counts as reached one degree before.
   EXPECT_NEAR(tip.ended, 14, 0.3);
 }
 
@@ -77,13 +77,13 @@ TEST(Truck, ABedThatSticksEndsTheProgramAsStalled) {
   EXPECT_FALSE(op.done());
   EXPECT_LT(tip.ended, 120);
   EXPECT_GT(tip.ended, 20);
-  ASSERT_EQ(op.reports().size(), 1u) << "the bed that sticks is not tipped back as if nothing were";
+  ASSERT_EQ(op.reports().size(), 1u) << "a stuck bed is not lowered as if it had been tipped";
   EXPECT_EQ(op.reports()[0].state, StepState::kStalled);
   // 1.2 - 0.5 rad
   EXPECT_NE(op.reports()[0].reason.find("40.1"), std::string::npos) << op.reports()[0].reason;
 }
 
-TEST(Truck, WaitsForAnotherProgramOrPartOfIt) {
+TEST(Truck, WaitsForAnotherProgramOrOneOfItsSteps) {
   for (const int steps : {2, 0}) {
     Operator op(truck(), program({WaitFor{"digger", steps, 100}}));
     std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
@@ -118,7 +118,7 @@ TEST(Truck, WaitsForTheCommandedTimeAndNamesTheReason) {
   EXPECT_EQ(report.place, Vec3(5, -2, 0.3));
 }
 
-TEST(Truck, DoesNotWaitForWhatCannotCome) {
+TEST(Truck, DoesNotWaitForAnEventThatCannotOccur) {
   Operator op(truck(), program({WaitFor{"digger", 3}}));
   std::map<std::string, ProgramProgress> programs{{"digger", {1, 4}}};
   Observation seen;

@@ -17,7 +17,7 @@
 namespace navvy {
 namespace {
 
-/// A struct that lists its fields beside itself, as one of another room would.
+/// A struct that lists its fields by a free function, like one of another module.
 struct Rut {
   double pressure = 0, height = 0;
   bool operator==(const Rut&) const = default;
@@ -43,7 +43,7 @@ namespace {
 
 enum class Phase : int { kIdle, kDig, kDump };
 
-/// One field of every kind.
+/// A class with one field of every kind.
 class Machine {
  public:
   void visit(Archive& a) {
@@ -70,7 +70,7 @@ class Machine {
       a("random", random);
       a.property(
           "radius", [&] { return radius_; }, [&](double r) { radius_ = r; });
-      a.unhashed("tells how the work was shared out", [&] { a("seconds", seconds); });
+      a.unhashed("depends on how the work was distributed", [&] { a("seconds", seconds); });
       a.section("inner", 1, [&] { a("depth", depth); });
       a.require(depth < 100, "depth", "must be below 100 m");
     });
@@ -142,7 +142,8 @@ std::string fault_of(const std::vector<char>& bytes) {
   return "no fault";
 }
 
-/// The saved bytes of a machine with `value` written over the beginning of the field of that path.
+/// Returns the saved bytes of a machine with `value` written over the beginning of the field at
+/// that path.
 template <class T>
 std::vector<char> overwritten(const std::string& path, const T& value) {
   ByteMap map;
@@ -156,7 +157,7 @@ std::vector<char> overwritten(const std::string& path, const T& value) {
   return bytes;
 }
 
-TEST(Archive, LoadsWhatItSavedAndRebuildsWhatFollowsFromIt) {
+TEST(Archive, LoadsSavedFieldsAndRebuildsDerivedOnes) {
   const Machine from = changed();
   Machine to;
   load_saved(saved(from), to);
@@ -187,7 +188,7 @@ TEST(Archive, LoadsWhatItSavedAndRebuildsWhatFollowsFromIt) {
   EXPECT_EQ(hash_of(to).digest(), hash_of(from).digest());
 }
 
-TEST(Archive, HashesEveryByteItSavesSaveThoseThatSayWhyNot) {
+TEST(Archive, HashesEverySavedByteExceptFieldsThatGiveAReason) {
   const Machine machine;
   Machine target;
   EXPECT_EQ(test::flip_every_byte(machine, target), "");
@@ -205,7 +206,7 @@ TEST(Archive, HashesLengthsSoThatElementsCannotMoveToAnotherList) {
   EXPECT_NE(hash_of(a).digest(), hash_of(b).digest());
 }
 
-TEST(Archive, LeavesOutOfTheHashOnlyWhatIsMarked) {
+TEST(Archive, OmitsOnlyMarkedFieldsFromTheHash) {
   Machine a, b;
   b.seconds = 1000;
   EXPECT_EQ(hash_of(a).digest(), hash_of(b).digest());
@@ -216,7 +217,7 @@ TEST(Archive, LeavesOutOfTheHashOnlyWhatIsMarked) {
   for (const ByteMap::Field& field : map.fields)
     if (!field.hashed) silent.push_back(field.path + ": " + field.reason);
   EXPECT_EQ(silent, (std::vector<std::string>{
-                        "joints: ", "machine/seconds: tells how the work was shared out"}));
+                        "joints: ", "machine/seconds: depends on how the work was distributed"}));
 }
 
 TEST(Archive, NamesTheFieldOfEveryByte) {
@@ -239,7 +240,7 @@ TEST(Archive, NamesTheFieldOfEveryByte) {
   EXPECT_EQ(map.at(bytes.size()), nullptr);
 }
 
-TEST(Archive, NeverReadsPastAnyTruncationNorTakesBytesTooMany) {
+TEST(Archive, RefusesTruncatedAndOverlongStates) {
   const std::vector<char> whole = saved(Machine());
   for (std::size_t n = 0; n < whole.size(); ++n)
     EXPECT_NE(fault_of({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(n)}), "no fault")
@@ -258,8 +259,8 @@ TEST(Archive, RefusesLengthsBeyondTheEndBeforeItAllocates) {
       EXPECT_NE(fault.find(path), std::string::npos) << fault;
       EXPECT_NE(fault.find("length"), std::string::npos) << fault;
     }
-  // A length that the bytes allow but the elements do not: found out by element, without memory for
-  // all.
+  // A length that the bytes allow but the elements do not: detected element by element, without
+  // allocating for all.
   EXPECT_NE(fault_of(overwritten("machine/ruts", std::uint64_t{300})), "no fault");
 }
 
@@ -275,7 +276,7 @@ TEST(Archive, NamesTheFieldThatIsOutOfItsRange) {
   says(fault_of(overwritten("machine/share", 1.5)), "machine/share");
   says(fault_of(overwritten("machine/share", std::numeric_limits<double>::quiet_NaN())),
        "machine/share");
-  // A turn that stretches: what asks for the box of a body would get one of any size.
+  // A rotation that stretches: the bounding box of a body would get an arbitrary size.
   says(fault_of(overwritten("machine/X_WB", 2.0)), "machine/X_WB: must be a finite rigid pose");
   says(fault_of(overwritten("machine/X_WB", std::numeric_limits<double>::infinity())),
        "machine/X_WB: must be a finite");
@@ -344,8 +345,8 @@ TEST(Archive, RefusesASectionThatIsShorterOrLongerThanItsVisit) {
   EXPECT_THROW(load_saved(saved(one), two), InputError);
 }
 
-TEST(Archive, TakesContainersOfOnesOwnElementByElement) {
-  /// A list that is not of the standard library, here a ring.
+TEST(Archive, VisitsUserContainersElementByElement) {
+  /// A container outside the standard library, here a ring buffer.
   struct Ring {
     std::array<int, 4> slots = {1, 2, 3, 4};
     std::uint64_t used = 3;
@@ -368,7 +369,7 @@ TEST(Archive, TakesContainersOfOnesOwnElementByElement) {
   EXPECT_THROW(load_saved(bytes, to), InputError);
 }
 
-TEST(Archive, IsPassedThroughVirtualInterfaces) {
+TEST(Archive, PassesThroughVirtualInterfaces) {
   struct Engine {
     virtual ~Engine() = default;
     virtual void visit(Archive& a) = 0;
@@ -385,14 +386,14 @@ TEST(Archive, IsPassedThroughVirtualInterfaces) {
   EXPECT_EQ(to.length, 3);
 }
 
-/// Saves a field that the hash forgets: the mistake that the flip of every byte is there for.
+/// Saves a field that the hash omits: the mistake that flipping every byte detects.
 TEST(FlipEveryByte, FindsAFieldThatIsSavedAndNotHashed) {
   struct Forgetful {
     int a = 1, b = 2;
     void visit(Archive& archive) {
       archive("a", a);
       int copy = b;
-      archive("b", copy);  // never given back
+      archive("b", copy);  // never loaded back
     }
   };
   const Forgetful object;
@@ -400,7 +401,7 @@ TEST(FlipEveryByte, FindsAFieldThatIsSavedAndNotHashed) {
   EXPECT_EQ(test::flip_every_byte(object, target), "b: is saved but not hashed\n");
 }
 
-/// What lies elsewhere and is only looked at.
+/// A view of data stored elsewhere.
 struct Window {
   std::span<const float> seen;
   void visit(Archive& a) { a("values", seen); }
@@ -410,7 +411,7 @@ struct Values {
   void visit(Archive& a) { a("values", values); }
 };
 
-TEST(Archive, TakesAViewLikeTheVectorItIsOf) {
+TEST(Archive, TreatsAViewLikeItsVector) {
   const Values from{{1, 2.5f, -3}};
   Window window{from.values};
   EXPECT_EQ(saved(window), saved(from));
@@ -418,8 +419,7 @@ TEST(Archive, TakesAViewLikeTheVectorItIsOf) {
   Values to;
   load_saved(saved(window), to);
   EXPECT_EQ(to.values, from.values);
-  EXPECT_THROW(load_saved(saved(from), window), InputError)
-      << "nothing is written into what is not ours";
+  EXPECT_THROW(load_saved(saved(from), window), InputError) << "the viewed data is not modified";
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace navvy {
 namespace {
 namespace fs = std::filesystem;
 
-/// A fresh folder that goes with the test.
+/// Creates a fresh folder that is removed with the test.
 class File : public testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_ / name; }
@@ -42,7 +42,7 @@ std::string message(const std::function<void()>& action) {
   return "";
 }
 
-TEST_F(File, IsReplacedAsAWholeAndLeavesNoPart) {
+TEST_F(File, IsReplacedAtomicallyAndLeavesNoTemporaryFile) {
   write_file_atomically(path("a"), std::string("old"));
   write_file_atomically(path("a"), std::string("new\0text", 8));
   EXPECT_EQ(text(path("a")), std::string("new\0text", 8));
@@ -54,7 +54,7 @@ TEST_F(File, MayBeEmpty) {
   EXPECT_EQ(text(path("a")), "");
 }
 
-TEST_F(File, IsReadOnlyWhenItIsPlainAndOnlySoFar) {
+TEST_F(File, IsReadOnlyIfRegularAndUpToItsLimit) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", path("zero"));
   EXPECT_EQ(message([&] { read_file(path("pipe")); }),
@@ -69,7 +69,7 @@ TEST_F(File, IsReadOnlyWhenItIsPlainAndOnlySoFar) {
 
 TEST_F(File, KeepsItsOldContentWhenTheDiskIsFull) {
   write_file_atomically(path("a"), std::string("old"));
-  // The neighbour that is written first leads to a device that is always full.
+  // The temporary file that is written first is a link to a device that is always full.
   fs::create_symlink("/dev/full", partial_name(path("a")));
   const std::string said = message([&] { write_file_atomically(path("a"), std::string("new")); });
   EXPECT_EQ(said, "cannot write '" + partial_name(path("a")) + "': No space left on device");
@@ -77,10 +77,10 @@ TEST_F(File, KeepsItsOldContentWhenTheDiskIsFull) {
   EXPECT_FALSE(fs::is_symlink(partial_name(path("a"))));
 }
 
-TEST_F(File, KeepsItsOldContentWhenItIsCutInTheMiddle) {
+TEST_F(File, KeepsItsOldContentWhenWritingFailsHalfway) {
   write_file_atomically(path("a"), std::string("old"));
-  // A limit on file size lets the first 4 KiB through and fails the rest, as a disk that fills up
-  // does.
+  // A limit on the file size lets the first 4 KiB through and fails the rest, like a disk that
+  // fills up.
   rlimit old{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -108,7 +108,7 @@ TEST_F(File, NamesPathAndCauseWhenItCannotBeReachedOrRead) {
             std::string::npos);
 }
 
-TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
+TEST_F(File, DoesNotReplacePipesDevicesOrFolders) {
   fs::create_directories(path("folder/inside"));
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   ASSERT_EQ(::mkfifo(path("hidden").c_str(), 0600), 0);
@@ -117,13 +117,13 @@ TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
   const std::pair<std::string, std::string> all[] = {
       {"folder", "a directory"}, {"pipe", "a pipe"}, {"link", "a pipe"}, {"full", "a device"}};
   for (const auto& each : all) {
-    // A lambda takes no structured binding along.
+    // A lambda cannot capture a structured binding.
     const std::string &name = each.first, &what = each.second;
     const std::string told = "cannot write '" + path(name) + "': it is " + what +
                              ", and only a plain file can be replaced (name a file)";
     EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
     EXPECT_EQ(message([&] { require_writable(path(name)); }), told);
-    // Also when another library has written the part already.
+    // Also when another library has already written the temporary file.
     if (name != "full") {
       std::ofstream(partial_name(path(name))) << "x";
       EXPECT_EQ(message([&] { commit_file(path(name)); }), told);
@@ -136,7 +136,7 @@ TEST_F(File, LeavesPipesDevicesAndFoldersWhatTheyAre) {
   EXPECT_TRUE(fs::is_symlink(path("full")));
 }
 
-TEST_F(File, IsReplacedWhereALinkLeadsToAndTheLinkStays) {
+TEST_F(File, IsReplacedAtTheTargetOfALinkThatRemains) {
   fs::create_directories(path("there"));
   write_file_atomically(path("there/a"), std::string("old"));
   fs::create_symlink("there/a", path("link"));
@@ -145,7 +145,7 @@ TEST_F(File, IsReplacedWhereALinkLeadsToAndTheLinkStays) {
   EXPECT_EQ(text(path("there/a")), "new");
   EXPECT_TRUE(fs::is_symlink(path("link")));
   EXPECT_TRUE(fs::is_symlink(path("second")));
-  // One that leads to nothing yet makes the file there.
+  // A link to a missing target creates the file there.
   fs::create_symlink(path("there/b"), path("ahead"));
   write_file_atomically(path("ahead"), std::string("b"));
   EXPECT_EQ(text(path("there/b")), "b");
@@ -158,7 +158,7 @@ TEST_F(File, IsReplacedWhereALinkLeadsToAndTheLinkStays) {
   EXPECT_FALSE(same_file(path("none"), path("none")));
 }
 
-TEST_F(File, IsCommittedFromAPartAnotherLibraryWrote) {
+TEST_F(File, IsCommittedFromATemporaryFileOfAnotherLibrary) {
   std::ofstream(partial_name(path("a"))) << "written by a library";
   commit_file(path("a"));
   EXPECT_EQ(text(path("a")), "written by a library");

@@ -38,7 +38,7 @@ TEST(RenamedNames, ChannelsMatchByWholePartsFromTheirEnd) {
   EXPECT_EQ(now("digger/a_test_pump/test_flow"), "digger/a_test_pump/test_flow");
 }
 
-TEST(RenamedNames, NoOldNameIsACurrentOne) {
+TEST(RenamedNames, NoOldNameIsCurrent) {
   std::set<std::pair<NameKind, std::string>> current;
   for (const RenamedName& row : renamed_names()) current.emplace(row.kind, row.name);
   for (const RenamedName& row : renamed_names())

@@ -21,7 +21,7 @@ struct Part {
     a.section("part", 1, [&] { a("values", values); });
   }
 };
-/// Three sections side by side, the first two of one kind and length.
+/// Three sections in a row, the first two of one kind and length.
 struct State {
   Part first{{1, 2, 3}}, second{{4, 5, 6}}, third{{7}};
   void visit(Archive& a) {
@@ -40,13 +40,13 @@ bool refused(const std::vector<char>& content) {
   return false;
 }
 
-TEST(Sealed, GivesTheStateBack) {
+TEST(Sealed, RestoresTheState) {
   const std::vector<char> state = saved(State());
   EXPECT_EQ(unseal(seal(state)), state);
   EXPECT_EQ(unseal(seal({})), std::vector<char>());
 }
 
-TEST(Sealed, IsKnownByItsHead) {
+TEST(Sealed, IsRecognisedByItsHeader) {
   const test::Folder folder;
   write_file_atomically(folder / "state", seal(saved(State())));
   write_file_atomically(folder / "short", std::string("navvy"));
@@ -56,7 +56,7 @@ TEST(Sealed, IsKnownByItsHead) {
   EXPECT_FALSE(is_sealed(folder / ""));
 }
 
-TEST(Sealed, BytesOutsideOfSectionsAreTheCallersFault) {
+TEST(Sealed, RejectsBytesOutsideOfSections) {
   EXPECT_THROW(seal(std::vector<char>(5, 'x')), Error);
   EXPECT_THROW(seal(std::vector<char>(100, 'x')), Error);
 }
@@ -85,13 +85,13 @@ TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
   EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not match"),
             std::string::npos)
       << told(content.size() - 1);
-  // The name itself is damaged: as much of it as letters go.
+  // The name itself is damaged: its leading letters are reported.
   const std::size_t name = 32 + 8;
   EXPECT_NE(told(name + 2).find("section 1, 'pa': "), std::string::npos) << told(name + 2);
   EXPECT_NE(told(name).find("section 1: "), std::string::npos) << told(name);
 }
 
-TEST(Sealed, EveryLengthButTheRightOneIsRefused) {
+TEST(Sealed, RefusesEveryWrongLength) {
   std::vector<char> content = seal(saved(State()));
   for (std::size_t size = 0; size < content.size(); ++size)
     EXPECT_TRUE(refused(
@@ -106,7 +106,7 @@ TEST(Sealed, SwappedSectionsAreRefused) {
   std::swap(swapped.first, swapped.second);
   const std::vector<char> one = seal(saved(State())), other = seal(saved(swapped));
   ASSERT_EQ(one.size(), other.size());
-  // The two equal sections of one file, checksums and all, in the other's order.
+  // Swaps the two equal sections of one file, including their checksums.
   const std::size_t head = 32, size = 8 + 28 + 8 + 24;
   std::vector<char> mixed = one;
   std::copy(one.begin() + head, one.begin() + head + size, mixed.begin() + head + size);

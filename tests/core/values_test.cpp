@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small values everybody shares: errors, hash, random numbers, log, math.
+// Small types used by all modules: errors, hash, random numbers, log, math.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -16,7 +16,7 @@
 namespace navvy {
 namespace {
 
-TEST(Fault, SaysWhereWhatWhichRuleAndWhatToDo) {
+TEST(Fault, StatesPlaceValueRuleAndRemedy) {
   Fault fault{Fault::Severity::kError, "a.sdf",           12, "world/navvy:soil/cohesion_pa", "-3",
               "must be at least 0",    "write 0 for sand"};
   EXPECT_EQ(
@@ -30,7 +30,7 @@ TEST(Fault, SaysWhereWhatWhichRuleAndWhatToDo) {
   EXPECT_EQ(Fault{}.text(), "error: ");
 }
 
-TEST(InputError, ListsEveryFaultOnALineOfItsOwn) {
+TEST(InputError, ListsEveryFaultOnItsOwnLine) {
   const InputError error(std::vector<Fault>{{Fault::Severity::kError, "f", 1, "", "", "one", ""},
                                             {Fault::Severity::kError, "f", 2, "", "", "two", ""}});
   EXPECT_STREQ(error.what(), "f:1: error: one\nf:2: error: two");
@@ -68,7 +68,7 @@ TEST(StateHash, IsWrittenAsSixteenHexDigits) {
   EXPECT_EQ(StateHash().hex(), "cbf29ce484222325");  // the offset basis of 64-bit FNV-1a
 }
 
-TEST(Random, GivesThePublishedSequence) {
+TEST(Random, ProducesThePublishedSequence) {
   // First numbers of SplitMix64 for seed 1234567, as printed by the authors' C code.
   Random random(1234567);
   for (const std::uint64_t expected :
@@ -92,7 +92,7 @@ TEST(Random, IsUniformInItsRange) {
   EXPECT_NEAR(sum / kDraws, 2, 0.037);
 }
 
-TEST(Suggestion, IsTheMostLikeAlsoWithItsWordsInAnotherOrder) {
+TEST(Suggestion, IsTheMostSimilarNameEvenWithReorderedWords) {
   const std::vector<std::string> soils = {"clay_stiff", "loam", "sand_dry", "sand_moist",
                                           "topsoil"};
   EXPECT_EQ(suggestion("laom", soils), "did you mean 'loam'?");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of what columns remember, beside a map of the same.
+// Compares the table of column records with a std::map of the same content.
 #include "coupling/column_table.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ struct Value {
   void visit(Archive& a) { a("number", number); }
 };
 
-/// What a table took the place of.
+/// Reference container.
 struct Map {
   std::map<std::int64_t, Value> values;
   void visit(Archive& a) { a("values", values); }
@@ -45,7 +45,7 @@ class ColumnTables : public ::testing::Test {
   Map map_;
 };
 
-TEST_F(ColumnTables, HoldWhatAMapHolds) {
+TEST_F(ColumnTables, HoldTheSameAsAMap) {
   EXPECT_EQ(table_.size(), map_.values.size());
   for (int iy = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix) {
@@ -56,20 +56,20 @@ TEST_F(ColumnTables, HoldWhatAMapHolds) {
     }
 }
 
-TEST_F(ColumnTables, AreHashedAndSavedAsAMapOfTheSame) {
+TEST_F(ColumnTables, AreHashedAndSavedLikeAMap) {
   EXPECT_EQ(hash_of(table_).digest(), hash_of(map_).digest());
   EXPECT_EQ(saved(table_), saved(map_));
 }
 
 TEST_F(ColumnTables, AreLoadedAsTheyWereSaved) {
   ColumnTable<Value> again(kNx, kNy);
-  again.at(3, 3).number = 5;  // goes
+  again.at(3, 3).number = 5;  // is overwritten by the load
   load_saved(saved(table_), again);
   EXPECT_EQ(saved(again), saved(table_));
   EXPECT_EQ(test::flip_every_byte(table_, again), "");
 }
 
-TEST_F(ColumnTables, RefuseColumnsBesideTheSite) {
+TEST_F(ColumnTables, RefuseColumnsOutsideTheSite) {
   ColumnTable<Value> smaller(kNx, kNy - 1);
   EXPECT_THROW(load_saved(saved(table_), smaller), InputError);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the exchange keeps from step to step: tools' forces, ruts and the ground that rigid bodies
-// meet.
+// State of the coupling between steps: tool forces, ruts, and the ground that rigid bodies touch.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -19,7 +18,7 @@
 namespace navvy::coupling {
 namespace {
 
-/// The shipped excavator standing on columns of 0.4 m: a patch of some 2000 heights, every byte of
+/// Returns the shipped excavator on columns of 0.4 m: a patch of some 2000 heights, every byte of
 /// which is flipped.
 scene::Scene coarse_site() {
   scene::Scene world =
@@ -33,7 +32,7 @@ class CouplingState : public ::testing::Test {
  protected:
   CouplingState() : world_(coarse_site(), device_), other_(coarse_site(), device_) {
     world_.commands().set(world_.machines().at(0), {0.8, 0, false});
-    // Longer than between two looks at the ground and two presses of ruts.
+    // Longer than the periods of the ground checks and of rut pressing.
     for (int i = 0; i < 40; ++i) world_.step();
   }
   Coupling& coupling() { return sim::parts(world_).coupling; }
@@ -57,7 +56,7 @@ TEST_F(CouplingState, HashesEveryByteItSaves) {
   std::size_t ruts = 0;
   for (const ByteMap::Field& field : map.fields)
     ruts += field.path.find("memory[") != std::string::npos;
-  EXPECT_GT(ruts, 0u) << "the machine stands in no ruts";
+  EXPECT_GT(ruts, 0u) << "the machine has made no ruts";
   EXPECT_EQ(test::flip_every_byte(coupling(), target()), "");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What wheels and bodies read of columns.
+// Ground queries of wheels and bodies on columns.
 #include "coupling/ground_view.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ heightfield::Ground hills() {
   });
 }
 
-TEST(GroundView, KnowsAnUpperBoundOfItsHeightsInAnyRectangle) {
+TEST(GroundView, BoundsItsHeightsInAnyRectangle) {
   const heightfield::Ground ground = hills();
   const GroundView view(ground, ground.setup().soils);
   Random random(11);
@@ -45,13 +45,13 @@ TEST(GroundView, KnowsAnUpperBoundOfItsHeightsInAnyRectangle) {
         most = std::max(most, view.height(low.x() + (high.x() - low.x()) * i / 40,
                                           low.y() + (high.y() - low.y()) * j / 40));
     EXPECT_GE(view.highest(low, high) + 1e-9, most);
-    // Steepest is 0.9 m a metre: a ring of two columns round the rectangle.
+    // The steepest slope is 0.9 m per metre: a ring of two columns around the rectangle.
     EXPECT_LE(view.highest(low, high), most + 0.35);
   }
 }
 
-// A body's box that is wholly above the ground is passed over: what the body feels must not tell.
-TEST(GroundView, WhatItSaysOfItsHighestPlacesChangesNothingThatABodyFeels) {
+// A body whose box is wholly above the ground is skipped; this must not affect the forces on it.
+TEST(GroundView, ItsHeightBoundDoesNotAffectForcesOnBodies) {
   const heightfield::Ground ground = hills();
   const GroundView view(ground, ground.setup().soils);
   const WithoutHighest plain(view);

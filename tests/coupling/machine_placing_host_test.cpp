@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a model's base link starts: as its file says, over the ground or in the world.
+// Initial pose of a model's base link: given by its file, relative to the ground or to the world.
 #include "coupling/machine_placing.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ scene::Link link(const std::string& name, const Pose& X_ML) {
   return out;
 }
 
-/// A block whose base link stands 0.16 m over the model frame, turned in it.
+/// A block whose base link is 0.16 m above the model frame and rotated in it.
 scene::MachineInWorld block() {
   scene::MachineInWorld placed;
   placed.name = placed.machine.name = "block";
@@ -45,7 +45,7 @@ scene::MachineInWorld block() {
   return placed;
 }
 
-/// The block on three hinge wheels of 0.1 m whose lowest points lie `drop` below the model frame.
+/// The block on three hinge wheels of 0.1 m whose lowest points are `drop` below the model frame.
 scene::MachineInWorld robot(double drop = 0) {
   scene::MachineInWorld placed = block();
   for (const Vec2& at : {Vec2(0.1, 0.2), Vec2(0.1, -0.2), Vec2(-0.25, 0)}) {
@@ -66,7 +66,7 @@ scene::MachineInWorld robot(double drop = 0) {
   return placed;
 }
 
-/// Of the base link in both engines, which must agree.
+/// Initial pose of the base link; both engines must agree.
 Pose started(const scene::MachineInWorld& placed, const heightfield::Ground& ground) {
   const auto dynamic = vehicle::make_bullet_engine(Vec3(0, 0, -kGravity));
   const auto kinematic = vehicle::make_kinematic_engine();
@@ -79,7 +79,7 @@ Pose started(const scene::MachineInWorld& placed, const heightfield::Ground& gro
   return X_WB;
 }
 
-TEST(Placing, OffTheGroundTheBaseIsWhereTheFileSays) {
+TEST(Placing, OffTheGroundTheBaseHasThePoseOfTheFile) {
   const heightfield::Ground ground = ground_of([](double x, double) { return 1 + 0.2 * x; });
   for (scene::MachineInWorld placed : {block(), robot(), robot(0.3)}) {
     placed.on_ground = false;
@@ -91,7 +91,7 @@ TEST(Placing, OffTheGroundTheBaseIsWhereTheFileSays) {
   }
 }
 
-TEST(Placing, OnLevelGroundTheBaseIsAsFarOverItAsTheFileSays) {
+TEST(Placing, OnLevelGroundTheBaseHasTheHeightOfTheFile) {
   const heightfield::Ground ground = ground_of([](double, double) { return 1.25; });
   for (scene::MachineInWorld placed : {block(), robot()}) {
     placed.X_WM = make_pose(0.7, -0.4, 0, 0, 0, 0.9);
@@ -99,11 +99,12 @@ TEST(Placing, OnLevelGroundTheBaseIsAsFarOverItAsTheFileSays) {
     placed.X_WM.translation().z() = 0.5;
     EXPECT_NEAR(started(placed, ground).translation().z(), 1.25 + 0.16 + 0.5, kMillimetre);
   }
-  // A frame above the wheels' lowest points: the machine stands on its wheels and not on its frame.
+  // The frame is above the lowest points of the wheels: the machine stands on its wheels and not on
+  // its frame.
   EXPECT_NEAR(started(robot(0.3), ground).translation().z(), 1.25 + 0.3 + 0.16, kMillimetre);
 }
 
-TEST(Placing, OnASlopeTheBaseIsAsFarOverThePlaneUnderItsFeetAsTheFileSays) {
+TEST(Placing, OnASlopeTheBaseHasTheHeightOfTheFileAboveThePlaneUnderItsWheels) {
   const Vec3 up = Vec3(-0.2, 0.1, 1).normalized();  // of z = 1 + 0.2 x - 0.1 y
   const heightfield::Ground ground =
       ground_of([](double x, double y) { return 1 + 0.2 * x - 0.1 * y; });

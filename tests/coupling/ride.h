@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine on columns of one soil without particles: engine, tyres and ruts alone, as a world
-// steps them.
+// A machine on columns of one soil without particles: engine, tyres and ruts only, stepped as a
+// world does.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,8 @@
 
 namespace navvy::coupling::testing {
 
-/// Columns of `soil` 2 m deep, from (0, 0) on; the surface is a function of the place [m].
+/// Columns of `soil` 2 m deep with their corner at (0, 0); the surface is a function of the place
+/// [m].
 inline heightfield::Ground bed(const scene::Soil& soil, double cell, const Vec2& size,
                                const std::function<double(double, double)>& height = {}) {
   heightfield::GroundSetup setup;

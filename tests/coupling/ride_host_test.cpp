@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator on soft columns: how deep its wheels sink, how evenly they bear, what their ruts
-// take from the drive.
+// The excavator on soft columns: sinkage of its wheels, evenness of their loads, and the resistance
+// of their ruts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using testing::shipped_soil;
 constexpr double kSide = 4.03;  // of the machine's middle line: not on a column's edge for any cell
 constexpr double kWidth = 0.28, kTwin = 0.32, kTrack = 1.94;
 
-/// Mean and root mean square deviation of what was added.
+/// Mean and root mean square deviation of the added values.
 class Spread {
  public:
   void add(double value) { sum_ += value, squares_ += value * value, ++count_; }
@@ -35,7 +35,8 @@ class Spread {
   int count_ = 0;
 };
 
-/// Depth [m] of the left wheels' rut between the places x, in the middles of both tyres.
+/// Returns the depth [m] of the left wheels' rut between the places x, in the middles of both
+/// tyres.
 double rut_depth(const heightfield::Ground& ground, double from, double to) {
   Spread depth;
   for (double x = from; x < to; x += 0.05)
@@ -50,7 +51,7 @@ class RideSoil : public ::testing::TestWithParam<const char*> {
   const scene::Soil soil_ = shipped_soil(GetParam());
 };
 
-TEST_P(RideSoil, StandsAsDeepAndAsEvenWhateverTheCell) {
+TEST_P(RideSoil, SinkageAndWheelLoadsDoNotDependOnTheCell) {
   std::vector<double> sinkage;
   for (const double cell : {0.2, 0.1, 0.05}) {
     heightfield::Ground ground = bed(soil_, cell, Vec2(12, 8)),
@@ -77,7 +78,7 @@ TEST_P(RideSoil, StandsAsDeepAndAsEvenWhateverTheCell) {
   for (std::size_t i = 4; i < sinkage.size(); ++i) EXPECT_NEAR(sinkage[i] / sinkage[i % 4], 1, 0.1);
 }
 
-TEST_P(RideSoil, LoadsStayEvenInTheOwnRutWhateverTheCell) {
+TEST_P(RideSoil, LoadsStayEvenInItsOwnRutForAnyCell) {
   std::vector<double> depth, force;
   for (const double cell : {0.2, 0.1, 0.05}) {
     heightfield::Ground ground = bed(soil_, cell, Vec2(16, 8));
@@ -107,9 +108,9 @@ TEST_P(RideSoil, LoadsStayEvenInTheOwnRutWhateverTheCell) {
   }
   for (const double one : depth) EXPECT_NEAR(one / depth[0], 1, 0.1);
   for (const double one : force) EXPECT_NEAR(one / force[1], 1, 0.1);
-  // The drive does the work of pressing two pairs of ruts, and rolls: R = b int p dz a tyre
-  // [Bekker 1969]. What slips, what the tyres push ahead and what the steep front of the rut takes
-  // comes on top, half as much again at most.
+  // The drive does the work of pressing two pairs of ruts, and rolls: R = b int p dz per tyre
+  // [Bekker 1969]. Slip, soil pushed ahead of the tyres and the steep front of the rut add to it,
+  // at most half as much again.
   const double rut = 4 * kWidth * terramechanics::plate_work(soil_, depth[1], kWidth);
   const double rolling = 0.02 * 18000 * kGravity;
   print_value("drive [N]", force[1], "1 .. 1.5 of " + std::to_string(rut + rolling),
@@ -141,9 +142,9 @@ TEST_P(RideSoil, SecondPassSinksLessThanThreeFifthsOfTheFirst) {
   EXPECT_LE(added[2], added[1] + 1e-6);  // heights are whole mass quanta
 }
 
-/// Height [m] of ground that is even to a tenth of a millimetre and not to the bit. On that the two
-/// wheels of an open differential would slip alike until rounding has grown: when one of them spins
-/// would be chance.
+/// Height [m] of ground that is even to a tenth of a millimetre but not exactly. On exactly even
+/// ground the two wheels of an open differential would slip equally until rounding has grown, so
+/// that chance would decide when one of them spins.
 double uneven(double x, double y) { return 1e-4 * std::sin(1e3 * (x + 2.7 * y)); }
 
 /// Pulls every link back at its centre of mass by a share of its weight.
@@ -156,8 +157,8 @@ void hold_back(Ride& ride, const scene::Machine& machine, double share) {
   }
 }
 
-/// How fast [m/s] it drives up a slope of soil after 6 s, its wheels in their ruts; 0.5 is
-/// commanded. `pull`: a share of the weight that holds it back besides.
+/// Returns the speed [m/s] up a slope of soil after 6 s with its wheels in their ruts; 0.5 is
+/// commanded. `pull`: a share of the weight that also holds it back.
 double climbing_speed(const scene::Machine& machine, const scene::Soil& soil, double slope,
                       double pull) {
   heightfield::Ground ground = bed(soil, 0.1, Vec2(16, 8), [slope](double x, double y) {
@@ -172,9 +173,9 @@ double climbing_speed(const scene::Machine& machine, const scene::Soil& soil, do
   return (ride.place_of_base().x() - start) / std::cos(slope) / 2;
 }
 
-TEST_P(RideSoil, SlopeOfTheFrictionThatItsWheelsMobiliseStopsIt) {
-  // What its wheels pull on the flat, compaction and rolling paid, as a share of the weight: the
-  // friction they mobilise.
+TEST_P(RideSoil, StopsOnASlopeOfItsMobilisedFriction) {
+  // Net traction of its wheels on the flat, after compaction and rolling resistance, as a share of
+  // the weight: the friction they mobilise.
   double moves = 0, stops = 0.7;
   while (stops - moves > 0.01) {
     const double pull = 0.5 * (moves + stops);
@@ -193,7 +194,7 @@ TEST_P(RideSoil, SlopeOfTheFrictionThatItsWheelsMobiliseStopsIt) {
   EXPECT_GT(gentler, 0.05);
 }
 
-TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
+TEST(Ride, ClimbsASlopeOutOfItsOwnRuts) {
   heightfield::Ground ground = bed(shipped_soil("loam"), 0.1, Vec2(16, 8),
                                    [](double x, double) { return (x - 3) * std::tan(radians(8)); });
   Ride ride(shipped_machine("ew180"), ground, Vec2(3, kSide));
@@ -205,15 +206,16 @@ TEST(Ride, ClimbsASlopeThroughTheRutsItStandsIn) {
   ride.engine().set_drive(0, {0.8, 0, false});
   ride.run(4);
   EXPECT_GT(ride.place_of_base().x(), 4.5);
-  // Two driven wheels overcome gravity, compaction and rolling: slip, but no wheel that digs itself in.
+  // Two driven wheels overcome gravity, compaction and rolling: they slip, but no wheel digs itself
+  // in.
   EXPECT_LT(ride.wheel(2).slip, 0.2);
 }
 
 TEST(Ride, ChassisBottomsOutOnSoilThatSlippingWheelsPushUp) {
-  // Pulled back until its wheels dig themselves in.
+  // Held back until its wheels dig themselves in.
   const scene::Soil soil = shipped_soil("loam");
   scene::Machine machine = shipped_machine("ew180");
-  std::vector<double> borne;
+  std::vector<double> supported;
   for (const bool has_chassis : {true, false}) {
     if (!has_chassis)
       for (scene::Link& link : machine.links) link.collisions.clear();
@@ -229,12 +231,12 @@ TEST(Ride, ChassisBottomsOutOnSoilThatSlippingWheelsPushUp) {
       if (++steps <= 7 * 600) return;
       for (int w = 0; w < 4; ++w) sum += ride.wheel(w).force_W.z() / weight / 600;
     });
-    borne.push_back(sum);
+    supported.push_back(sum);
     print_value("share of the weight on the wheels", sum,
                 has_chassis ? "below 0.95" : "1 within 3 %", "[docs/machines.md, ruts]");
   }
-  EXPECT_LT(borne[0], 0.95);
-  EXPECT_NEAR(borne[1], 1, 0.03);  // mean of a second in which it still rocks
+  EXPECT_LT(supported[0], 0.95);
+  EXPECT_NEAR(supported[1], 1, 0.03);  // mean of a second in which it still rocks
 }
 
 INSTANTIATE_TEST_SUITE_P(Soils, RideSoil, ::testing::Values("loam", "sand_dry"),

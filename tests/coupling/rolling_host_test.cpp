@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One tyre on columns, rolled at a prescribed speed: what of its resistance is soil that it pushes
-// ahead.
+// One tyre on columns, rolled at a prescribed speed: the share of its resistance from soil that it
+// pushes ahead.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ scene::Wheel twin() {
   return wheel;
 }
 
-/// The ground as tyres read it, without their sinkage: no tyre pushes soil ahead.
+/// The ground as seen by tyres, without sinkage, so that no tyre pushes soil ahead.
 class NotSunk final : public terramechanics::GroundQuery {
  public:
   explicit NotSunk(const GroundView& ground) : ground_(ground) {}
@@ -50,8 +50,8 @@ class RolledTyre {
     motion_.spin_inertia = 60;
   }
 
-  /// At `speed` with the rim at `rim` [m/s] for some seconds. @return the mean force [N] that
-  /// pushing soil ahead took.
+  /// Rolls at `speed` with the rim at `rim` [m/s] for some seconds. @return the mean force [N] of
+  /// pushing soil ahead.
   double roll(double speed, double rim, double seconds) {
     const terramechanics::GroundQuery& ground = view_;
     double sum = 0;
@@ -88,7 +88,7 @@ class RolledTyre {
 
 class RollingTyre : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(RollingTyre, PushesAsMuchAheadWhateverTheCellAndHardlyAnyInItsOwnRut) {
+TEST_P(RollingTyre, PushesEquallyForAnyCellAndHardlyInItsOwnRut) {
   const scene::Soil soil = shipped_soil(GetParam());
   std::vector<double> pushed;
   for (const double cell : {0.2, 0.1, 0.05}) {
@@ -102,11 +102,11 @@ TEST_P(RollingTyre, PushesAsMuchAheadWhateverTheCellAndHardlyAnyInItsOwnRut) {
     const double expected = 2 * terramechanics::bulldozing({&soil, 1}, 0.28, 0.525, depth, 1);
     print_value("rolls freely, pushes ahead [N]", pushed.back(),
                 std::to_string(expected) + " within 5 %", "[Bekker 1969]");
-    // 5 %: the rut is measured between columns, and loads swing a little; found 1.3.
+    // 5 %: the rut is measured between columns, and loads vary a little; 1.3 % measured.
     EXPECT_NEAR(pushed.back() / expected, 1, 0.05) << cell;
     const double locked = tyre.roll(kSpeed, 0, 0.5);
     EXPECT_GT(locked, 3 * pushed.back()) << cell;
-    // Back in its own rut, from where it has rolled evenly on.
+    // Back in its own rut, from a place where it has rolled evenly.
     tyre.roll(-kSpeed, -kSpeed, 1);
     EXPECT_LT(std::abs(tyre.roll(-kSpeed, -kSpeed, 1.5)), 0.05 * pushed.back()) << cell;
   }

@@ -34,7 +34,7 @@ heightfield::Ground flat_loam(int columns = 64) {
   return flat(loam, columns);
 }
 
-// As terrain/soils/sand_dry.sdf, in what ruts and slumping ask of it.
+// Returns terrain/soils/sand_dry.sdf as far as ruts and slumping need it.
 scene::Soil dry_sand() {
   scene::Soil sand;
   sand.name = "sand_dry";
@@ -68,7 +68,8 @@ double deepest(const heightfield::Ground& ground) {
   return -least;
 }
 
-/// Largest drop between columns so many apart along an axis over their distance.
+/// Returns the largest drop between columns at this distance along an axis, divided by the
+/// distance.
 double steepest(const heightfield::Ground& ground, int apart = 1) {
   double most = 0;
   for (int iy = 0; iy + apart < ground.ny(); ++iy)
@@ -89,7 +90,7 @@ TEST(Ruts, PressSinksTheTreadAndKeepsTheMass) {
   for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
 }
 
-TEST(Ruts, StandingStillAndAnEqualSecondPassAddNothingAHeavierOneDoes) {
+TEST(Ruts, StandingStillAndAnEqualPassAddNothingButAHeavierOneDoes) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 30e3)}});
@@ -100,7 +101,7 @@ TEST(Ruts, StandingStillAndAnEqualSecondPassAddNothingAHeavierOneDoes) {
   EXPECT_GT(deepest(ground), once);
 }
 
-TEST(Ruts, SecondPassByAHeavierMachineSinksToWhatItsOwnPressureGives) {
+TEST(Ruts, SecondPassByAHeavierMachineSinksByItsOwnPressure) {
   for (const scene::Soil& soil : {flat_loam(1).setup().soils[0], dry_sand()}) {
     heightfield::Ground twice = flat(soil), once = flat(soil);
     Ruts ruts(twice);
@@ -113,19 +114,19 @@ TEST(Ruts, SecondPassByAHeavierMachineSinksToWhatItsOwnPressureGives) {
                 "[Bekker 1969]");
     EXPECT_LT(light, 0.9 * deepest(once));
     EXPECT_NEAR(deepest(twice), deepest(once), 1e-5);
-    // Back to the light one: nothing more.
+    // The light machine again: nothing is added.
     ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 20e3)}});
     EXPECT_NEAR(deepest(twice), deepest(once), 1e-5);
   }
 }
 
-TEST(Ruts, PressFreshSoilInThemToTheirOldFloorAndNoDeeper) {
+TEST(Ruts, PressFreshSoilDownToTheirOldFloor) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
   const Vec2i at = ground.column_at(3.2, 3.36);
   const double floor = ground.height(at.x(), at.y());
-  // 15 mm slid in, as a wheel presses it out in many steps.
+  // Slides in 15 mm of soil, which a wheel presses out in many steps.
   const auto fill = [&](double depth) {
     heightfield::SoilLayer loose = ground.layers(at.x(), at.y()).back();
     loose.specific_volume = 1.2f;
@@ -139,7 +140,7 @@ TEST(Ruts, PressFreshSoilInThemToTheirOldFloorAndNoDeeper) {
   for (double load = 4e3; load <= 44e3; load += 4e3)
     ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, load)}});
   EXPECT_NEAR(ground.height(at.x(), at.y()), floor, 1e-3);
-  // More than a tyre presses through stays on it.
+  // A layer thicker than a tyre can press through stays on it.
   fill(0.2);
   const double high = ground.height(at.x(), at.y());
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}});
@@ -147,15 +148,15 @@ TEST(Ruts, PressFreshSoilInThemToTheirOldFloorAndNoDeeper) {
   EXPECT_GT(ground.height(at.x(), at.y()), floor + 0.1);
 }
 
-TEST(Ruts, PressedOverTimeEndsWhereOnePressDoes) {
+TEST(Ruts, PressingOverTimeGivesTheDepthOfOnePress) {
   heightfield::Ground once = flat_loam(), slowly = flat_loam();
   Ruts(once).press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});
   Ruts ruts(slowly);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}}, 0.0133);
-  // What falls on the ground does not sink at once
+  // Soil that falls on the ground does not sink at once.
   EXPECT_LT(deepest(slowly), 0.2 * deepest(once));
   for (int i = 0; i < 300; ++i) ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}}, 0.0133);
-  // Columns keep whole mass quanta: heights are exact to a micrometre, in some dozen presses.
+  // Columns hold whole mass quanta: heights are exact to a micrometre, in some dozen presses.
   EXPECT_NEAR(deepest(slowly), deepest(once), 5e-5);
 }
 
@@ -171,7 +172,7 @@ TEST(Ruts, ReportTheWorkAndTheSinkageWhereATyreStands) {
   EXPECT_NEAR(ruts.sinking(3.2, 3.36).work, expected, 1e-4 * expected);
   EXPECT_NEAR(ruts.sinking(3.2, 3.36).depth, z, 1e-4 * z);
   EXPECT_EQ(ruts.sinking(4.5, 3.36).work, 0);
-  // Away and back: the second passage takes nothing where the first one bore as much.
+  // There and back: the second passage takes no work where the first one carried as much.
   ruts.press({{twin_tyre(), loaded_at(4.5, 3.2, 45e3)}});
   EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});
@@ -189,11 +190,11 @@ TEST(Ruts, SinkDeeperUnderAWheelThatSlips) {
   EXPECT_NEAR(deepest(spun), 1.75 * deepest(rolled), 1e-4);
 }
 
-TEST(Ruts, EndsRiseWithTheTreadInsteadOfAWall) {
+TEST(Ruts, EndsRiseWithTheTread) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});
-  // Columns stand 0.05, 0.15, 0.25 m ahead; the tread leaves the ground between 0.2 and 0.3 m.
+  // Columns are 0.05, 0.15, 0.25 m ahead; the tread leaves the ground between 0.2 and 0.3 m.
   const Vec2i at = ground.column_at(3.25, 3.35);
   const double middle = -ground.height(at.x(), at.y()), end = -ground.height(at.x() + 2, at.y());
   EXPECT_GT(middle, 0.01);
@@ -201,7 +202,7 @@ TEST(Ruts, EndsRiseWithTheTreadInsteadOfAWall) {
   EXPECT_LT(end, 0.8 * middle);
 }
 
-// Dry sand, one wheel pressed as often as a world presses it, and what slides by itself.
+// Dry sand with one wheel pressed as often as a world presses it, and slides by itself.
 class SandBed {
  public:
   SandBed() : ground(flat(dry_sand())), ruts(ground), exchange_(world(), ground) {}
@@ -229,7 +230,7 @@ class SandBed {
   double time_ = 0;
 };
 
-TEST(Ruts, AreNotPumpedDeeperBySandThatSlidesFromTheirWalls) {
+TEST(Ruts, AreNotDeepenedBySandThatSlidesFromTheirWalls) {
   SandBed bed;
   bed.stand(3, 44e3);  // the excavator's heavier wheels
   const double early = deepest(bed.ground);
@@ -238,16 +239,16 @@ TEST(Ruts, AreNotPumpedDeeperBySandThatSlidesFromTheirWalls) {
   const double lowered = heightfield::testing::volume_change(bed.ground).lowered;
   print_value("rut under 44 kN on dry sand after 30 s [m]", late, "0.10 .. 0.16",
               "[docs/machines.md, ruts]");
-  // Bekker's law for the pressure of this tyre: 0.114 m where the tyre stands on its own sinkage.
+  // Bekker's law for the pressure of this tyre: 0.114 m where the tyre rests on its own sinkage.
   EXPECT_GT(late, 0.10);
   EXPECT_LT(late, 0.16);
   EXPECT_LT(late - early, 0.001);
-  // The rut itself, 0.6 m2 of contact; pumped, it is five times that.
+  // The rut alone has 0.6 m2 of contact; pumping would lower five times that.
   EXPECT_LT(lowered, 0.1);
   for (const std::int64_t change : bed.ground.mass_change()) EXPECT_EQ(change, 0);
 }
 
-TEST(Ruts, TheirWallsSlideWhenTheTyreHasLeft) {
+TEST(Ruts, WallsSlideWhenTheTyreHasLeft) {
   SandBed bed;
   bed.stand(5, 44e3);
   // A rut 0.105 m deep beside columns 0.1 m away: 46 deg.
@@ -255,13 +256,13 @@ TEST(Ruts, TheirWallsSlideWhenTheTyreHasLeft) {
   const int before = bed.slumped;
   bed.stand(5, 0);
   EXPECT_GT(bed.slumped, before);
-  // From column to column more than phi + 2 is left: over two of them it is less.
+  // Between adjacent columns more than phi + 2 remains; over two columns it is less.
   print_value("steepest over two columns", steepest(bed.ground, 2), "at most tan(phi + 2 deg)",
               "[docs/exchange.md, slump]");
   EXPECT_LT(steepest(bed.ground, 2), std::tan(radians(31 + 2)));
 }
 
-/// Bank volume [m3] of what columns have gained, and the highest of them over the start [m].
+/// Bank volume [m3] gained by columns, and the largest height above the start [m].
 struct Edges {
   double volume = 0, height = 0;
 };
@@ -297,12 +298,12 @@ TEST(Ruts, EdgesRiseByTheLoadTheGroundCannotSupport) {
     EXPECT_LT(once.height, deepest(ground));
     volume.push_back(once.volume);
     for (const std::int64_t change : ground.mass_change()) EXPECT_EQ(change, 0);
-    // To both sides alike: rows mirror each other to a few units of mass.
+    // Equal on both sides: rows mirror each other to a few units of mass.
     for (int iy = 0; iy < ground.ny(); ++iy)
       for (int ix = 0; ix < ground.nx(); ++ix)
         EXPECT_NEAR(ground.height(ix, iy), ground.height(ix, ground.ny() - 1 - iy), 1e-5)
             << ix << " " << iy;
-    // Standing on, nothing more goes aside.
+    // While the wheel stays, no more soil is displaced.
     ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 44e3)}}, 0.0133);
     EXPECT_NEAR(edges(ground).volume, once.volume, 1e-6);
   }
@@ -317,7 +318,7 @@ TEST(Ruts, EdgesOfGroundThatSupportsTheTyreStay) {
   EXPECT_EQ(edges(ground).volume, 0);
 }
 
-TEST(Ruts, PressesWhereNothingCanBeDeposited) {
+TEST(Ruts, PressEvenWhereNothingCanBeDeposited) {
   // A site no wider than the wheel.
   heightfield::Ground ground = flat(dry_sand(), 6);
   Ruts ruts(ground);
@@ -340,7 +341,7 @@ TEST(Ruts, OnlyColumnsUnderTheTyresChange) {
     }
 }
 
-TEST(Ruts, AreLoadedAsTheyWereSavedOntoTheSiteTheyLieOn) {
+TEST(Ruts, AreLoadedAsTheyWereSavedOntoTheirSite) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 45e3)}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines on loose soil that is still particles stand and drive as on the same soil in columns
+// Machines on loose soil in particles stand and drive as on the same soil in columns
 // [docs/exchange.md, support areas].
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ namespace navvy::coupling {
 namespace {
 
 constexpr double kLayer = 0.15;  // loose soil under the machine [m]
-// It starts so high over the ground, as that rises when it is loosened [m]
+// Initial clearance above the ground, which rises when it is loosened [m].
 constexpr double kLifted = 0.05;
 
-/// The shipped site, flat, of one soil, and one machine without a program.
+/// Returns the shipped site, flat, of one soil, and one machine without a program.
 scene::Scene yard(const std::string& vehicle, const std::string& soil = "loam") {
   scene::Scene world =
       scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
@@ -65,22 +65,22 @@ class Layer {
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
   void wake() { parts_.soil.activate(area_, foot_); }
-  /// Wakes again, every 0.05 s, what rested for 0.8 s and was booked back; but for columns within
-  /// `around` [m] of a wheel's middle.
-  void keep_awake(double around) {
+  /// Reactivates every 0.05 s the soil that rested for 0.8 s and was deposited, except for columns
+  /// within `around` [m] of a wheel's middle.
+  void keep_active(double around) {
     if (world_.time() < next_) return;
     next_ = world_.time() + 0.05;
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) {
         const Vec2 p = parts_.ground.origin() + parts_.ground.cell() * Vec2(ix + 0.5, iy + 0.5);
-        // Soil that a wheel pushed aside is under the active soil.
+        // Soil that a wheel pushed aside is below the active soil.
         bool rests = parts_.ground.height(ix, iy) > foot_ + 0.7 * kLayer;
         for (int w = 0; rests && w < 4; ++w)
           rests = (wheel_place(world_, w).head<2>() - p).norm() > around;
         if (rests) parts_.soil.activate({ix, iy, ix + 1, iy + 1}, foot_);
       }
   }
-  /// How much higher the ground lies for being loose [m].
+  /// Rise of the ground due to loosening [m].
   double rise() const { return rise_; }
   int particles() const { return parts_.soil.stats().particles; }
 
@@ -116,8 +116,7 @@ void run(
 
 std::string kind(bool active) { return active ? "active" : "columns"; }
 
-/// An EW180 stands with its front wheels on the layer. @return how deep they sink below its surface
-/// [m].
+/// An EW180 stands with its front wheels on the layer. @return the sinkage below its surface [m].
 double sinks_where_it_stands(const std::string& soil, bool active) {
   sim::World world(yard("ew180", soil), shared_device());
   const Vec3 front = wheel_place(world, 0);
@@ -125,29 +124,29 @@ double sinks_where_it_stands(const std::string& soil, bool active) {
   if (active) layer.wake();
   int most = 0;
   run(world, 2.5, [&] {
-    if (active) layer.keep_awake(0.7);
+    if (active) layer.keep_active(0.7);
     most = std::max(most, layer.particles());
   });
   EXPECT_EQ(most > 5000, active);
   EXPECT_EQ(world.soil().mass_ledger().error, 0);
-  // The machine is alike on both sides, and so is the ground.
+  // Both machine and ground are symmetric.
   EXPECT_NEAR(wheel_place(world, 0).z(), wheel_place(world, 1).z(), 0.005);
   return front.z() - kLifted + layer.rise() - wheel_place(world, 0).z();
 }
 
-TEST(Spoil, AnExcavatorStandsOnActiveSoilAsOnColumns) {
+TEST(Spoil, AnExcavatorStandsOnActiveSoilLikeOnColumns) {
   for (const char* soil : {"loam", "sand_dry"}) {
     const double columns = sinks_where_it_stands(soil, false),
                  active = sinks_where_it_stands(soil, true);
     print_value(std::string("EW180 on 0.15 m of loose ") + soil + ", active: its wheel sinks [m]",
                 active, std::to_string(columns) + " +-0.005", "[docs/exchange.md, support areas]");
-    // Of a tenth of a millimetre measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
+    // A tenth of a millimetre is measured; 5 mm are a fifteenth of the sinkage and a twentieth of a
     // cell.
     EXPECT_NEAR(active, columns, 0.005);
   }
 }
 
-TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
+TEST(Spoil, AnExcavatorDrivesOverActiveSoilLikeOverColumns) {
   double mean[2] = {}, lowest[2] = {1, 1};
   for (const bool active : {false, true}) {
     sim::World world(yard("ew180"), shared_device());
@@ -159,7 +158,7 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     int count = 0, over_active = 0;
     while (wheel_place(world, 0).x() < x + 2.0) {
       world.step();
-      if (active) layer.keep_awake(0.9);
+      if (active) layer.keep_active(0.9);
       if (wheel_place(world, 0).x() < x + 1.2) continue;
       mean[active] += wheel_place(world, 0).z();
       lowest[active] = std::min(lowest[active], wheel_place(world, 0).z());
@@ -174,13 +173,13 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilAsOverColumns) {
     print_value("lowest [m]", lowest[active], std::to_string(lowest[0]) + " +-0.01", "the same");
     EXPECT_EQ(world.soil().mass_ledger().error, 0);
   }
-  // Grains that the seam of two checks cuts give bumps of a particle's share of a column, 12 mm,
+  // Grains cut by the seam between two checks give bumps of a particle's share of a column, 12 mm,
   // which the tread evens out over its length.
   EXPECT_NEAR(mean[1], mean[0], 0.005);
   EXPECT_NEAR(lowest[1], lowest[0], 0.01);
 }
 
-TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
+TEST(Spoil, ACrawlerStandsOnActiveSoilLikeOnColumns) {
   double sinks[2];
   for (const bool active : {false, true}) {
     sim::World world(yard("ex180_tracked"), shared_device());
@@ -198,7 +197,7 @@ TEST(Spoil, ACrawlerStandsOnActiveSoilAsOnColumns) {
   EXPECT_NEAR(sinks[1], sinks[0], 0.005);
 }
 
-TEST(Spoil, ARunGoesOnFromASnapshotInTheMiddleOfIt) {
+TEST(Spoil, ARunResumesFromASnapshotOnActiveSoil) {
   sim::World whole(yard("ew180"), shared_device()), resumed(yard("ew180"), shared_device());
   const double x = wheel_place(whole, 0).x();
   Layer layer(whole, {x + 0.3, -1.9}, {x + 1.3, 1.9});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stone with a shell, laid on loam: it stands, with the soil awake under it and when that has
-// gone back to columns.
+// A stone with a shell on loam stays in place, both on active soil and after that soil was
+// deposited in columns.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace navvy::coupling {
 namespace {
 
-/// 468 kg on 0.36 m2: loam supports ten times as much. `collision`: whether it also meets columns as
-/// bodies do.
+/// 468 kg on 0.36 m2: loam supports ten times as much. `collision`: whether it also touches columns
+/// as rigid bodies do.
 scene::Scene stone_on_loam(bool collision) {
   const std::string box =
       "<pose>0 0 0.25 0 0 0</pose><geometry><box><size>0.6 0.6 0.5</size></box></geometry>";
@@ -37,14 +37,14 @@ scene::Scene stone_on_loam(bool collision) {
   return scene_io::load_scene(file, control::step_kinds());
 }
 
-TEST(Standing, AStoneWithAShellSinksNoMillimetreInTenSeconds) {
+TEST(Standing, AStoneWithAShellSinksLessThanAMillimetreInTenSeconds) {
   for (const bool collision : {false, true}) {
     const scene::Scene scene = stone_on_loam(collision);
     device::Device device;
     sim::World world(scene, device);
     const auto height = [&] { return world.machines().at(0).link(0).pose().translation().z(); };
-    // Its soil is active at first: it must stand on that, too. It fell by the weight of a step in
-    // every step once, 16 mm/s.
+    // Its soil is active at first: it must rest on that, too. A regression made it fall by one
+    // step's weight in every step, 16 mm/s.
     while (world.time() < 1) world.step();
     const double active = height();
     while (world.time() < 1.5) world.step();

@@ -31,7 +31,7 @@ terramechanics::TrackPatch patch_at(double x, double y, double load) {
   return {Vec3(x, y, 0), Vec3::UnitX(), 0.4, 0.6, load};
 }
 
-TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
+TEST(TrackRuts, PressByThePlateLawAndOnlyOnce) {
   heightfield::Ground ground = flat_loam();
   Ruts tyres(ground);
   TrackRuts ruts(ground, tyres);
@@ -44,14 +44,14 @@ TEST(TrackRuts, PressAsThePlateSinksAndOnlyOnce) {
     EXPECT_NEAR(ground.height(beside.x(), beside.y()), 0, 1e-6);
     EXPECT_TRUE(ground.held(at.x(), at.y()));
   }
-  // A lighter one adds nothing, a heavier one what it presses more.
+  // A lighter one adds nothing, a heavier one its additional sinkage.
   ruts.press({patch_at(3.2, 3.2, 6e3)}, kFar, true);
   const Vec2i at = ground.column_at(3.2, 3.2);
   EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 1e-4);
   ruts.press({patch_at(3.2, 3.2, 24e3)}, kFar, true);
   EXPECT_NEAR(ground.height(at.x(), at.y()),
               -terramechanics::plate_sinkage(ground.setup().soils[0], 2 * pressure, 0.6), 2e-4);
-  // Pressed, not lost.
+  // Soil is compacted, not lost.
   for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
 }
 
@@ -67,13 +67,13 @@ TEST(TrackRuts, RaiseTheirEdgesByTheLoadTheGroundCannotSupport) {
   ruts.press({patch_at(3.2, 3.2, 120e3)}, kFar, true);
   EXPECT_GT(ground.height(beside.x(), beside.y()), before + 0.01);
   EXPECT_GT(ground.specific_volume(beside.x(), beside.y()), 1.2f);  // loose
-  // However much goes aside, it sinks as Bekker says.
+  // However much soil is displaced, it sinks by Bekker's law.
   EXPECT_NEAR(ground.height(under.x(), under.y()),
               -terramechanics::plate_sinkage(ground.setup().soils[0], 120e3 / 0.24, 0.6), 1e-3);
   for (const std::int64_t mass : ground.mass_change()) EXPECT_EQ(mass, 0);
 }
 
-TEST(TrackRuts, PressTyresRutsOnlyByWhatTheyPressMoreAndTyresTheirs) {
+TEST(TrackRuts, DeepenRutsOfTyresOnlyByTheDifferenceAndViceVersa) {
   // Wheels and tracks in one lane: the deeper rut of both remains, in either order.
   scene::Wheel wheel;
   vehicle::WheelState under_load;
@@ -98,7 +98,7 @@ TEST(TrackRuts, PressTyresRutsOnlyByWhatTheyPressMoreAndTyresTheirs) {
   EXPECT_NEAR(depth({false, true}), tyre, 0.02 * tyre);
 }
 
-TEST(TrackRuts, HoldWhatTyresHoldBesides) {
+TEST(TrackRuts, HoldTheRecordsOfTyresToo) {
   heightfield::Ground ground = flat_loam();
   Ruts tyres(ground);
   TrackRuts ruts(ground, tyres);
@@ -123,7 +123,7 @@ TEST(TrackRuts, YieldNoFasterThanTheLimit) {
   EXPECT_NEAR(ground.height(at.x(), at.y()), -z, 2e-4);
 }
 
-TEST(TrackRuts, RememberThroughASnapshot) {
+TEST(TrackRuts, AreRestoredFromASnapshot) {
   heightfield::Ground ground = flat_loam();
   Ruts tyres(ground), tyres_resumed(ground);
   TrackRuts ruts(ground, tyres), resumed(ground, tyres_resumed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator on columns as they are: into a trench of its own size, onto spoil, two machines on
-// one ground.
+// The excavator on columns: into a trench of its own size, onto spoil, and two machines on one
+// ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kWheelRadius = 0.525;
 
-/// The shipped site with these shapes instead of its own; excavators side by side with their rear
-/// axles at x = -9, 6 m apart to the left, without programs.
+/// Returns the shipped site with these shapes instead of its own; excavators side by side with
+/// their rear axles at x = -9, 6 m apart to the left, without programs.
 scene::Scene yard(const std::vector<scene::GroundFeature>& features, int machines = 1) {
   scene::Scene world =
       scene_io::load_scene(navvy::source_dir() + "/scenarios/trench.sdf", control::step_kinds());
@@ -50,7 +50,7 @@ double wheel_height(const sim::World& world, int machine, int wheel) {
   return world.machines().at(machine).wheel(wheel).state().X_WWheel.translation().z();
 }
 
-TEST(Wheels, DropIntoATrenchOfTheMachinesOwnWithoutLaunchingIt) {
+TEST(Wheels, DropIntoATrenchOfTheMachineWithoutLaunchingIt) {
   scene::GroundFeature trench;
   trench.kind = scene::GroundFeature::Kind::kTrench;
   trench.center = Vec2(-4.5, 0);
@@ -99,15 +99,15 @@ TEST(Wheels, StandOnASlopeFromTheStartAndClimbIt) {
     for (int w = 0; w < 4; ++w)
       most = std::max(most, world.machines().at(0).wheel(w).state().force_W.norm());
   });
-  // The heaviest wheel of the standing machine carries 0.35 of its weight; it settles on tyres that
-  // bend by 30 mm.
+  // The heaviest wheel of the machine at rest carries 0.35 of its weight; it settles on tyres that
+  // deflect by 30 mm.
   EXPECT_LT(most, 0.6 * 18000 * kGravity);
   world.commands().set(world.machines().at(0), {0.8, 0, false});
   run(world, 5, [] {});
   EXPECT_GT(world.machines().at(0).link(0).pose().translation().x(), -9 + 2);
 }
 
-TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
+TEST(Wheels, StandAtThePoseOfTheSceneAboveTheirGround) {
   scene::GroundFeature slope;
   slope.kind = scene::GroundFeature::Kind::kSlope;
   slope.angle = radians(6);
@@ -126,7 +126,7 @@ TEST(Wheels, StandWhereAndAsTheSceneSaysAboveTheGroundTheyWouldStandOn) {
   }
 }
 
-TEST(Wheels, OfTwoExcavatorsRollAsIfEachWereAlone) {
+TEST(Wheels, OfTwoExcavatorsDoNotInteract) {
   sim::World alone(yard({}), shared_device()), both(yard({}, 2), shared_device());
   for (sim::World* world : {&alone, &both}) {
     world->commands().set(world->machines().at(0), {1.0, 0, false});
@@ -135,11 +135,11 @@ TEST(Wheels, OfTwoExcavatorsRollAsIfEachWereAlone) {
   const Vec3 difference = both.machines().at(0).link(0).pose().translation() -
                           alone.machines().at(0).link(0).pose().translation();
   EXPECT_GT(alone.machines().at(0).link(0).pose().translation().x(), -9 + 0.2);
-  // One sweep of the joint solver serves both machines; what it leaves grows in the ruts: 2 mm of
-  // 0.5 m measured.
+  // One sweep of the joint solver serves both machines; its residual grows in the ruts: 2 mm of 0.5
+  // m measured.
   EXPECT_LT(difference.norm(),
             0.01 * (alone.machines().at(0).link(0).pose().translation().x() + 9));
-  // The other one stands where it stood; 5 mm: it settles on its tyres.
+  // The other one has not moved; 5 mm: it settles on its tyres.
   EXPECT_LT((both.machines().at(1).link(0).pose().translation() - Vec3(-9, 6, 0)).head<2>().norm(),
             5e-3);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator digs across its own way and goes round: with 1 and 2 threads, and gone on with in
-// mid-path.
+// The excavator digs across its own path and drives around the trench: with 1 and 2 threads, and
+// resumed on the path.
 #include <cstdlib>
 
 #include "determinism/hashed_run.h"
@@ -8,12 +8,12 @@
 namespace navvy::determinism {
 namespace {
 
-/// What the last step of the program came to, a go_to.
-double figure(const HashedRun& run, const std::string& name) {
+/// Returns a value of the last step of the program, a go_to.
+double value_of(const HashedRun& run, const std::string& name) {
   return run.summary.at("programs").at(0).at("step_list").back().at(name).get<double>();
 }
 
-/// Whether plan `number` leads over the trench, with the middle of the rear axle at the least.
+/// Returns true if plan `number` crosses the trench with the middle of the rear axle.
 bool crosses_trench(const std::string& name, int number) {
   std::istringstream rows(text_of((run_folder(name) / "out" / "paths.csv").string()));
   std::string row;
@@ -26,7 +26,7 @@ bool crosses_trench(const std::string& name, int number) {
   return false;
 }
 
-TEST(DriveAround, GoesRoundItsOwnTrenchWithTheSameBitsEachTime) {
+TEST(DriveAround, DrivesAroundItsOwnTrenchBitIdentically) {
   const std::string snapshot = (run_folder("snapshots") / "mid_path").string();
   std::filesystem::create_directories(run_folder("snapshots"));
   const HashedRun one = hashed_run("one", "drive_around_trench.sdf",
@@ -41,12 +41,12 @@ TEST(DriveAround, GoesRoundItsOwnTrenchWithTheSameBitsEachTime) {
     EXPECT_EQ(run->summary.at("status"), "finished");
     EXPECT_EQ(run->summary.at("state_hash"), one.summary.at("state_hash"));
     for (const char* name :
-         {"plans", "cusps", "driven_m", "goal_miss_m", "goal_miss_deg", "least_clearance_m"})
-      std::printf("%s: %g\n", name, figure(*run, name));
-    EXPECT_GE(figure(*run, "plans"), 2);
-    EXPECT_LT(figure(*run, "goal_miss_m"), 0.5);
-    EXPECT_LT(figure(*run, "goal_miss_deg"), 5);
-    EXPECT_GE(figure(*run, "least_clearance_m"), 0.3);
+         {"plans", "cusps", "driven_m", "goal_error_m", "goal_error_deg", "least_clearance_m"})
+      std::printf("%s: %g\n", name, value_of(*run, name));
+    EXPECT_GE(value_of(*run, "plans"), 2);
+    EXPECT_LT(value_of(*run, "goal_error_m"), 0.5);
+    EXPECT_LT(value_of(*run, "goal_error_deg"), 5);
+    EXPECT_GE(value_of(*run, "least_clearance_m"), 0.3);
   }
   for (const char* name : {"one", "two", "resumed"}) {
     EXPECT_TRUE(crosses_trench(name, 1)) << "the path planned before the dig";

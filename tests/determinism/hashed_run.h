@@ -24,21 +24,22 @@ namespace navvy::determinism {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-/// PoCL's workers: the older name of the variable (to 3.x) and the newer one (from 4.0).
+/// Environment of PoCL's workers: the older name of the variable (to 3.x) and the newer one (from
+/// 4.0).
 inline Environment threads(int count) {
   const std::string n = std::to_string(count);
   return {{"POCL_MAX_PTHREAD_COUNT", n}, {"POCL_CPU_MAX_CU_COUNT", n}};
 }
 
-/// Kernels for AVX2: PoCL compiles for the processor it is told, so a machine with AVX-512 shows
-/// both sides.
+/// Environment for AVX2 kernels: PoCL compiles for the named processor, so a machine with AVX-512
+/// can run both.
 inline Environment avx2() {
   return {{"POCL_LLVM_CPU_NAME", "haswell"}, {"POCL_KERNELLIB_NAME", "avx2"}};
 }
 
 using test::text_of;
 
-/// What a run left.
+/// Output of a run.
 struct HashedRun {
   int status = -1;
   std::string device;                       ///< the line in which navvy names it
@@ -47,7 +48,7 @@ struct HashedRun {
   nlohmann::json summary;
 };
 
-/// Where the files of the run of this name go, below the build tree.
+/// Folder of the run of this name, below the build tree.
 inline std::filesystem::path run_folder(const std::string& name) {
   return std::filesystem::path(navvy::build_dir()) / "test-determinism" /
          testing::UnitTest::GetInstance()->current_test_info()->name() / name;
@@ -93,8 +94,8 @@ inline std::vector<std::string> cells_of(const std::string& row) {
   return out;
 }
 
-/// "" when all rows from `from` on are equal; else the first that is not, with the parts that
-/// differ in it.
+/// Returns "" if all rows from `from` on are equal; else the first that differs, with its differing
+/// parts.
 inline std::string first_difference(const HashedRun& a, const HashedRun& b,
                                     std::uint64_t from = 0) {
   const std::vector<std::string> names = cells_of(a.header);

@@ -5,7 +5,7 @@
 namespace navvy::determinism {
 namespace {
 
-TEST(InstructionSets, Avx2AndAvx512DigTheSameBits) {
+TEST(InstructionSets, Avx2AndAvx512DigBitIdentically) {
   const HashedRun own = hashed_run("own", "bucket_path.sdf", {"--duration", "3"}, {});
   if (own.device.find("avx512") == std::string::npos)
     GTEST_SKIP() << "no AVX-512 here: " << own.device;

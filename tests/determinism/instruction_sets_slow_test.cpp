@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A minute of the trench in kernels built for AVX2 and for this processor, hashes every simulated
-// second.
+// A minute of the trench in kernels built for AVX2 and for this processor, with hashes every
+// simulated second.
 #include "determinism/hashed_run.h"
 
 namespace navvy::determinism {
 namespace {
 
-TEST(InstructionSets, AMinuteOfDiggingIsTheSameBitsForAvx2AndAvx512) {
+TEST(InstructionSets, AMinuteOfDiggingIsBitIdenticalForAvx2AndAvx512) {
   const HashedRun own = hashed_run("own60", "trench.sdf", {"--duration", "60"}, {});
   if (own.device.find("avx512") == std::string::npos)
     GTEST_SKIP() << "no AVX-512 here: " << own.device;

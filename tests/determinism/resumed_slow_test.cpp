@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trench in one go, and left and gone on with at three times: on the drive, in a scoop, in a
-// swing.
+// The trench in one run, and resumed at three times: on the drive, in a scoop, in a swing.
 #include "determinism/hashed_run.h"
 
 namespace navvy::determinism {
 namespace {
 
-TEST(Resumed, TheTrenchGoesOnWithTheSameBitsThreeTimes) {
+TEST(Resumed, TheTrenchContinuesBitIdenticallyThreeTimes) {
   const std::vector<std::string> times = {"4", "17.3", "31"};
   const std::string folder = run_folder("snapshots").string();
   std::filesystem::create_directories(folder);
@@ -16,7 +15,7 @@ TEST(Resumed, TheTrenchGoesOnWithTheSameBitsThreeTimes) {
                  {"--duration", "40", "--snapshot", file(0), "--snapshot-at", times[0]}, {});
   EXPECT_GT(whole.summary.at("cycles").get<int>(), 0);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    // Each leg makes the snapshot of the next and then goes on to the end by itself.
+    // Each leg writes the snapshot of the next and then continues to the end.
     std::vector<std::string> options = {"--duration", "40", "--resume", file(i)};
     if (i + 1 < times.size()) {
       const std::vector<std::string> next = {"--snapshot", file(i + 1), "--snapshot-at",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is no part of a run's physics does not change it: pictures, and the folder that scene,
-// machines and soils lie in.
+// Results do not depend on inputs outside the run's physics: pictures, and the folder of scene,
+// machines and soils.
 #include "determinism/hashed_run.h"
 
 namespace navvy::determinism {
@@ -8,20 +8,20 @@ namespace {
 
 constexpr const char* kScene = "bucket_path.sdf";
 
-TEST(Surroundings, PicturesChangeNoBit) {
+TEST(Surroundings, PicturesDoNotAffectResults) {
   const HashedRun without = hashed_run("without", kScene, {"--duration", "3"}, {});
   const HashedRun with = hashed_run("with", kScene, {"--duration", "3"}, {}, true);
   EXPECT_GT(with.summary.at("frames").get<int>(), 10);
   EXPECT_EQ(without.summary.at("frames").get<int>(), 0);
   EXPECT_EQ(first_difference(without, with), "");
   EXPECT_EQ(without.summary.at("state_hash"), with.summary.at("state_hash"));
-  EXPECT_GT(with.summary.at("woken_columns").get<int>(), 0) << "soil was in play";
+  EXPECT_GT(with.summary.at("activated_columns").get<int>(), 0) << "soil was in play";
 }
 
-TEST(Surroundings, AnotherFolderChangesNoBit) {
+TEST(Surroundings, TheFolderDoesNotAffectResults) {
   namespace fs = std::filesystem;
   const HashedRun here = hashed_run("here", kScene, {"--duration", "2"}, {});
-  // A copy of all that is shipped, with blanks in its name, and the run started for it.
+  // A copy of all shipped files, with blanks in its name, and a run started for it.
   const fs::path copy = run_folder("a copy of it all");
   fs::remove_all(copy);
   for (const char* part : {"scenarios", "vehicles", "terrain"})
@@ -32,7 +32,7 @@ TEST(Surroundings, AnotherFolderChangesNoBit) {
                  {{"NAVVY_DATA_DIR", copy.string()}, {"HOME", copy.string()}});
   EXPECT_EQ(first_difference(here, there), "");
   EXPECT_EQ(here.summary.at("state_hash"), there.summary.at("state_hash"));
-  // The scene that a run leaves is the run again, from where it lies.
+  // The scene in the results reproduces the run from its new place.
   const HashedRun again = hashed_run("again", (run_folder("here") / "out" / "scene.sdf").string(),
                                      {"--duration", "2"}, {});
   EXPECT_EQ(first_difference(here, again), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The small sibling of the minute of digging: one scoop, 1 and 2 threads, snapshot and resume.
+// Short version of the minute of digging: one scoop, 1 and 2 threads, snapshot and resume.
 #include "determinism/hashed_run.h"
 #include "paths.h"
 
@@ -8,20 +8,20 @@ namespace {
 
 constexpr const char* kScene = "bucket_path.sdf";
 
-TEST(Threads, OneAndTwoThreadsScoopTheSameBits) {
+TEST(Threads, OneAndTwoThreadsScoopBitIdentically) {
   const HashedRun one = hashed_run("one", kScene, {"--duration", "5"}, threads(1));
   const HashedRun two = hashed_run("two", kScene, {"--duration", "5"}, threads(2));
-  // The setting acts: the device says how many workers it has.
+  // The setting is effective: the device reports its number of workers.
   EXPECT_NE(one.device.find(" 1 compute unit"), std::string::npos) << one.device;
   EXPECT_NE(two.device.find(" 2 compute unit"), std::string::npos) << two.device;
   EXPECT_EQ(first_difference(one, two), "");
   EXPECT_GE(one.at.size(), 6u) << "t = 0 .. 4 s and the end";
-  // What could have reordered sums was in play.
-  for (const char* key : {"rebins", "woken_columns", "deposited_blocks"})
+  // Processes that could reorder sums took place.
+  for (const char* key : {"rebins", "activated_columns", "deposited_blocks"})
     EXPECT_GT(one.summary.at(key).get<int>(), 0) << key;
 }
 
-TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
+TEST(Threads, AResumedRunContinuesWithTheSameHashes) {
   const std::string snapshot = navvy::build_dir() + "/test-determinism/resume.snapshot";
   const HashedRun whole = hashed_run(
       "whole", kScene, {"--duration", "4", "--snapshot", snapshot, "--snapshot-at", "2.5"}, {});
@@ -33,7 +33,7 @@ TEST(Threads, AResumedRunGoesOnWithTheSameHashes) {
   EXPECT_EQ(first_difference(whole, resumed, from), "");
 }
 
-/// Wheels on soil that is awake, which becomes columns under them.
+/// Wheels on active soil, which is deposited in columns under them.
 TEST(Threads, OneAndTwoThreadsGiveBitIdenticalWheelsOnActiveSoil) {
   const std::string scene = navvy::source_dir() + "/tests/determinism/spoil.sdf";
   const std::string snapshot = (run_folder("snapshot") / "spoil.snapshot").string();

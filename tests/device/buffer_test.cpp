@@ -79,11 +79,11 @@ TEST(Buffer, MapsToReadAndUpdate) {
 
 TEST(Buffer, MapsWithoutACopyWhereMemoryIsShared) {
   Device device;
-  if (!device.info().shares_memory) GTEST_SKIP() << device.info().name << " has memory of its own";
+  if (!device.info().shares_memory) GTEST_SKIP() << device.info().name << " has separate memory";
   Buffer<int> buffer(device, 1 << 20);
   const int* first = buffer.map_read().data();
   const int* again = buffer.map_update().data();
-  // A staging copy would come from a fresh allocation each time.
+  // A staging copy would have a new allocation each time.
   EXPECT_EQ(first, again);
   EXPECT_EQ(buffer.map_read(100, 1).data(), first + 100);
 }
@@ -96,7 +96,7 @@ TEST(Buffer, RefusesARangeOutsideItself) {
   EXPECT_THROW(buffer.fill(0, 2, 3), DeviceError);
 }
 
-TEST(Buffer, SaysHowMuchMemoryCouldNotBeHad) {
+TEST(Buffer, ReportsTheSizeOfAFailedAllocation) {
   Device device;
   try {
     Buffer<char> buffer(device, std::size_t{1} << 50);

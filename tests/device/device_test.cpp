@@ -23,7 +23,7 @@ std::string message_of(const std::string& choice) {
   return "";
 }
 
-/// Sets NAVVY_DEVICE for one test and puts it back.
+/// Sets NAVVY_DEVICE for one test and restores it.
 class Environment {
  public:
   explicit Environment(const char* value) {
@@ -53,7 +53,7 @@ TEST(Device, ListsItselfUnderItsIndex) {
   }
 }
 
-TEST(Device, IsPickedByKindAndByPartOfItsNameInAnyCase) {
+TEST(Device, IsSelectedByKindAndByPartOfItsNameInAnyCase) {
   const DeviceInfo first = list_devices().front();
   std::string part = first.platform.substr(0, 6);
   for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -62,7 +62,7 @@ TEST(Device, IsPickedByKindAndByPartOfItsNameInAnyCase) {
   EXPECT_EQ(Device(kind).info().kind, first.kind);
 }
 
-TEST(Device, IsPickedByTheEnvironmentUnlessOneIsNamed) {
+TEST(Device, IsSelectedByTheEnvironmentUnlessOneIsNamed) {
   Environment environment("no-such-device");
   EXPECT_NE(message_of("").find("environment variable NAVVY_DEVICE"), std::string::npos);
   EXPECT_EQ(Device("0").info().index, 0);
@@ -76,8 +76,8 @@ TEST(Device, ListsTheDevicesWhenNoneMatches) {
   EXPECT_NE(message_of("99").find("matches '99'"), std::string::npos);
 }
 
-TEST(DeviceDeathTest, SaysWhatToInstallWhereThereIsNoPlatform) {
-  // The child starts anew, so that the loader reads the empty list of drivers.
+TEST(DeviceDeathTest, NamesPackagesToInstallWithoutAPlatform) {
+  // The child process starts anew, so that the loader reads the empty list of drivers.
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto without_platform = [] {
     ::setenv("OCL_ICD_VENDORS", "/dev/null/none", 1);
@@ -115,7 +115,7 @@ TEST(Device, SumsKernelTimesByNameOnlyWhileProfiling) {
   EXPECT_TRUE(device.profile().empty());
 }
 
-TEST(Device, IsHeldAliveByItsBuffers) {
+TEST(Device, OutlivesItsOwnerWhileBuffersExist) {
   Buffer<int> buffer;
   {
     Device device;

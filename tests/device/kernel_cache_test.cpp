@@ -34,7 +34,7 @@ void write(const fs::path& path, const std::string& text) {
 
 using test::text_of;
 
-/// Two compiled programs as PoCL lays them out, listed by a cache that has gone.
+/// Creates two compiled programs in PoCL's layout, listed by a cache that has been destroyed.
 void fill(const fs::path& folder) {
   const KernelCache cache(folder);
   for (const char* program : {"AB/one", "CD/two"}) {
@@ -44,10 +44,10 @@ void fill(const fs::path& folder) {
   }
 }
 
-TEST(KernelCache, KeepsWhatIsAsItWasListed) {
+TEST(KernelCache, KeepsUnchangedPrograms) {
   const test::Folder folder;
   fill(folder.path());
-  // The driver's own stamp is no sign of damage
+  // The driver's own stamp does not count as damage.
   write(folder.path() / "AB/one/last_accessed", "later");
   const KernelCache cache(folder.path());
   EXPECT_EQ(cache.whole(), 4u);
@@ -75,7 +75,7 @@ TEST(KernelCache, RemovesAProgramThatLostAFile) {
   EXPECT_FALSE(fs::exists(folder.path() / "CD/two"));
 }
 
-TEST(KernelCache, RemovesWhatAKilledProcessLeftWhenAloneOnly) {
+TEST(KernelCache, RemovesFilesOfAKilledProcessOnlyWhenAlone) {
   const test::Folder folder;
   fill(folder.path());
   {
@@ -94,28 +94,27 @@ TEST(KernelCache, RemovesWhatAKilledProcessLeftWhenAloneOnly) {
   EXPECT_FALSE(fs::exists(folder.path() / "tempfile_a1b2"));
 }
 
-TEST(KernelCache, LeavesWhatANeighbourCompilesInPlaceOfADamagedProgram) {
+TEST(KernelCache, KeepsAProgramThatANeighbourRecompiles) {
   const test::Folder folder;
   fill(folder.path());
   const fs::path code = folder.path() / "AB/one/add/1-1-1/add.so";
   write(code, "cut");
   const KernelCache first(folder.path());
   EXPECT_EQ(first.removed(), 2u);
-  // It compiles anew, and is not done when the next process comes.
+  // A neighbour compiles anew and has not finished when the next process comes.
   write(code, "machine co");
   const KernelCache second(folder.path());
   EXPECT_EQ(second.removed(), 0u);
   EXPECT_TRUE(fs::exists(code));
 }
 
-// PoCL's bitcode names the temporary file that it was compiled from: no two processes write the
-// same bytes.
-TEST(KernelCache, TwoThatCompileOneProgramLeaveItWhole) {
+// PoCL's bitcode names its temporary source file, so two processes never write equal bytes.
+TEST(KernelCache, TwoProcessesThatCompileOneProgramLeaveItIntact) {
   const test::Folder folder;
   const fs::path code = folder.path() / "AB/one/program.bc";
   {
     KernelCache first(folder.path());
-    const KernelCache second(folder.path());  // lists what it finds at its end
+    const KernelCache second(folder.path());  // lists the files when it is destroyed
     write(code, "compiled by the first");
     first.seal();
     write(code, "compiled by the second");
@@ -125,7 +124,7 @@ TEST(KernelCache, TwoThatCompileOneProgramLeaveItWhole) {
   EXPECT_EQ(text_of(code), "compiled by the second");
 }
 
-TEST(KernelCache, ThatOpensBesideTwoThatCompileOneProgramRemovesNothing) {
+TEST(KernelCache, RemovesNothingWhileTwoProcessesCompile) {
   const test::Folder folder;
   const fs::path code = folder.path() / "AB/one/program.bc";
   KernelCache first(folder.path());
@@ -138,7 +137,7 @@ TEST(KernelCache, ThatOpensBesideTwoThatCompileOneProgramRemovesNothing) {
   EXPECT_TRUE(fs::exists(code));
 }
 
-TEST(KernelCache, ADamagedListOnlyCostsCompiling) {
+TEST(KernelCache, ADamagedListOnlyCausesRecompilation) {
   const test::Folder folder;
   fill(folder.path());
   const fs::path manifest = folder.path() / "navvy.manifest";
@@ -151,13 +150,13 @@ TEST(KernelCache, ADamagedListOnlyCostsCompiling) {
   }
 }
 
-TEST(KernelCache, RefusesAFolderThatCannotBeMade) {
+TEST(KernelCache, RefusesAFolderThatCannotBeCreated) {
   const test::Folder folder;
   write(folder.path() / "file", "in the way");
   EXPECT_THROW(KernelCache{folder.path() / "file" / "cache"}, FileError);
 }
 
-/// This program again, in a process of its own: one kernel built and run, its cache below `cache`.
+/// Runs this program in a new process: one kernel built and run, with its cache below `cache`.
 int run_one_kernel(const std::string& cache, const std::string& log) {
   test::Command command{fs::read_symlink("/proc/self/exe").string(),
                         {"--gtest_filter=Sizes/VectorAdd.*/3:Device.ListsItselfUnderItsIndex"},
@@ -183,13 +182,13 @@ TEST(KernelCacheOfTheDriver, TruncatedMachineCodeIsCompiledAgainInsteadOfCrashin
   EXPECT_EQ(run_one_kernel(cache, folder / "fourth"), 0);
 }
 
-TEST(KernelCacheOfTheDriver, AFolderThatCannotBeMadeIsReplacedByATemporaryOne) {
+TEST(KernelCacheOfTheDriver, AFolderThatCannotBeCreatedIsReplacedByATemporaryOne) {
   const test::Folder folder;
   write(folder.path() / "file", "in the way");
   EXPECT_EQ(run_one_kernel((folder.path() / "file").string(), folder / "log"), 0);
 }
 
-TEST(SlowCall, SpeaksOnlyAfterItsTime) {
+TEST(SlowCall, LogsOnlyAfterItsDelay) {
   std::vector<std::string> said;
   set_log_sink([&](LogLevel, const std::string& text) { said.push_back(text); });
   { const SlowCall quick("quick", 1000); }

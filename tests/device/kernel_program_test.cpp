@@ -63,7 +63,7 @@ std::string build_error(const std::string& name, const std::string& text) {
 }
 
 TEST(KernelProgram, NamesFileAndLineOfABuildError) {
-  // The include is long; the line must be counted in the file that includes it.
+  // The include is long; the line is counted in the file that includes it.
   const std::string text = build_error(
       "soil/broken.cl", "#include \"common/portable.h\"\n\nkernel void f() { int x = nope; }\n");
   EXPECT_NE(text.find("soil/broken.cl:3"), std::string::npos) << text;
@@ -71,7 +71,7 @@ TEST(KernelProgram, NamesFileAndLineOfABuildError) {
   EXPECT_NE(text.find("nope"), std::string::npos) << text;
 }
 
-TEST(KernelProgram, NamesTheLineOfAnIncludeThatIsNotThere) {
+TEST(KernelProgram, NamesTheLineOfAMissingInclude) {
   const std::string text = build_error("soil/x.cl", "\n#include \"common/absent.h\"\n");
   EXPECT_NE(text.find("soil/x.cl:2: no kernel file 'common/absent.h'"), std::string::npos) << text;
 }
@@ -87,7 +87,7 @@ TEST(KernelProgram, EmbedsEveryKernelFile) {
   }
 }
 
-TEST(KernelProgram, IncludesEachFileOnceAndGoesOnCounting) {
+TEST(KernelProgram, IncludesEachFileOnceAndKeepsLineNumbers) {
   const std::string text = expand_includes(
       "a.cl", "#include \"common/portable.h\"\n # include \"common/portable.h\"\nint x;\n");
   EXPECT_EQ(text.find("FP_CONTRACT"), text.rfind("FP_CONTRACT"));
@@ -124,7 +124,7 @@ TEST(KernelProgram, DoesNotContract) {
   EXPECT_EQ(y.read().front(), 0x1p-11f);
 }
 
-TEST(KernelProgram, RoundsDivisionAndRootAsTheHost) {
+TEST(KernelProgram, RoundsDivisionAndRootLikeTheHost) {
   Device device;
   if (!device.info().correct_divide_sqrt)
     GTEST_SKIP() << device.info().name << " cannot round them correctly";

@@ -30,7 +30,7 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Rows of as many cells as the header has.
+/// Returns true if all rows have as many cells as the header.
 bool is_table(const std::string& text) {
   if (!ends_with(text, "\n")) return false;
   std::istringstream lines(text);
@@ -42,7 +42,7 @@ bool is_table(const std::string& text) {
   return true;
 }
 
-/// Little-endian, and its directory lies within it.
+/// Returns true for a little-endian file whose directory is within it.
 bool is_geotiff(const std::string& text) {
   if (text.size() < 8 || text.rfind("II", 0) != 0) return false;
   std::uint32_t directory = 0;
@@ -59,8 +59,8 @@ std::vector<std::pair<std::string, std::string>> environment_of(const Attack& wi
   return out;
 }
 
-/// A device that gave no memory: status 3, words that say so, and a summary with books that are
-/// closed. Nothing is wrong with a run that ended before it had a summary.
+/// Checks a run whose device had no memory: status 3, a message, and a summary with a balanced
+/// ledger. A run that ended before its summary existed is accepted.
 std::string broken_by_full_device(const nlohmann::json& summary, const Outcome& got) {
   if (got.status != 3) return "ended with " + std::to_string(got.status);
   if (got.said.find("clCreateBuffer") == std::string::npos) return "does not name what failed";
@@ -71,8 +71,8 @@ std::string broken_by_full_device(const nlohmann::json& summary, const Outcome& 
   return units == 0 ? "" : "the mass ledger is open: " + units.dump();
 }
 
-/// Whether a process still gets on: a machine that is full of others gives it a second of a
-/// processor in minutes, and one that hangs uses none, or more than its patience.
+/// Detects whether a process still makes progress: on a loaded machine it may get one second of
+/// processor time in minutes, whereas a hung process uses none, or more than the limit.
 class Patience {
  public:
   Patience(pid_t process, double limit) : process_(process), limit_(limit) {}
@@ -91,9 +91,8 @@ class Patience {
   double limit_, until_ = 0, had_ = 0;
 };
 
-/// Exit status of the process, or minus its signal, whether it ended by itself or was killed, at
-/// `kill_after` [s] where that is not 0 and else when it has hung for `patience` [s]; true when it
-/// was killed.
+/// Waits for a process, kills it at `kill_after` [s] if that is not 0, else when it has hung for
+/// `patience` [s]. Sets its exit status, or minus its signal; returns true if it was killed.
 bool wait_or_kill(pid_t child, double kill_after, double patience, int& status) {
   const auto begun = std::chrono::steady_clock::now();
   const auto spent = [&] {
@@ -115,7 +114,8 @@ bool wait_or_kill(pid_t child, double kill_after, double patience, int& status) 
 
 double processor_time(pid_t process) {
   const std::string text = text_of("/proc/" + std::to_string(process) + "/stat");
-  // Behind the name, which may hold anything but ends in the last bracket, the 12th and 13th word.
+  // After the name, which may contain anything but ends with the last bracket, the 12th and 13th
+  // word.
   std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
   std::string word;
   for (int i = 0; i < 11; ++i) words >> word;
@@ -194,7 +194,7 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
     got.broken = broken_by_full_device(summary, got);
   else if (got.summary == "running")
     got.broken = "the summary still says running";
-  // --duration cuts it off
+  // --duration ends it early.
   else if (got.status == 0 && got.summary != "finished" && got.summary != "incomplete")
     got.broken = "status 0 and a summary that says '" + got.summary + "'";
   else if (got.status == 0 && !hash.empty() && got.hash != hash)
@@ -215,8 +215,8 @@ std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,
   std::istringstream lines(text_of(file));
   std::string name;
   long count = 0;
-  // Programs that the driver starts tell theirs as well, before; the last lines, one a kind of
-  // call, are navvy's own.
+  // Programs that the driver starts print their counts too, earlier; the last lines, one per kind
+  // of call, are those of navvy.
   while (lines >> name >> count) out.emplace_back(name, count);
   if (out.size() > kKinds) out.erase(out.begin(), out.end() - static_cast<std::ptrdiff_t>(kKinds));
   return out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One attack on a run, and the verdict on what it left. Used by the tests and by the campaign.
+// One attack on a run, and the verdict on the files it left. Used by the tests and by the campaign.
 #pragma once
 
 #include <sys/types.h>
@@ -11,46 +11,54 @@
 
 namespace navvy::fault {
 
-/// What is done to a run of `arguments`, which gets an --out of its own.
+/// Faults applied to a run of `arguments`, which gets an --out of its own.
 struct Attack {
-  std::string fault;      ///< as the shim's NAVVY_FAULT; empty: none
-  std::string hang;       ///< as its NAVVY_HANG
-  std::string abort;      ///< as its NAVVY_ABORT
+  /// Value of the shim's NAVVY_FAULT; empty: none.
+  std::string fault;
+  /// Value of its NAVVY_HANG.
+  std::string hang;
+  /// Value of its NAVVY_ABORT.
+  std::string abort;
   double kill_after = 0;  ///< SIGKILL after so many seconds; 0: none
-  /// [s] without any processor time, or with as much of it, count as hung: killed.
+  /// A process without any processor time for this long, or with as much of it, counts as hung and
+  /// is killed [s].
   double patience = 300;
   std::vector<std::pair<std::string, std::string>> environment;
 };
 
 struct Outcome {
-  int status = 0;  ///< of the process, minus the signal that ended it
+  /// Exit status of the process, or minus the signal that ended it.
+  int status = 0;
   double seconds = 0;
-  std::string said;     ///< its standard error
-  std::string summary;  ///< status in the summary; empty: none was left
-  std::string hash;     ///< of the state, where the summary has it
-  std::string broken;   ///< what is wrong with it; empty: survived
+  /// Its standard error.
+  std::string said;
+  /// Status in the summary; empty if there is none.
+  std::string summary;
+  /// Hash of the state, if the summary has it.
+  std::string hash;
+  /// Fault found; empty if the run survived.
+  std::string broken;
 };
 
-/// Processor time that a process has had [s], all its threads together; 0 when it is gone.
+/// Returns the processor time of a process [s], summed over its threads; 0 after its end.
 double processor_time(pid_t process);
 
-/// Arguments of the run that is attacked: a fifth of a second of a bucket, with pictures where
-/// `drawing`.
+/// Arguments of the attacked run: a fifth of a second of a bucket, with pictures if `drawing`.
 std::vector<std::string> small_run(bool drawing);
 
-/// Runs it into `folder`/out, which is emptied before, and judges. `hash`: what the state must hash
-/// to where the run ends well; empty: anything.
+/// Runs an attack into `folder`/out, which is emptied before, and judges it. `hash`: expected hash
+/// of the state after a successful run; empty: any.
 Outcome attack(const std::string& folder, const std::vector<std::string>& arguments,
                const Attack& with, const std::string& hash = "");
 
-/// Why the files of a run are not whole; empty when they are. Tables of one that was `killed` may
-/// end in a line without its end, which is no row.
+/// Returns why the files of a run are not intact; empty if they are. Tables of a `killed` run may
+/// end in a line without its end, which is ignored.
 std::string broken_files(const std::string& out, bool killed = false);
 
 /// Kinds of calls that the shim counts and lets fail: open, write, fsync, rename, new, buffer.
 constexpr std::size_t kKinds = 6;
 
-/// How often the calls that the shim counts were made in the run, by name.
+/// Counts the calls of each kind that the shim counts in the run, by name.
 std::vector<std::pair<std::string, long>> count_calls(const std::string& folder,
                                                       const std::vector<std::string>& arguments,
                                                       const Attack& with);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole campaign (`./dev fault`): every open, write, fsync and rename of a small run fails
-// once, every buffer on the device, some hundred times our own memory, some hundred kills while it
-// compiles and draws. Goes on where it stopped; its table stands in a CSV.
+// once, as does every buffer on the device, some hundred of the program's allocations, and some
+// hundred kills hit it while it compiles and draws. Resumes where it stopped; its table is a CSV.
 //
-// An attack costs what it takes to start the program, three tenths of a second of a core: the run
-// itself is a fifth of that, and its kernels come out of a cache that all attacks of a lane share
-// unless the attack is on compiling.
+// An attack costs the start of the program, three tenths of a second of a core: the run itself is a
+// fifth of that, and its kernels come from a cache that all attacks of a lane share unless the
+// attack is on compiling.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -30,12 +30,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr long kAllocations = 500;  ///< of our own frames that fail, spread evenly over the run
-constexpr int kKills = 250;         ///< of each kind
-/// Attacks of a lane after which a run without any must still be sound.
+/// Number of the program's own allocations that fail, spread evenly over the run.
+constexpr long kAllocations = 500;
+constexpr int kKills = 250;  ///< of each kind
+/// Number of attacks of a lane after which a run without an attack must still succeed.
 constexpr int kLookAgain = 25;
 
-/// What was tried is known by its name, in this file and in the table.
+/// Table of attacks, which are identified by name in this file and in the table.
 class Table {
  public:
   explicit Table(std::string path) : path_(std::move(path)) {
@@ -51,15 +52,15 @@ class Table {
                                         << got.seconds << ',' << got.broken << '\n';
     done_.insert(name);
   }
-  /// Prints counts by kind of attack and by status, and what did not survive. True when all did.
-  bool tell() const;
+  /// Prints counts by kind of attack and by status, and the failures. Returns true if all survived.
+  bool report() const;
 
  private:
   std::string path_;
   std::set<std::string> done_;
 };
 
-bool Table::tell() const {
+bool Table::report() const {
   std::ifstream in(path_);
   std::string line;
   std::getline(in, line);
@@ -91,23 +92,23 @@ bool Table::tell() const {
   return all;
 }
 
-/// Attacks one after the other, in a folder and with a kernel cache of its own.
+/// Runs attacks in sequence, in a folder and with a kernel cache of its own.
 class Lane {
  public:
-  /// @throws std::runtime_error when the run fails without any attack.
+  /// @throws std::runtime_error if the run fails without an attack.
   explicit Lane(const std::string& folder) : plain_(small_run(false)), drawing_(small_run(true)) {
     enter(folder);
     sound_ = require_sound(plain_, none_);
     warm_ = require_sound(drawing_, none_);
     compiling_ = require_sound(drawing_, cold_);
   }
-  /// Beside `first`, with a copy of its kernels.
+  /// Creates a lane beside `first`, with a copy of its kernels.
   Lane(const std::string& folder, const Lane& first) : Lane(first) {
     enter(folder);
     fs::remove_all(folder_ + "/cache");
     fs::copy(first.folder_ + "/cache", folder_ + "/cache", fs::copy_options::recursive);
   }
-  /// Names of all attacks there are.
+  /// Names of all attacks.
   std::vector<std::string> all() const;
   Outcome operator()(const std::string& name);
 
@@ -116,8 +117,7 @@ class Lane {
     folder_ = folder;
     fs::create_directories(folder_);
     fs::remove_all(folder_ + "/cold");
-    // One worker of the driver: what is counted is then the same every time, and a lane takes one
-    // core at most.
+    // One worker of the driver: counts are then repeatable, and a lane uses at most one core.
     none_.environment = {{"POCL_CACHE_DIR", folder_ + "/cache"}, {"POCL_MAX_PTHREAD_COUNT", "1"}};
     cold_.environment = {{"POCL_CACHE_DIR", folder_ + "/cold"}, {"POCL_MAX_PTHREAD_COUNT", "1"}};
   }
@@ -155,8 +155,8 @@ std::vector<std::string> Lane::all() const {
   return out;
 }
 
-/// At a moment that the number decides. A run that ended before, as the machine was less busy, is
-/// run again and killed sooner.
+/// Kills at a time given by the number. If the run ended before, because the machine was less busy,
+/// it is run again and killed earlier.
 Outcome Lane::killed(bool compiling, std::uint64_t number) {
   const Outcome& whole = compiling ? compiling_ : warm_;
   Attack with = compiling ? cold_ : none_;
@@ -180,7 +180,7 @@ Outcome Lane::operator()(const std::string& name) {
     with.fault = name;
     got = attack(folder_, plain_, with, sound_.hash);
   }
-  // What the attack has left in the kernels' cache must not spoil the next run.
+  // Files that the attack left in the kernel cache must not spoil the next run.
   if (got.broken.empty() && ++tried_ % kLookAgain == 0) {
     const Outcome after = attack(folder_, plain_, none_, sound_.hash);
     if (after.status != 0 || !after.broken.empty()) got.broken = "the run after it fails";
@@ -188,9 +188,9 @@ Outcome Lane::operator()(const std::string& name) {
   return got;
 }
 
-/// One of each kind in turn, those of a kind in an order that looks everywhere early: whoever stops
-/// after a part has seen a fair share of each, and the few calls that decide what is left (rename,
-/// fsync) all of them.
+/// Orders attacks by one of each kind in turn, and within a kind such that early ones are spread
+/// over the run: a campaign stopped early has a fair share of each, and all of the few decisive
+/// calls (rename, fsync).
 std::vector<std::string> in_turn(const std::vector<std::string>& names) {
   std::map<std::string, std::vector<std::string>> kinds;
   for (const std::string& name : names) kinds[name.substr(0, name.find(':'))].push_back(name);
@@ -209,7 +209,7 @@ std::vector<std::string> in_turn(const std::vector<std::string>& names) {
 int run(const std::string& folder, long most, int lanes) {
   fs::create_directories(folder);
   Table table(folder + "/results.csv");
-  // Before any thread: what fails here fails for all.
+  // Created before any thread: a failure here fails the whole campaign.
   std::vector<std::unique_ptr<Lane>> made;
   made.push_back(std::make_unique<Lane>(folder + "/0"));
   for (int i = 1; i < lanes; ++i)
@@ -248,7 +248,7 @@ int run(const std::string& folder, long most, int lanes) {
     threads.emplace_back([&, i] { walk(*made[static_cast<std::size_t>(i)]); });
   walk(*made[0]);
   for (std::thread& thread : threads) thread.join();
-  return table.tell() ? 0 : 1;
+  return table.report() ? 0 : 1;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace navvy::fault {
 namespace {
 
-/// With a kernel cache of the test's own: what a fault leaves in it must not meet other tests.
+/// Uses a kernel cache of the test: files that a fault leaves in it must not affect other tests.
 Attack with(const test::Folder& folder, const std::string& fault) {
   Attack out;
   out.fault = fault;
@@ -22,7 +22,7 @@ Attack with(const test::Folder& folder, const std::string& fault) {
   return out;
 }
 
-TEST(Fault, OneCallInManyFailsAndTheRunReportsOrGoesOn) {
+TEST(Fault, ARunReportsOrSurvivesAFailedCall) {
   const test::Folder folder;
   const auto arguments = small_run(false);
   const Outcome sound = attack(folder.path().string(), arguments, with(folder, ""));
@@ -30,7 +30,7 @@ TEST(Fault, OneCallInManyFailsAndTheRunReportsOrGoesOn) {
   ASSERT_EQ(sound.broken, "") << sound.said;
   const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
   ASSERT_EQ(calls.size(), kKinds);
-  // Spread over the whole run; the campaign walks every one.
+  // Spread over the whole run; the campaign covers every call.
   constexpr long kSamples = 5;
   for (const auto& [call, count] : calls) {
     ASSERT_GT(count, 0) << call;
@@ -47,11 +47,11 @@ TEST(Fault, OneCallInManyFailsAndTheRunReportsOrGoesOn) {
       EXPECT_EQ(got.broken, "") << fault << " ended with " << got.status << "\n" << got.said;
       told += got.status != 0;
     }
-    std::printf("%s: %ld calls, %ld failed, %d told\n", call.c_str(), count, kSamples, told);
+    std::printf("%s: %ld calls, %ld failed, %d reported\n", call.c_str(), count, kSamples, told);
   }
 }
 
-TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
+TEST(Fault, AFullDiskLeavesASummaryWithStatusFailed) {
   const test::Folder folder;
   const auto arguments = small_run(false);
   ASSERT_EQ(attack(folder.path().string(), arguments, with(folder, "")).status, 0)
@@ -59,7 +59,7 @@ TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
   const auto calls = count_calls(folder.path().string(), arguments, with(folder, ""));
   ASSERT_EQ(calls.size(), kKinds);
   ASSERT_EQ(calls[1].first, "write");
-  // Full before the driver has its kernels, among the results, and at the very last.
+  // Full before the driver has its kernels, among the results, and at the very end.
   int with_summary = 0;
   for (const long before_the_end : {calls[1].second / 2, 30L, 20L, 12L, 6L, 2L}) {
     const long n = std::max(1L, calls[1].second - before_the_end);
@@ -78,8 +78,8 @@ TEST(Fault, ADiskThatFillsUpLeavesASummaryThatSaysFailed) {
   EXPECT_GT(with_summary, 1);
 }
 
-/// Or the campaign would wait for ever and nobody would hear of it.
-TEST(Fault, ARunThatHangsIsKilledAndToldOf) {
+/// Otherwise the campaign would wait without a message.
+TEST(Fault, AHungRunIsKilledAndReported) {
   const test::Folder folder;
   Attack hanging = with(folder, "");
   hanging.hang = "build:1:600";
@@ -89,11 +89,11 @@ TEST(Fault, ARunThatHangsIsKilledAndToldOf) {
   EXPECT_EQ(got.status, -SIGKILL);
 }
 
-/// The campaign's find (allocation 43 355): the driver's compiler threw, and the run waited for a
-/// lock of its for ever.
-TEST(Fault, ADriverThatThrowsOutOfABuildIsNamedAndNotWaitedFor) {
+/// Found by the campaign (allocation 43 355): the driver's compiler threw, and the run waited for
+/// one of its locks for ever.
+TEST(Fault, ADriverThatThrowsDuringABuildIsNamedAndNotWaitedFor) {
   const test::Folder folder;
-  // Also behind programs that were built: releasing those would wait as well.
+  // Also after programs that were built: releasing those would wait as well.
   for (const char* hang : {"thrown:1:600", "thrown:3:600"}) {
     Attack thrown = with(folder, "");
     thrown.hang = hang;
@@ -107,9 +107,9 @@ TEST(Fault, ADriverThatThrowsOutOfABuildIsNamedAndNotWaitedFor) {
   }
 }
 
-TEST(Fault, AnAbortInsideTheDriverIsNamedAsSuch) {
+TEST(Fault, AnAbortInsideTheDriverIsReportedAsSuch) {
   const test::Folder folder;
-  // An abort, a failed assertion, and one behind programs that were built.
+  // An abort, a failed assertion, and one after programs that were built.
   for (const char* what : {"abort:1", "assert:1", "abort:3"}) {
     Attack aborted = with(folder, "");
     aborted.abort = what;
@@ -121,7 +121,7 @@ TEST(Fault, AnAbortInsideTheDriverIsNamedAsSuch) {
         << what << "\n"
         << got.said;
     EXPECT_NE(got.said.find("(signal 6)"), std::string::npos) << got.said;
-    // The driver's own words stay.
+    // The driver's own message is kept.
     if (std::string(what) == "assert:1")
       EXPECT_NE(got.said.find("driver.c:7: build: assertion 'the cache is sound' failed"),
                 std::string::npos)
@@ -129,8 +129,8 @@ TEST(Fault, AnAbortInsideTheDriverIsNamedAsSuch) {
   }
 }
 
-/// Nor is the driver blamed for what is not its own.
-TEST(Fault, AnAbortOfTheProgramsOwnIsNotTheDrivers) {
+/// The driver is not blamed for other aborts.
+TEST(Fault, AnAbortOfTheProgramIsNotAttributedToTheDriver) {
   const test::Folder folder;
   Attack aborted = with(folder, "");
   aborted.abort = "own:100";
@@ -140,7 +140,7 @@ TEST(Fault, AnAbortOfTheProgramsOwnIsNotTheDrivers) {
   EXPECT_EQ(got.said.find("driver"), std::string::npos) << got.said;
 }
 
-TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
+TEST(Fault, KillsWhileItCompilesAndDrawsLeaveIntactFiles) {
   const test::Folder folder;
   const auto arguments = small_run(true);
   const Outcome cold = attack(folder.path().string(), arguments, with(folder, ""));
@@ -149,7 +149,7 @@ TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
   ASSERT_EQ(warm.broken, "") << warm.said;
   Random random(5);
   for (int i = 0; i < 8; ++i) {
-    // Every other one with an empty cache: most of its time is compiling.
+    // Every other one with an empty cache, where most of the time is compiling.
     const bool compiling = i % 2 == 0;
     if (compiling) std::filesystem::remove_all(folder / "cache");
     Attack killed = with(folder, "");
@@ -158,7 +158,7 @@ TEST(Fault, KillsWhileItCompilesAndDrawsLeaveWholeFiles) {
     EXPECT_EQ(got.broken, "") << killed.kill_after << " s, ended with " << got.status << "\n"
                               << got.said;
   }
-  // What the kills left in the kernel cache is found out.
+  // Damage by the kills in the kernel cache is detected.
   const Outcome after = attack(folder.path().string(), arguments, with(folder, ""), warm.hash);
   EXPECT_EQ(after.status, 0) << after.said;
   EXPECT_EQ(after.broken, "");

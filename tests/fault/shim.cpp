@@ -34,7 +34,7 @@
 #include <ctime>
 #include <new>
 
-// Where assertions are compiled out its header has none of it.
+// Where assertions are disabled, its header does not declare it.
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
                                            unsigned line,  // NOLINT: its name
                                            const char* function) noexcept;
@@ -97,16 +97,16 @@ __attribute__((destructor)) void print_counts() {
   syscall(SYS_close, file);
 }
 
-// While the driver is in a build that is to be its last.
+// True while the driver is in a build that is to be its last.
 std::atomic<bool> last_build{false};
-/// Whether NAVVY_ABORT asks for `kind`, and which one it is.
+/// Returns true if NAVVY_ABORT requests `kind` for call `number`.
 bool aborts(const char* kind, long number) {
   const char* text = getenv("NAVVY_ABORT");
   const std::size_t size = std::strlen(kind);
   return text != nullptr && std::strncmp(text, kind, size) == 0 && text[size] == ':' &&
          std::atol(text + size + 1) == number;
 }
-/// Called by the driver, far inside of its own calls.
+/// Called by the driver, deep inside its own calls.
 void end_here(Call call) {
   if (call != kOpen || !last_build.exchange(false)) return;
   if (std::strncmp(getenv("NAVVY_ABORT"), "assert", 6) == 0)
@@ -131,7 +131,8 @@ bool is_file(int file) {
   return file > 2 && fstat(file, &found) == 0 && S_ISREG(found.st_mode);
 }
 
-/// Whether this write is the one that fails. `offset` below zero: at the file's own place.
+/// Returns true if this write is the one that fails. `offset` below zero: at the file's current
+/// position.
 bool write_fails(int file, std::size_t size, off_t offset) {
   if (!is_file(file)) return false;
   struct stat found;
@@ -165,7 +166,7 @@ void hang(const char* call) {
   if (text == nullptr || std::sscanf(text, "%31[^:]:%ld:%ld", name, &from, &seconds) != 3) return;
   if (std::strcmp(name, call) != 0 || ++waits < from) return;
   timespec left{seconds, 0};
-  // A driver does not come back at a signal.
+  // A driver does not return on a signal.
   while (nanosleep(&left, &left) != 0) {
   }
 }
@@ -289,7 +290,7 @@ int clEnqueueReadBuffer(void* queue, void* buffer, unsigned blocking, std::size_
 int clReleaseProgram(void* program) {
   static const auto real = next<int (*)(void*)>("clReleaseProgram");
   timespec left{600, 0};
-  // The lock is the compiler's: no program comes past it, whichever was thrown out of.
+  // The lock belongs to the compiler: no program gets past it, whichever build threw.
   while (thrown_out_of != nullptr && nanosleep(&left, &left) != 0) {
   }
   return real(program);
@@ -326,7 +327,8 @@ bool new_fails(void* caller) {
 
 }  // namespace
 
-// What the standard library itself takes for the program counts as its own: it is compiled into it.
+// Allocations of the standard library for the program count as its own, since they are compiled
+// into it.
 void* operator new(std::size_t size) {
   if (new_fails(__builtin_return_address(0))) throw std::bad_alloc();
   void* memory = std::malloc(size == 0 ? 1 : size);

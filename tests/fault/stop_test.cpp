@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signals reach a run wherever it is: between steps, in a driver that compiles, in one that does
-// not answer.
+// Signals reach a run in any state: between steps, in a driver that compiles, in one that does not
+// answer.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -50,16 +50,18 @@ class Stop : public testing::Test {
   nlohmann::json summary() const {
     return nlohmann::json::parse(text_of(out() + "/summary.json"), nullptr, false);
   }
-  /// Until the file is there, a minute at most.
+  /// Waits until the file exists, a minute at most.
   static void wait_for_file(const std::string& path) {
     for (int i = 0; i < 1200 && !fs::exists(path); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  /// How a process ended after a signal.
+  /// End of a process after a signal.
   struct Ended {
-    int status = 0;        ///< exit status, or minus the signal that ended it
-    double seconds = 0;    ///< from the signal to the end, for people: others keep the machine busy
-    double processor = 0;  ///< [s] of it that the process had, all its threads together
+    int status = 0;  ///< exit status, or minus the signal that ended it
+    /// Wall time from the signal to the end; printed only, as other processes load the machine.
+    double seconds = 0;
+    /// Processor time in this period, summed over its threads [s].
+    double processor = 0;
   };
   static Ended send(pid_t child, int signal) {
     const auto sent = Clock::now();
@@ -82,16 +84,16 @@ class Stop : public testing::Test {
   const test::Folder folder_;
 };
 
-// A signal is obeyed within 2 s of the process's own: a run that goes on with its steps, or waits
-// for a compiler, takes more. One that sleeps takes none, so the driver of these tests would hang
-// for ten minutes, and the order of that is the one verdict on a clock that others on the machine
-// turn, too.
+// A signal takes effect within 2 s of the process's own time: a run that continues its steps, or
+// waits for a compiler, uses more. A sleeping one uses none, so the driver of these tests would
+// hang for ten minutes; only this order of magnitude is checked by wall time, which other processes
+// affect too.
 constexpr double kSoon = 2;         // [s] of a processor
 constexpr double kLongBefore = 60;  // [s]
 
-TEST_F(Stop, WhileTheDriverCompiles) {
+TEST_F(Stop, WorksWhileTheDriverCompiles) {
   const pid_t child = start("build:1:600");
-  // The folder is taken just before the device.
+  // The folder is locked just before the device is opened.
   wait_for_file(out() + "/navvy.run");
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   const Ended ended = send(child, SIGTERM);
@@ -101,10 +103,10 @@ TEST_F(Stop, WhileTheDriverCompiles) {
   EXPECT_NE(complained().find("driver is busy"), std::string::npos) << complained();
 }
 
-// The compiler inside the driver has handlers of its own, which delete the file it is writing: a
-// build that failed for that would be told as kernels that are wrong.
-TEST_F(Stop, WhileTheDriversOwnCompilerWorks) {
-  // [ms] after the folder was taken, just before the device
+// The compiler inside the driver has its own handlers, which delete the file it is writing: the
+// failed build would be reported as faulty kernels.
+TEST_F(Stop, WorksWhileTheDriversCompilerRuns) {
+  // Delay after the folder was locked, just before the device [ms].
   for (const int pause : {0, 700, 1400}) {
     fs::remove_all(out());
     const std::string cache = folder_ / ("cache" + std::to_string(pause));
@@ -117,7 +119,7 @@ TEST_F(Stop, WhileTheDriversOwnCompilerWorks) {
   }
 }
 
-TEST_F(Stop, WhileTheDeviceDoesNotAnswer) {
+TEST_F(Stop, WorksWhileTheDeviceDoesNotAnswer) {
   const pid_t child = start("wait:50:600");
   wait_for_file(out() + "/terrain_start.tif");
   std::this_thread::sleep_for(std::chrono::seconds(2));
@@ -126,13 +128,13 @@ TEST_F(Stop, WhileTheDeviceDoesNotAnswer) {
   EXPECT_LT(ended.seconds, kLongBefore);
   EXPECT_LT(ended.processor, kSoon);
   EXPECT_EQ(summary().at("status"), "interrupted");
-  // In a run that is over no program goes on.
+  // In a finished run no program is running.
   EXPECT_EQ(summary().at("programs").at(0).at("state"), "interrupted");
   EXPECT_EQ(broken_files(out()), "");
 }
 
 // `timeout` and others signal the process, then its group: it gets each signal twice.
-TEST_F(Stop, TwoSignalsAtOnceAreOne) {
+TEST_F(Stop, TreatsTwoSignalsAtOnceAsOne) {
   for (const int pause : {0, 20}) {  // [ms]
     fs::remove_all(out());
     const pid_t child = start("");
@@ -150,7 +152,7 @@ TEST_F(Stop, TwoSignalsAtOnceAreOne) {
   }
 }
 
-TEST_F(Stop, AClosedTerminalAsCtrlCDoes) {
+TEST_F(Stop, AClosedTerminalActsLikeCtrlC) {
   for (const int signal : {SIGHUP, SIGTERM, SIGINT}) {
     fs::remove_all(out());
     const pid_t child = start("");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every format read back by a reader that is not ours: gdalinfo and gdallocationinfo, NumPy,
-// Python's zlib for PNG pixels, and nav2's rules of loading. The grid is not square, has holes,
-// lies far from its map's origin and is marked in one corner, so that every axis, flip and half
-// cell shows.
+// Every format is read back by an independent reader: gdalinfo and gdallocationinfo, NumPy,
+// Python's zlib for PNG pixels, and nav2's loading rules. The grid is not square, has holes, is far
+// from its map's origin and is marked in one corner, so that a wrong axis, flip or half cell is
+// detected.
 #include "formats/formats.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ using heightfield::testing::write_text;
 
 constexpr int kNx = 52, kNy = 36;
 
-/// The column that nothing else is like: greatest x, least y.
+/// Returns true for the uniquely marked columns: greatest x, least y.
 bool marked(int ix, int iy) { return ix >= kNx - 2 && iy < 1; }
 bool hole(int ix, int iy) { return ix >= 10 && ix < 13 && iy >= 20 && iy < 22; }
 
@@ -74,7 +74,7 @@ const std::vector<map::MapLayer> kTwo = {map::MapLayer::kElevation, map::MapLaye
 
 bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0; }
 
-/// What Python prints of `script`, as JSON; the file's path is sys.argv[1].
+/// Returns the output of the Python `script` as JSON; the file's path is sys.argv[1].
 nlohmann::json python(const test::Folder& folder, const std::string& script,
                       const std::string& file) {
   write_text(folder / "read.py", "import json, sys\n" + script);
@@ -82,7 +82,7 @@ nlohmann::json python(const test::Folder& folder, const std::string& script,
       output_of("/usr/bin/python3 '" + folder / "read.py" + "' '" + file + "'"), nullptr, false);
 }
 
-// A PNG as its standard tells [filters 0 to 4], by Python's zlib alone: prints width, height,
+// Decodes a PNG by its standard [filters 0 to 4], with Python's zlib only: prints width, height,
 // channels and the pixels.
 const char* const kPng = R"(
 import struct, zlib
@@ -124,7 +124,7 @@ TEST(GeoTiff, IsReadByGdalWithPlacesNamesUnitsAndHoles) {
   for (int iy = 0, i = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix, i += 2) {
       const auto k = static_cast<std::size_t>(i);
-      // Half an ulp of float at 412 m; traversability as it is.
+      // Half an ulp of float at 412 m; traversability exactly.
       ASSERT_NEAR(values[k], hole(ix, iy) ? -9999 : static_cast<double>(elevation(ix, iy)) + 412,
                   3e-5);
       ASSERT_NEAR(values[k + 1], hole(ix, iy) ? -9999 : static_cast<double>(good(ix, iy)), 1e-7);
@@ -215,7 +215,7 @@ TEST(Npz, HoldsAllRowsOfALargeMapInOrder) {
   const std::vector<char> bytes = read_file(folder / "tall.npz");
   const std::string text(bytes.begin(), bytes.end());
   for (const map::MapLayer layer : layers) {
-    // Behind the entry's name stands NPY's header of 128 bytes, and then the numbers.
+    // The entry's name is followed by NPY's header of 128 bytes, and then by the numbers.
     const std::size_t name = text.find(map::info(layer).name + ".npy"),
                       begin = text.find("\x93NUMPY", name) + 128;
     const std::vector<float> values = map.copy(layer);
@@ -238,13 +238,14 @@ TEST(Npz, IsReproducibleByteForByte) {
   EXPECT_EQ(read_file(folder / "a.npz"), read_file(folder / "b.npz"));
 }
 
-/// Keys of a nav2 YAML file, by PyYAML.
+/// Returns the keys of a nav2 YAML file, read by PyYAML.
 nlohmann::json yaml(const test::Folder& folder, const std::string& file) {
   return python(folder, "import yaml\nprint(json.dumps(yaml.safe_load(open(sys.argv[1]))))\n",
                 file);
 }
 
-/// nav2's rules, by its documentation: what map_server puts into the OccupancyGrid for one pixel.
+/// Returns the value that map_server puts into the OccupancyGrid for one pixel, by nav2's
+/// documented rules.
 int loaded(const std::string& mode, double brightness, bool opaque, double free, double occupied) {
   const double p = 1 - brightness;
   if (mode == "scale" && !opaque) return -1;
@@ -265,7 +266,7 @@ void expect_keys(const nlohmann::json& keys, const char* image, const char* mode
   EXPECT_TRUE(keys["free_thresh"].is_number());
 }
 
-TEST(Nav2, TrinaryLoadsAsFreeOccupiedAndUnknownUnderCommonThresholds) {
+TEST(Nav2, TrinaryLoadsAsFreeOccupiedAndUnknownWithCommonThresholds) {
   if (!has_yaml()) GTEST_SKIP() << "PyYAML for /usr/bin/python3 is missing (python3-yaml)";
   const test::Folder folder;
   write_map("nav2", example(), {map::MapLayer::kTraversability}, folder / "map.yaml");
@@ -275,7 +276,7 @@ TEST(Nav2, TrinaryLoadsAsFreeOccupiedAndUnknownUnderCommonThresholds) {
   const std::string head = "P5\n52 36\n255\n";
   ASSERT_EQ(pgm.size(), head.size() + kNx * kNy);
   EXPECT_EQ(std::string(pgm.begin(), pgm.begin() + static_cast<std::ptrdiff_t>(head.size())), head);
-  // The file's own thresholds, and the one that turns the saver's 205 into free ground.
+  // The file's own thresholds, and the threshold at which the saver's 205 becomes free ground.
   for (const double free : {keys["free_thresh"].get<double>(), 0.25})
     for (int y = 0; y < kNy; ++y)
       for (int ix = 0; ix < kNx; ++ix) {
@@ -341,8 +342,8 @@ TEST(Pictures, AreNorthUpLitFromTheNorthWestWithTransparentHoles) {
   };
   // Level ground under a sun at 45 deg
   EXPECT_EQ(pixel(2, 2, 0), std::lround(255 * std::sqrt(0.5)));
-  // Faces of 45 deg along both axes: the north-west one looks at the sun, the south-east one away
-  // from it.
+  // Faces of 45 deg along both axes: the north-west one faces the sun, the south-east one faces
+  // away.
   EXPECT_EQ(pixel(38, 11, 0), std::lround(255 * (2 + std::sqrt(2.0)) / 2 / std::sqrt(3.0)));
   EXPECT_EQ(pixel(42, 7, 0), 0);
   for (int iy = 0; iy < kNy; ++iy)
@@ -389,8 +390,8 @@ print(json.dumps([nv, nf, float(up.min()), float(up.sum() / 2), v['p'].tolist(),
                                      folder / "map.ply");
   ASSERT_FALSE(read.is_discarded());
   ASSERT_EQ(read[0], kNx * kNy - 6);
-  // Two faces a square of columns, less those that meet a hole of 3 x 2: 4 x 3 squares, two
-  // triangles of which keep clear of it at the ends of the diagonals.
+  // Two faces per square of columns, except for those at a hole of 3 x 2: 4 x 3 squares, two
+  // triangles of which are complete at the ends of the diagonals.
   EXPECT_EQ(read[1], 2 * (kNx - 1) * (kNy - 1) - 2 * 12 + 2);
   EXPECT_GT(read[2].get<double>(), 0);
   EXPECT_NEAR(read[3].get<double>(), 0.01 * read[1].get<double>() / 2, 1e-9);
@@ -434,7 +435,7 @@ TEST(Formats, KeepTheOldFileWhenTheDiskIsFull) {
   }
 }
 
-/// Every file below a folder with its content.
+/// Returns every file below a folder with its content.
 std::map<std::string, std::vector<char>> content_of(const std::string& folder) {
   std::map<std::string, std::vector<char>> out;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -475,8 +476,8 @@ TEST(Formats, KeepTheOldFolderWhenTheDiskIsFull) {
     EXPECT_NE(message.find(path), std::string::npos) << name << ": " << message;
     EXPECT_EQ(content_of(path), before) << name;
     EXPECT_FALSE(std::filesystem::exists(path + ".part")) << name;
-    // With room again the new one takes its place, as a whole: what a kill left of either is in no
-    // one's way.
+    // With space again the new folder replaces the old one as a whole; leftovers of a kill do not
+    // interfere.
     std::filesystem::create_directories(path + ".part/" + name);
     std::filesystem::remove(path + "/" + before.rbegin()->first);
     format.write(map, format.by_default, path + "/");
@@ -485,7 +486,7 @@ TEST(Formats, KeepTheOldFolderWhenTheDiskIsFull) {
   }
 }
 
-TEST(Formats, NeverTouchAForeignFolder) {
+TEST(Formats, NeverModifyAForeignFolder) {
   const test::Folder folder;
   for (const std::string name : {"terra", "bag"}) {
     const MapFormat& format = format_named(name);
@@ -508,7 +509,7 @@ TEST(Formats, NeverTouchAForeignFolder) {
     }
     EXPECT_EQ(content_of(folder.path().string()).size(), 3u);
     EXPECT_FALSE(std::filesystem::exists(part));
-    // Behind a link, and through folders that are not there yet.
+    // Through a link, and through folders that do not exist yet.
     std::filesystem::create_directory_symlink("deep/" + name, folder / "link");
     EXPECT_NO_THROW(require_writable(format, folder / "link"));
     format.write(with_target(), format.by_default, folder / "link");
@@ -540,8 +541,8 @@ TEST(Formats, AreFoundByNameWithASuggestionOtherwise) {
   EXPECT_THROW(write_map("geotiff", example(), {}, folder / "map.tif"), Error);
 }
 
-// Two readers that know nothing of each other see the same pixels.
-TEST(Pictures, AreReadByPillowAsTheStandardSays) {
+// Two independent readers see the same pixels.
+TEST(Pictures, AreReadByPillowAndByTheStandardAlike) {
   if (std::system("/usr/bin/python3 -c 'import PIL' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "Pillow for /usr/bin/python3 is missing (python3-pil)";
   const char* const script = R"(

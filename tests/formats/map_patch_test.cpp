@@ -12,8 +12,8 @@
 namespace navvy::formats {
 namespace {
 
-TEST(MapPatch, IsSentInPiecesWhereItIsLarge) {
-  // Higher than a piece has rows.
+TEST(MapPatch, IsSentInPiecesWhenLarge) {
+  // More rows than a piece has.
   heightfield::Ground ground(map::testing::setup(70, 600));
   map::UpdateFeed feed(map::testing::two_layers());
   const map::UpdateFeed::Update first = feed.publish(ground.view());
@@ -33,7 +33,7 @@ TEST(MapPatch, IsSentInPiecesWhereItIsLarge) {
   int until = 3;
   EXPECT_FALSE(send_patch(*first, map::testing::kTwo,
                           [&](const char*, std::size_t) { return --until > 0; }));
-  EXPECT_EQ(until, 0) << "ends when it is told to";
+  EXPECT_EQ(until, 0) << "ends on request";
 }
 
 }  // namespace

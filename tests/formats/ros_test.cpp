@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags read by the Python packages `mcap` and `rosbags` (`./dev readers`), which know nothing of
-// us; a grid map is asked by the rule that its users ask by. Not square, with a hole and a marked
-// corner.
+// Bags read by the independent Python packages `mcap` and `rosbags` (`./dev readers`); a grid map
+// is queried by the rule of its users. Not square, with a hole and a marked corner.
 #include "formats/ros/array_message.h"
 #include "formats/ros/streams.h"
 
@@ -49,13 +48,14 @@ map::TerrainMap example() {
 }
 const std::vector<map::MapLayer> kTwo = {map::MapLayer::kElevation, map::MapLayer::kTraversability};
 
-/// The readers' own Python; empty where nobody has made it.
+/// Path of the readers' Python; empty if it is not installed.
 std::string readers() {
   const std::string python = navvy::source_dir() + "/build/readers/bin/python3";
   return std::filesystem::exists(python) ? python : "";
 }
 
-// Prints what a bag holds, by topic: type, times, and the last message in words that tests can ask.
+// Prints the contents of a bag by topic: type, times, and the last message in a form that tests can
+// check.
 const char* const kRead = R"(
 import json, math, sys
 from pathlib import Path
@@ -126,7 +126,7 @@ print(json.dumps(out))
 )";
 
 json read(const test::Folder& folder, const std::string& bag) {
-  // A folder's storage tells types by name only.
+  // The folder format stores types by name only.
   json types;
   for (int i = 0; i < ros::kMessageKinds; ++i)
     types[ros::type_name(static_cast<ros::MessageKind>(i))] =
@@ -197,14 +197,14 @@ TEST(RosBag, MapIsReadByOthers) {
   const json bag = read(folder, folder / "bag");
   expect_map(bag);
   EXPECT_EQ(bag.at("statistics")[0], 4);
-  // A second one replaces it; a folder of somebody else is left alone.
+  // A second bag replaces it; a foreign folder is left unchanged.
   write_map("bag", example(), kTwo, folder / "bag");
   EXPECT_EQ(read(folder, folder / "bag").at("statistics")[0], 4);
   heightfield::testing::write_text(folder / "bag/mine.txt", "x");
   EXPECT_THROW(write_map("bag", example(), kTwo, folder / "bag"), InputError);
 }
 
-/// A body that stands on its side and moves along W's x.
+/// A body on its side that moves along W's x.
 ros::BodyState body() {
   ros::BodyState out;
   out.frame = "ew/chassis";
@@ -306,8 +306,9 @@ void expect_arrays(const json& bag) {
                                     {"frame", "ew/lidar"},
                                     {"type", "float32"},
                                     {"shape", {2, 3}}}));
-  EXPECT_EQ(bag.at("/tf").at("frames"), json({{"map", "ew/lidar"}}));
-  EXPECT_EQ(bag.at("/tf").at("times").size(), 2u) << "an array in W has no frame of its own";
+  // An initializer list with one pair of texts would become an object.
+  EXPECT_EQ(bag.at("/tf").at("frames"), json::array({json::array({"map", "ew/lidar"})}));
+  EXPECT_EQ(bag.at("/tf").at("times").size(), 2u) << "an array in W has no separate frame";
   EXPECT_EQ(bag.at("/labels").at("type"), "std_msgs/msg/UInt16MultiArray");
   EXPECT_EQ(bag.at("/labels").at("data"), json({7.0, 65535.0}));
 }
@@ -326,17 +327,24 @@ TEST(RosBag, ArraysAreReadByOthers) {
   expect_arrays(read(folder, folder / "run"));
 }
 
+TEST(Bags, AreReproducibleByteForByte) {
+  const test::Folder folder;
+  write_map("mcap", example(), kTwo, folder / "a.mcap");
+  write_map("mcap", example(), kTwo, folder / "b.mcap");
+  EXPECT_EQ(read_file(folder / "a.mcap"), read_file(folder / "b.mcap"));
+}
+
 TEST(Bags, HoldTheBytesOfAnArray) {
-  // Without readers: encapsulation, dimensions, length and text of the label, size, stride, offset,
-  // count, numbers.
+  // Checked without readers: encapsulation, dimensions, length and text of the label, size, stride,
+  // offset, count, numbers.
   const std::vector<double> numbers = {1.5, -2};
   const ros::Bytes bytes = ros::multi_array({2}, 8, std::as_bytes(std::span(numbers)));
   ASSERT_EQ(bytes.size(), 4u + 4 + 4 + 8 + 4 + 4 + 4 + 4 + 16);
   EXPECT_EQ(std::memcmp(bytes.data() + bytes.size() - 16, numbers.data(), 16), 0);
 }
 
-// Counts whole messages: of SQLite by its rows, of MCAP by following its records up to one that is
-// torn.
+// Counts complete messages: in SQLite by rows, in MCAP by following its records up to a truncated
+// one.
 const char* const kCount = R"(
 import sqlite3, struct, sys
 if sys.argv[1].endswith('.db3'):
@@ -351,7 +359,7 @@ else:
     print(count)
 )";
 
-TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
+TEST(Bags, KeepWrittenMessagesWhenTheDiskFillsUp) {
   if (std::system("/usr/bin/python3 -c 'import sqlite3' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "python3 is missing";
   const test::Folder folder;
@@ -380,12 +388,12 @@ TEST(Bags, KeepWhatWasWrittenWhenTheDiskFillsUpInMidRecording) {
     EXPECT_GT(written, 10);
     const std::string counted = heightfield::testing::output_of(
         "/usr/bin/python3 '" + folder / "count.py" + "' '" + file + "'");
-    // SQLite ends the transaction of one time when the next time comes.
+    // SQLite commits the transaction of one time when the next time comes.
     EXPECT_EQ(counted, std::to_string(mcap ? written : written - 1) + "\n") << file;
   }
 }
 
-/// Bytes 0 to 7 from `at` on, least first.
+/// Returns the number in bytes 0 to 7 from `at` on, least significant first.
 std::uint64_t number_at(const std::vector<char>& bytes, std::size_t at) {
   std::uint64_t out = 0;
   for (std::size_t i = 0; i < 8; ++i)
@@ -407,7 +415,7 @@ TEST(Bags, ReportTheLeastAndTheGreatestTimeInAnyOrder) {
   for (const char* part :
        {"nanoseconds: 700\n", "nanoseconds_since_epoch: 100\n", "message_count: 4\n"})
     EXPECT_NE(metadata.find(part), std::string::npos) << part << " in: " << metadata;
-  // Before the last 8 + 29 bytes (magic, footer) stand the statistics: of one topic they end in its
+  // The statistics precede the last 8 + 29 bytes (magic, footer): for one topic they end with its
   // id, the count of its messages and, before the length of that map, both times.
   const std::vector<char> file = read_file(folder / "run.mcap");
   const std::size_t end = file.size() - 8 - 29;

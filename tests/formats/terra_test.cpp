@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder for excavation planners as NumPy reads it, and the OBJ as a few lines of Python do.
+// The folder for excavation planners read by NumPy, and the OBJ read by a few lines of Python.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -124,8 +124,8 @@ print(json.dumps([v, len(f), area]))
       EXPECT_EQ(read[0][k][2].get<float>(), 1.0f + 0.25f * static_cast<float>(ix));
       ++k;
     }
-  // Two triangles a square of four columns; the hole spoils six of the eight at its corners'
-  // squares.
+  // Two triangles per square of four columns; the hole removes six of the eight in the squares at
+  // its corners.
   const int squares = (kNx - 1) * (kNy - 1);
   EXPECT_EQ(read[1], 2 * squares - 6);
   EXPECT_NEAR(read[2].get<double>(), 0.01 * squares - 0.03, 1e-9);

@@ -10,7 +10,7 @@
 
 namespace navvy::geometry {
 
-/// A box turned outwards from `low` [m], of the given edges.
+/// Returns a box with outward faces from `low` [m], with the given edges.
 inline TriangleMesh make_box(const Vec3& low, const Vec3& edges) {
   TriangleMesh mesh;
   for (int k = 0; k < 8; ++k)
@@ -20,7 +20,7 @@ inline TriangleMesh make_box(const Vec3& low, const Vec3& edges) {
   return mesh;
 }
 
-/// The tetrahedron of the origin and a step along each axis.
+/// Returns the tetrahedron of the origin and a step along each axis.
 inline TriangleMesh make_tetrahedron(double a, double b, double c) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {a, 0, 0}, {0, b, 0}, {0, 0, c}};
@@ -28,8 +28,8 @@ inline TriangleMesh make_tetrahedron(double a, double b, double c) {
   return mesh;
 }
 
-/// An octahedron with each triangle split in four `levels` times and its corners put on the
-/// ellipsoid.
+/// Returns an octahedron with each triangle split into four `levels` times and its corners moved to
+/// the ellipsoid.
 inline TriangleMesh make_ellipsoid(const Vec3& axes, int levels) {
   TriangleMesh mesh;
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};

@@ -23,7 +23,7 @@ std::vector<Vec3> cloud(int n, std::uint64_t seed) {
   return points;
 }
 
-/// Every plane through three points that has all others behind it, the way of the textbook: n^4.
+/// Returns every plane through three points that has all others behind it, by brute force: n^4.
 std::vector<Plane> planes_by_force(std::vector<Vec3> points) {
   std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
@@ -69,12 +69,12 @@ TEST(ConvexHull, OfABoxWithPointsInItsFacesHasSixPlanesAndEightCorners) {
   EXPECT_NEAR(solid_properties(hull.mesh).volume, 0.4 * 1.2 * 2.8, 1e-12);
 }
 
-TEST(ConvexHull, HasThePlanesOfThreePointsInTurnBitForBit) {
+TEST(ConvexHull, HasTheSamePlanesAsBruteForceBitForBit) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<Vec3> points = cloud(30, seed);
     expect_equal_bits(convex_hull(points).planes, planes_by_force(points));
   }
-  // Faces of many points, as plates and drums have them.
+  // Faces of many points, as in plates and drums.
   std::vector<Vec3> drum;
   for (int i = 0; i < 12; ++i)
     for (const double y : {-0.2, 0.2})
@@ -89,7 +89,7 @@ TEST(ConvexHull, HoldsAllPointsAndIsAClosedConvexBody) {
     EXPECT_TRUE(is_solid(hull.mesh));
     EXPECT_EQ(hull.mesh.triangles.size(), 2 * hull.mesh.vertices.size() - 4) << "Euler";
     for (const Vec3& p : points)
-      // Random points have no faces of more than three, so a plane is exact but for rounding.
+      // Random points have no faces of more than three, so a plane is exact except for rounding.
       for (const Plane& plane : hull.planes) EXPECT_LE(plane.normal.dot(p), plane.offset + 1e-12);
   }
 }
@@ -98,12 +98,11 @@ TEST(ConvexHull, OfASphereKeepsEveryPoint) {
   const TriangleMesh sphere = make_ellipsoid(Vec3::Ones(), 4);
   const ConvexHull hull = convex_hull(sphere.vertices);
   EXPECT_EQ(hull.mesh.vertices.size(), sphere.vertices.size());
-  // Patches of the octahedron that lie symmetrically are flat quads, cut either way with the same
-  // volume.
+  // Symmetric patches of the octahedron are flat quads; either cut gives the same volume.
   EXPECT_NEAR(solid_properties(hull.mesh).volume, solid_properties(sphere).volume, 1e-4);
 }
 
-TEST(ConvexHull, DoesNotDependOnTheOrderNorOnDoubles) {
+TEST(ConvexHull, DoesNotDependOnOrderOrDuplicates) {
   std::vector<Vec3> points = cloud(60, 7);
   const ConvexHull hull = convex_hull(points);
   std::reverse(points.begin(), points.end());
@@ -113,9 +112,9 @@ TEST(ConvexHull, DoesNotDependOnTheOrderNorOnDoubles) {
   EXPECT_EQ(hull.mesh.triangles, again.mesh.triangles);
 }
 
-TEST(ConvexHull, SurvivesPointsThatNearlyLieInAFace) {
-  // Noise of a millionth of the tolerance up to ten times it on the faces of a box: whatever
-  // becomes of them, the body stays closed and its volume that of the box.
+TEST(ConvexHull, SurvivesPointsNearlyInAFace) {
+  // Noise from a millionth of the tolerance up to ten times it on the faces of a box: the body must
+  // stay closed with the volume of the box.
   for (const double noise : {1e-13, 1e-9, 1e-7, 1e-6}) {
     Random random(3);
     std::vector<Vec3> points;
@@ -128,13 +127,13 @@ TEST(ConvexHull, SurvivesPointsThatNearlyLieInAFace) {
     const ConvexHull hull = convex_hull(points);
     EXPECT_TRUE(is_solid(hull.mesh));
     EXPECT_NEAR(solid_properties(hull.mesh).volume, 1, 10 * noise + 1e-12);
-    // A plane may cut off what lies within the tolerance, 1e-7 of the diagonal.
+    // A plane may cut off points within the tolerance, 1e-7 of the diagonal.
     for (const Plane& plane : hull.planes)
       for (const Vec3& p : points) EXPECT_LE(plane.normal.dot(p) - plane.offset, 2e-7);
   }
 }
 
-TEST(ConvexHull, OfAPlateIsItsPlaneFromBothSides) {
+TEST(ConvexHull, OfAPlateHasItsPlaneFacingBothSides) {
   const ConvexHull hull = convex_hull({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0, 1}});
   EXPECT_TRUE(hull.mesh.triangles.empty());
   ASSERT_EQ(hull.planes.size(), 2u);
@@ -142,7 +141,7 @@ TEST(ConvexHull, OfAPlateIsItsPlaneFromBothSides) {
   EXPECT_EQ(std::abs(hull.planes[0].offset), 1);
 }
 
-TEST(ConvexHull, RefusesLinesPointsAndNumbersThatAreNone) {
+TEST(ConvexHull, RefusesLinesPointsAndNonFiniteNumbers) {
   EXPECT_THROW(convex_hull({}), InputError);
   EXPECT_THROW(convex_hull({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}), InputError);
   EXPECT_THROW(convex_hull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {5, 5, 5}}), InputError);

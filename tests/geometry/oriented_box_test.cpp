@@ -8,16 +8,16 @@
 namespace navvy::geometry {
 namespace {
 
-TEST(OrientedBox, ReportsHowFarTwoReachIntoEachOtherAndTheirGap) {
+TEST(OrientedBox, ReportsPenetrationAndGap) {
   const OrientedBox unit{Pose::Identity(), Vec3(0.5, 0.5, 0.5)};
   EXPECT_NEAR(penetration(unit, {make_pose(0.8, 0, 0, 0, 0, 0), Vec3(0.5, 2, 2)}), 0.2, 1e-12);
   EXPECT_NEAR(penetration(unit, {make_pose(1.5, 0, 0, 0, 0, 0), unit.half}), -0.5, 1e-12);
-  // Turned by 45 deg its corner comes sqrt(0.5) ahead.
+  // Turned by 45 deg its corner is sqrt(0.5) ahead.
   EXPECT_NEAR(penetration(unit, {make_pose(1.1, 0, 0, 0, 0, radians(45)), unit.half}),
               0.5 + std::sqrt(0.5) - 1.1, 1e-12);
 }
 
-TEST(OrientedBox, FindsTheGapThatOnlyCrossedEdgesShow) {
+TEST(OrientedBox, FindsAGapBetweenCrossedEdges) {
   // Two square rods, each on its edge, crossed at right angles: their edges face each other.
   const double edge = 0.1;
   const OrientedBox along{make_pose(0, 0, 0, radians(45), 0, 0), Vec3(5, edge, edge)};

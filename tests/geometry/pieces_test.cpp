@@ -16,7 +16,7 @@ TriangleMesh right_triangle(double leg) {
   return mesh;
 }
 
-TEST(Pieces, CoverTheTriangleAndAreNoLongerThanAsked) {
+TEST(Pieces, CoverTheTriangleWithinTheRequestedLength) {
   const TriangleMesh mesh = right_triangle(2);
   const std::vector<MeshPiece> pieces = cut_to_pieces(mesh, 0.3);
   double area = 0;
@@ -31,8 +31,8 @@ TEST(Pieces, CoverTheTriangleAndAreNoLongerThanAsked) {
   EXPECT_EQ(count_pieces(mesh, 0.3, 1'000'000), pieces.size());
 }
 
-TEST(Pieces, CountingEndsWithTheFirstTooMany) {
-  // To the end it would be some 10^13 pieces.
+TEST(Pieces, CountingStopsAtTheLimit) {
+  // A full count would be some 10^13 pieces.
   EXPECT_EQ(count_pieces(right_triangle(2000), 1e-3, 5000), 5001u);
   EXPECT_EQ(count_pieces(right_triangle(0.1), 0.3, 0), 1u);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-/// Closed bodies of revolution about z by their outline (z, radius), fine enough for 1e-3.
+/// Returns a closed body of revolution about z by its outline (z, radius), fine enough for 1e-3.
 TriangleMesh turned(const std::vector<Vec2>& outline) {
   constexpr int kSides = 256;
   TriangleMesh mesh;
@@ -49,7 +49,7 @@ void expect_same(const SolidProperties& a, const SolidProperties& b, double shar
 TEST(PrimitiveSolids, EqualTheMeshesOfTheirShapes) {
   const Vec3 e(0.4, 1.1, 2.3);
   expect_same(solid_box(e), solid_properties(make_box(-0.5 * e, e)), kRounding);
-  // 256 sides and 64 rings fall short of the round body by some 1e-4 of its volume.
+  // 256 sides and 64 rings lack some 1e-4 of the round body's volume.
   constexpr double kSided = 1e-3;
   expect_same(solid_cylinder(0.3, 1.4), solid_properties(turned({{-0.7, 0.3}, {0.7, 0.3}})),
               kSided);
@@ -67,7 +67,7 @@ TEST(PrimitiveSolids, EqualTheMeshesOfTheirShapes) {
 }
 
 TEST(PrimitiveSolids, TwoHalvesOfABoxAreTheBox) {
-  // Each half turned and put to its place: turning, moving and joining undo the cut.
+  // Each half is turned and moved into place, which undoes the cut.
   const Pose left = make_pose(-0.5, 0, 0), right = make_pose(0.5, 0, 0, 0, 0, kPi);
   const SolidProperties half = solid_box(Vec3(1, 0.6, 0.8));
   expect_same(joined(placed(half, left), placed(half, right)), solid_box(Vec3(2, 0.6, 0.8)),

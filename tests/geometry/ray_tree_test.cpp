@@ -20,7 +20,7 @@ Vec3 somewhere(Random& random, double size) {
   return Vec3(x, y, random.uniform(-size, size));
 }
 
-/// Returns the closest hit by asking every triangle in turn.
+/// Returns the closest hit by testing every triangle.
 std::optional<RayHit> by_force(const TriangleMesh& mesh, const Vec3& origin, const Vec3& direction,
                                double reach) {
   std::optional<RayHit> best;
@@ -50,7 +50,7 @@ TEST(RayTree, FindsTheWallOfABoxFromOutsideAndFromInside) {
   EXPECT_TRUE(tree.first_hit(Vec3(5, 0.2, 0.3), Vec3(-1, 0, 0), 4.0)) << "the reach counts";
 }
 
-TEST(RayTree, AgreesBitForBitWithEveryTriangleInTurn) {
+TEST(RayTree, AgreesBitForBitWithATestOfEveryTriangle) {
   Random random(11);
   for (const double size : {0.02, 0.3, 2.0}) {  // specks, medium, a thicket
     TriangleMesh mesh;
@@ -78,7 +78,7 @@ TEST(RayTree, AgreesBitForBitWithEveryTriangleInTurn) {
   }
 }
 
-TEST(RayTree, LetsNoRaySlipThroughEdgesAndCornersOfAClosedBody) {
+TEST(RayTree, MissesNoRayAtEdgesAndCornersOfAClosedBody) {
   const TriangleMesh sphere = make_ellipsoid(Vec3(1, 0.7, 1.3), 3);
   const RayTree tree(sphere);
   Random random(5);
@@ -95,21 +95,21 @@ TEST(RayTree, LetsNoRaySlipThroughEdgesAndCornersOfAClosedBody) {
   EXPECT_GT(rays, 4000);
 }
 
-TEST(RayTree, TakesTheLowestTriangleOfEqualOnes) {
+TEST(RayTree, ReturnsTheLowestIndexOfEqualHits) {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (int i = 0; i < 40; ++i) mesh.triangles.push_back({0, 1, 2});
   const auto hit = RayTree(mesh).first_hit(Vec3(0.2, 0.2, 5), Vec3(0, 0, -1));
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->triangle, 0);
-  // On a corner of a box three faces meet at one distance.
+  // At a corner of a box three faces have the same distance.
   const TriangleMesh box = make_box(Vec3::Zero(), Vec3::Ones());
   const auto corner = RayTree(box).first_hit(Vec3(2, 2, 2), Vec3(-1, -1, -1));
   ASSERT_TRUE(corner);
   EXPECT_EQ(corner->triangle, by_force(box, Vec3(2, 2, 2), Vec3(-1, -1, -1), kInfinity)->triangle);
 }
 
-TEST(RayTree, TakesRaysAlongTheAxesInThePlanesOfItsBoxes) {
+TEST(RayTree, HandlesRaysAlongTheAxesInThePlanesOfItsBoxes) {
   // A grid whose triangles, and so boxes, begin exactly where the rays run.
   TriangleMesh grid;
   for (int y = 0; y <= 8; ++y)
@@ -130,14 +130,14 @@ TEST(RayTree, TakesRaysAlongTheAxesInThePlanesOfItsBoxes) {
   EXPECT_FALSE(tree.first_hit(Vec3(-1, 4, 0), Vec3(1, 0, 0))) << "edge-on";
 }
 
-TEST(RayTree, KeepsItsWordFarAwayAndForShortDirections) {
+TEST(RayTree, IsAccurateFarAwayAndForShortDirections) {
   const RayTree tree(make_box(Vec3(-1, -1, -1), Vec3(2, 2, 2)));
   const auto hit = tree.first_hit(Vec3(1e7, 0.25, 0.5), Vec3(-1e-200, 0, 0));
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->distance, 1e7 - 1);
 }
 
-TEST(RayTree, OfNoTrianglesOrFlatOnesIsNeverMet) {
+TEST(RayTree, WithoutTrianglesOrWithFlatOnesIsNeverHit) {
   EXPECT_FALSE(RayTree(TriangleMesh()).first_hit(Vec3::Zero(), Vec3::UnitX()));
   TriangleMesh line;
   line.vertices = {{1, -1, 0}, {1, 1, 0}, {1, 0, 0}};

@@ -9,10 +9,10 @@
 namespace navvy::geometry {
 namespace {
 
-// Sums of some hundred terms in double: 1e-13 of the size leaves ten times their rounding.
+// Sums of some hundred terms in double: 1e-13 of the size is ten times their rounding.
 constexpr double kRounding = 1e-13;
 
-TEST(SolidProperties, OfABoxAreThoseOfTheTextbook) {
+TEST(SolidProperties, OfABoxMatchTheClosedForm) {
   const Vec3 e(0.4, 1.1, 2.3);
   const SolidProperties box = solid_properties(make_box(Vec3(3, -2, 1), e));
   const double v = e.prod();
@@ -41,7 +41,7 @@ TEST(SolidProperties, OfATetrahedronHaveItsProductsOfInertia) {
   EXPECT_EQ(t.inertia(1, 0), t.inertia(0, 1));
 }
 
-TEST(SolidProperties, OfSphereAndEllipsoidComeCloserByFourWithEverySplit) {
+TEST(SolidProperties, OfSphereAndEllipsoidConvergeAtSecondOrder) {
   for (const Vec3& r : {Vec3(1, 1, 1), Vec3(0.5, 1, 2)}) {
     const double v = 4.0 / 3 * kPi * r.prod();
     const Vec3 moments(r.y() * r.y() + r.z() * r.z(), r.z() * r.z() + r.x() * r.x(),
@@ -53,8 +53,8 @@ TEST(SolidProperties, OfSphereAndEllipsoidComeCloserByFourWithEverySplit) {
       const double inertia_error =
           (s.inertia - Mat3((v / 5 * moments).asDiagonal())).norm() / (v / 5 * moments).norm();
       EXPECT_LT(s.p_BCom.norm(), 1e-12);
-      // Chords cut off a share of the square of their length; the exact order shows that nothing
-      // else is wrong.
+      // Chords cut off a share that goes with the square of their length; the exact order shows
+      // that there is no other error.
       if (last_volume > 0) {
         EXPECT_NEAR(last_volume / volume_error, 4, 0.1);
         EXPECT_NEAR(last_inertia / inertia_error, 4, 0.1);
@@ -66,7 +66,7 @@ TEST(SolidProperties, OfSphereAndEllipsoidComeCloserByFourWithEverySplit) {
   }
 }
 
-TEST(SolidProperties, KeepTheirDigitsFarFromTheOrigin) {
+TEST(SolidProperties, AreAccurateFarFromTheOrigin) {
   const Vec3 far(5e5, -4e6, 300);
   const SolidProperties s = solid_properties(make_box(far, Vec3(1, 2, 3)));
   // The box's own corners are rounded to 5e-10 m there.
@@ -94,7 +94,7 @@ TEST(SolidProperties, RefuseOpenFoldedInvertedAndFlatMeshes) {
   }
 }
 
-TEST(SolidProperties, WeldFacesThatAFileKeepsApart) {
+TEST(SolidProperties, WeldFacesWithSeparateVertices) {
   TriangleMesh mesh = make_box(Vec3::Zero(), Vec3::Ones());
   mesh.vertices.push_back(mesh.vertices[0]);
   mesh.triangles[0][0] = 8;

@@ -8,7 +8,7 @@
 namespace navvy::geometry {
 namespace {
 
-/// Both meshes as one.
+/// Returns both meshes as one.
 TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
   const int n = static_cast<int>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
@@ -16,20 +16,20 @@ TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
   return a;
 }
 
-TEST(WindingClash, NamesATriangleThatIsTurnedRound) {
+TEST(WindingClash, NamesAFlippedTriangle) {
   TriangleMesh mesh = make_box(Vec3::Zero(), Vec3::Ones());
   std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
   ASSERT_TRUE(find_winding_clash(mesh).has_value());
   EXPECT_EQ(find_winding_clash(mesh)->first, 0u);
 }
 
-TEST(WindingClash, IsNoneOnAnOpenSurfaceOfOneFront) {
+TEST(WindingClash, IsAbsentOnAConsistentlyWoundOpenSurface) {
   TriangleMesh box = make_box(Vec3::Zero(), Vec3::Ones());
   box.triangles.resize(6);
   EXPECT_FALSE(find_winding_clash(box).has_value());
 }
 
-TEST(SolidMesh, IsClosedAndTurnedOutwardsPieceByPiece) {
+TEST(SolidMesh, IsClosedAndFacesOutwardsInEveryPiece) {
   const TriangleMesh large = make_box(Vec3::Zero(), Vec3::Constant(3));
   EXPECT_TRUE(is_solid(large));
   EXPECT_TRUE(is_solid(together(large, make_box(Vec3(5, 0, 0), Vec3::Ones()))));
@@ -43,7 +43,8 @@ TEST(SolidMesh, IsClosedAndTurnedOutwardsPieceByPiece) {
 }
 
 TEST(SolidMesh, ToleratesBodiesThatShareAnEdge) {
-  // Two boxes that touch along an edge: four triangles meet there, run through twice either way.
+  // Two boxes that touch along an edge: four triangles meet there, and each direction is traversed
+  // twice.
   const TriangleMesh both =
       together(make_box(Vec3::Zero(), Vec3::Ones()), make_box(Vec3(1, 1, 0), Vec3::Ones()));
   EXPECT_TRUE(is_solid(both));

@@ -20,16 +20,16 @@ std::string fault_of(const TriangleMesh& mesh) {
   return "";
 }
 
-TEST(TriangleMesh, KnowsItsCornersNormalsAndBounds) {
+TEST(TriangleMesh, ReturnsItsCornersNormalsAndBounds) {
   const TriangleMesh box = make_box(Vec3(1, 2, 3), Vec3(0.5, 1, 2));
   EXPECT_EQ(box.corner(2, 1), Vec3(1.5, 2, 5));
-  EXPECT_EQ(box.area_vector(0), Vec3(0, 0, -0.5));  // the floor looks down; twice half of 0.5 m2
+  EXPECT_EQ(box.area_vector(0), Vec3(0, 0, -0.5));  // the floor faces down; twice half of 0.5 m2
   EXPECT_EQ(bounds(box).low, Vec3(1, 2, 3));
   EXPECT_EQ(bounds(box).high, Vec3(1.5, 3, 5));
   EXPECT_EQ(bounds(TriangleMesh()).high, Vec3(0, 0, 0));
 }
 
-TEST(TriangleMesh, IsRefusedWithTheVertexOrTriangleThatIsWrong) {
+TEST(TriangleMesh, IsRefusedWithTheFaultyVertexOrTriangle) {
   EXPECT_EQ(fault_of(make_box(Vec3::Zero(), Vec3::Ones())), "");
   TriangleMesh mesh = make_box(Vec3::Zero(), Vec3::Ones());
   mesh.vertices[5].y() = std::numeric_limits<double>::quiet_NaN();

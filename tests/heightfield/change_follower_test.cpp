@@ -26,7 +26,7 @@ Columns covered(const std::vector<CellRect>& rects) {
   return out;
 }
 
-/// Every column of which something that can be seen differs, by looking at all of them.
+/// Returns every column with a visible difference, by comparing all of them.
 Columns differing(const Terrain& a, const Terrain& b) {
   Columns out;
   for (int iy = 0; iy < a.ny(); ++iy)
@@ -85,7 +85,7 @@ TEST(ChangeFollower, ReportsFewChangesExactly) {
   const std::vector<CellRect> rects = follower.take(ground.view());
   EXPECT_EQ(rects.size(), 2u);  // the four neighbours are one rectangle
   EXPECT_EQ(area(rects), 5);
-  // What was put back is no change, although it was announced as two.
+  // A column that was restored is no change, although two edits were announced.
   const double before = ground.height(70, 40);
   std::vector<SoilLayer> taken;
   ground.take_above(70, 40, before - 0.1, taken);
@@ -104,7 +104,7 @@ TEST(ChangeFollower, CoversRandomEditsAsAFullComparisonFindsThem) {
   for (int round = 0; round < 60; ++round) {
     const int x = static_cast<int>(random.uniform(0, 180)),
               y = static_cast<int>(random.uniform(0, 130));
-    // From one column to scattered over the whole site.
+    // From one column to edits scattered over the whole site.
     const CellRect where = round % 10 == 9 ? ground.site_rect() : CellRect{x, y, x + 20, y + 20};
     edit(ground, random, 1 << (round % 9), where);
     TerrainView view = ground.view();
@@ -129,7 +129,7 @@ TEST(ChangeFollower, CoversRandomEditsAsAFullComparisonFindsThem) {
   }
 }
 
-TEST(ChangeFollower, IsRightAfterASnapshotWasLoaded) {
+TEST(ChangeFollower, IsCorrectAfterASnapshotWasLoaded) {
   Ground ground(wavy_setup());
   Random random(22);
   edit(ground, random, 500, ground.site_rect());
@@ -141,17 +141,17 @@ TEST(ChangeFollower, IsRightAfterASnapshotWasLoaded) {
   const TerrainView later = ground.view();
   follower.take(later);
   load_saved(state, ground);
-  // Back to what it was: what the edits changed has changed again, though the sequence number went
-  // down.
+  // Restored state: columns that the edits changed have changed again, although the sequence number
+  // decreased.
   const TerrainView loaded = ground.view();
   EXPECT_TRUE(differing(then, loaded).empty());
   EXPECT_TRUE(holds(covered(follower.take(loaded)), differing(later, loaded)));
-  // A ground of its own is another site for who follows, however alike.
+  // A different ground counts as another site for the follower, even if it is equal.
   const Ground other(wavy_setup());
   EXPECT_EQ(covered(follower.take(other.view())).size(), 77u * 45u);
 }
 
-TEST(RectList, CoversWhatWasAddedWithAtMostItsNumber) {
+TEST(RectList, CoversAllAddedRectanglesWithinItsLimit) {
   Random random(23);
   for (int round = 0; round < 30; ++round) {
     RectList list;
@@ -173,9 +173,9 @@ TEST(RectList, CoversWhatWasAddedWithAtMostItsNumber) {
   }
 }
 
-TEST(RectList, UnitesWhatAddsLeast) {
+TEST(RectList, UnitesThePairThatAddsLeastArea) {
   RectList list;
-  // Sixty-three columns far apart and two that lie two cells from each other.
+  // Sixty-three columns far apart, and two that are two cells from each other.
   for (int n = 0; n < 63; ++n) list.add({1000 * n, 500, 1000 * n + 1, 501});
   list.add({0, 0, 1, 1});
   list.add({2, 0, 3, 1});

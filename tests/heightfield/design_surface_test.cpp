@@ -16,7 +16,7 @@ namespace {
 using testing::folder;
 using testing::write_text;
 
-/// A flat site of 24 m x 20 m in columns of 0.1 m, its middle W (0, 0).
+/// Returns a flat site of 24 m x 20 m in columns of 0.1 m, centred at W (0, 0).
 scene::Scene flat() {
   scene::Scene world;
   world.soils.resize(1);
@@ -52,7 +52,7 @@ std::string message_of(const scene::Scene& world) {
   return "";
 }
 
-// The goal of volumes beside closed forms.
+// Tolerance of volumes compared with closed forms.
 constexpr double kShare = 0.005;
 
 TEST(DesignArea, OfAPrismHasItsVolume) {
@@ -65,7 +65,7 @@ TEST(DesignArea, OfAPrismHasItsVolume) {
   EXPECT_EQ(f.design_fill, 0);
   EXPECT_EQ(f.over_dig, 0);
   EXPECT_EQ(f.cut, 0);
-  // Columns are whole quanta of mass high.
+  // Heights of columns are whole quanta of mass.
   EXPECT_NEAR(f.largest_error, 1.5, 1e-6);
   EXPECT_NEAR(f.mean_error, 1.5, 1e-6);
 }
@@ -73,10 +73,10 @@ TEST(DesignArea, OfAPrismHasItsVolume) {
 TEST(DesignArea, OfABatteredPitHasTheVolumeOfItsFrustumWithRoundCorners) {
   scene::Scene world = flat();
   world.design.areas = {box(6, 4, 1.5, 45)};
-  // Prism, four wedges, and a cone of the four corners.
+  // Prism, four wedges, and a cone made of the four corners.
   const double volume = 36 + (6 + 4) * 1.5 * 1.5 + kPi * std::pow(1.5, 3) / 3;
   EXPECT_NEAR(figures(world).design_cut, volume, kShare * volume);
-  // A pad is the same upside down.
+  // A pad is the same shape upside down.
   world.design.areas = {box(6, 4, -1.5, 45)};
   EXPECT_NEAR(figures(world).design_fill, volume, kShare * volume);
 }
@@ -96,7 +96,7 @@ TEST(DesignArea, OfAConesFrustumHasItsVolume) {
   EXPECT_NEAR(figures(world).design_cut, volume, kShare * volume);
 }
 
-TEST(DesignArea, FallsAlongItsDirectionAndEndsWhereTheGroundDoes) {
+TEST(DesignArea, FallsAlongItsDirectionAndEndsAtTheGround) {
   scene::Scene world = flat();
   scene::GroundFeature slope;
   slope.angle = std::atan(0.1);
@@ -110,19 +110,19 @@ TEST(DesignArea, FallsAlongItsDirectionAndEndsWhereTheGroundDoes) {
     const Vec2i c = ground.column_at(x, y);
     return design.rect.contains(c.x(), c.y()) ? static_cast<double>(design.at(c.x(), c.y())) : NAN;
   };
-  // The first corner, (-3, -2), lies 1 m below the ground there; from it the floor falls by 5 %
+  // The first corner, (-3, -2), is 1 m below the ground there; from it the floor falls by 5 %
   // towards y.
   const double corner =
       ground.height(ground.column_at(-2.99, -1.99).x(), ground.column_at(-2.99, -1.99).y()) - 1;
   EXPECT_NEAR(at(0.05, -1.95), corner - 0.05 * 0.05, 1e-5);
   EXPECT_NEAR(at(0.05, 1.95), corner - 0.05 * 3.95, 1e-5);
-  // Beyond the edge the side rises; it ends at the ground.
+  // Beyond the edge the side rises and ends at the ground.
   EXPECT_NEAR(at(3.25, 0.05), corner - 0.05 * 2.05 + 2 * 0.25, 1e-5);
   EXPECT_TRUE(std::isnan(at(3.85 + 0.3, 0.05)));
   EXPECT_TRUE(std::isnan(at(-3.75, 0.05)));
 }
 
-TEST(DesignArea, LaterFloorsLieOverEarlierOnesAndSidesOnlyWhereTheyCutDeeper) {
+TEST(DesignArea, LaterFloorsReplaceEarlierOnesAndSidesOnlyWhereTheyCutDeeper) {
   scene::Scene world = flat();
   world.design.areas = {box(8, 8, 2, 45), box(4, 4, 1, 45)};
   const Ground ground = make_ground(world);
@@ -153,7 +153,7 @@ TEST(Design, ReportsOverAndUnderDigOfADugSite) {
   EXPECT_NEAR(f.largest_error, 1, 1e-5);
 }
 
-/// A pyramid's frustum: floor 6 x 4, top 10 x 8, 2 m deep, W's coordinates.
+/// Returns a pyramid's frustum: floor 6 x 4, top 10 x 8, 2 m deep, in coordinates of W.
 std::shared_ptr<scene::Tin> frustum() {
   auto tin = std::make_shared<scene::Tin>();
   tin->file = "pit.xml";
@@ -181,7 +181,7 @@ TEST(DesignTin, OfAFrustumHasItsVolume) {
   EXPECT_NEAR(f.area, 80, kShare * 80);
 }
 
-TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
+TEST(DesignTin, IsRefusedOffTheSiteAndSwappedAxesAreNamed) {
   scene::Scene world = flat();
   auto tin = frustum();
   for (Vec3& p : tin->points) p += Vec3(200, 0, 0);
@@ -195,7 +195,7 @@ TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
   world.ground.origin = Vec2(-12, 190);
   message = message_of(world);
   EXPECT_NE(message.find("northing and easting are swapped"), std::string::npos) << message;
-  // In place, but of millimetres: swapped or not it lies on the site.
+  // At its place, but in millimetres: with or without swapped axes it is on the site.
   world = flat();
   tin = frustum();
   for (Vec3& p : tin->points) p.head<2>() *= 1e-4;
@@ -208,13 +208,13 @@ TEST(DesignTin, ThatLiesElsewhereIsRefusedAndSwappedAxesAreNamed) {
       << message;
 }
 
-/// What the log says while the frustum is laid on a site of that CRS and unit; a refusal's text
-/// likewise.
+/// Returns what is logged when the frustum is placed on a site of that CRS and unit, or the text of
+/// a refusal.
 std::string said_of(const std::string& crs, double site_unit, int epsg, double unit) {
   GroundSetup setup = make_ground(flat()).setup();
   setup.crs_wkt = crs;
   setup.file_unit = site_unit;
-  // As file coordinates of a real site, in the millions.
+  // File coordinates of a real site, in the millions.
   setup.easting = 2000000;
   setup.northing = 500000;
   auto tin = frustum();
@@ -245,7 +245,7 @@ const std::string kCompound =
     "COMPOUNDCRS[\"zone \"\"[32]\"\" and heights\"," + kOwnCode +
     ",VERTCRS[\"EGM96 height\",CS[vertical,1],ID[\"EPSG\",5773]],ID[\"EPSG\",9999]]";
 
-TEST(DesignTin, OfAnotherCrsIsRefusedAlsoBesideOneWithHeights) {
+TEST(DesignTin, OfAnotherCrsIsRefusedEvenInACompoundCrs) {
   for (const std::string& crs : {kOwnCode, kCompound}) {
     const std::string said = said_of(crs, 1, 25832, 1);
     EXPECT_NE(said.find("EPSG:25832"), std::string::npos) << said;
@@ -253,12 +253,12 @@ TEST(DesignTin, OfAnotherCrsIsRefusedAlsoBesideOneWithHeights) {
     EXPECT_EQ(said_of(crs, 1, 32632, 1), "");
   }
   EXPECT_EQ(said_of(kCompound, 1, 9999, 1), "") << "the compound's own code names its plane, too";
-  // Not the code of its base, its method or its unit.
+  // The code of the CRS, not of its base, method or unit.
   const std::string said = said_of(kZone + "]", 1, 9001, 1);
   EXPECT_EQ(said.find("error"), std::string::npos) << said;
 }
 
-TEST(DesignTin, WarnsWhereOnlyOneSideHasACode) {
+TEST(DesignTin, WarnsIfOnlyOneSideHasACode) {
   EXPECT_EQ(said_of("", 1, 0, 1), "");
   EXPECT_NE(said_of("", 1, 25832, 1)
                 .find("pit.xml: warning: navvy:design: 'EPSG:25832': the site has no CRS"),
@@ -293,7 +293,7 @@ TEST(DesignArea, OffTheSiteIsRefusedWithItsLine) {
 }
 
 #ifdef NAVVY_WITH_GDAL
-/// A cone 2 m deep of radius 4 about the middle of a map of 96 x 80 cells; NODATA outside.
+/// Writes a cone 2 m deep with radius 4 about the middle of a map of 96 x 80 cells; NODATA outside.
 std::string cone_map(const std::string& path, const std::string& corner) {
   return write_text(
       path,
@@ -303,7 +303,7 @@ std::string cone_map(const std::string& path, const std::string& corner) {
       }));
 }
 
-TEST(DesignRaster, OfAConeHasItsVolumeAtItsPlaceOnAMap) {
+TEST(DesignRaster, OfAConeHasItsVolumeAndPlaceOnAMap) {
   const std::string dir = folder();
   write_text(dir + "ground.asc",
              testing::ascii_grid(40, 40, "xllcorner 5000\nyllcorner 80000\ncellsize 1\n",
@@ -314,12 +314,12 @@ TEST(DesignRaster, OfAConeHasItsVolumeAtItsPlaceOnAMap) {
   const DesignSurface design = make_design(world, ground).value();
   const double volume = kPi * 16 * 2 / 3;
   EXPECT_NEAR(against_design(ground, design).design_cut, volume, kShare * volume);
-  // The tip lies at 5021.8, 80019, a corner of columns; the site begins at 5008, 80010. Text of six
+  // The tip is at 5021.8, 80019, a corner of columns; the site begins at 5008, 80010. Text of six
   // digits.
   EXPECT_NEAR(static_cast<double>(design.at(137, 89)), -2 + std::hypot(0.05, 0.05) / 2, 2e-6);
   EXPECT_NEAR(static_cast<double>(design.at(157, 89)), -2 + std::hypot(1.95, 0.05) / 2, 2e-6);
   EXPECT_NEAR(static_cast<double>(design.at(137, 99)), -2 + std::hypot(0.05, 0.95) / 2, 2e-6);
-  // Elsewhere it is refused with both places.
+  // At another place it is refused with both places.
   world.design.file = cone_map(dir + "far.asc", "xllcorner 17\nyllcorner 80015\n");
   const std::string message = message_of(world);
   for (const char* part : {"far.asc", "does not overlap", "x 5008.000", "x 17.000"})
@@ -352,7 +352,7 @@ TEST(DesignRaster, OfAnotherCrsOrUnitIsRefused) {
   EXPECT_NE(refused.find("UTM zone 32N"), std::string::npos) << refused;
   refused = message("ground.asc", "cone32633.tif");
   EXPECT_NE(refused.find("the site has no CRS"), std::string::npos) << refused;
-  // Maryland counts in US survey feet.
+  // Maryland uses US survey feet.
   refused = message("ground2248.tif", "cone.asc");
   EXPECT_NE(refused.find("units of 0.3048006096 m"), std::string::npos) << refused;
 }

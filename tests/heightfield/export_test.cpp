@@ -22,7 +22,7 @@ using testing::has_tool;
 using testing::located;
 using testing::wavy_setup;
 
-// An asymmetric ground with a mark in one corner, far from the origin of its map.
+// Returns an asymmetric ground with a mark in one corner, far from the origin of its map.
 Ground marked(double easting, double northing, double offset) {
   Ground::Setup setup = wavy_setup();
   setup.easting = easting;
@@ -49,7 +49,7 @@ std::vector<Format> formats() {
   return all;
 }
 
-TEST(Export, IsReadByOthersAtTheRightPlace) {
+TEST(Export, IsReadByOtherProgramsAtTheRightPlace) {
   if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
   const std::string dir = folder();
   const Ground ground = marked(1540000.25, 5150000.5, 412);
@@ -72,7 +72,7 @@ TEST(Export, IsReadByOthersAtTheRightPlace) {
 }
 
 #ifdef NAVVY_WITH_GDAL
-TEST(Export, ReturnsToTheSameGroundAtAnEastingOfAMillionAndAHalf) {
+TEST(Export, ReimportsTheSameGroundAtAnEastingOfAMillionAndAHalf) {
   const std::string dir = folder();
   const auto z = [](int c, int r) {
     return std::to_string(870 + 0.375 * c - 0.25 * r + 0.0625 * ((c * r) % 5));
@@ -85,7 +85,7 @@ TEST(Export, ReturnsToTheSameGroundAtAnEastingOfAMillionAndAHalf) {
     std::string report;
     const Ground second =
         make_ground(testing::map_world(dir + format.name, 0.25, Vec2(20, 12)), &report);
-    // 1e-6 m: coordinates stay double; in float they would be off by 0.125 m.
+    // 1e-6 m: coordinates are doubles; in float they would be off by 0.125 m.
     EXPECT_NEAR(second.setup().easting, first.setup().easting, 1e-6) << report;
     EXPECT_NEAR(second.setup().northing, first.setup().northing, 1e-6);
     for (int iy = 0; iy < first.ny(); ++iy)
@@ -120,7 +120,7 @@ TEST(Export, KeepsTheReferenceAndNodataOfTheSource) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(after[i], before[i], 2e-5);
 }
 
-TEST(Export, KeepsTheUnitOfHeightsWhereverItCameFrom) {
+TEST(Export, KeepsTheUnitOfHeightsFromAnySource) {
   for (const char* tool : {"gdal_translate", "gdal_edit.py", "gdalinfo"})
     if (!testing::has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
   const std::string dir = folder();
@@ -167,7 +167,7 @@ TEST(Export, KeepsTheUnitOfHeightsWhereverItCameFrom) {
   }
 }
 
-TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
+TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportIgnores) {
   const std::string dir = folder();
   const Ground ground = marked(100, 200, 0);
   const double top = ground.height(5, 6);
@@ -182,7 +182,7 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   };
   write_geotiff(view, dir + "awake.tif",
                 {band("loose_depth", [&](int ix, int iy) { return view.loose_depth(ix, iy); }),
-                 band("awake", [&](int ix, int iy) { return view.active(ix, iy) ? 1.0f : 0.0f; })});
+                 band("active", [&](int ix, int iy) { return view.active(ix, iy) ? 1.0f : 0.0f; })});
   write_geotiff(view, dir + "plain.tif");
   std::string report;
   const Ground read =
@@ -192,7 +192,7 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportDoesNotMind) {
   for (int iy = 0; iy < read.ny(); ++iy)
     for (int ix = 0; ix < read.nx(); ++ix) ASSERT_EQ(read.height(ix, iy), plain.height(ix, iy));
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
-  // A point's values, band after band.
+  // Returns a point's values, band after band.
   const std::vector<double> values =
       located(dir + "awake.tif", {{100.55, 200.65}, {100.75, 200.65}});
   ASSERT_EQ(values.size(), 6u);

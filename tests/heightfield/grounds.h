@@ -17,8 +17,8 @@ inline scene::Soil soil(const char* name, double density) {
   return s;
 }
 
-/// Topsoil 0.3 m over loam over a fixed datum at -3 m; not square, neither side a multiple of the
-/// tile.
+/// Returns topsoil 0.3 m over loam over a fixed datum at -3 m; not square, neither side a multiple
+/// of the tile.
 inline Ground::Setup wavy_setup(int nx = 77, int ny = 45) {
   Ground::Setup setup;
   setup.nx = nx;

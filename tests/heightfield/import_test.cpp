@@ -23,8 +23,7 @@ using testing::map_world;
 using testing::output_of;
 using testing::write_text;
 
-// No symmetry in it: every mirror or transposition of a 13 x 7 map of this changes nearly all
-// cells.
+// A surface without symmetry: mirroring or transposing a 13 x 7 map of it changes nearly all cells.
 double asymmetric(int column, int row) {
   return 100 + 1.25 * column + 7.5 * row + 0.5 * ((column * row * 5) % 7);
 }
@@ -48,7 +47,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// Every column of a site whose columns coincide with the cells of the map, against
+// Expects every column of a site whose columns coincide with the cells of the map to match
 // gdallocationinfo.
 void expect_as_located(const std::string& file, const Ground& ground, double tolerance) {
   const Ground::Setup& setup = ground.setup();
@@ -82,7 +81,7 @@ TEST(Import, IsNeitherMirroredNorTransposed) {
     EXPECT_EQ(Vec2(ground.setup().easting, ground.setup().northing), Vec2(at - Vec2(4, 2)));
     expect_as_located(file, ground, kFloatHeight);
   }
-  // local: counts from the lower-left corner and is the same place.
+  // Local coordinates count from the lower-left corner and give the same place.
   world.ground.at = Vec2(5, 3);
   world.ground.at_is_local = true;
   const Ground local = make_ground(world);
@@ -90,7 +89,7 @@ TEST(Import, IsNeitherMirroredNorTransposed) {
   EXPECT_NEAR(local.height(0, 0) + local.setup().height_offset, asymmetric(1, 5), kFloatHeight);
 }
 
-TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
+TEST(Import, PlacesPointAndAreaFilesLikeOtherPrograms) {
   if (!has_tool("gdallocationinfo") || !has_tool("gdal_translate"))
     GTEST_SKIP() << "gdal-bin is missing";
   const std::string dir = folder(), ascii = asymmetric_map(dir + "map.asc");
@@ -109,7 +108,7 @@ TEST(Import, ReadsPointAndAreaFilesAtTheSamePlaceAsOthers) {
     EXPECT_TRUE(contains(setup.crs_wkt, "PROJCRS"));
     expect_as_located(file, make_ground(world), kFloatHeight);
   }
-  // ESRI's own way to register at points: the corner lies half a cell lower.
+  // ESRI's way to register at points: the corner is half a cell lower.
   const std::string centred =
       asymmetric_map(dir + "centre.asc", "xllcenter 500.5\nyllcenter 8000.5\n");
   scene::Scene world = map_world(centred, 1, Vec2(8, 4));
@@ -131,7 +130,7 @@ TEST(Import, ReadsCellsThatAreNotSquare) {
   EXPECT_NEAR(ground.sample(0, 1.5) - ground.sample(0, -1.5), 4.5, 1e-5);
 }
 
-TEST(Import, KnowsEverySpellingOfNodata) {
+TEST(Import, RecognisesEverySpellingOfNodata) {
   const std::string dir = folder();
   struct Case {
     std::string name, header, cell;
@@ -157,7 +156,7 @@ TEST(Import, KnowsEverySpellingOfNodata) {
     EXPECT_EQ(report.nodata.gaps, 3) << c.name;
     EXPECT_EQ(report.nodata.farthest, 1) << c.name;
     EXPECT_TRUE(contains(report.text(), "3 of ")) << report.text();
-    // The middle of the gap lies between its neighbours, rows above and below being complete.
+    // The middle of the gap is between its neighbours, as the rows above and below are complete.
     EXPECT_NEAR(setup.surface(12, 12) + report.height_offset, 5.5 + 0.25 * 10, 0.2) << c.name;
     EXPECT_LT(report.slope.most, radians(20)) << c.name;
   }
@@ -186,7 +185,7 @@ TEST(Import, KeepsZeroNegativeAndHighHeights) {
   EXPECT_TRUE(contains(message_of(map_world(empty, 1, Vec2(8, 8))), "all is nodata"));
 }
 
-TEST(Import, SaysWhereTheMapIsWhenTheSiteIsOffIt) {
+TEST(Import, ReportsTheExtentOfTheMapWhenTheSiteIsOffIt) {
   const std::string file = asymmetric_map(folder() + "map.asc");
   scene::Scene world = map_world(file, 0.1, Vec2(4, 4));
   world.ground.has_at = true;
@@ -198,12 +197,12 @@ TEST(Import, SaysWhereTheMapIsWhenTheSiteIsOffIt) {
   world.ground.has_at = false;
   world.ground.size = Vec2(14, 4);
   EXPECT_TRUE(contains(message_of(world), "off the map"));
-  // The whole map, rounded up to blocks, is on the map.
+  // The whole map, rounded up to blocks, is still on the map.
   world.ground.size = Vec2(13, 7);
   EXPECT_EQ(make_ground(world).ny(), 72);
 }
 
-TEST(Import, RefusesDegreesWithTheRemedyAndSeesThroughFalseOnes) {
+TEST(Import, RefusesDegreesWithTheRemedyAndRecognisesWrongLabels) {
   if (!has_tool("gdal_translate")) GTEST_SKIP() << "gdal-bin is missing";
   const std::string dir = folder();
   const std::string small = write_text(
@@ -221,7 +220,7 @@ TEST(Import, RefusesDegreesWithTheRemedyAndSeesThroughFalseOnes) {
   EXPECT_TRUE(ground.setup().crs_wkt.empty());
 }
 
-// What is said of a map under a site of 10 x 10 m in its middle.
+// Returns the report of a map under a site of 10 x 10 m in its middle.
 TerrainReport report_of(const std::string& file) {
   Ground::Setup setup;
   setup.nx = setup.ny = 40, setup.cell = 0.25;
@@ -233,10 +232,10 @@ bool notes(const TerrainReport& report, const std::string& part) {
                      [&](const std::string& note) { return contains(note, part); });
 }
 
-TEST(Import, ReportsHowMuchOfTheSiteWasFilledFromWhereAndTheRemedy) {
+TEST(Import, ReportsTheFilledShareItsSourceAndTheRemedy) {
   const std::string dir = folder(), header = "xllcorner 0\nyllcorner 0\ncellsize 1\n";
   const auto plane = [](int c, int r) { return std::to_string(100.125 + 0.5 * c + 0.25 * r); };
-  // A hole of 7 x 7 cells: its middle is the fourth from any height.
+  // A hole of 7 x 7 cells: its middle is the fourth cell from any height.
   const auto holed = [&](const std::string& gap) {
     return [=](int c, int r) { return c >= 6 && c < 13 && r >= 7 && r < 14 ? gap : plane(c, r); };
   };
@@ -245,27 +244,27 @@ TEST(Import, ReportsHowMuchOfTheSiteWasFilledFromWhereAndTheRemedy) {
   EXPECT_EQ(make_ground(map_world(whole, 0.25, Vec2(10, 10))).setup().filled_share, 0);
   const std::string holes = write_text(
       dir + "holes.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", holed("-9999")));
-  const TerrainReport told = report_of(holes);
-  EXPECT_EQ(told.site_cells, 100);
-  EXPECT_EQ(told.site_gaps, 49);
+  const TerrainReport report = report_of(holes);
+  EXPECT_EQ(report.site_cells, 100);
+  EXPECT_EQ(report.site_gaps, 49);
   const Ground filled = make_ground(map_world(holes, 0.25, Vec2(10, 10)));
   EXPECT_EQ(filled.setup().filled_share, 0.49);
   EXPECT_EQ(filled.setup().filled_from, 4);
-  const std::string warning = told.warning();
+  const std::string warning = report.warning();
   EXPECT_TRUE(contains(warning, "49 of 100 map cells on the site (49 %, 49 m2) have no height"))
       << warning;
   EXPECT_TRUE(contains(warning, "from up to 4 m away")) << warning;
   EXPECT_EQ(warning.find('\n'), std::string::npos) << warning;
   EXPECT_TRUE(
-      contains(told.text(), "49 of 100 cells on the site (49 %), filled from up to 4 m away"))
-      << told.text();
-  // A gap beside the site is none of it.
+      contains(report.text(), "49 of 100 cells on the site (49 %), filled from up to 4 m away"))
+      << report.text();
+  // A gap beside the site is not counted.
   const auto beside = [&](int c, int r) { return c == 3 ? std::string("-9999") : plane(c, r); };
   const std::string margin =
       write_text(dir + "beside.asc", ascii_grid(20, 20, header + "NODATA_value -9999\n", beside));
   EXPECT_EQ(report_of(margin).nodata.gaps, 15);
   EXPECT_EQ(report_of(margin).warning(), "");
-  // A number that nobody declared.
+  // An undeclared nodata value.
   const std::string odd = write_text(dir + "odd.asc", ascii_grid(20, 20, header, holed("1e38")));
   const std::string undeclared = report_of(odd).warning();
   EXPECT_TRUE(contains(undeclared, "1e+38 cannot be a height of ground")) << undeclared;
@@ -280,7 +279,7 @@ TEST(Import, ReportsHowMuchOfTheSiteWasFilledFromWhereAndTheRemedy) {
   EXPECT_EQ(report_of(dir + "declared.tif").site_gaps, 49);
 }
 
-TEST(Import, NotesAStaircaseAndWhatSmoothsIt) {
+TEST(Import, NotesAStaircaseAndItsRemedy) {
   const std::string dir = folder(), header = "xllcorner 981000\nyllcorner 195000\ncellsize 1\n";
   const auto slope = [](double c, double r) { return 100 + 0.37 * c + 0.11 * r; };
   const auto map = [&](const std::string& name, const std::function<double(double)>& rounded) {
@@ -288,23 +287,23 @@ TEST(Import, NotesAStaircaseAndWhatSmoothsIt) {
     return write_text(dir + name, ascii_grid(32, 32, header, z));
   };
   const std::string stairs = map("stairs.asc", [](double z) { return std::round(z); });
-  const TerrainReport told = report_of(stairs);
-  EXPECT_TRUE(notes(told, "whole numbers of the metre: a staircase with steps of 1 m"))
-      << told.text();
+  const TerrainReport report = report_of(stairs);
+  EXPECT_TRUE(notes(report, "whole numbers of the metre: a staircase with steps of 1 m"))
+      << report.text();
   EXPECT_FALSE(notes(report_of(map("fine.asc", [](double z) { return z; })), "staircase"));
   EXPECT_FALSE(notes(report_of(map("tenths.asc", [](double z) { return std::round(10 * z) / 10; })),
                      "staircase"));
   EXPECT_FALSE(notes(report_of(map("level.asc", [](double) { return 312.0; })), "staircase"));
   if (!has_tool("gdalwarp") || !has_tool("gdal_edit.py")) GTEST_SKIP() << "gdal-bin is missing";
-  // Its remedy leaves no staircase, and the heights that there were.
-  ASSERT_TRUE(testing::run_remedy(told.text(), "gdalwarp", stairs, dir + "smooth.tif"))
-      << told.text();
+  // Its remedy removes the staircase and keeps the heights.
+  ASSERT_TRUE(testing::run_remedy(report.text(), "gdalwarp", stairs, dir + "smooth.tif"))
+      << report.text();
   const TerrainReport smooth = report_of(dir + "smooth.tif");
   EXPECT_FALSE(notes(smooth, "staircase")) << smooth.text();
-  EXPECT_LT(smooth.slope.most, told.slope.most);
+  EXPECT_LT(smooth.slope.most, report.slope.most);
   const Ground ground = make_ground(map_world(dir + "smooth.tif", 0.25, Vec2(10, 10)));
   EXPECT_NEAR(ground.height(20, 20) + ground.setup().height_offset, slope(15.625, 15.375), 0.25);
-  // Whole feet, and whole metres that somebody turned into feet.
+  // Whole feet, and whole metres converted to feet.
   const std::string feet = dir + "feet.tif", turned = dir + "turned.tif";
   output_of("gdal_translate -ot Float32 -a_srs EPSG:26915 '" + stairs + "' '" + feet + "'");
   output_of("gdal_edit.py -units ft '" + feet + "'");
@@ -317,12 +316,12 @@ TEST(Import, NotesAStaircaseAndWhatSmoothsIt) {
   EXPECT_TRUE(notes(report_of(turned), "whole numbers of the metre"));
 }
 
-TEST(Import, NamesRemediesThatMend) {
+TEST(Import, NamesRemediesThatWork) {
   for (const char* tool : {"gdal_translate", "gdalwarp", "gdal_edit.py"})
     if (!has_tool(tool)) GTEST_SKIP() << tool << " (gdal-bin) is missing";
   const std::string dir = folder();
   const auto z = [](int c, int r) { return std::to_string(100.25 + 0.5 * c + 0.3 * r); };
-  // Turned against its axes.
+  // Rotated against its axes.
   const std::string plain = write_text(
       dir + "plain.asc", ascii_grid(30, 30, "xllcorner 0\nyllcorner 0\ncellsize 1\n", z));
   output_of("gdal_translate -of VRT '" + plain + "' '" + dir + "turned.vrt'");
@@ -345,8 +344,8 @@ TEST(Import, NamesRemediesThatMend) {
   ASSERT_TRUE(testing::run_remedy(message, "gdalwarp", dir + "degrees.tif", dir + "metres.tif"))
       << message;
   EXPECT_EQ(message_of(map_world(dir + "metres.tif", 0.5, Vec2(4, 4))), "");
-  // Degrees by a wrong label, in a file that gdal_edit.py cannot write to: it says to make one that
-  // it can.
+  // Degrees by a wrong label, in a file that gdal_edit.py cannot write to: the message says to make
+  // a copy that it can.
   write_text(dir + "label.asc", ascii_grid(90, 60, "xllcorner 100\nyllcorner 20\ncellsize 1\n", z));
   write_text(
       dir + "label.prj",
@@ -358,13 +357,13 @@ TEST(Import, NamesRemediesThatMend) {
   ASSERT_TRUE(testing::run_remedy(message, "gdal_edit.py", dir + "label.tif", dir + "label.tif"))
       << message;
   EXPECT_EQ(message_of(map_world(dir + "label.tif", 0.5, Vec2(4, 4))), "");
-  // A unit that nobody knows is a note with its remedy.
+  // An unknown unit is noted with its remedy.
   output_of("gdal_translate -a_srs EPSG:26915 '" + plain + "' '" + dir + "unit.tif'");
   output_of("gdal_edit.py -units cubit '" + dir + "unit.tif'");
-  const TerrainReport told = report_of(dir + "unit.tif");
-  EXPECT_TRUE(notes(told, "heights in 'cubit'")) << told.text();
-  ASSERT_TRUE(testing::run_remedy(told.text(), "gdal_edit.py", dir + "unit.tif", ""))
-      << told.text();
+  const TerrainReport report = report_of(dir + "unit.tif");
+  EXPECT_TRUE(notes(report, "heights in 'cubit'")) << report.text();
+  ASSERT_TRUE(testing::run_remedy(report.text(), "gdal_edit.py", dir + "unit.tif", ""))
+      << report.text();
   EXPECT_EQ(report_of(dir + "unit.tif").height_metres, 0.3048);
 }
 
@@ -400,7 +399,7 @@ TEST(Import, ReportsSlopesAndRepose) {
   EXPECT_NEAR(degrees(report.slope.most), 45, 1e-4);
   EXPECT_EQ(report.slope.least, 0);
   EXPECT_NEAR(report.slope.share_above, 2.0 / 15, 1e-12);
-  // Settled, it is no steeper than the friction angle.
+  // Once settled, it is no steeper than the friction angle.
   scene::Scene world = map_world(file, 0.1, Vec2(16, 16));
   world.ground.steep = scene::SteepGround::kSettle;
   const Ground settled = make_ground(world);
@@ -408,7 +407,7 @@ TEST(Import, ReportsSlopesAndRepose) {
   for (int iy = 0; iy + 1 < settled.ny(); ++iy)
     most = std::max(most, std::abs(settled.height(80, iy + 1) - settled.height(80, iy)) / 0.1);
   EXPECT_LT(degrees(std::atan(most)), 30);
-  // The finer soil grid has no slope that the map does not have.
+  // The finer soil grid has no slope that is not in the map.
   const Ground held = make_ground(map_world(file, 0.1, Vec2(16, 16)));
   for (int iy = 0; iy + 1 < held.ny(); ++iy)
     EXPECT_LE(std::abs(held.height(80, iy + 1) - held.height(80, iy)), 0.1 + 1e-6);
@@ -422,7 +421,7 @@ TEST(Import, AveragesAMapFinerThanTheSoilCell) {
   EXPECT_NEAR(ground.height(7, 9), 0.5, 1e-6);  // a chequerboard's mean, not one of its cells
 }
 
-TEST(Import, RefusesDamagedFilesQuietly) {
+TEST(Import, RefusesDamagedFilesWithoutOutputOfGdal) {
   const std::string dir = folder();
   const std::string junk = write_text(dir + "junk.tif", "II*\0 this is no map");
   const std::string half = write_text(
@@ -442,10 +441,10 @@ TEST(Import, RefusesDamagedFilesQuietly) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Import, RefusesAMapWhoseBlocksDecodeToMoreThanTheSiteIsWorth) {
+TEST(Import, RefusesAMapWhoseBlocksDecodeToFarMoreThanTheSite) {
   if (!has_tool("gdal_create")) GTEST_SKIP() << "gdal_create (gdal-bin) is missing";
   const std::string dir = folder();
-  // Rows of one block each, empty, so that a kilobyte of file stands for as many as one likes.
+  // Rows of one empty block each, so that a kilobyte of file stands for any number of rows.
   const auto made = [&](const std::string& name, const std::string& columns,
                         const std::string& rows) {
     const std::string size =
@@ -459,7 +458,7 @@ TEST(Import, RefusesAMapWhoseBlocksDecodeToMoreThanTheSiteIsWorth) {
     EXPECT_LT(std::filesystem::file_size(file), 10'000u);
     return file;
   };
-  // Rows of 240 MB as doubles, of which every one is decoded for a site of 40 m: 10 GB.
+  // Rows of 240 MB as doubles, every one of which is decoded for a site of 40 m: 10 GB.
   const std::string wide = made("wide.tif", "30000000", "60");
   const std::string message = message_of(map_world(wide, 0.5, Vec2(40, 40)));
   EXPECT_TRUE(contains(message, wide)) << message;
@@ -468,7 +467,7 @@ TEST(Import, RefusesAMapWhoseBlocksDecodeToMoreThanTheSiteIsWorth) {
                    " to decode for this site"))
       << message;
   EXPECT_TRUE(contains(message, "gdal_translate -co TILED=YES")) << message;
-  // What is refused is the work, not the form: rows of 4 MB are read.
+  // The amount of work is refused, not the form: rows of 4 MB are read.
   EXPECT_EQ(message_of(map_world(made("narrow.tif", "1000000", "60"), 0.5, Vec2(40, 40)))
                 .find("to decode"),
             std::string::npos);
@@ -496,9 +495,9 @@ TEST(Import, RefusesWordsAmongTheNumbersOfAnAsciiGrid) {
   EXPECT_TRUE(contains(message_of(map_world(key, 0.5, Vec2(4, 4))), "'colour'"));
 }
 
-TEST(Import, FindsAWordWhereverItLiesAcrossThePiecesAFileIsReadIn) {
-  // Seven bytes a height, 1400 a row: the first piece of 64 KiB ends in row 46, wherever the blanks
-  // push it.
+TEST(Import, FindsAWordAcrossTheBuffersOfAFile) {
+  // Seven bytes per height, 1400 per row: the first piece of 64 KiB ends in row 46 for any offset
+  // by the blanks.
   constexpr int kRow = 46, kColumns = 200, kPiece = 1 << 16;
   const std::string dir = folder();
   for (int blanks = 0; blanks < 8; ++blanks) {
@@ -525,7 +524,7 @@ TEST(Import, FindsAWordWhereverItLiesAcrossThePiecesAFileIsReadIn) {
   }
 }
 
-TEST(Import, RefusesPipesAndDevicesAsMapsAndBesideThem) {
+TEST(Import, RefusesPipesAndDevicesAsMapsAndSidecarFiles) {
   const std::string dir = folder();
   ASSERT_EQ(::mkfifo((dir + "pipe.tif").c_str(), 0600), 0);
   EXPECT_TRUE(contains(message_of(map_world(dir + "pipe.tif", 0.5, Vec2(4, 4))), "no plain file"));
@@ -534,7 +533,7 @@ TEST(Import, RefusesPipesAndDevicesAsMapsAndBesideThem) {
       write_text(dir + "Site.asc",
                  ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
   EXPECT_EQ(message_of(map_world(map, 0.5, Vec2(4, 4))), "");
-  // Other files of the map's name are nobody's business; GDAL looks for capitals too.
+  // Other files with the map's name do not matter; GDAL looks for capitals too.
   ASSERT_EQ(::mkfifo((dir + "Site.txt").c_str(), 0600), 0);
   EXPECT_EQ(message_of(map_world(map, 0.5, Vec2(4, 4))), "");
   for (const char* name : {"Site.prj", "SITE.PRJ", "Site.asc.aux.xml"}) {
@@ -564,7 +563,7 @@ TEST(Import, ReadsTheLidarMapOfMinnesota) {
   EXPECT_NEAR(degrees(report.slope.most), 35.7, 3);
   EXPECT_EQ(report.nodata.gaps, 0);
   if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
-  // Cells of 1 m, aligned with the map's by an even size at a corner.
+  // Cells of 1 m, aligned with those of the map by an even size at a corner.
   scene::Scene world = map_world(file, 1, Vec2(60, 20));
   world.ground.has_at = world.ground.at_is_local = true;
   world.ground.at = Vec2(200, 311);
@@ -584,7 +583,7 @@ TEST(Import, ReadsTheChannelOfTheKootenai) {
   EXPECT_EQ(report.rows, 37);
   EXPECT_NEAR(report.lowest, 537.36, 0.01);
   EXPECT_NEAR(report.highest, 543.81, 0.01);
-  EXPECT_NEAR(degrees(report.slope.most), 57.6, 4);  // theirs is another difference formula
+  EXPECT_NEAR(degrees(report.slope.most), 57.6, 4);  // their difference formula differs
   EXPECT_TRUE(report.crs.empty());
   if (!has_tool("gdallocationinfo")) GTEST_SKIP() << "gdallocationinfo (gdal-bin) is missing";
   scene::Scene world = map_world(file, 1, Vec2(40, 28));

@@ -34,7 +34,7 @@ std::vector<std::int64_t> per_soil(const std::vector<SoilLayer>& layers, std::si
 
 std::uint64_t digest(const Ground& ground) { return hash_of(ground).digest(); }
 
-// Random digging and filling; what was taken is put back elsewhere or kept in `taken`.
+// Digs and fills at random; soil that was taken is put back elsewhere or kept in `taken`.
 void work(Ground& ground, Random& random, int edits, std::vector<SoilLayer>& taken) {
   for (int n = 0; n < edits; ++n) {
     const int ix = static_cast<int>(random.uniform(0, ground.nx())),
@@ -61,7 +61,7 @@ void work(Ground& ground, Random& random, int edits, std::vector<SoilLayer>& tak
 TEST(Ground, PristineAndMaterialisedHeightsAgreeBitForBit) {
   Ground ground(wavy_setup());
   const Ground untouched(wavy_setup());
-  // Touch every column: put something on it, take everything above its start height off again, put
+  // Touch every column: put soil on it, take everything above its initial height off again, and put
   // the rest back.
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
@@ -117,7 +117,7 @@ TEST(Ground, VolumesFromHeightsAgreeWithMass) {
   Random random(9);
   std::vector<SoilLayer> taken;
   work(ground, random, 5000, taken);
-  // Volume of every column from its layers against its height.
+  // Compares the volume of every column from its layers with its height.
   double from_layers = 0, from_heights = 0;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
@@ -126,7 +126,7 @@ TEST(Ground, VolumesFromHeightsAgreeWithMass) {
                        ground.setup().soils[layer.soil].bank_density;
       from_heights += (ground.height(ix, iy) - ground.datum()) * 0.01;
     }
-  // The bound; in fact rounding of double
+  // The required bound; the actual error is rounding of doubles.
   EXPECT_NEAR(from_heights / from_layers, 1, 1e-5);
   // A dig of bank soil: volume = mass / density.
   Ground fresh(wavy_setup());
@@ -138,7 +138,7 @@ TEST(Ground, VolumesFromHeightsAgreeWithMass) {
   EXPECT_NEAR(change.lowered / (kilograms(total(dug)) / 1100), 1, 1e-5);
 }
 
-TEST(Ground, TakesDownToTheHeightAskedFor) {
+TEST(Ground, TakesDownToTheRequestedHeight) {
   Ground ground(wavy_setup());
   Random random(3);
   for (int n = 0; n < 2000; ++n) {
@@ -162,16 +162,15 @@ TEST(Ground, CompactsTheTopFirstAndKeepsMass) {
   const std::vector<SoilLayer> layers = ground.layers(30, 30);
   EXPECT_LT(layers.back().specific_volume, 0.95f);
   EXPECT_EQ(layers.front().specific_volume, 1.0f);
-  // However hard it is pressed, nothing gets denser than the limit.
+  // No pressure compacts beyond the largest density.
   ground.compact_to(30, 30, -100);
   for (const SoilLayer& layer : ground.layers(30, 30)) EXPECT_GE(layer.specific_volume, 0.85f);
   EXPECT_EQ(total(ground.layers(30, 30)), mass);
 }
 
-TEST(Ground, CompactsNoDeeperThanTheDropReaches) {
-  // A pressed zone over what nobody pressed: no layers are cut of that. Near height 0 drops have
-  // finer digits than what is left of a layer, so that their difference does not come out as
-  // nothing.
+TEST(Ground, CompactsNoDeeperThanTheDrop) {
+  // A compacted zone over untouched soil, which must not be cut into layers. Near height 0 drops
+  // have finer digits than the rest of a layer, so that their difference is not exactly zero.
   Ground::Setup level = wavy_setup();
   level.surface = [](int, int) { return 0.0; };
   Ground ground(std::move(level));
@@ -198,7 +197,7 @@ TEST(Ground, StaysShortUnderEndlessEdits) {
   EXPECT_LE(ground.layers(3, 3).size(), 16u);
 }
 
-TEST(Ground, AnnouncesWhatChanged) {
+TEST(Ground, AnnouncesItsChanges) {
   Ground ground(wavy_setup());
   EXPECT_TRUE(ground.changed_since(0).empty());
   ground.put(5, 6, {0, 10, 1, 0});
@@ -213,14 +212,14 @@ TEST(Ground, AnnouncesWhatChanged) {
   EXPECT_EQ(all.x0, 5);
   EXPECT_EQ(all.y1, 41);
   EXPECT_TRUE(ground.changed_since(ground.sequence()).empty());
-  // After very many edits the newest are still exact, and the oldest are covered.
+  // After many edits the newest are still exact, and the oldest are covered.
   for (int n = 0; n < 100000; ++n) ground.put(10 + n % 20, 10 + n / 20 % 20, {0, 10, 1, 0});
   const std::uint64_t late = ground.sequence();
   ground.put(70, 3, {0, 10, 1, 0});
   EXPECT_EQ(ground.changed_since(late).x0, 70);
   EXPECT_EQ(ground.changed_since(0).x0, 5);
   EXPECT_EQ(ground.changed_since(0).y1, 41);
-  // Nothing announced when nothing happened.
+  // No change, no announcement.
   std::vector<SoilLayer> none;
   ground.take_above(1, 1, 100, none);
   ground.compact_to(1, 1, 100);
@@ -240,7 +239,7 @@ TEST(Ground, SavesAndLoadsToTheSameHash) {
   EXPECT_EQ(other.sequence(), ground.sequence());
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) ASSERT_EQ(other.height(ix, iy), ground.height(ix, iy));
-  // Both go on alike, and one unit more is another state.
+  // Both continue equally, and one more unit is a different state.
   Random a(12), b(12);
   std::vector<SoilLayer> taken_b = taken;
   work(ground, a, 500, taken);
@@ -268,12 +267,12 @@ TEST(Ground, EverySavedByteIsHashedOrRefused) {
   EXPECT_EQ(test::flip_every_byte(ground, target), "");
 }
 
-TEST(Ground, RefusesColumnsThatNoSiteHas) {
+TEST(Ground, RefusesImpossibleColumns) {
   Ground ground(wavy_setup()), target(wavy_setup());
   ground.put(76, 44, {0, 77, 1.5f, 0.25f});
   ByteMap map;
   const std::vector<char> state = saved(ground, &map);
-  // The field of that name with other bytes is refused by its name.
+  // A field of that name with other bytes is refused by its name.
   const auto refused = [&](const std::string& name, const auto& value) {
     const auto field = std::find_if(
         map.fields.begin(), map.fields.end(),
@@ -313,7 +312,7 @@ TEST(Ground, TouchesLittleMemoryOnASquareKilometre) {
   // A tile holds 18 KiB of heights and slots and its changed columns; the cache at most 8 MiB.
   EXPECT_LE(ground.touched_tiles(), 4u);
   const std::size_t bytes_after = ::mallinfo2().uordblks;
-  // Tables of the site, four tiles, their cache: 0.2 MB
+  // Tables of the site, four tiles and their cache: 0.2 MB
   EXPECT_LT(bytes_after - bytes_before, 1u << 20);
 }
 
@@ -412,7 +411,7 @@ TEST(Ground, ReportsTheHighestColumnOfAnyRectangle) {
   EXPECT_EQ(ground.highest({4, 4, 4, 9}), -std::numeric_limits<double>::infinity());
 }
 
-TEST(Ground, HoldsTheColumnsLastNamedAndCountsThoseLetGoAsChanged) {
+TEST(Ground, HoldsTheNamedColumnsAndCountsReleasedOnesAsChanged) {
   Ground ground(wavy_setup());
   const auto key = [&](int ix, int iy) { return static_cast<std::int64_t>(iy) * ground.nx() + ix; };
   ground.hold({key(3, 4), key(5, 4)});
@@ -435,7 +434,7 @@ TEST(Ground, HoldsTheColumnsLastNamedAndCountsThoseLetGoAsChanged) {
   EXPECT_TRUE(ground.held(5, 4));
 }
 
-TEST(Ground, RefusesNonsense) {
+TEST(Ground, RefusesInvalidInput) {
   Ground::Setup setup = wavy_setup();
   setup.nx = 0;
   setup.cell = std::numeric_limits<double>::quiet_NaN();

@@ -65,7 +65,7 @@ TEST(Site, SlopeRisesAlongItsYaw) {
   EXPECT_NEAR(ground.sample(2, 3) - ground.sample(2, -3), 6 * std::tan(radians(10)), 1e-7);
   EXPECT_NEAR(ground.sample(4, 1), ground.sample(-4, 1), 1e-7);
   EXPECT_NEAR(ground.sample(0, 0), 0, 1e-7);
-  // Bedrock lies the depth below the lowest column.
+  // Bedrock is the given depth below the lowest column.
   EXPECT_NEAR(ground.datum(), ground.height(0, 0) - 4, 1e-7);
 }
 
@@ -142,7 +142,7 @@ TEST(Site, SettlesSlopesAboveReposeOnceAndKeepsVolume) {
           std::max(steepest, std::abs(settled.height(ix, iy + 1) - settled.height(ix, iy)) / 0.1);
     }
   EXPECT_NEAR(after / before, 1, 1e-8);
-  // The friction angle: nothing slides when the run begins
+  // The friction angle: no soil slides when the run begins.
   EXPECT_LT(degrees(std::atan(steepest)), 30);
   EXPECT_GT(degrees(std::atan(steepest)), 27);  // and not flatter than it has to be
   world.ground.size = Vec2(1000, 1000);

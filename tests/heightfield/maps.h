@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Map files for tests, and gdallocationinfo as a reader that is not ours.
+// Map files for tests, and gdallocationinfo as an independent reader.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@
 
 namespace navvy::heightfield::testing {
 
-/// A folder of its own for each test, with a slash at its end; goes with the next one or the
-/// program.
+/// Returns a separate folder for each test, with a slash at its end; removed by the next call or at
+/// the end of the program.
 inline std::string folder() {
   static std::unique_ptr<test::Folder> own;
   own.reset();
@@ -35,7 +35,7 @@ inline std::string write_text(const std::string& path, const std::string& text) 
   return path;
 }
 
-/// ESRI ASCII text; `z(column, row from the north)` is printed as it is.
+/// Returns ESRI ASCII text; `z(column, row from the north)` is printed as it is.
 inline std::string ascii_grid(int columns, int rows, const std::string& header,
                               const std::function<std::string(int, int)>& z) {
   std::ostringstream out;
@@ -63,8 +63,8 @@ inline std::string output_of(const std::string& command) {
   return out;
 }
 
-/// Values that gdallocationinfo reads from `file` at file coordinates; NaN where it answers
-/// nothing.
+/// Returns the values that gdallocationinfo reads from `file` at file coordinates; NaN without an
+/// answer.
 inline std::vector<double> located(const std::string& file, const std::vector<Vec2>& points) {
   const std::string list = file + ".points";
   std::ofstream points_file(list);
@@ -79,8 +79,8 @@ inline std::vector<double> located(const std::string& file, const std::vector<Ve
   return values;
 }
 
-/// Runs the command that a message names, from its first word to a bracket, a comma or its end,
-/// with these files for IN and OUT.tif. Returns whether it did its work.
+/// Runs the command named in a message, from its first word to a bracket, a comma or its end, with
+/// these files for IN and OUT.tif. Returns true if it succeeded.
 inline bool run_remedy(const std::string& message, const std::string& first, const std::string& in,
                        const std::string& out) {
   const std::size_t begin = message.find(first);
@@ -97,7 +97,7 @@ inline bool run_remedy(const std::string& message, const std::string& first, con
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// A world on a map with one soil of 30 deg.
+/// Returns a world on a map with one soil of 30 deg.
 inline scene::Scene map_world(const std::string& file, double cell, Vec2 size) {
   scene::Scene world;
   world.soils.resize(1);

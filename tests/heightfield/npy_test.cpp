@@ -17,7 +17,7 @@ using testing::map_world;
 using testing::output_of;
 using testing::write_text;
 
-/// An NPY of version 1 as numpy.save writes it.
+/// Returns an NPY of version 1 as numpy.save writes it.
 std::string npy(const std::string& descr, const std::string& order, const std::string& shape,
                 const std::string& data) {
   std::string header =
@@ -59,7 +59,7 @@ TEST(Npy, IsReadInTheOrderOfTheFile) {
   EXPECT_EQ(std::string(grid.bytes.begin(), grid.bytes.end()), bytes_of(kSix));
 }
 
-TEST(Npy, RefusesWhatIsNoMapWithFileKeyValueAndRemedy) {
+TEST(Npy, RefusesOtherArraysWithFileKeyValueAndRemedy) {
   const std::string dir = folder(), data = bytes_of(kSix);
   const auto expect = [&](const std::string& text, const std::vector<std::string>& parts) {
     const std::string message = message_of(write_text(dir + "bad.npy", text));
@@ -97,7 +97,7 @@ scene::Scene world_of(const std::string& path) {
   return world;
 }
 
-TEST(Npy, OfNumPyItselfIsTheGroundItSays) {
+TEST(Npy, OfNumPyItselfGivesItsHeights) {
   if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "NumPy is missing";
   const std::string dir = folder();
@@ -115,7 +115,7 @@ for kind in ('<i2', '<i4', '<u2', '|u1'): numpy.save(sys.argv[1] + kind[1:], (8 
     world.ground.scale.north_first = kind == "north";
     const Ground ground = make_ground(world);
     const double factor = kind[0] == 'i' || kind[0] == 'u' ? 8 : 1;
-    // Row 0 has least y unless told otherwise. Whole numbers are floats of three digits.
+    // Row 0 has least y by default. Whole numbers are floats of three digits.
     for (int iy = 0; iy < 8; ++iy)
       for (int ix = 0; ix < 12; ++ix)
         ASSERT_NEAR(ground.height(ix, iy) + ground.setup().height_offset,
@@ -124,7 +124,7 @@ for kind in ('<i2', '<i4', '<u2', '|u1'): numpy.save(sys.argv[1] + kind[1:], (8 
   }
 }
 
-TEST(Npy, NeedsACellAndKnowsGaps) {
+TEST(Npy, NeedsACellSizeAndRecognisesGaps) {
   const std::string dir = folder();
   std::vector<float> z(96, 2.0f);
   z[40] = std::nanf("");
@@ -143,7 +143,7 @@ TEST(Npy, NeedsACellAndKnowsGaps) {
   EXPECT_THROW(make_ground(world), InputError);
 }
 
-TEST(Png, OfSixteenBitsIsTheGroundBetweenBlackAndWhite) {
+TEST(Png, OfSixteenBitsSpansHeightsFromBlackToWhite) {
   if (!testing::has_tool("gdal_translate")) GTEST_SKIP() << "gdal_translate (gdal-bin) is missing";
   const std::string dir = folder();
   write_text(
@@ -152,7 +152,7 @@ TEST(Png, OfSixteenBitsIsTheGroundBetweenBlackAndWhite) {
         return std::to_string(static_cast<int>(3000 * asymmetric(c, 7 - r)));
       }));
   output_of("gdal_translate -of PNG -ot UInt16 '" + dir + "map.asc' '" + dir + "map.png'");
-  // The picture alone: what GDAL wrote beside it would tell its place.
+  // Keep only the picture: GDAL's file beside it contains its place.
   std::filesystem::remove(dir + "map.png.aux.xml");
   scene::Scene world = world_of(dir + "map.png");
   EXPECT_THROW(make_ground(world), InputError) << "a picture without heights";
@@ -160,13 +160,13 @@ TEST(Png, OfSixteenBitsIsTheGroundBetweenBlackAndWhite) {
   world.ground.scale.low = -2;
   world.ground.scale.high = 65535 / 3000.0 - 2;
   const Ground ground = make_ground(world);
-  // A gray value is a third of a millimetre here.
+  // A grey value is a third of a millimetre here.
   for (int iy = 0; iy < 8; ++iy)
     for (int ix = 0; ix < 12; ++ix)
       ASSERT_NEAR(ground.height(ix, iy) + ground.setup().height_offset, asymmetric(ix, iy) - 2,
                   3.5e-4)
           << ix << " " << iy;
-  // Of other files the cells are their own.
+  // Other files define their own cells.
   world.ground.file = dir + "map.asc";
   EXPECT_THROW(make_ground(world), InputError);
 }

@@ -23,7 +23,7 @@ namespace {
 
 using testing::wavy_setup;
 
-/// Digs and fills `count` random columns of the rectangle; layers that were dug are put down
+/// Digs and fills `count` random columns of the rectangle; layers that were dug are deposited
 /// elsewhere.
 void work(Ground& ground, Random& random, int count, const CellRect& where) {
   std::vector<SoilLayer> taken;
@@ -41,7 +41,7 @@ void work(Ground& ground, Random& random, int count, const CellRect& where) {
   }
 }
 
-/// Hash of everything that can be read of a terrain's columns.
+/// Returns a hash of everything readable of a terrain's columns.
 std::string reading(const Terrain& terrain) {
   StateHash hash;
   for (int iy = 0; iy < terrain.ny(); ++iy)
@@ -55,7 +55,7 @@ std::string reading(const Terrain& terrain) {
   return hash.hex();
 }
 
-TEST(TerrainView, ReadsWhatTheGroundReads) {
+TEST(TerrainView, ReadsTheSameAsTheGround) {
   Ground ground(wavy_setup());
   Random random(1);
   work(ground, random, 3000, ground.site_rect());
@@ -73,7 +73,7 @@ TEST(TerrainView, ReadsWhatTheGroundReads) {
   }
 }
 
-TEST(TerrainView, StaysWhatItWasWhileTheGroundChanges) {
+TEST(TerrainView, IsUnaffectedByChangesOfTheGround) {
   auto ground = std::make_unique<Ground>(wavy_setup());
   Random random(2);
   std::vector<TerrainView> views;
@@ -99,14 +99,14 @@ TEST(TerrainView, ShowsSoilAndDensityStateOfTheSurface) {
   EXPECT_EQ(view.surface_soil(19, 20), 1);
   EXPECT_EQ(view.surface_soil(20, 20), 0);
   EXPECT_EQ(view.surface_soil(21, 20), 0);
-  EXPECT_EQ(view.surface_soil(22, 20), 1);  // what would lie there
+  EXPECT_EQ(view.surface_soil(22, 20), 1);  // soil that would be there
   EXPECT_EQ(view.specific_volume(20, 20), 1.0f);
   EXPECT_EQ(view.specific_volume(21, 20), 1.25f);
   EXPECT_EQ(view.specific_volume(22, 20), 1.0f);
   EXPECT_EQ(view.height(22, 20), view.datum());
 }
 
-TEST(TerrainView, ShowsLooseSoilOnlyWhereItIsAskedFor) {
+TEST(TerrainView, ShowsLooseSoilOnlyOnRequest) {
   Ground ground(wavy_setup());
   const double top = ground.height(33, 20), below = ground.height(60, 40);
   const std::vector<LooseGrain> grains = {{33, 20, top + 0.05, 0.001, 0, 1.2f},
@@ -134,8 +134,8 @@ TEST(TerrainView, ShowsLooseSoilOnlyWhereItIsAskedFor) {
 TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
   const Ground ground(wavy_setup());
   const double top = ground.height(5, 5);
-  // Given out of order; each raises the surface by 0.05 m. The one 0.26 m up is more than two cells
-  // above 0.05.
+  // Given out of order; each raises the surface by 0.05 m. The grain at 0.26 m is more than two
+  // cells above 0.05 m.
   const LooseSoil loose(ground, {{5, 5, top + 0.26, 0.0005, 0, 1},
                                  {5, 5, top, 0.0005, 1, 1},
                                  {99, 5, top, 1, 0, 1},
@@ -146,12 +146,12 @@ TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
   EXPECT_NEAR(loose.columns()[0].depth, 0.05, 1e-12);
   EXPECT_EQ(loose.columns()[0].soil, 1);
   EXPECT_EQ(loose.columns()[1].iy, 6);
-  // With a grain in between the gap is closed and all three lie.
+  // A grain in between closes the gap, so that all three rest.
   const LooseSoil closed(ground, {{5, 5, top + 0.26, 0.0005, 0, 1},
                                   {5, 5, top, 0.0005, 1, 1},
                                   {5, 5, top + 0.2, 0.0005, 1, 1}});
   EXPECT_NEAR(closed.columns().at(0).depth, 0.15, 1e-12);
-  // It tells which of them lie, so that masses can be told apart by where they are.
+  // It reports which grains rest, so that masses can be assigned to places.
   EXPECT_EQ(closed.grains().size(), 3u);
   ASSERT_EQ(loose.grains().size(), 2u);
   EXPECT_EQ(loose.grains()[0].soil, 1);
@@ -160,14 +160,14 @@ TEST(LooseSoil, StacksGrainsByVolumeUpToTheFirstGap) {
 }
 
 TEST(TerrainView, IsReadBySeveralThreadsWhileTheGroundChanges) {
-  // A site of more tiles than the threads could fill in before each other.
+  // A site of more tiles than the threads could fill before each other.
   Ground ground(wavy_setup(512, 480));
   Random random(5);
   work(ground, random, 2000, {100, 100, 300, 300});
   const TerrainView view = ground.view();
   std::string alone;
   {
-    // The same work on a ground that nobody looks at.
+    // The same work on a ground without readers.
     Ground other(wavy_setup(512, 480));
     Random same(5);
     work(other, same, 2000, {100, 100, 300, 300});
@@ -191,13 +191,13 @@ TEST(TerrainView, IsReadBySeveralThreadsWhileTheGroundChanges) {
   EXPECT_EQ(reading(view), alone);
 }
 
-TEST(Ground, IsReadBySeveralThreadsAtATime) {
+TEST(Ground, IsReadBySeveralThreadsAtOnce) {
   Ground ground(wavy_setup(512, 480));
   Random random(7);
   work(ground, random, 2000, {100, 100, 300, 300});
   std::vector<std::string> found(4);
   std::vector<std::thread> readers;
-  // Each meets untouched tiles that the others fill in at the same time, and takes a view in
+  // Each thread reads untouched tiles that the others fill at the same time, and takes a view in
   // between.
   for (std::string& mine : found)
     readers.emplace_back([&] { mine = reading(ground.view()) + reading(ground); });
@@ -206,7 +206,7 @@ TEST(Ground, IsReadBySeveralThreadsAtATime) {
   for (const std::string& mine : found) EXPECT_EQ(mine, alone);
 }
 
-TEST(Ground, RemembersNoMoreOfAWideSiteThanItSays) {
+TEST(Ground, CachesAWideSiteWithinItsLimit) {
   Ground::Setup setup = wavy_setup(6400, 1600);  // 10 000 tiles, 80 MiB of heights
   setup.surface = [](int ix, int iy) { return 0.001 * (ix % 100) + 0.002 * (iy % 50); };
   const SurfaceSource source = setup.surface;
@@ -219,8 +219,8 @@ TEST(Ground, RemembersNoMoreOfAWideSiteThanItSays) {
   EXPECT_LT(most, 1e-7);  // quantum of mass
   const std::size_t after = ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
   EXPECT_LT(after - before, 20u << 20);  // 2048 tiles of 8 KiB and tables
-  // Columns that were not remembered are so again after the next change, once enough of them were
-  // asked for.
+  // Columns that were not cached are cached again after the next change, once enough of them were
+  // requested.
   for (int n = 0; n < 400000; ++n)
     most =
         std::max(most, std::abs(ground.height(6399 - n % 64, 1599) - source(6399 - n % 64, 1599)));

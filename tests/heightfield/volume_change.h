@@ -9,8 +9,10 @@ namespace navvy::heightfield::testing {
 
 /// Volume between a ground and its start, from heights as a surveyor measures it [m3].
 struct VolumeChange {
-  double raised = 0;   ///< where the ground is higher than at the start
-  double lowered = 0;  ///< where it is lower, positive
+  /// Volume above the initial ground.
+  double raised = 0;
+  /// Volume below the initial ground, positive.
+  double lowered = 0;
 };
 
 inline VolumeChange volume_change(const Ground& ground) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps read by windows have the bits of maps that are held whole.
+// Maps read by windows are bit-identical to maps held in memory.
 #include "heightfield/windowed_raster.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace navvy::heightfield {
 namespace {
 
 /// Neither square nor a multiple of any window; cells are not square either. Gaps: one cell, a
-/// corner, a row's end, and a block of 11 x 9, which is filled in five rings and lies across
+/// corner, a row's end, and a block of 11 x 9, which is filled in five rings and spans several
 /// windows.
 HeightRaster bumpy(bool gaps) {
   HeightRaster out;
@@ -49,7 +49,7 @@ std::vector<std::int64_t> gaps_of(const HeightRaster& raster) {
   return out;
 }
 
-/// Of a raster that lives on; counts what it was asked for.
+/// Returns windows of a raster that outlives them; counts the requested cells.
 WindowedRaster windows_of(const HeightRaster& raster, int side, std::int64_t* read = nullptr) {
   HeightRaster frame = raster;
   frame.z.clear();
@@ -63,8 +63,8 @@ WindowedRaster windows_of(const HeightRaster& raster, int side, std::int64_t* re
       side);
 }
 
-/// Places on and between cells and beyond the edges; at an edge of 1.2 m several samples go into
-/// one.
+/// Places on and between cells and beyond the edges; at an edge of 1.2 m several samples are
+/// averaged.
 void expect_equal(const HeightRaster& whole, const WindowedRaster& windows) {
   for (const double edge : {0.1, 1.2})
     for (double y = 1; y < 39; y += 0.37)
@@ -72,14 +72,14 @@ void expect_equal(const HeightRaster& whole, const WindowedRaster& windows) {
         ASSERT_EQ(windows.mean(x, y, edge), whole.mean(x, y, edge)) << x << " " << y << " " << edge;
 }
 
-TEST(WindowedRaster, HasTheBitsOfAWholeOneWhateverItsWindowsAre) {
+TEST(WindowedRaster, IsBitIdenticalToAWholeRasterForAnyWindows) {
   const HeightRaster whole = bumpy(false);
-  // Of two cells a side there are more windows than are held at a time.
+  // Windows of two cells per side are more than are held at a time.
   static_assert(31 * 24 > WindowedRaster::kMostWindows);
   for (const int side : {2, 7, 16, 61, 256}) expect_equal(whole, windows_of(whole, side));
 }
 
-TEST(WindowedRaster, FillsGapsAsAWholeOne) {
+TEST(WindowedRaster, FillsGapsLikeAWholeRaster) {
   const HeightRaster broken = bumpy(true);
   HeightRaster whole = broken;
   const GapFill expected = fill_gaps(whole);
@@ -99,25 +99,25 @@ TEST(WindowedRaster, ReportsTheSameCellsAsAWholeRaster) {
   fill_gaps(whole);
   WindowedRaster windows = windows_of(broken, 7);
   windows.fill_gaps(gaps_of(broken));
-  const WindowedRaster::Summary told = windows.summary(radians(30));
+  const WindowedRaster::Summary report = windows.summary(radians(30));
   const SlopeRange slope = slopes(whole, radians(30));
-  EXPECT_EQ(told.slope.least, slope.least);
-  EXPECT_EQ(told.slope.most, slope.most);
-  EXPECT_EQ(told.slope.share_above, slope.share_above);
-  // A bucket of its histogram is that wide.
-  EXPECT_NEAR(told.slope.median, slope.median, slope.median / 30000);
+  EXPECT_EQ(report.slope.least, slope.least);
+  EXPECT_EQ(report.slope.most, slope.most);
+  EXPECT_EQ(report.slope.share_above, slope.share_above);
+  // Width of a bucket of its histogram.
+  EXPECT_NEAR(report.slope.median, slope.median, slope.median / 30000);
   const auto [least, most] = std::minmax_element(whole.z.begin(), whole.z.end());
-  EXPECT_EQ(told.least, *least);
-  EXPECT_EQ(told.most, *most);
+  EXPECT_EQ(report.least, *least);
+  EXPECT_EQ(report.most, *most);
   // 61 x 47 numbers: an odd count, whose last four bytes are fed one by one.
   StateHash hash;
   hash.bytes(whole.z.data(), whole.z.size() * sizeof(float));
   for (const double one : {whole.cell_x, whole.cell_y, whole.x0, whole.y0}) hash.value(one);
   hash.value(whole.nx);
-  EXPECT_EQ(told.hash, hash.digest());
+  EXPECT_EQ(report.hash, hash.digest());
 }
 
-TEST(WindowedRaster, ReadsOnlyTheWindowsThatAreAskedFor) {
+TEST(WindowedRaster, ReadsOnlyTheRequestedWindows) {
   const HeightRaster whole = bumpy(false);
   std::int64_t read = 0;
   const WindowedRaster windows = windows_of(whole, 8, &read);
@@ -129,7 +129,7 @@ TEST(WindowedRaster, ReadsOnlyTheWindowsThatAreAskedFor) {
   EXPECT_EQ(read, 81) << "is held";
 }
 
-TEST(WindowedRaster, AnswersSeveralThreadsAtATime) {
+TEST(WindowedRaster, AnswersSeveralThreadsAtOnce) {
   const HeightRaster whole = bumpy(false);
   const WindowedRaster windows = windows_of(whole, 2);
   std::vector<int> wrong(4, 0);
@@ -146,8 +146,8 @@ TEST(WindowedRaster, AnswersSeveralThreadsAtATime) {
 }
 
 #ifdef NAVVY_WITH_GDAL
-/// A site on a map held whole and on the same map by windows: all that a run or a reader of the
-/// report can see.
+/// Expects a site on a map in memory and on the same map by windows to agree in everything visible
+/// to a run or to a reader of the report.
 void expect_the_same_import(const std::string& file, double cell, const Vec2& size,
                             const std::string& what) {
   const scene::Scene world = testing::map_world(file, cell, size);
@@ -173,10 +173,10 @@ void expect_the_same_import(const std::string& file, double cell, const Vec2& si
   }
 }
 
-TEST(Import, ByWindowsIsThatOfTheWholeMap) {
+TEST(Import, ByWindowsEqualsTheImportOfTheWholeMap) {
   const std::string dir = testing::folder();
-  // Rows in the file run southwards; a corner, an edge and the middle have no height, and one is
-  // none that is declared.
+  // Rows in the file run southwards; a corner, an edge and the middle have no height, one of them
+  // by an undeclared value.
   const auto z = [](int c, int r) -> std::string {
     const bool gap =
         (c < 3 && r > 38) || (c > 18 && c < 29 && r > 12 && r < 19) || (r == 0 && c % 7 == 0);
@@ -200,7 +200,7 @@ TEST(Import, ByWindowsIsThatOfTheWholeMap) {
   expect_the_same_import(dir + "whole.tif", 0.2, Vec2(26, 20), "whole metres");
 }
 
-TEST(Import, ByWindowsNamesWhatItCannotRead) {
+TEST(Import, ByWindowsNamesTheRowsItCannotRead) {
   const std::string dir = testing::folder();
   const auto none = [](int, int) -> std::string { return "-9999"; };
   testing::write_text(dir + "none.asc",
@@ -233,10 +233,10 @@ TEST(Import, ByWindowsNamesWhatItCannotRead) {
   }
 }
 
-/// Higher than what is computed at once, with a few rows more.
+/// More rows than are computed at once.
 Ground::Setup tall() { return testing::wavy_setup(24, 700); }
 
-TEST(Export, OfManyRowsIsReadBackWholeAndByWindows) {
+TEST(Export, OfManyRowsIsReadBackAsAWholeAndByWindows) {
   const std::string dir = testing::folder();
   const Ground ground(tall());
   write_geotiff(ground, dir + "tall.tif");
@@ -249,7 +249,7 @@ TEST(Export, OfManyRowsIsReadBackWholeAndByWindows) {
           << ix << " " << iy;
 }
 
-TEST(Export, LeavesNothingWhereHeightsCannotBeHad) {
+TEST(Export, LeavesNoFileWhenHeightsFail) {
   const std::string dir = testing::folder();
   Ground::Setup setup = tall();
   const SurfaceSource sound = setup.surface;

@@ -102,9 +102,9 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     // Every unit of mass is in one of the books.
     EXPECT_EQ(ledger.error, 0);
     for (std::size_t i = 0; i < ledger.particles.size(); ++i)
-      EXPECT_EQ(active.lies[i] + active.held[i] + active.elsewhere[i], ledger.particles[i]);
+      EXPECT_EQ(active.resting[i] + active.held[i] + active.elsewhere[i], ledger.particles[i]);
     const double held = kilograms_of(active.held), elsewhere = kilograms_of(active.elsewhere),
-                 lies = kilograms_of(active.lies);
+                 lies = kilograms_of(active.resting);
     // The same question asked in another way.
     EXPECT_NEAR(held, world.machines().at(0).tool(0).payload(), 1e-9);
 

@@ -17,9 +17,9 @@ scene::Scene active_square(double width, double bottom, int budget) {
   return scene_io::load_scene_from_string(
       "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil "
       "ref=\"loam\"/><navvy:ground>"
-      "<size_m>24 24</size_m><depth_m>2</depth_m><awake><min_m>0 0</min_m><max_m>" +
+      "<size_m>24 24</size_m><depth_m>2</depth_m><active><min_m>0 0</min_m><max_m>" +
           w + " " + w + "</max_m><bottom_m>" + std::to_string(bottom) +
-          "</bottom_m></awake></navvy:ground><navvy:solver><cell_m>0.1</cell_m><max_particles>" +
+          "</bottom_m></active></navvy:ground><navvy:solver><cell_m>0.1</cell_m><max_particles>" +
           std::to_string(budget) + "</max_particles></navvy:solver></world></sdf>",
       "mine.sdf", control::step_kinds());
 }

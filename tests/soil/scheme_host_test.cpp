@@ -67,7 +67,7 @@ TEST(SchemeConstants, ReachKernelsAsTheFloatsThatStoodThereAsLiterals) {
   // 10, 1.1, 2.6 and 4 / 3 to the last bit.
   EXPECT_EQ(given.count("-DSCHEME_volume_damping=(0x1.4p+3f)"), 1u);
   EXPECT_EQ(given.count("-DSCHEME_max_closing_ratio=(0x1.19999ap+0f)"), 1u);
-  EXPECT_EQ(given.count("-DSCHEME_contact_bearing_offset=(0x1.4ccccep+1f)"), 1u);
+  EXPECT_EQ(given.count("-DSCHEME_contact_bearing_offset=(0x1.4cccccp+1f)"), 1u);
   EXPECT_EQ(given.count("-DSCHEME_contact_touch=(0x1.555556p+0f)"), 1u);
 }
 

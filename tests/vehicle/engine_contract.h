@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct EngineCase {
   /// Forces and gravity move its machines.
   bool dynamic = true;
 };
+
+inline void PrintTo(const EngineCase& engine, std::ostream* out) { *out << engine.name; }
 
 inline std::string engine_case_name(const ::testing::TestParamInfo<EngineCase>& info) {
   return info.param.name;
@@ -150,35 +153,35 @@ TEST_P(EngineContract, ImpulsesChangeVelocitiesByTheInverseMass) {
 }
 
 TEST_P(EngineContract, ImpulsesOfAStepAlsoMoveABodyWithoutJoints) {
-  if (!GetParam().dynamic) GTEST_SKIP() << "no force moves its machines";
   const auto engine = with_cube(3);
   run(*engine, 1);
   const LinkState before = engine->link(0, 0);
   const Vec3 J_W(0, 0, 600);
   engine->apply_impulse_of_step(0, 0, J_W, Vec3::Zero(), before.X_WL.translation(), kStep);
   const Vec3 moved = engine->link(0, 0).X_WL.translation() - before.X_WL.translation();
-  EXPECT_LT((moved - kStep * J_W / kMass).norm(), 1e-9);
+  const double inverse_mass = GetParam().dynamic ? 1 / kMass : 0;
+  EXPECT_LT((moved - kStep * inverse_mass * J_W).norm(), 1e-9);
 }
 
 TEST_P(EngineContract, ForcesActInTheNextStepOnly) {
-  if (!GetParam().dynamic) GTEST_SKIP() << "no force moves its machines";
   const auto engine = with_cube(3), plain = with_cube(3);
+  const double inverse_mass = GetParam().dynamic ? 1 / kMass : 0;
   engine->add_force(0, 0, Vec3(6000, 0, 0), Vec3(0, 0, 3));
   for (int i = 0; i < 2; ++i) {
     engine->step(kStep, ground);
     plain->step(kStep, ground);
     const double gained = engine->link(0, 0).v_WL.x() - plain->link(0, 0).v_WL.x();
-    EXPECT_NEAR(gained, 6000 / kMass * kStep, 1e-9) << "step " << i;
+    EXPECT_NEAR(gained, 6000 * inverse_mass * kStep, 1e-9) << "step " << i;
   }
 }
 
 TEST_P(EngineContract, FallsUnderTheGravityGiven) {
-  if (!GetParam().dynamic) GTEST_SKIP() << "no force moves its machines";
+  const double gravity = GetParam().dynamic ? -1.62 : 0;
   const auto engine = GetParam().make(Vec3(0, 0, -1.62), {});
   engine->add_machine(cube(), make_pose(0, 0, 10));
   run(*engine, 600);
-  EXPECT_NEAR(engine->link(0, 0).v_WL.z(), -1.62, 1e-3 * 1.62);
-  EXPECT_NEAR(engine->link(0, 0).X_WL.translation().z(), 10 - 0.81, 0.01);
+  EXPECT_NEAR(engine->link(0, 0).v_WL.z(), gravity, 1e-3 * 1.62);
+  EXPECT_NEAR(engine->link(0, 0).X_WL.translation().z(), 10 + 0.5 * gravity, 0.01);
 }
 
 TEST_P(EngineContract, RestsOnTheGround) {
@@ -223,9 +226,8 @@ TEST_P(EngineContract, CapabilitiesThatAreMissingAreNamed) {
   if (engine->hitches() == nullptr) {
     EXPECT_THROW(require_hitches(*engine), InputError);
   }
-  // Readers get the present pose and no patches, whatever the engine can do.
+  // Readers get the present pose, whatever the engine can do.
   EXPECT_LT((base_target(*engine, 0).p_W - Vec3(0, 0, 1)).norm(), 1e-12);
-  EXPECT_TRUE(track_patches(*engine, 0, 0).empty());
 }
 
 TEST_P(EngineContract, PlacementMovesTheBaseWithinTheDuration) {

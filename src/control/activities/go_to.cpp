@@ -118,8 +118,8 @@ class Going final : public ActivityWith<Memory> {
             {"cusps", static_cast<double>(m.cusps)},
             {"driven_m", m.driven + m.s},
             {"path_m", m.path.length()},
-            {"goal_miss_m", miss(at)},
-            {"goal_miss_deg", degrees(turn_error(at))},
+            {"goal_error_m", miss(at)},
+            {"goal_error_deg", degrees(turn_error(at))},
             {"least_clearance_m", m.clearance}};
   }
 

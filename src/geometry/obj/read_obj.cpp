@@ -86,7 +86,7 @@ TriangleMesh read_obj(const std::string& path) {
   }
   check_obj_lines(path, text);
 
-  // MTL files are named relative to the OBJ file.
+  // Names of MTL files are relative to the OBJ file.
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
@@ -99,7 +99,7 @@ TriangleMesh read_obj(const std::string& path) {
   // A missing MTL file changes colours only.
   if (!warning.empty()) log_warning(path + ": " + first_of(warning));
 
-  // Indices of vertices are the file's own: vertices are not split by normals or materials.
+  // Vertex indices are those of the file: vertices are not split by normals or materials.
   TriangleMesh mesh;
   const std::vector<tinyobj::real_t>& v = attributes.vertices;
   for (std::size_t i = 0; i + 2 < v.size(); i += 3)

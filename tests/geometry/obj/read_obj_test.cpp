@@ -31,7 +31,7 @@ class ReadObj : public ::testing::Test {
     }
     return "no fault";
   }
-  /// Whether `text` is refused with that line of the file.
+  /// Succeeds if `text` is refused with that line of the file.
   ::testing::AssertionResult refuses(const std::string& text, int line) {
     const std::string found = fault(text);
     if (found.find(path_ + ":" + std::to_string(line) + ":") != std::string::npos)
@@ -54,7 +54,7 @@ TEST_F(ReadObj, KeepsVerticesInOrderAndCutsFacesIntoTriangles) {
   EXPECT_TRUE(mesh.material_of.empty());
 }
 
-TEST_F(ReadObj, TakesBackwardIndicesTextureIndicesAndEveryLineEnd) {
+TEST_F(ReadObj, AcceptsBackwardIndicesTextureIndicesAndEveryLineEnd) {
   for (const char* face :
        {"f -4 -3 -2\n", "f 1/1 2/1 3/1\n", "f 1//1 2//1 3//1\n", "f 1/1/1 2/1/1 3/1/1"}) {
     const TriangleMesh mesh = read(kSquare + "vt 0 0\nvn 0 0 1\n" + face);
@@ -78,7 +78,7 @@ TEST_F(ReadObj, GivesEveryTriangleItsMaterial) {
       folder_ / "paint.mtl",
       "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nd 0.5\nnewmtl spare\nKd 0 1 0\n");
   const TriangleMesh mesh = read("mtllib paint.mtl\n" + kSquare + "f 1 2 3\nusemtl red\nf 1 3 4\n");
-  ASSERT_EQ(mesh.materials.size(), 2u) << "also the one nobody uses";
+  ASSERT_EQ(mesh.materials.size(), 2u) << "including the unused one";
   EXPECT_EQ(mesh.materials[0].name, "red");
   EXPECT_EQ(mesh.materials[0].diffuse, (std::array<float, 3>{1, 0, 0}));
   EXPECT_EQ(mesh.materials[0].specular, (std::array<float, 3>{0.5f, 0.5f, 0.5f}));
@@ -116,7 +116,7 @@ TEST_F(ReadObj, NamesTheLineOfABrokenFace) {
   EXPECT_TRUE(refuses(kSquare + "f 1 2 99999999999999999999\n", 5));
 }
 
-TEST_F(ReadObj, TakesAnEmptyFileForAnEmptyMeshAndRefusesAMissingOne) {
+TEST_F(ReadObj, ReadsAnEmptyFileAsAnEmptyMeshAndRefusesAMissingOne) {
   EXPECT_TRUE(read("").vertices.empty());
   EXPECT_THROW(read_obj(folder_ / "absent.obj"), FileError);
 }
@@ -127,7 +127,7 @@ TEST_F(ReadObj, ReadsABodyWithItsVolume) {
   EXPECT_NEAR(solid_properties(tetrahedron).volume, 1.0 / 6, 1e-15);
 }
 
-TEST_F(ReadObj, OpensMaterialFilesInItsFolderOnlyAndOnlyPlainOnes) {
+TEST_F(ReadObj, OpensOnlyRegularMaterialFilesInItsFolder) {
   for (const char* name : {"/dev/zero", "../paint.mtl", "a/../../paint.mtl", "/etc/passwd"})
     EXPECT_NE(fault("mtllib " + std::string(name) + "\n" + kSquare + "f 1 2 3\n")
                   .find("must lie in the folder"),
@@ -146,7 +146,7 @@ TEST_F(ReadObj, OpensMaterialFilesInItsFolderOnlyAndOnlyPlainOnes) {
   EXPECT_THROW(read_obj(folder_ / "pipe.obj"), InputError);
 }
 
-TEST_F(ReadObj, BoundsWhatAFileMayAskFor) {
+TEST_F(ReadObj, LimitsTheResourcesOfAFile) {
   const auto repeated = [](const std::string& text, std::size_t times) {
     std::string out;
     for (std::size_t i = 0; i < times; ++i) out += text;

@@ -20,7 +20,7 @@ struct Drag {
 };
 
 Drag drag(const std::string& zone) {
-  session::Session session(load_scene("bucket_path.sdf", {"solver.awake_zone=" + zone}),
+  session::Session session(load_scene("bucket_path.sdf", {"solver.active_zone=" + zone}),
                            shared_device());
   const sim::World& world = session.world();
   const sim::ToolHandle tool = world.machines().tools().at(0);
