@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the libraries log while a test looks.
+// Captures log lines of the libraries during a test.
 #pragma once
 
 #include <mutex>
@@ -10,8 +10,8 @@
 
 namespace navvy {
 
-/// Takes every line that is logged while it lives, from any thread; only one at a time, as there is
-/// one sink.
+/// Captures every line that is logged during its lifetime, from any thread. Only one can exist at a
+/// time, as there is one sink.
 class LogLines {
  public:
   LogLines() {
@@ -28,7 +28,7 @@ class LogLines {
     const std::lock_guard<std::mutex> lock(mutex_);
     return lines_;
   }
-  /// All of them, each with its end.
+  /// Returns all lines, each with its line end.
   std::string text() const {
     std::string all;
     for (const std::string& line : lines()) all += line + "\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a test finds the tree it was built from, and where it may write. Functions, not macros of
-// the command line: objects stay the same in every checkout, so a compiler cache serves them all.
+// Source and build tree of a test. Functions instead of macros of the command line: objects stay
+// the same in every checkout, so that a compiler cache serves them all.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another program as a test sees it: started with files as its standard streams, waited for.
+// Starts another program with files as its standard streams, and waits for it.
 #pragma once
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ inline pid_t start(const Command& command) {
   _exit(127);
 }
 
-/// Exit status, or minus the signal that ended it.
+/// Waits for a process; returns its exit status, or minus the signal that ended it.
 inline int wait_for(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);

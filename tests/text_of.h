@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file as a test reads it.
+// Reads a file in a test.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace navvy::test {
 
-/// All bytes of a file; empty when it is not there.
+/// Returns all bytes of a file; empty if it does not exist.
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures that a test measured, printed as tests/validation/table.py reads them.
+// Prints values measured by a test in the form that tests/validation/table.py reads.
 #pragma once
 
 #include <cstdio>
@@ -7,7 +7,8 @@
 
 namespace navvy {
 
-/// One row of the table: what, measured, expected (as text: a number, a band, a law), source.
+/// Prints one row of the table: quantity, measured, expected (as text: a number, a range, a law),
+/// source.
 inline void print_value(const std::string& what, double measured, const std::string& expected,
                         const std::string& source) {
   std::printf("[ VALUE    ] %s: measured %.5g, expected %s (%s)\n", what.c_str(), measured,

@@ -35,7 +35,7 @@
 // Volume of a particle, corrected by its cell and by the nodes (point.h) [docs/soil.md, mixing]
 // [docs/soil.md, crowding] [docs/soil.md, opening].
 //
-// - mixing_strain: tuned by CohesiveBlade.FeelsTheWholeStrengthAtAnyCohesion and
+// - mixing_strain: tuned by CohesiveBlade.MeetsTheFullStrengthAtAnyCohesion and
 // SoilSwell.DugAndDumpedSoilEndsAtItsSwell. A blade in clay of 150 kPa feels 0.85 of its strength
 // with 0.025, and 0.83 with 0.1.
 // - min_mixing_time: tuned by the same swell test. Without mixing a tipped load rests at 1.45 of

@@ -38,8 +38,8 @@ PathPlace PathFollower::place(const Path& path, const PathLeg& leg, const PlaneP
   // centimetres long.
   for (int i = 0; i < 3; ++i) {
     const PlanePose on = path.at(out.s);
-    const Vec2 way(std::cos(on.yaw), std::sin(on.yaw)), d = at.p - on.p;
-    out.s = std::clamp(out.s + leg.sense * d.dot(way), leg.begin, leg.end);
+    const Vec2 forward(std::cos(on.yaw), std::sin(on.yaw)), d = at.p - on.p;
+    out.s = std::clamp(out.s + leg.sense * d.dot(forward), leg.begin, leg.end);
   }
   const PlanePose on = path.at(out.s);
   out.aside = (at.p - on.p).dot(Vec2(-std::sin(on.yaw), std::cos(on.yaw)));

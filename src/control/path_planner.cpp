@@ -9,8 +9,8 @@ namespace navvy::control {
 double clearance_along(const PathPlanner& planner, const Path& path, double s, double range,
                        double enough) {
   constexpr double kStep = 0.1;  // [m]
-  const double way = std::max(0.0, path.length() - s);
-  const int steps = static_cast<int>(std::ceil(way / kStep));
+  const double remaining = std::max(0.0, path.length() - s);
+  const int steps = static_cast<int>(std::ceil(remaining / kStep));
   double least = range;
   // Both ends are sampled.
   for (int i = 0; i <= steps && least >= enough; ++i)

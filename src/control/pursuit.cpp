@@ -26,10 +26,10 @@ Pursuit Pursuit::of(const DriveGoal& goal, const scene::Drive& drive, const Plan
   pursuit.speed = goal.speed;
   const scene::AckermannDrive bicycle = vehicle::equivalent_bicycle(drive);
   pursuit.wheelbase = bicycle.wheelbase;
-  const Vec2 way = pursuit.sense() * (goal.target - start.p);
-  pursuit.heading = goal.has_heading    ? goal.heading
-                    : way.norm() < 0.05 ? start.yaw
-                                        : std::atan2(way.y(), way.x());
+  const Vec2 displacement = pursuit.sense() * (goal.target - start.p);
+  pursuit.heading = goal.has_heading             ? goal.heading
+                    : displacement.norm() < 0.05 ? start.yaw
+                                                 : std::atan2(displacement.y(), displacement.x());
   // max_steer is the inner wheel's: the circle's centre is half a track width nearer to it than to
   // the bicycle.
   pursuit.most_steer = std::atan(

@@ -57,8 +57,8 @@ void Ruts::Bearing::follow(const scene::Wheel& tyre, const vehicle::WheelState& 
   load -= std::expm1(-interval / kBearingTime) * (now - load);
   // Slip excavates over the displacement of the rim: about a radius from one end of the patch to
   // the other.
-  const double way = interval * std::max(std::abs(wheel.spin) * tyre.radius, wheel.v_W.norm());
-  slip -= std::expm1(-way / tyre.radius) * (wheel.slip - slip);
+  const double travel = interval * std::max(std::abs(wheel.spin) * tyre.radius, wheel.v_W.norm());
+  slip -= std::expm1(-travel / tyre.radius) * (wheel.slip - slip);
 }
 
 // Lays displaced soil down after all tyres have pressed, then holds the columns under them.

@@ -267,8 +267,8 @@ void KernelCache::check(bool alone) {
     std::error_code error;
     for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
       // Files that cannot be removed were found intact above.
-      std::error_code kept;
-      if (it->path().filename() != kLockName) fs::remove_all(it->path(), kept);
+      std::error_code ignored;
+      if (it->path().filename() != kLockName) fs::remove_all(it->path(), ignored);
     }
   }
 }

@@ -106,9 +106,9 @@ Overlay overlay_of(const map::TerrainMap& map, const std::vector<map::MapLine>& 
   for (const map::MapLine& line : lines)
     for (std::size_t i = 0; i < line.places.size(); ++i) {
       const Vec2& from = line.places[i == 0 ? 0 : i - 1];
-      const Vec2 way = line.places[i] - from;
-      const int parts = std::clamp(static_cast<int>(2 * way.norm() / map.cell()), 1, 100000);
-      for (int k = 0; k <= parts; ++k) mark(from + way * k / parts, line.number);
+      const Vec2 step = line.places[i] - from;
+      const int parts = std::clamp(static_cast<int>(2 * step.norm() / map.cell()), 1, 100000);
+      for (int k = 0; k <= parts; ++k) mark(from + step * k / parts, line.number);
     }
   return out;
 }

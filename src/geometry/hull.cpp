@@ -111,10 +111,10 @@ class HullFaces {
   /// triangle). A point that sees none is inside or in a face.
   void insert(int p) {
     std::set<std::pair<int, int>> outline;
-    std::vector<Index> kept;
+    std::vector<Index> remaining;
     for (const Index& t : triangles_) {
       if (side(t, p) <= 0) {
-        kept.push_back(t);
+        remaining.push_back(t);
         continue;
       }
       // An edge between two seen triangles is traversed in both directions and cancels out.
@@ -122,8 +122,8 @@ class HullFaces {
         if (outline.erase({t[(i + 1) % 3], t[i]}) == 0) outline.insert({t[i], t[(i + 1) % 3]});
     }
     // A fan from the point to the outline; sorted edges make the order of triangles repeatable.
-    for (const auto& [a, b] : outline) kept.push_back({a, b, p});
-    triangles_ = std::move(kept);
+    for (const auto& [a, b] : outline) remaining.push_back({a, b, p});
+    triangles_ = std::move(remaining);
   }
 
   const std::vector<Lattice>& points_;

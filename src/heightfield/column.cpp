@@ -25,8 +25,8 @@ constexpr double kNoDrop = 1e-9;
 // Ground.StaysShortUnderEndlessEdits
 constexpr std::size_t kMostLayers = 12;
 
-// Returns true for layers that behave alike, so that merging them changes nothing of note.
-bool alike(const SoilLayer& a, const SoilLayer& b) {
+// Returns true for layers so similar that merging them has no noticeable effect.
+bool mergeable(const SoilLayer& a, const SoilLayer& b) {
   return a.soil == b.soil &&
          std::abs(a.specific_volume - b.specific_volume) <= kSameSpecificVolume &&
          std::abs(std::min(a.plastic_shear, kFullShear) - std::min(b.plastic_shear, kFullShear)) <=
@@ -119,19 +119,19 @@ void take_above(Column& column, double height, const UnitThickness& unit,
   SoilLayer& cut = column[i];
   const double share =
       (height - bottom) / (static_cast<double>(cut.specific_volume) * unit[cut.soil]);
-  const std::int64_t kept =
+  const std::int64_t lower_mass =
       height <= bottom ? 0 : std::clamp<std::int64_t>(std::llround(share), 0, cut.mass);
   SoilLayer upper = cut;
-  upper.mass -= kept;
-  cut.mass = kept;
+  upper.mass -= lower_mass;
+  cut.mass = lower_mass;
   if (upper.mass > 0) taken.push_back(upper);
   taken.insert(taken.end(), column.begin() + static_cast<std::ptrdiff_t>(i) + 1, column.end());
-  column.resize(kept > 0 ? i + 1 : i);
+  column.resize(lower_mass > 0 ? i + 1 : i);
 }
 
-// Merging on the way in keeps columns short: soil is put back in small amounts.
+// Merging on deposition keeps columns short: soil is put back in small amounts.
 void put(Column& column, const SoilLayer& layer) {
-  if (!column.empty() && alike(column.back(), layer)) {
+  if (!column.empty() && mergeable(column.back(), layer)) {
     unite(column.back(), layer);
     return;
   }

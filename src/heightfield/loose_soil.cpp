@@ -27,7 +27,7 @@ LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
       grains_.push_back(grains[i]);
     }
     column.depth = column.top - bottom;
-    // Where all of it is in the air, the column itself is visible.
+    // If all of it is in the air, the column itself is visible.
     if (column.depth > 0) columns_.push_back(column);
   }
 }

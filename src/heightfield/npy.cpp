@@ -38,7 +38,8 @@ constexpr std::array<TypeRow, 6> kTypes = {{{"<f4", NpyType::kFloat32, 4},
 struct Header {
   std::string path;
   std::string text;
-  std::size_t at = 0;  ///< of the text in the file
+  /// Position of the header's text in the file.
+  std::size_t at = 0;
 
   [[noreturn]] void fail(const std::string& key, const std::string& value, const std::string& rule,
                          const std::string& remedy) const {

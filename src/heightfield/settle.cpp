@@ -36,7 +36,7 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
     // Covers the columns whose drops the move has changed: the pair and its neighbours.
     std::vector<Span> next(rows, Span{surface.nx, 0});
     bool moved = false;
-    const auto wake = [&](int ix, int iy) {
+    const auto revisit = [&](int ix, int iy) {
       for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, surface.ny - 1); ++y) {
         next[y].x0 = std::min(next[y].x0, std::max(ix - 1, 0));
         next[y].x1 = std::max(next[y].x1, std::min(ix + 3, surface.nx));
@@ -50,15 +50,15 @@ int settle(DenseSurface& surface, double repose, int most_sweeps) {
         const int ix = sweep % 2 == 0 ? m : active[iy].x1 - 1 - (m - active[iy].x0);
         if (ix + 1 < surface.nx &&
             exchange(surface.at(ix, iy), surface.at(ix + 1, iy), most, tolerance))
-          wake(ix, iy);
+          revisit(ix, iy);
         if (iy + 1 < surface.ny &&
             exchange(surface.at(ix, iy), surface.at(ix, iy + 1), most, tolerance)) {
-          wake(ix, iy);
-          wake(ix, iy + 1);
+          revisit(ix, iy);
+          revisit(ix, iy + 1);
         }
       }
     }
-    // Nothing moved, so further sweeps would not either.
+    // If no soil moved, further sweeps have no effect.
     if (!moved) return sweep;
     active = std::move(next);
   }

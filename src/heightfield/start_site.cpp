@@ -37,7 +37,7 @@ const StartSite::Stack& StartSite::stack_at(int ix, int iy) const {
   if (patches_.empty()) return stack_;
   const double x = setup_.origin.x() + (ix + 0.5) * setup_.cell,
                y = setup_.origin.y() + (iy + 0.5) * setup_.cell;
-  // Where patches overlap the last one counts, as if laid over the others.
+  // If patches overlap, the last one counts, as if laid over the others.
   for (auto patch = patches_.rbegin(); patch != patches_.rend(); ++patch)
     if (x >= patch->x0 && x < patch->x1 && y >= patch->y0 && y < patch->y1) return patch->stack;
   return stack_;

@@ -19,8 +19,10 @@ constexpr double kMostHeight = 3e4;
 /// The changed columns of a tile as they are hashed and saved: field by field, because a SoilLayer
 /// has padding, and arrays take a fifth of the time of single numbers.
 struct TileColumns {
-  std::vector<std::uint16_t> place;   // of the columns in the tile
-  std::vector<std::uint32_t> layers;  // how many each has
+  // Place of the columns in the tile.
+  std::vector<std::uint16_t> place;
+  // Number of layers of each column.
+  std::vector<std::uint32_t> layers;
   // Fields of the layers, bottom first, one column after the other.
   std::vector<std::uint16_t> soil;
   std::vector<std::int64_t> mass;

@@ -157,10 +157,10 @@ void LayerTiles::copy(const CellRect& rect, float* out, std::size_t stride) cons
 
 TerrainMap::TerrainMap(const heightfield::GroundSetup& setup, double time, std::uint64_t sequence)
     : time_(time), sequence_(sequence) {
-  heightfield::GroundSetup kept = setup;
+  heightfield::GroundSetup stored = setup;
   // It may hold the whole map that the site was cut from.
-  kept.surface = nullptr;
-  setup_ = std::make_shared<const heightfield::GroundSetup>(std::move(kept));
+  stored.surface = nullptr;
+  setup_ = std::make_shared<const heightfield::GroundSetup>(std::move(stored));
 }
 
 std::vector<float> TerrainMap::copy(MapLayer layer, const CellRect& rect) const {

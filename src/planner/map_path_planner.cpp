@@ -18,7 +18,7 @@ namespace {
 
 // Clearance that the search adds to the requested one [m]: a machine deviates a little from its
 // path, and poses between two checked ones come a little nearer. tuned:
-// GoToStep.DrivesRoundATrenchThatWasNotThereWhenItPlanned
+// GoToStep.DrivesAroundATrenchDugAfterPlanning
 constexpr double kReserve = 0.2;
 
 class MapPathPlanner final : public control::PathPlanner {

@@ -124,12 +124,12 @@ std::vector<ColumnRect> GroundSurface::changed_cells(const scene::FrameGround& g
   // Frames in between were skipped and their rectangles are unknown, so the heights themselves are
   // compared.
   if (ground.revision != revision_ + 1) return {compared(ground)};
-  std::vector<ColumnRect> told;
+  std::vector<ColumnRect> reported;
   for (const scene::FrameRect& rect : ground.changed)
-    told.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1),
-                    std::min(ny_, rect.y1)});
-  std::erase_if(told, [](const ColumnRect& rect) { return rect.empty(); });
-  return told;
+    reported.push_back({std::max(0, rect.x0), std::max(0, rect.y0), std::min(nx_, rect.x1),
+                        std::min(ny_, rect.y1)});
+  std::erase_if(reported, [](const ColumnRect& rect) { return rect.empty(); });
+  return reported;
 }
 
 ColumnRect GroundSurface::compared(const scene::FrameGround& ground) const {

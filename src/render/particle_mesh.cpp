@@ -178,7 +178,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
   if (particles.position.size() % 3 != 0 ||
       (!particles.soil.empty() && particles.soil.size() != n) ||
       (!particles.id.empty() && particles.id.size() != n) ||
-      (!particles.room.empty() && particles.room.size() != n))
+      (!particles.clearance.empty() && particles.clearance.size() != n))
     throw Error("the frame's particle arrays do not fit each other");
   mesh_.vertices.clear();
   mesh_.indices.clear();
@@ -207,9 +207,9 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     lump.seed = hash_u32(particles.id.empty() ? static_cast<std::uint32_t>(i) : particles.id[i]);
     lump.soil = particles.soil.empty() ? std::uint8_t{0} : particles.soil[i];
     // A particle on a plate keeps a minimum size that remains visible.
-    lump.most = particles.room.empty()
+    lump.most = particles.clearance.empty()
                     ? 2 * radius
-                    : std::max(particles.room[i] / kFarthestCorner, 0.2f * radius);
+                    : std::max(particles.clearance[i] / kFarthestCorner, 0.2f * radius);
     lumps_.push_back(lump);
   }
 

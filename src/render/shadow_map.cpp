@@ -74,12 +74,12 @@ void ShadowMap::add_triangle(const Vec3f& wa, const Vec3f& wb, const Vec3f& wc, 
     // of it.
     float first = 0, last = static_cast<float>(high_x - low_x);
     for (std::size_t k = 0; k < 3; ++k) {
-      const float room = kSlack - share[k];
+      const float slack = kSlack - share[k];
       if (per_x[k] > 0)
-        first = std::max(first, room / per_x[k]);
+        first = std::max(first, slack / per_x[k]);
       else if (per_x[k] < 0)
-        last = std::min(last, room / per_x[k]);
-      else if (room > 0)
+        last = std::min(last, slack / per_x[k]);
+      else if (slack > 0)
         last = -1;
     }
     if (!(first <= last)) continue;

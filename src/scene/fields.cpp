@@ -90,7 +90,7 @@ std::string short_text(double value, int digits) {
 
 std::string exact_text(double in_si, double factor) {
   char text[40];
-  // Adding zero turns -0 into 0, which no run distinguishes.
+  // Adding zero turns -0 into 0, which is equivalent in every run.
   const double value = (in_si + 0.0) / factor;
   for (const int digits : {12, 15, 16, 17}) {
     const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, digits);

@@ -59,7 +59,7 @@ struct FrameParticles {
   std::vector<std::uint32_t> id;
   double radius = 0.04;  ///< [m]
   /// Distance from the closest plate [m], beyond which a drawn particle is clipped; empty: none.
-  std::vector<float> room;
+  std::vector<float> clearance;
 };
 
 /// Input of one picture. Filling and drawing may happen in different threads.

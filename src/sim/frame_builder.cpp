@@ -188,7 +188,7 @@ void FrameBuilder::add_particles() {
   out.position.clear();
   out.soil.clear();
   out.id.clear();
-  out.room.clear();
+  out.clearance.clear();
   out.radius = 0.4 * ground.cell();  // eight particles per cell, overlapping a little
   if (particles.empty()) return;
   // Positions are relative to the block of one particle: a float resolves 0.01 mm over a site of

@@ -46,7 +46,7 @@ ParticleClipper::ParticleClipper(const World& world) : world_(world) {
 // Tests each particle against each shell; most fail the first, cheap test.
 void ParticleClipper::keep_off(scene::FrameParticles& particles, double gap, double reach) const {
   const std::size_t count = particles.position.size() / 3;
-  particles.room.assign(count, static_cast<float>(reach));
+  particles.clearance.assign(count, static_cast<float>(reach));
   for (const Tool& tool : tools_) {
     const Pose X_WT = world_.machines().at(tool.machine).link(tool.link).pose(),
                X_TW = X_WT.inverse();
@@ -67,8 +67,9 @@ void ParticleClipper::keep_off(scene::FrameParticles& particles, double gap, dou
           (p_T.array() > box.high.array() + reach).any())
         continue;
       const Vec3 moved = pushed(tool.geometry, p_T, gap, closest);
-      const double room = std::abs(tool.geometry.distance(moved, closest)) - half;
-      particles.room[i] = std::min(particles.room[i], static_cast<float>(std::max(0.0, room)));
+      const double clearance = std::abs(tool.geometry.distance(moved, closest)) - half;
+      particles.clearance[i] =
+          std::min(particles.clearance[i], static_cast<float>(std::max(0.0, clearance)));
       if (moved != p_T)
         Eigen::Map<Eigen::Vector3f>{place} = (X_WT * moved - particles.origin).cast<float>();
     }

@@ -70,7 +70,7 @@ WorldParts::WorldParts(scene::Scene world, device::Device& device,
                           coupling.engine(m), coupling.index(m), seeds.next());
   // Activate soil before filling loads in: beds are where machines stand now.
   check_active(description, ground);
-  for (const scene::ActiveSoil& active : description.ground.active) wake(active);
+  for (const scene::ActiveSoil& active : description.ground.active) activate(active);
   for (const coupling::ToolLoad& tool : coupling.tools()) fill_bed(tool);
 }
 
@@ -145,7 +145,7 @@ void WorldParts::visit(Archive& a) {
   });
 }
 
-void WorldParts::wake(const scene::ActiveSoil& active) {
+void WorldParts::activate(const scene::ActiveSoil& active) {
   soil.activate(active_columns(active, ground), active.bottom);
 }
 

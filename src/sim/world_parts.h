@@ -80,7 +80,7 @@ struct WorldParts {
   /// Fills the machine's bed with the load that the scene gives it.
   void fill_bed(const coupling::ToolLoad& tool);
   /// Turns a rectangle of the ground into particles.
-  void wake(const scene::ActiveSoil& active);
+  void activate(const scene::ActiveSoil& active);
 };
 
 /// Checks the index of a hitch. @throws InputError for an index that is no hitch of the scene.

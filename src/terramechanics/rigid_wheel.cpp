@@ -47,16 +47,16 @@ Arc sum_arc(const WheelCase& wheel, const scene::Soil& soil, double entry) {
     // Use the middle of the slice: pressure has a kink below the axle and at the entry.
     const double at = (i + 0.5) * slice;
     const double pressure = modulus * std::pow(r * (std::cos(at) - std::cos(entry)), soil.bekker_n);
-    const Vec2 way = rim_displacement(wheel, soil, entry, at);
-    const double moved = way.norm();
+    const Vec2 rim_travel = rim_displacement(wheel, soil, entry, at);
+    const double moved = rim_travel.norm();
     const double stress = shear_stress(strength, pressure, moved, soil.janosi_k);
-    const double shear = moved > 0 ? stress * way.x() / moved : 0;
+    const double shear = moved > 0 ? stress * rim_travel.x() / moved : 0;
     // Pressure acts along the radius, shear along the rim.
     const double area = r * wheel.width * slice;
     out.lift += (pressure * std::cos(at) + shear * std::sin(at)) * area;
     out.drawbar += (shear * std::cos(at) - pressure * std::sin(at)) * area;
     out.torque += shear * shear_radius * area;
-    out.side += moved > 0 ? stress * way.y() / moved * area : 0;
+    out.side += moved > 0 ? stress * rim_travel.y() / moved * area : 0;
   }
   return out;
 }

@@ -34,9 +34,9 @@ LeverFunctions lever_functions(const scene::Machine& machine) {
   return {swing, iso ? stick : boom, bucket, iso ? boom : stick};
 }
 
-double lever_opening(double way, double dead_band) {
-  const double beyond = std::min(std::abs(way), 1.0) - dead_band;
-  return beyond > 0 ? std::copysign(beyond / (1 - dead_band), way) : 0;
+double lever_opening(double deflection, double dead_band) {
+  const double beyond = std::min(std::abs(deflection), 1.0) - dead_band;
+  return beyond > 0 ? std::copysign(beyond / (1 - dead_band), deflection) : 0;
 }
 
 }  // namespace navvy::vehicle

@@ -27,8 +27,8 @@ inline constexpr std::array<const char*, 4> kLeverNames = {"left_x", "left_y", "
 /// Returns the functions of a machine's levers for its pattern (scene::Machine::levers).
 LeverFunctions lever_functions(const scene::Machine& machine);
 
-/// Returns the opening of the valve, -1 to 1, for a lever at `way`, clamped to -1 to 1: closed
-/// within the dead band, proportional from its edge on, fully open at the end.
-double lever_opening(double way, double dead_band);
+/// Returns the opening of the valve, -1 to 1, for a lever at `deflection`, clamped to -1 to 1:
+/// closed within the dead band, proportional from its edge on, fully open at the end.
+double lever_opening(double deflection, double dead_band);
 
 }  // namespace navvy::vehicle

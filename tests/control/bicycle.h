@@ -20,7 +20,8 @@ struct Bicycle {
   double most_acceleration = 0;
 
   void step(const vehicle::DriveInput& input) {
-    constexpr double kLag = 0.2;  // of the drive [s]
+    // Time constant of the drive [s].
+    constexpr double kLag = 0.2;
     const double before = speed;
     speed += ((input.brake ? 0 : input.speed) - speed) * kStep / (input.brake ? 0.05 : kLag);
     most_acceleration =

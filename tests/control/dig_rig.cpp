@@ -10,11 +10,12 @@
 namespace navvy::control::testing {
 namespace {
 
-constexpr double kStep = 0.005;      // [s]
-constexpr double kPourRate = 900;    // [kg/s]
-constexpr double kHalfCut = 0.525;   // [m]
-constexpr double kAlong = 0.03;      // points on the profile [m]
-constexpr double kMouthful = 1.15;   // of the capacity, then soil runs over
+constexpr double kStep = 0.005;     // [s]
+constexpr double kPourRate = 900;   // [kg/s]
+constexpr double kHalfCut = 0.525;  // [m]
+constexpr double kAlong = 0.03;     // points on the profile [m]
+// Share of the capacity above which soil spills.
+constexpr double kMouthful = 1.15;
 constexpr double kSpillAhead = 0.3;  // [m]
 
 class Plane final : public vehicle::GroundQuery {

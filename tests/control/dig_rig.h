@@ -89,9 +89,13 @@ class DigRig {
 
 /// Final ground minus initial ground, compared with the design.
 struct TrenchMeasure {
-  double removed_share = 0;  ///< of the design volume
-  double overdug_share = 0;  ///< removed below the floor or beside the outline within 1.5 m
-  double floor_share = 0;    ///< of the length with the floor within 0.10 m
+  /// Removed volume relative to the design volume.
+  double removed_share = 0;
+  /// Volume removed below the floor or beside the outline within 1.5 m, relative to the design
+  /// volume.
+  double overdug_share = 0;
+  /// Share of the length with the floor within 0.10 m.
+  double floor_share = 0;
   double center_offset = 0;  ///< [m]
   double removed = 0;        ///< [m3]
 };

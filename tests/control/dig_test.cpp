@@ -29,7 +29,7 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
 double value_of(const StepReport& step, const std::string& name) {
   for (const Measurement& one : step.figures)
     if (one.name == name) return one.value;
-  ADD_FAILURE() << "no figure " << name;
+  ADD_FAILURE() << "no value " << name;
   return std::nan("");
 }
 
@@ -266,7 +266,7 @@ TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
   const auto joint = [&](int j) { return rig.engine->joint(0, j).position; };
   const double bucket = joint(3);
   while (rig.op.phase() != "dump") rig.step();
-  EXPECT_NEAR(joint(0), radians(50), 0.03);  // what counts as arrived
+  EXPECT_NEAR(joint(0), radians(50), 0.03);  // tolerance of arrival
   double open = bucket;
   while (rig.op.phase() != "wait") {
     rig.step();
@@ -274,7 +274,7 @@ TEST(Program, SwingsDumpsWaitsAndFollowsTrajectories) {
     ASSERT_LT(rig.time, 30);
   }
   EXPECT_GT(open, bucket + 0.7);         // it opened ...
-  EXPECT_NEAR(joint(3), bucket, 0.031);  // ... and curled back; what counts as arrived
+  EXPECT_NEAR(joint(3), bucket, 0.031);  // ... and curled back; tolerance of arrival
   const double waiting = rig.time;
   while (rig.op.phase() != "trajectory") rig.step();
   EXPECT_NEAR(rig.time - waiting, 1.5, 0.02);  // two control steps and a half
@@ -311,7 +311,8 @@ Lift leaking_lift(double rate, double seconds) {
 TEST(Dig, SwingsWhenTheBucketNoLongerLosesSoil) {
   const Lift dry = leaking_lift(0, 0);
   ASSERT_GT(dry.end, dry.start);
-  const double longer = 0.8;  // than the arm takes to lift [s]
+  // Longer than the arm takes to lift [s].
+  const double longer = 0.8;
   const Lift wet = leaking_lift(20, dry.end - dry.start + longer);
   EXPECT_NEAR(wet.start, dry.start, 1e-9);
   EXPECT_NEAR(wet.dry, dry.end + longer, 0.02);

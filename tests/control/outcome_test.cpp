@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How steps and programs end: with a state, a reason and an account that survive a snapshot.
+// Ends of steps and programs: a state, a reason and an account that survive a snapshot.
 #include "control/outcome.h"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,8 @@ using testing::Ride;
 using testing::shipped_machine;
 using testing::shipped_soil;
 
-constexpr double kSide = 4.03;  // of the machine's middle line: not on a column's edge for any cell
+// Offset of the machine's middle line: not on a column's edge for any cell size.
+constexpr double kSide = 4.03;
 constexpr double kWidth = 0.28, kTwin = 0.32, kTrack = 1.94;
 
 /// Mean and root mean square deviation of the added values.

@@ -54,7 +54,7 @@ TEST(Wheels, DropIntoATrenchOfTheMachineWithoutLaunchingIt) {
   scene::GroundFeature trench;
   trench.kind = scene::GroundFeature::Kind::kTrench;
   trench.center = Vec2(-4.5, 0);
-  trench.length = 1.05;  // along the way: one bucket
+  trench.length = 1.05;  // along the path: one bucket
   trench.width = 8;
   trench.height = 0.8;
   sim::World world(yard({trench}), shared_device());

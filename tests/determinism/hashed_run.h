@@ -42,8 +42,9 @@ using test::text_of;
 /// Output of a run.
 struct HashedRun {
   int status = -1;
-  std::string device;                       ///< the line in which navvy names it
-  std::string header;                       ///< of hashes.csv
+  std::string device;  ///< the line in which navvy names it
+  /// Header of hashes.csv.
+  std::string header;
   std::map<std::uint64_t, std::string> at;  ///< row by step
   nlohmann::json summary;
 };

@@ -32,7 +32,8 @@ namespace fs = std::filesystem;
 
 /// Number of the program's own allocations that fail, spread evenly over the run.
 constexpr long kAllocations = 500;
-constexpr int kKills = 250;  ///< of each kind
+/// Number of kills of each kind.
+constexpr int kKills = 250;
 /// Number of attacks of a lane after which a run without an attack must still succeed.
 constexpr int kLookAgain = 25;
 

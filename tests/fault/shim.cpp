@@ -45,12 +45,15 @@ enum Call { kOpen, kWrite, kFsync, kRename, kNew, kBuffer, kCalls };
 const char* const kNames[kCalls] = {"open", "write", "fsync", "rename", "new", "buffer"};
 
 std::atomic<long> counts[kCalls];
-int failing = -1;  // which call
-long at = 0;       // its number
+// Kind of the failing call.
+int failing = -1;
+// Number of the failing call.
+long at = 0;
 bool from_there_on = false;
 int code = 0;
 std::atomic<bool> begun{false};
-std::uintptr_t own_begin = 0, own_end = 0;  // of the program's code
+// Address range of the program's code.
+std::uintptr_t own_begin = 0, own_end = 0;
 
 struct {
   const char* name;

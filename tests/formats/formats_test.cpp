@@ -542,7 +542,7 @@ TEST(Formats, AreFoundByNameWithASuggestionOtherwise) {
 }
 
 // Two independent readers see the same pixels.
-TEST(Pictures, AreReadByPillowAndByTheStandardAlike) {
+TEST(Pictures, AreReadEquallyByPillowAndByTheStandard) {
   if (std::system("/usr/bin/python3 -c 'import PIL' >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "Pillow for /usr/bin/python3 is missing (python3-pil)";
   const char* const script = R"(

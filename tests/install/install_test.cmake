@@ -21,8 +21,8 @@ if(count LESS 15)
   message(FATAL_ERROR "only ${count} headers were installed")
 endif()
 
-# A foreign project: one source a header, one source a module, a copy of a folder
-# beside this file, or a copy of a folder of examples/.
+# A separate project: one source per header, one source per module, a copy of a folder next to this
+# file, or a copy of a folder of examples/.
 if(PROJECT MATCHES "headers|modules")
   set(sources "")
   foreach(header IN LISTS headers)
@@ -30,7 +30,7 @@ if(PROJECT MATCHES "headers|modules")
     if(PROJECT STREQUAL "modules")
       string(REGEX REPLACE "/.*" "" name ${header})
     endif()
-    # Twice: a header guards itself.
+    # Included twice to check the header's guard.
     file(APPEND ${work}/source/${name}.cpp "#include \"${header}\"\n#include \"${header}\"\n")
     list(APPEND sources ${name}.cpp)
   endforeach()
@@ -51,7 +51,7 @@ run(${CMAKE_COMMAND} --build ${work}/build -j 2)
 if(PROJECT STREQUAL "minimal")
   run(${work}/build/minimal)
   if(NOT output MATCHES "boom")
-    message(FATAL_ERROR "the example did not say where the boom is:\n${output}")
+    message(FATAL_ERROR "the example did not print the boom's position:\n${output}")
   endif()
   message("${output}")
 endif()

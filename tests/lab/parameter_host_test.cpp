@@ -12,7 +12,7 @@
 namespace navvy::lab {
 namespace {
 
-TEST(ParameterRange, OpenEndsAreOutsideAndClosedOnesInside) {
+TEST(ParameterRange, ExcludesOpenEndsAndIncludesClosedOnes) {
   EXPECT_FALSE(above(0).contains(0));
   EXPECT_TRUE(above(0).contains(1e-9));
   EXPECT_TRUE(at_least(0).contains(0));
@@ -26,7 +26,7 @@ TEST(ParameterRange, OpenEndsAreOutsideAndClosedOnesInside) {
   EXPECT_TRUE(any().contains(-7));
 }
 
-TEST(ParameterRange, HoldsFiniteNumbersOnlyAndCountsAreWhole) {
+TEST(ParameterRange, AcceptsOnlyFiniteNumbersAndWholeCounts) {
   for (const ParameterRange& range : {any(), above(0), at_least(0)}) {
     EXPECT_FALSE(range.contains(std::numeric_limits<double>::infinity()));
     EXPECT_FALSE(range.contains(std::nan("")));
@@ -36,7 +36,7 @@ TEST(ParameterRange, HoldsFiniteNumbersOnlyAndCountsAreWhole) {
   EXPECT_FALSE(count_from(1).contains(2.5));
 }
 
-TEST(ParameterRange, SaysItsRuleInWords) {
+TEST(ParameterRange, DescribesItsRule) {
   EXPECT_EQ(above(0).text(), "above 0");
   EXPECT_EQ(at_least(0).text(), "at least 0");
   EXPECT_EQ(between(15, 150).text(), "15 .. 150");

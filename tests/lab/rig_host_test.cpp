@@ -37,7 +37,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(Rig, DefaultsAreAllowedAndEveryParameterSaysWhatItIs) {
+TEST(Rig, DefaultsAreAllowedAndEveryParameterHasADescription) {
   for (const Rig& rig : rigs()) {
     EXPECT_NO_THROW(check(rig, setup_of(rig))) << rig.name;
     for (const Parameter& p : rig.parameters) {
@@ -48,7 +48,7 @@ TEST(Rig, DefaultsAreAllowedAndEveryParameterSaysWhatItIs) {
   }
 }
 
-TEST(Rig, TheProgramFormatsTextsNotTheRig) {
+TEST(Rig, TextsAreUnformattedForTheProgram) {
   for (const Rig& rig : rigs())
     for (const std::string& text : {rig.summary, rig.drawing}) {
       EXPECT_EQ(text.find('\n'), std::string::npos) << rig.name;
@@ -75,7 +75,7 @@ TEST(Rig, ExamplesUseParametersItHasWithinTheirRanges) {
     }
 }
 
-TEST(Rig, ChoicesAreAskedByWord) {
+TEST(Rig, ChoicesAreSelectedByWord) {
   const Rig& column = find_rig("column");
   lab::Setup setup = setup_of(column);
   EXPECT_TRUE(setup.is("shape", "plane"));
@@ -114,7 +114,7 @@ TEST(Rig, RefusalsNameRigParameterValueRuleAndTheNearest) {
   EXPECT_TRUE(holds(text, "a whole number")) << text;
 }
 
-TEST(Rig, RefusesASoilThatIsNoneAlsoWhereNothingIsSimulated) {
+TEST(Rig, RefusesAnInvalidSoilEvenWithoutASimulation) {
   const Rig& wheel = find_rig("wheel");
   lab::Setup setup = setup_of(wheel);
   set_written(setup, {{"law", "yes"}});
@@ -125,7 +125,7 @@ TEST(Rig, RefusesASoilThatIsNoneAlsoWhereNothingIsSimulated) {
   for (const char* part : {"bekker_n", "-1", "janosi_k_m"}) EXPECT_TRUE(holds(text, part)) << text;
 }
 
-TEST(Rig, UnknownNamesNameTheNearest) {
+TEST(Rig, SuggestsTheNearestForUnknownNames) {
   EXPECT_TRUE(holds(refusal([] { find_rig("rets"); }), "'rest'"));
   lab::Setup setup;
   setup.geometry = {{"width", 1}, {"depth", 2}};

@@ -37,7 +37,7 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
     EXPECT_TRUE(!q.has_tolerance() || q.source.find('[') != std::string::npos)
         << name << ", " << q.name << ": " << q.source;
     EXPECT_TRUE(q.in_range || !q.range.empty()) << name << ", " << q.name;
-    std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, gate %g .. %g %s (%s)\n",
+    std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, tolerance %g .. %g %s (%s)\n",
                 name.c_str(), q.name.c_str(), q.measured, q.unit.c_str(), q.expected, q.low, q.high,
                 q.missed()   ? "MISS"
                 : q.in_range ? ""
@@ -57,7 +57,7 @@ inline std::string misses(const Report& report) {
   return out;
 }
 
-/// Returns a result by name; NaN and a failed test when the rig has none.
+/// Returns a result by name; NaN and a failed test if the rig has none.
 inline double measured(const Report& report, const std::string& name) {
   const Quantity* q = report.find(name);
   EXPECT_NE(q, nullptr) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of values: the runs, the table, the plot. No experiment runs here.
+// Sweeps over lists of values: the runs, the table, the plot. No experiment runs here.
 #include "lab/sweep.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(Sweep, RunsEveryCombinationLastAxisFastest) {
   EXPECT_EQ(combinations({}).size(), 1u);
 }
 
-TEST(Sweep, ListsAreCutAtCommasAndAnEmptyPartIsRefused) {
+TEST(Sweep, SplitsListsAtCommasAndRefusesEmptyParts) {
   EXPECT_EQ(listed("--speed", "0.05,0.3"), (std::vector<std::string>{"0.05", "0.3"}));
   EXPECT_EQ(listed("--shape", "plane"), (std::vector<std::string>{"plane"}));
   for (const char* text : {"", "1,", ",1", "1,,2"})
@@ -81,14 +81,14 @@ TEST(SvgPlot, TicksAreRoundAndCoverTheRange) {
   EXPECT_EQ(round_ticks(3, 3, 5), (std::vector<double>{3}));
 }
 
-TEST(SvgPlot, LeavesOutWhatIsNoNumberAndEscapesItsTexts) {
+TEST(SvgPlot, OmitsNonFiniteValuesAndEscapesItsTexts) {
   Plot plot;
   plot.title = "a < b & c";
   plot.lines = {{"one", {1, 2, 3}, {5, std::nan(""), 7}}};
   const std::string svg = svg_of(plot);
   EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
-  // Two marks of the line and one in the legend.
+  // Two markers on the line and one in the legend.
   std::size_t marks = 0;
   for (std::size_t i = 0; (i = svg.find("<circle", i)) != std::string::npos; ++i) ++marks;
   EXPECT_EQ(marks, 3u);

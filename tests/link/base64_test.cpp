@@ -11,7 +11,7 @@ namespace {
 
 std::string base64_of(const std::string& text) { return base64(std::as_bytes(std::span(text))); }
 
-TEST(Base64, GivesTheTextsOfRfc4648) {
+TEST(Base64, MatchesTheExamplesOfRfc4648) {
   EXPECT_EQ(base64_of(""), "");
   EXPECT_EQ(base64_of("f"), "Zg==");
   EXPECT_EQ(base64_of("fo"), "Zm8=");

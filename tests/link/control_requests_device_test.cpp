@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Decodes base64 without checks.
+/// Decodes valid base64.
 std::vector<char> decoded(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::vector<char> out;

@@ -41,7 +41,7 @@ using map::testing::two_layers;
 
 bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") == 0; }
 
-// Follows with the example's reader and writes the elevation that it ends with.
+// Follows with the example's reader and writes its final elevation.
 const char* const kFollow = R"(
 import sys
 sys.path.insert(0, sys.argv[1])
@@ -82,7 +82,7 @@ TEST(MapPublisher, ServesTheExampleReaderOverTcp) {
       [&] {
         Random random(2);
         int number = 0;
-        // Slow enough for a reader that begins while it goes on; the end closes its stream.
+        // Slow enough for a reader that connects during the run; the end closes its stream.
         for (int i = 0; i < 300; ++i) {
           dig(ground, random, number);
           feed.publish(ground.view(i));
@@ -93,7 +93,7 @@ TEST(MapPublisher, ServesTheExampleReaderOverTcp) {
       feed);
 }
 
-/// A connection to a publisher; a read of it gives up after 10 s.
+/// A connection to a publisher; reading times out after 10 s.
 int connected(int port) {
   const int file = ::socket(AF_INET, SOCK_STREAM, 0);
   const timeval patience{10, 0};
@@ -106,7 +106,7 @@ int connected(int port) {
   return file;
 }
 
-/// Whether so many bytes came.
+/// Returns true if this many bytes arrived.
 bool receive(int file, std::size_t bytes) {
   std::vector<char> buffer(bytes);
   for (std::size_t at = 0; at < bytes;) {
@@ -117,7 +117,7 @@ bool receive(int file, std::size_t bytes) {
   return true;
 }
 
-/// A reader that takes so many bytes and goes away.
+/// Reads this many bytes and disconnects.
 void read_and_leave(int port, std::size_t bytes) {
   const int file = connected(port);
   EXPECT_TRUE(receive(file, bytes));
@@ -129,14 +129,14 @@ std::ptrdiff_t threads() {
                        std::filesystem::directory_iterator());
 }
 
-/// Whether that comes true within 10 s.
+/// Returns true if the condition becomes true within 10 s.
 bool comes_true(const std::function<bool()>& what) {
   for (int i = 0; i < 200 && !what(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return what();
 }
 
-TEST(MapPublisher, ForgetsReadersThatAreGoneWhileNothingIsPublished) {
+TEST(MapPublisher, RemovesDisconnectedReadersWhileNothingIsPublished) {
   LogLines logged;
   Ground ground(map::testing::setup(20, 20));
   map::UpdateFeed feed(two_layers());
@@ -144,19 +144,19 @@ TEST(MapPublisher, ForgetsReadersThatAreGoneWhileNothingIsPublished) {
   const std::size_t whole = formats::patch_bytes(*feed.since(0), kTwo).size();
   MapPublisher publisher(feed, "tcp:0", kTwo);
   const std::ptrdiff_t alone = threads();
-  // Each takes its whole map and closes; nothing changes meanwhile.
+  // Each reader takes its whole map and disconnects; nothing changes meanwhile.
   for (std::size_t i = 0; i < MapPublisher::kMostReaders; ++i)
     read_and_leave(publisher.port(), whole);
   EXPECT_TRUE(comes_true([&] { return threads() == alone; }))
       << threads() << " threads, " << alone << " before";
-  // As many again find room.
+  // As many new readers can connect.
   std::vector<int> readers;
   for (std::size_t i = 0; i < MapPublisher::kMostReaders; ++i) {
     readers.push_back(connected(publisher.port()));
     ASSERT_TRUE(receive(readers.back(), whole)) << i;
   }
   EXPECT_TRUE(logged.lines().empty()) << logged.lines()[0];
-  // One more is turned away, and told of once.
+  // One more is refused, with one log message.
   for (int i = 0; i < 2; ++i) {
     const int late = connected(publisher.port());
     EXPECT_FALSE(receive(late, 1));
@@ -169,15 +169,15 @@ TEST(MapPublisher, ForgetsReadersThatAreGoneWhileNothingIsPublished) {
   read_and_leave(publisher.port(), whole);
 }
 
-TEST(MapPublisher, WaitsWhereNoFileCanBeOpened) {
+TEST(MapPublisher, WaitsIfNoFileCanBeOpened) {
   LogLines logged;
   Ground ground(map::testing::setup(20, 20));
   map::UpdateFeed feed(two_layers());
   feed.publish(ground.view(0));
   MapPublisher publisher(feed, "tcp:0", kTwo);
-  // A first reader comes and goes: the thread that accepts is at work, and what runs for the first
-  // time has run. Where nothing can be opened, the sanitizers cannot look at a new type: they ask a
-  // pipe whether its memory can be read.
+  // A first reader connects and disconnects, so that the accepting thread and code that runs once
+  // have run. Without free files, the sanitizers cannot inspect a new type: they use a pipe to test
+  // whether its memory is readable.
   const std::ptrdiff_t alone = threads();
   read_and_leave(publisher.port(), 12);
   ASSERT_TRUE(comes_true([&] { return threads() == alone; }));
@@ -197,19 +197,19 @@ TEST(MapPublisher, WaitsWhereNoFileCanBeOpened) {
   const double spent = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   ::setrlimit(RLIMIT_NOFILE, &before);
   EXPECT_EQ(joined, 0);
-  // A loop that does nothing else takes the whole second, less what other programs take.
+  // A busy loop would use the whole second, less the time of other programs.
   EXPECT_LT(spent, 0.1) << "s of processor";
   ASSERT_EQ(logged.lines().size(), 1u);
   EXPECT_NE(logged.lines()[0].find("Too many open files"), std::string::npos) << logged.lines()[0];
-  // It waited in the queue and gets its map.
+  // It waited in the queue and receives its map.
   EXPECT_TRUE(receive(file, 12));
   ::close(file);
 }
 
-TEST(MapPublisher, LosesNothingWhenReadersGoAwayInMidPatch) {
+TEST(MapPublisher, LosesNothingWhenReadersDisconnectDuringAPatch) {
   if (!has_numpy()) GTEST_SKIP() << "NumPy is missing";
   const test::Folder folder;
-  // 4 MB a whole map: more than the kernel keeps for a reader that does not read.
+  // 4 MB per whole map: more than the kernel buffers for a reader that does not read.
   Ground ground(map::testing::setup(700, 700));
   map::UpdateFeed feed(two_layers());
   auto publisher = std::make_unique<MapPublisher>(feed, "tcp:0", kTwo);
@@ -259,7 +259,7 @@ TEST(MapPublisher, CanBeFollowedWhileItWritesAFolder) {
   std::string said;
   Ground ground(map::testing::setup(70, 66));
   map::UpdateFeed feed(two_layers());
-  // The reader is there first.
+  // The reader starts first.
   std::thread python([&] {
     said = heightfield::testing::output_of("/usr/bin/python3 '" + folder / "follow.py" + "' '" +
                                            navvy::source_dir() + "/examples/planner' '" +
@@ -282,7 +282,7 @@ TEST(MapPublisher, CanBeFollowedWhileItWritesAFolder) {
   EXPECT_EQ(said, "5 5\n") << "the last number, and how many patches";
 }
 
-TEST(MapPublisher, ReportsAfterItsEndThatTheLastPatchCouldNotBeWritten) {
+TEST(MapPublisher, ReportsAtItsEndThatTheLastPatchCouldNotBeWritten) {
   const test::Folder folder;
   Ground ground(map::testing::setup(20, 20));
   map::UpdateFeed feed(two_layers());

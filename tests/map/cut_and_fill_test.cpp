@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cut and fill beside closed forms of prism, frustum and cone.
+// Cut and fill compared with closed forms of prism, frustum and cone.
 #include "map/cut_and_fill.h"
 
 #include <gtest/gtest.h>
@@ -36,9 +36,9 @@ TEST(CutAndFill, MatchesThePrismOfATrench) {
   EXPECT_NEAR(all.fill, 0, 1e-6);  // heights are whole quanta of mass
   EXPECT_NEAR(all.area, 14.8 * 8.4, 1e-9);
   EXPECT_NEAR(all.unknown_area, 0, 1e-9);
-  // Half of it, by a slanting border through its middle; wound the other way, the same.
+  // Half of it, cut by a slanted border through its middle; the opposite winding gives the same.
   std::vector<Vec2> half = {Vec2(2.3, 1.7), Vec2(1.7, 10.1), Vec2(-3.3, 10.1), Vec2(-3.3, 1.7)};
-  // Its mean end over y = 4..5.2 is that at 4.6
+  // Its mean end over y = 4..5.2 is that at 4.6.
   const double share = (2.3 - 0.6 * (4.6 - 1.7) / 8.4 + 1) / 6;
   expect_volume("half a prism", cut_and_fill(map, half).cut, 6.0 * 1.2 * 1.5 * share);
   std::reverse(half.begin(), half.end());
@@ -64,7 +64,7 @@ TEST(CutAndFill, MatchesTheConeOfAHeap) {
   EXPECT_EQ(all.cut, 0);
   EXPECT_NEAR(all.fill_bank, all.fill, 1e-6 * all.fill) << "the map's soil is as dense as bank";
   EXPECT_EQ(all.active, 0);
-  // A sector of it: an eighth.
+  // A sector of an eighth.
   const std::vector<Vec2> eighth = {Vec2(3.97, 5.91), Vec2(3.97 + 4, 5.91),
                                     Vec2(3.97 + 4, 5.91 + 4)};
   expect_volume("an eighth of a cone", cut_and_fill(map, eighth).fill,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ground that changes here and there, and maps of it with two layers.
+// Ground with scattered changes, and maps of it with two layers.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ inline MapOptions two_layers() {
   return out;
 }
 
-/// Takes a small pit out, deeper every time it comes back.
+/// Digs a small pit, deeper each time at the same place.
 inline void dig(heightfield::Ground& ground, Random& random, int& number) {
   std::vector<heightfield::SoilLayer> taken;
   const int x0 = static_cast<int>(random.uniform(0, ground.nx() - 4)),

@@ -35,8 +35,8 @@ inline Vec2 centre(const heightfield::GroundSetup& s, int ix, int iy) {
   return s.origin + s.cell * Vec2(ix + 0.5, iy + 0.5);
 }
 
-/// A map of the heights that `z` gives at column centres, its start flat at 0, with all derived
-/// layers.
+/// Returns a map of the heights that `z` gives at column centres, with a flat start at 0 and all
+/// derived layers.
 inline TerrainMap map_of(heightfield::GroundSetup s, const std::function<double(double, double)>& z,
                          MapOptions options = {}) {
   const heightfield::GroundSetup place = s;

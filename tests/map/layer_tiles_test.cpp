@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles that nobody wrote to: computed when asked for, kept or not, and never seen to be other than
-// the rest.
+// Tiles that nobody wrote to are computed on demand, cached or not, and always equal the whole.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -21,7 +20,7 @@ float formula(int ix, int iy) {
   return ix % 11 == 3 ? kUnknown : static_cast<float>(0.25 * ix - 0.125 * iy);
 }
 
-/// A formula; counts the columns that it was asked for.
+/// A formula that counts the requested columns.
 class Counting final : public LayerSource {
  public:
   void fill(MapLayer /*layer*/, const CellRect& rect, float* out,
@@ -44,7 +43,7 @@ struct Fixture {
   LayerTiles tiles{kNx, kNy, MapLayer::kSlope, source};
 };
 
-/// Rectangles that begin and end anywhere, some of one row or column, and all of the site.
+/// Rectangles of any begin and end, some of one row or column, and the whole site.
 const CellRect kRects[] = {
     {0, 0, kNx, kNy}, {63, 63, 65, 65}, {5, 100, 299, 101}, {130, 3, 131, 169}, {17, 9, 280, 155}};
 
@@ -65,19 +64,19 @@ std::vector<float> copied(const LayerTiles& tiles, const CellRect& rect) {
   return out;
 }
 
-TEST(LayerTiles, CopiesItsSourceWithoutKeepingTiles) {
+TEST(LayerTiles, CopiesItsSourceWithoutCachingTiles) {
   for (const CellRect& rect : kRects) {
     const Fixture f;
     EXPECT_EQ(f.source->columns, 0);
     const std::vector<float> values = copied(f.tiles, rect);
-    EXPECT_EQ(f.source->columns, rect.area()) << "nothing beside what was asked for";
+    EXPECT_EQ(f.source->columns, rect.area()) << "only the requested columns";
     copied(f.tiles, rect);
     EXPECT_EQ(f.source->columns, 2 * rect.area()) << "not kept";
     expect_formula(f.tiles, rect, values, -1, -1, 0);
   }
 }
 
-TEST(LayerTiles, KeepsTheTileOfAColumnForAllCopies) {
+TEST(LayerTiles, CachesTheTileOfAColumnForAllCopies) {
   const Fixture f;
   const LayerTiles other = f.tiles;
   EXPECT_TRUE(same(f.tiles.at(70, 66), formula(70, 66)));
@@ -94,7 +93,7 @@ TEST(LayerTiles, KeepsTheTileOfAColumnForAllCopies) {
   EXPECT_TRUE(std::isnan(buffer[static_cast<std::size_t>(20 * 64 + 50)])) << "beyond the site";
 }
 
-TEST(LayerTiles, WritesOverItsSourceAndLeavesCopiesAlone) {
+TEST(LayerTiles, OverridesItsSourceWithoutAffectingCopies) {
   Fixture f;
   f.tiles.at(20, 20);  // a tile that was asked for, one that was not
   for (const Vec2i& p : {Vec2i(10, 12), Vec2i(140, 77)}) {

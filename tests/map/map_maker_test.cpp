@@ -30,7 +30,7 @@ Ground wavy() {
   return Ground(s);
 }
 
-/// A hole or a heap of up to 12 x 12 columns somewhere, over the edge of the site too.
+/// Makes a hole or a heap of up to 12 x 12 columns, possibly across the edge of the site.
 CellRect edit(Ground& ground, Random& random) {
   const auto within = [&](int most) { return static_cast<int>(random.uniform() * most); };
   const int x0 = within(ground.nx()), y0 = within(ground.ny());
@@ -48,7 +48,8 @@ CellRect edit(Ground& ground, Random& random) {
   return rect;
 }
 
-/// Loose soil on some columns, so that heights of columns and what one sees differ.
+/// Returns a view with loose soil on some columns, so that visible heights differ from those of
+/// columns.
 TerrainView seen(const Ground& ground, double time, Random& random) {
   std::vector<heightfield::LooseGrain> grains;
   for (int i = 0; i < 30; ++i) {
@@ -83,7 +84,7 @@ TEST(MapMaker, UpdatesMatchAFullComputationBitForBit) {
     MapMaker whole(options);
     whole.update(view);
     for (const LayerInfo& each : layers())
-      // A history, which a full computation does not know; the next test is about it.
+      // This layer holds a history, which a full computation cannot know; the next test covers it.
       if (each.layer != MapLayer::kDisturbedAt)
         ASSERT_TRUE(same_bits(maker.map(), whole.map(), each.layer))
             << each.name << " in round " << round;
@@ -154,19 +155,19 @@ TEST(MapMaker, ReportsOnlyTheSoilAroundOneBucket) {
   EXPECT_TRUE(maker.update(ground.view(2)).empty());
 }
 
-TEST(MapMaker, CostsDependOnTheChangeAndNotOnTheSite) {
+TEST(MapMaker, CostDependsOnTheChangeAndNotOnTheSite) {
   // A site of 100 m, one bucket of 1.2 m x 1 m a step.
   heightfield::GroundSetup s = setup(1000, 1000);
   s.surface = [](int ix, int iy) { return 0.3 * std::sin(0.11 * ix) + 0.2 * std::cos(0.07 * iy); };
   Ground ground(s);
   MapMaker maker({});
   const auto seconds = [](auto&& work) {
-    // Of the processor, as neighbours may hold it for a while.
+    // Processor time, as other processes may hold the machine.
     const std::clock_t begin = std::clock();
     work();
     return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   };
-  // Of all that a reader may ask for: the update itself computes nothing.
+  // All layers that a reader may request: the update itself computes nothing.
   const double full = seconds([&] {
     maker.update(ground.view());
     const TerrainMap map = maker.map();
@@ -176,7 +177,7 @@ TEST(MapMaker, CostsDependOnTheChangeAndNotOnTheSite) {
   double update = 0;
   constexpr int kBuckets = 50;
   for (int k = 0; k < kBuckets; ++k) {
-    const TerrainMap held = maker.map();  // a reader keeps the last one, so tiles are copied
+    const TerrainMap held = maker.map();  // a reader holds the last map, so tiles are copied
     for (int iy = 0; iy < 10; ++iy)
       for (int ix = 0; ix < 12; ++ix) ground.take_above(10 * k + ix, 15 * k + iy, -0.6, taken);
     std::int64_t area = 0;
@@ -238,7 +239,7 @@ TEST(MapMaker, ReportsLayersOfTheSoilPresent) {
   EXPECT_EQ(map.at(MapLayer::kSoil, 4, 6), 1);
   EXPECT_EQ(map.at(MapLayer::kDensity, 4, 6), 1100);
   EXPECT_NEAR(map.at(MapLayer::kDensity, 9, 6), 1540 / 1.25, 1e-3);
-  // 1.54 kg are 1 l of bank and 1.25 l as they lie
+  // 1.54 kg are 1 l of bank soil and 1.25 l of loose soil
   EXPECT_NEAR(map.at(MapLayer::kElevation, 9, 6), 0.125, 1e-6);
   EXPECT_NEAR(map.at(MapLayer::kLooseDepth, 20, 7), 0.1, 1e-6);
   EXPECT_NEAR(map.at(MapLayer::kElevation, 20, 7), 0.1, 1e-6);
@@ -296,7 +297,7 @@ TEST(Derived, AreUnknownWhereElevationIsAndUseTheKnownNeighboursElsewhere) {
   EXPECT_EQ(traversability(0, 0.3f, 0, {}), 0);
 }
 
-TEST(Layers, HaveARowEachAndAreFoundByName) {
+TEST(Layers, HaveOneRowEachAndAreFoundByName) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < kMapLayers; ++i) {
     EXPECT_EQ(index_of(layers()[i].layer), i);
@@ -345,14 +346,14 @@ TEST(Layers, HaveOneRuleEach) {
   for (const LayerInfo& each : layers()) {
     const int rules = (each.of_column != nullptr ? 1 : 0) + (each.of_surround != nullptr ? 1 : 0);
     EXPECT_EQ(rules, each.needs == LayerNeeds::kHistory ? 0 : 1) << each.name;
-    // What looks around reads the elevation of the map.
+    // A layer of surroundings reads the elevation of the map.
     if (each.of_surround != nullptr)
       EXPECT_NE(std::count(each.from.begin(), each.from.end(), MapLayer::kElevation), 0)
           << each.name;
   }
 }
 
-TEST(TerrainMap, GivesItsTilesWithoutACopy) {
+TEST(TerrainMap, ExposesItsTilesWithoutACopy) {
   const TerrainMap map =
       testing::map_of(testing::setup(), [](double x, double y) { return 0.1 * x - 0.2 * y; });
   const LayerTiles& tiles = map.tiles(MapLayer::kElevation);
@@ -361,7 +362,7 @@ TEST(TerrainMap, GivesItsTilesWithoutACopy) {
   EXPECT_EQ(view(7, 5), map.at(MapLayer::kElevation, 69, 71));
   int count = 0;
   EXPECT_EQ(view.data(), tiles.row(64, 64, count)) << "the very numbers";
-  // 148 x 84 columns: the rest of the last tile lies off the site.
+  // 148 x 84 columns: the rest of the last tile is off the site.
   EXPECT_TRUE(std::isnan(tiles.view(2, 1)(0, 63)));
   EXPECT_TRUE(std::isnan(map.tiles(MapLayer::kTarget).view(0, 0)(3, 3)));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queries beside closed forms; the same asked by four threads while the map's maker goes on.
+// Queries compared with closed forms; the same queries from four threads while the map's maker
+// continues.
 #include "map/map_queries.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ TEST(Queries, AreExactOnAPlane) {
   const TerrainMap map = map_of(setup(), plane);
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    // Away from the outermost half columns, which are level.
+    // Inside the outermost half columns, which are level.
     const double x = random.uniform(-3.2, 11.4), y = random.uniform(1.8, 9.9);
     EXPECT_NEAR(height(map, x, y), plane(x, y), 3e-7);  // a float's ulp at 4 m
     EXPECT_NEAR((*normal(map, x, y) - Vec3(-0.3, 0.2, 1).normalized()).norm(), 0, 5e-6);
@@ -58,13 +59,13 @@ TEST(Queries, AreUnknownOutsideTheSiteAndBesideUnknownColumns) {
     EXPECT_FALSE(normal(map, p.x(), p.y()).has_value());
   }
   EXPECT_TRUE(std::isnan(value(map, MapLayer::kElevation, hole.x(), hole.y())));
-  // The centre of its neighbour is known.
+  // At its neighbour's centre the height is known.
   EXPECT_FALSE(std::isnan(height(map, hole.x() + 0.1 + 1e-12, hole.y() + 0.1 + 1e-12)));
 }
 
-TEST(LineOfSight, IsHiddenByAWallAsHighAsGeometrySays) {
-  // A wall of 2 m at x = 4..4.5; looked over from 3 m at x = 0, the shadow on the ground ends 1.5 m
-  // behind its far edge.
+TEST(LineOfSight, IsBlockedByAWallAsGeometryPredicts) {
+  // A wall of 2 m at x = 4..4.5; seen from 3 m at x = 0, its shadow on the ground ends 1.5 m behind
+  // its far edge.
   const TerrainMap map =
       map_of(setup(), [](double x, double) { return x > 4 && x < 4.5 ? 2.0 : 0.0; });
   // Its far edge is the centre of the last high column, 4.45 m: from (0, 3) over (4.45, 2) to z =
@@ -75,7 +76,7 @@ TEST(LineOfSight, IsHiddenByAWallAsHighAsGeometrySays) {
     EXPECT_EQ(line_of_sight(map, Vec3(0, y, 3), Vec3(reach - 1e-3, y, 0.5)), Sight::kHidden);
     EXPECT_EQ(line_of_sight(map, Vec3(reach - 1e-3, y, 0.5), Vec3(0, y, 3)), Sight::kHidden);
   }
-  // Askew through the wall
+  // Obliquely through the wall
   EXPECT_EQ(line_of_sight(map, Vec3(0, 3, 1), Vec3(8, 9, 1)), Sight::kHidden);
   EXPECT_EQ(line_of_sight(map, Vec3(0, 3, 2.01), Vec3(8, 9, 2.01)), Sight::kFree);
   EXPECT_EQ(line_of_sight(map, Vec3(2, 3, 5), Vec3(2, 3, 0.01)), Sight::kFree);  // straight down
@@ -154,7 +155,7 @@ TEST(Queries, ReportTheirRates) {
   });
   double sum = 0;
   Random random(9);
-  // Of the processor, as neighbours may hold it for a while.
+  // Processor time, as other processes may hold the machine.
   std::clock_t begin = std::clock();
   const auto spent = [&] {
     const std::clock_t now = std::clock();

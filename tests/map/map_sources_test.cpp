@@ -111,7 +111,7 @@ TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
       lying += view.active(ix, iy) ? 1 : 0;
     }
   EXPECT_EQ(lying, 2);
-  // Where all soil rests a run writes heights alone: nothing lies loose.
+  // If all soil is at rest, a run writes heights only: there is no loose soil.
   heightfield::write_geotiff(start, folder / "rest.tif");
   const TerrainMap rest = map_of_run(scene, start, folder / "rest.tif", {});
   EXPECT_EQ(rest.at(MapLayer::kLooseDepth, 70, 41), 0.0f);

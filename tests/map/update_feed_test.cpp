@@ -30,7 +30,7 @@ using testing::two_layers;
 
 bool same(const TerrainMap& a, const TerrainMap& b) { return count_changed(a, b) == 0; }
 
-/// Applies an update to a copy of what its reader has.
+/// Applies an update to a reader's copy.
 void apply(const MapUpdate& update, std::vector<float>& mine, MapLayer layer) {
   const TerrainMap& map = update.map;
   if (mine.empty()) mine.assign(static_cast<std::size_t>(map.rect().area()), kUnknown);
@@ -56,16 +56,16 @@ TEST(UpdateFeed, NumbersChangesOnly) {
   EXPECT_EQ(second->sequence, 2u);
   EXPECT_EQ(second->since, 1u);
   EXPECT_EQ(second->time, 1.5);
-  // The column, and the slopes beside it; that of the pit's own floor is level as before.
+  // The column, and the slopes next to it; that of the pit's own floor stays level.
   EXPECT_EQ(second->changed, 5);
   EXPECT_EQ(feed.since(1), second);
   EXPECT_EQ(feed.since(2), nullptr);
-  // Numbers that were never given out count from nothing.
+  // A number that was never issued counts as no number.
   EXPECT_EQ(feed.since(7)->since, 0u);
   EXPECT_EQ(feed.since(0)->rects.size(), 1u);
 }
 
-TEST(UpdateFeed, GivesMapsTheNumberOfTheirUpdate) {
+TEST(UpdateFeed, NumbersMapsByTheirUpdate) {
   Ground ground(testing::setup(70, 66));
   UpdateFeed feed(two_layers());
   Random random(8);
@@ -74,12 +74,12 @@ TEST(UpdateFeed, GivesMapsTheNumberOfTheirUpdate) {
     const UpdateFeed::Update update = feed.publish(ground.view(static_cast<double>(i)));
     EXPECT_EQ(update->sequence, i);
     EXPECT_EQ(update->map.sequence(), i);
-    // Nothing changed: no number is used up.
+    // Without a change, no number is used.
     EXPECT_EQ(feed.publish(ground.view(static_cast<double>(i)))->map.sequence(), i);
     EXPECT_EQ(feed.since(0)->map.sequence(), i);
     dig(ground, random, number);
   }
-  // What a reader asks for by the number of a map is what changed after it.
+  // A request by a map's number returns the changes after that map.
   const std::uint64_t seen = feed.latest()->map.sequence();
   const UpdateFeed::Update next = feed.publish(ground.view(6));
   ASSERT_NE(feed.since(seen), nullptr);
@@ -108,15 +108,15 @@ TEST(UpdateFeed, RestartsItsCountWhenTimeGoesBackOrOnRequest) {
     EXPECT_EQ(update->sequence, sequence) << "numbers go on";
     EXPECT_EQ(update->since, 0u);
     EXPECT_EQ(update->changed, 70 * 66);
-    EXPECT_EQ(disturbed(), 0) << "of what was before nothing is known";
+    EXPECT_EQ(disturbed(), 0) << "the earlier history is unknown";
     for (const std::uint64_t seen : {std::uint64_t{0}, std::uint64_t{1}, sequence - 1})
       EXPECT_EQ(feed.since(seen)->since, 0u) << seen;
   };
-  // The ground is the same, its time is not.
+  // The ground is the same, but its time is not.
   expect_anew(feed.publish(ground.view(1)), 6);
   feed.restart();
   expect_anew(feed.publish(ground.view(1)), 7);
-  // From there on as before; who saw a map of before still begins anew.
+  // Later updates count as before; a reader with an earlier map still starts over.
   dig(ground, random, number);
   const UpdateFeed::Update next = feed.publish(ground.view(2));
   EXPECT_EQ(next->since, 7u);
@@ -126,7 +126,7 @@ TEST(UpdateFeed, RestartsItsCountWhenTimeGoesBackOrOnRequest) {
   EXPECT_GT(disturbed(), 0);
 }
 
-TEST(UpdateFeed, ReportsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
+TEST(UpdateFeed, ReportsAtMostTwiceTheChangedAreaIf64RectanglesSuffice) {
   Ground ground(testing::setup(340, 260));
   UpdateFeed feed({});
   feed.publish(ground.view(0));
@@ -138,7 +138,7 @@ TEST(UpdateFeed, ReportsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
   Random random(6);
   int number = 0;
   for (int i = 1; i <= 60; ++i) {
-    // As many pits as fit into the list, each of its own size and at its own place of a grid.
+    // As many pits as fit into the list, each of its own size at its own place of a grid.
     std::vector<heightfield::SoilLayer> taken;
     for (int pit = 0; pit < i; ++pit) {
       const int x0 = 10 + 40 * (pit % 8), y0 = 8 + 30 * (pit / 8);
@@ -152,14 +152,14 @@ TEST(UpdateFeed, ReportsRectanglesOfAtMostTwiceWhatChangedWhere64Suffice) {
     ASSERT_LE(area(*update), 2 * update->changed) << i << " pits";
     EXPECT_FALSE(update->merged);
   }
-  // More than fit: united, and told.
+  // More pits than fit: rectangles are united, and this is reported.
   for (int pit = 0; pit < 400; ++pit) dig(ground, random, number);
   const UpdateFeed::Update many = feed.publish(ground.view(61));
   EXPECT_LE(many->rects.size(), 64u);
   EXPECT_EQ(many->merged, area(*many) > 2 * many->changed);
 }
 
-/// A map's elevation as one number.
+/// Returns a map's elevation as one number.
 std::uint64_t print_of(const TerrainMap& map) {
   const std::vector<float> z = map.copy(MapLayer::kElevation);
   StateHash hash;
@@ -167,7 +167,7 @@ std::uint64_t print_of(const TerrainMap& map) {
   return hash.digest();
 }
 
-/// Applies every update it gets to a copy of its own, until `ended` and nothing is left.
+/// Applies every update to its own copy, until `ended` and no update is left.
 struct Follower {
   std::vector<float> mine;
   int faults = 0, returns = 0;
@@ -184,7 +184,7 @@ struct Follower {
       if (update->rects.size() > 64) ++faults;
       apply(*update, mine, MapLayer::kElevation);
       seen = update->sequence;
-      // What it has is the map of that number, whole.
+      // Its copy equals the map of that number.
       if (mine != update->map.copy(MapLayer::kElevation)) ++faults;
       if (dies && random.uniform() < 0.02) {
         mine.clear();
@@ -196,8 +196,7 @@ struct Follower {
   }
 };
 
-/// Asks the newest map every kind of question, again and again, and notes which map it was and what
-/// it holds.
+/// Repeats every kind of query on the newest map, and records the map's number and its content.
 struct Asker {
   std::vector<std::pair<std::uint64_t, std::uint64_t>> held;  ///< sequence, print of the elevation
   int faults = 0;
@@ -209,7 +208,7 @@ struct Asker {
       if (update->sequence < seen) ++faults;
       seen = update->sequence;
       const TerrainMap& map = update->map;
-      // Twice: what is answered for one map stays so, however far the feed has come meanwhile.
+      // Twice: the answer for one map stays the same, whatever the feed publishes meanwhile.
       const double x = random.uniform(-3, 3.4), y = random.uniform(2, 8),
                    yaw = random.uniform(-3, 3);
       const auto answer = [&] {
@@ -222,13 +221,13 @@ struct Asker {
       const double first = answer();
       held.emplace_back(seen, print_of(map));
       if (answer() != first || std::isnan(first)) ++faults;
-      // Room for the others, where cores are few.
+      // Leaves time to the other threads where cores are few.
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
   }
 };
 
-TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThreadsAsk) {
+TEST(UpdateFeed, TenThousandUpdatesReachSlowAndDyingReadersDuringQueries) {
   constexpr int kUpdates = 10000;
   Ground ground(testing::setup(70, 66));
   MapOptions options;
@@ -236,7 +235,8 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
                     MapLayer::kTraversability};
   UpdateFeed feed(options);
   std::atomic<bool> ended{false};
-  // Of the map of each number, by the one thread that publishes; index 0 is no map.
+  // Fingerprints of the map of each number, written by the publishing thread only; index 0 is no
+  // map.
   std::vector<std::uint64_t> prints(1);
   prints.push_back(print_of(feed.publish(ground.view(0))->map));
   Follower slow, dying;
@@ -257,7 +257,7 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
   EXPECT_EQ(slow.faults, 0);
   EXPECT_EQ(dying.faults, 0);
   EXPECT_GT(dying.returns, 0);
-  // Torn would be a map whose heights are another number's.
+  // A torn map would have heights of another number.
   std::set<std::uint64_t> asked;
   for (const Asker& asker : askers) {
     EXPECT_EQ(asker.faults, 0);
@@ -266,7 +266,7 @@ TEST(UpdateFeed, TenThousandUpdatesReachASlowReaderAndOneThatDiesWhileFourThread
       asked.insert(sequence);
     }
   }
-  EXPECT_GT(asked.size(), 100u) << "they asked while it updated";
+  EXPECT_GT(asked.size(), 100u) << "the queries ran during updates";
   const TerrainMap last = feed.latest()->map;
   EXPECT_EQ(feed.latest()->sequence, kUpdates + 1u);
   EXPECT_EQ(slow.mine, last.copy(MapLayer::kElevation));

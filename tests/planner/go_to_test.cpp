@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step go_to with the real planner, on a bicycle and a ground that changes under way. No
+// The step go_to with the real planner, on a bicycle and a ground that changes during the drive. No
 // OpenCL.
 #include "control/activities/go_to.h"
 
@@ -34,7 +34,7 @@ using testing::excavator;
 using testing::fill;
 using testing::level_site;
 
-const Vec2 kLow(-1, -2), kHigh(1.5, 5);  // a trench across the way
+const Vec2 kLow(-1, -2), kHigh(1.5, 5);  // a trench across the path
 
 GoTo to(double x, double y, double heading) {
   GoTo step;
@@ -43,7 +43,7 @@ GoTo to(double x, double y, double heading) {
   return step;
 }
 
-/// An excavator's operator in a site of its own.
+/// An excavator's operator on a separate site.
 struct Trip {
   explicit Trip(std::vector<scene::ProgramStep> program, double x = -8)
       : op(excavator(), {std::move(program), {}}, "digger", path_planners()), ground(level_site()) {
@@ -67,7 +67,7 @@ struct Trip {
       each();
     }
   }
-  /// Of the machine itself on all of its way, on the ground as it is now.
+  /// Least clearance of the machine on its whole path, on the present ground.
   double least_clearance() const {
     map::MapMaker maker{map::MapOptions()};
     maker.update(ground.view());
@@ -111,7 +111,7 @@ void expect_arrived(const Trip& trip, const GoTo& goal) {
   EXPECT_GE(trip.least_clearance(), 0.3);
 }
 
-/// Whether the footprint sweeps over the trench where the path goes.
+/// Returns true if the footprint sweeps over the trench along the path.
 bool crosses(const control::Path& path) {
   for (double s = 0; s < path.length(); s += 0.1) {
     const Vec2 p = path.at(s).p;
@@ -120,8 +120,8 @@ bool crosses(const control::Path& path) {
   return false;
 }
 
-TEST_F(GoToStep, DrivesRoundATrenchThatWasNotThereWhenItPlanned) {
-  // Dug while the machine is on its way, and while its program still waits.
+TEST_F(GoToStep, DrivesAroundATrenchDugAfterPlanning) {
+  // Dug while the machine is driving, and while its program still waits.
   for (const double when : {4.0, 1.0}) {
     const GoTo goal = to(9, 0, 0);
     Trip trip({control::Wait(2), goal});
@@ -151,14 +151,14 @@ TEST_F(GoToStep, ArrivesWithAnyHeadingOverCusps) {
   }
 }
 
-TEST_F(GoToStep, StaysWhereItIsWhenThatIsTheGoal) {
+TEST_F(GoToStep, StaysWhenItIsAtTheGoal) {
   Trip trip({to(-7.8, 0.1, radians(2))});
   trip.run(5);
   EXPECT_TRUE(trip.op.done());
   EXPECT_EQ(trip.bicycle.fastest, 0);
 }
 
-TEST_F(GoToStep, WaitsWhereThereIsNoPathAndEndsWithThatReason) {
+TEST_F(GoToStep, WaitsWithoutAPathAndEndsWithThatReason) {
   GoTo goal = to(9, 0, 0);
   goal.retry = 3;
   goal.tries = 3;
@@ -181,7 +181,7 @@ TEST_F(GoToStep, WaitsWhereThereIsNoPathAndEndsWithThatReason) {
   EXPECT_EQ(trip.bicycle.fastest, 0);
 }
 
-TEST_F(GoToStep, GoesOnWhenThereIsAPathAgain) {
+TEST_F(GoToStep, ContinuesWhenThereIsAPathAgain) {
   GoTo goal = to(9, 0, 0);
   goal.retry = 3;
   goal.iterations = 200;
@@ -209,7 +209,7 @@ TEST_F(GoToStep, ReportsWhyThereIsNoPath) {
             std::string::npos);
 }
 
-TEST_F(GoToStep, RepeatsAndResumesInMidPathBitForBit) {
+TEST_F(GoToStep, RepeatsAndResumesBitIdentically) {
   const std::vector<scene::ProgramStep> program = {control::Wait(1), to(9, 0, 0)};
   const auto digest = [](Trip& trip) { return hash_of(trip.op).digest(); };
   Trip whole(program), again(program);
@@ -226,7 +226,7 @@ TEST_F(GoToStep, RepeatsAndResumesInMidPathBitForBit) {
   resumed.time = whole.time;
   EXPECT_EQ(digest(resumed), digest(whole));
   EXPECT_EQ(resumed.op.paths().size(), whole.op.paths().size());
-  // A wall in the way makes both plan anew.
+  // A wall on the path makes both plan again.
   dig(whole.ground, Vec2(3, -12), Vec2(4, 2));
   dig(resumed.ground, Vec2(3, -12), Vec2(4, 2));
   for (int i = 0; i < 40000 && !whole.op.ended(); ++i) {
@@ -239,7 +239,7 @@ TEST_F(GoToStep, RepeatsAndResumesInMidPathBitForBit) {
   EXPECT_EQ(resumed.bicycle.at.p, whole.bicycle.at.p);
 }
 
-/// Faults of the step on a level site with a trench at its goal.
+/// Returns the faults of the step on a level site with a trench at its goal.
 std::vector<Fault> faults_of(const GoTo& step, const control::MakePathPlanner& planners) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(8, -1), Vec2(10, 1));
@@ -247,7 +247,7 @@ std::vector<Fault> faults_of(const GoTo& step, const control::MakePathPlanner& p
                               control::GroundSurfaceView(ground), "mine.sdf", "digger", planners);
 }
 
-TEST_F(GoToStep, WithAGoalOnAnObstacleIsRefusedBeforeTheRun) {
+TEST_F(GoToStep, IsRefusedBeforeTheRunIfTheGoalIsOnAnObstacle) {
   EXPECT_TRUE(faults_of(to(0, 5, 0), path_planners()).empty());
   const std::vector<Fault> faults = faults_of(to(9, 0, 0), path_planners());
   ASSERT_EQ(faults.size(), 1u);
@@ -256,7 +256,7 @@ TEST_F(GoToStep, WithAGoalOnAnObstacleIsRefusedBeforeTheRun) {
        {"mine.sdf:17", "digger/navvy:program/step 1/go_to/target", "(9.00 , 0.00 )",
         "would stand 0.00 m from ground that it cannot drive on", "choose another goal"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in " << text;
-  // The machine is 3.8 m long ahead of its origin: this goal lies on the site, its bow does not.
+  // The machine is 3.8 m long ahead of its origin: this goal is on the site, its front is not.
   EXPECT_EQ(faults_of(to(15, -6, 0), path_planners()).size(), 1u);
 }
 

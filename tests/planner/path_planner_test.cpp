@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths round what an excavator cannot drive on. Skipped, visibly, in a build without OMPL.
+// Paths around ground that an excavator cannot drive on. Skipped, visibly, in a build without OMPL.
 #include "planner/map_path_planner.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ PathQuery query(double x0, double x1, double yaw1 = 0) {
 
 std::uint64_t digest(Path path) { return hash_of(path).digest(); }
 
-/// Looked at every 2 cm on a map that is computed whole.
+/// Returns the least clearance, sampled every 2 cm on a fully computed map.
 double least_clearance(const heightfield::Ground& ground, const Path& path) {
   map::MapOptions options;
   options.layers = {map::MapLayer::kTraversability};
@@ -73,7 +73,7 @@ TEST(Footprint, MatchesTheExcavatorsFile) {
   EXPECT_NEAR(f.right, f.left, 1e-9);
 }
 
-TEST(ObstacleIndex, NeverCallsAPlaceClearThatIsNot) {
+TEST(ObstacleIndex, NeverReportsAnOccupiedPlaceAsClear) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
   dig(ground, Vec2(6, 6), Vec2(6.2, 6.2));
@@ -94,7 +94,8 @@ TEST(ObstacleIndex, NeverCallsAPlaceClearThatIsNot) {
     ASSERT_TRUE(is || !says) << x << " " << y << " " << yaw;
     clear += is, told += says;
   }
-  // What it leaves open is asked of the map itself: few enough to be worth it.
+  // Places that the index leaves undecided are queried in the map itself: few enough to be
+  // worthwhile.
   print_value("share of clear places that the index reports", static_cast<double>(told) / clear,
               "> 0.6", "20 000 poses");
   EXPECT_GT(told, 0.6 * clear);
@@ -122,7 +123,7 @@ TEST_F(PathPlanner, GoesStraightWhereNothingBlocksThePath) {
   EXPECT_EQ(path->cusps(), 0);
 }
 
-TEST_F(PathPlanner, GoesRoundATrenchAndTurnsInANarrowPlace) {
+TEST_F(PathPlanner, GoesAroundATrenchAndTurnsInANarrowPlace) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
   for (const double yaw : {0.0, kPi, -kPi / 2}) {
@@ -139,7 +140,7 @@ TEST_F(PathPlanner, GoesRoundATrenchAndTurnsInANarrowPlace) {
   }
 }
 
-TEST_F(PathPlanner, AnswersTheSameBitIdenticalWhateverWasAskedBefore) {
+TEST_F(PathPlanner, IsBitIdenticalWhateverWasPlannedBefore) {
   heightfield::Ground ground = level_site();
   const PathQuery asked = query(-8, 9);
   plan(ground, asked);
@@ -153,10 +154,10 @@ TEST_F(PathPlanner, AnswersTheSameBitIdenticalWhateverWasAskedBefore) {
   const auto first = fresh->plan(asked);
   ASSERT_TRUE(elsewhere && again && first);
   EXPECT_EQ(digest(*first), digest(*again));
-  EXPECT_NE(digest(*elsewhere), digest(*again)) << "the seed changes nothing";
+  EXPECT_NE(digest(*elsewhere), digest(*again)) << "the seed has no effect";
 }
 
-TEST_F(PathPlanner, AnswersTheSameInThreadsSideBySide) {
+TEST_F(PathPlanner, IsIdenticalInParallelThreads) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -2), Vec2(1.5, 5));
   std::vector<std::uint64_t> alone, beside(4);
@@ -175,7 +176,7 @@ TEST_F(PathPlanner, AnswersTheSameInThreadsSideBySide) {
   EXPECT_EQ(alone, beside);
 }
 
-TEST_F(PathPlanner, FindsNothingWhereNoPathExists) {
+TEST_F(PathPlanner, FindsNothingIfNoPathExists) {
   heightfield::Ground ground = level_site();
   dig(ground, Vec2(-1, -13), Vec2(1.5, 13));
   PathQuery across = query(-8, 9);
@@ -185,7 +186,7 @@ TEST_F(PathPlanner, FindsNothingWhereNoPathExists) {
   EXPECT_FALSE(plan(ground, query(-8, 0)));
   EXPECT_FALSE(plan(ground, query(-8, 17)));
   EXPECT_EQ(planner_->clearance({Vec2(17, 0), 0}, 1), 0);
-  // What ends the search are iterations: with one alone no way round is found.
+  // The search ends after a number of iterations: with only one it finds no detour.
   heightfield::Ground open = level_site();
   dig(open, Vec2(-1, -2), Vec2(1.5, 5));
   PathQuery hasty = query(-8, 9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sites to drive on, and the excavator that does.
+// Sites to drive on, and the excavator.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ inline scene::Machine excavator() {
   return scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
 }
 
-/// Level, 36 m x 24 m about the origin, columns of 0.15 m.
+/// Returns a level site, 36 m x 24 m about the origin, with columns of 0.15 m.
 inline heightfield::Ground level_site() {
   heightfield::GroundSetup s = setup(240, 160);
   s.cell = 0.15;
@@ -29,7 +29,7 @@ inline heightfield::Ground level_site() {
   return heightfield::Ground(s);
 }
 
-/// Takes half a metre off every column whose middle lies in the rectangle.
+/// Removes half a metre from every column whose centre is in the rectangle.
 inline void dig(heightfield::Ground& ground, const Vec2& low, const Vec2& high) {
   std::vector<heightfield::SoilLayer> taken;
   for (int iy = 0; iy < ground.ny(); ++iy)
@@ -40,7 +40,7 @@ inline void dig(heightfield::Ground& ground, const Vec2& low, const Vec2& high) 
     }
 }
 
-/// Fills them again to z = 0.
+/// Fills these columns again to z = 0.
 inline void fill(heightfield::Ground& ground, const Vec2& low, const Vec2& high) {
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {

@@ -53,7 +53,7 @@ TEST_F(ArrayFileTest, KeepsItsHeaderLengthWhileItGrows) {
   EXPECT_EQ(static_cast<unsigned char>(text.back()), 1000 >> 8);
 }
 
-TEST_F(ArrayFileTest, WritesByItselfWhenAMebibyteWaits) {
+TEST_F(ArrayFileTest, WritesWhenAMebibyteIsPending) {
   const std::string path = folder_ / "a.npy";
   ArrayFile file(path, outputs_.channels()[0]);
   publish(1);

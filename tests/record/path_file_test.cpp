@@ -16,7 +16,7 @@ namespace {
 
 using control::Path;
 
-TEST(PathFile, GivesBackEachPathItHolds) {
+TEST(PathFile, ReadsBackEveryPath) {
   const Path straight({Vec2(1, 2), 0}, {{1, 0}}), back({Vec2(3, 4), 0}, {{-0.25, 0}});
   const std::string rows = path_rows("digger", {{3, 0, straight}, {2, 1.5, back}, {3, 7, back}});
   EXPECT_NE(rows.find("digger,3,1,0,0.0000,1.0000,2.0000,0.00000,1\n"), std::string::npos) << rows;
@@ -49,7 +49,7 @@ TEST(PathFile, RefusesInvalidRowsByFileAndLine) {
   EXPECT_THROW(read_paths(file), InputError);
 }
 
-TEST(PathFile, IsDrawnOnAHillshadeAndNothingElse) {
+TEST(PathFile, IsDrawnOnAHillshadeWithoutOtherChanges) {
   const map::TerrainMap map =
       map::testing::map_of(map::testing::setup(), [](double x, double) { return 0.1 * x; });
   const test::Folder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of a day without a day: they are fed directly.
+// The rows of a day, written directly without a simulation.
 #include "record/row_file.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 using test::text_of;
 
-/// What this process has handed to the system to write so far [bytes].
+/// Returns the bytes that this process has written so far.
 std::uint64_t bytes_written() {
   std::ifstream io("/proc/self/io");
   std::string name;
@@ -39,14 +39,14 @@ std::uint64_t bytes_written() {
   return 0;
 }
 
-/// A row as long as that of the trench, identified by its number.
+/// Returns a row as long as those of the trench, identified by its number.
 std::string row_of(std::uint64_t number, std::size_t length = 760) {
   std::string row = std::to_string(number);
   row.resize(length, ',');
   return row;
 }
 
-TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
+TEST(RowFile, WritesEachByteOnceAndBuffersLittle) {
   const test::Folder folder;
   RowFile file(folder / "rows.csv", "header");
   std::uint64_t expected = 7;
@@ -56,7 +56,7 @@ TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
     const std::string row = row_of(i);
     file.add(row);
     expected += row.size() + 1;
-    // As checkpoints come: now and then, and not at all for a long while.
+    // Like checkpoints: occasionally, and then not at all for a long while.
     if (i % 97 == 0 && i < kRows / 2) file.flush();
     ASSERT_LT(file.waiting(), RowFile::kMostWaiting);
     ASSERT_EQ(file.written() + file.waiting(), expected);
@@ -64,15 +64,15 @@ TEST(RowFile, WritesEachByteOnceAndKeepsLittle) {
   file.sync();
   EXPECT_EQ(file.rows(), kRows);
   EXPECT_EQ(fs::file_size(folder / "rows.csv"), expected);
-  // A hundredth for what the test's own machinery writes.
+  // One percent for the test's own output.
   const std::uint64_t written = bytes_written() - before;
   ASSERT_GT(written, 0u);
   EXPECT_LT(written, expected + expected / 100);
 }
 
-/// A run's memory after a day is that at its start: strings that grow with the longest wait would
-/// look like a leak.
-TEST(RowFile, TakesNoMemoryWhileRowsWait) {
+/// A run's memory after a day equals that at its start: strings that grow with the longest wait
+/// would look like a leak.
+TEST(RowFile, MemoryDoesNotGrowWithPendingRows) {
   const test::Folder folder;
   RowFile file(folder / "rows.csv", "number");
   file.flush();
@@ -87,9 +87,9 @@ TEST(RowFile, TakesNoMemoryWhileRowsWait) {
   EXPECT_GT(file.written(), 3 * RowFile::kMostWaiting);
 }
 
-TEST(RowFile, HoldsTheRowsInTheirOrder) {
+TEST(RowFile, KeepsTheRowsInOrder) {
   const test::Folder folder;
-  // A kill has torn the earlier run's last row: nothing is appended behind it.
+  // A kill truncated the earlier run's last row: nothing is appended after it.
   write_file_atomically(folder / "rows.csv",
                         std::string("of an earlier run,\nlonger than what comes now, and to"));
   {
@@ -112,7 +112,7 @@ TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndContinuesWhenThereIsSpace) {
   file.add(row_of(0));
   file.sync();
   const std::string before = text_of(folder / "rows.csv");
-  // Space for half a row more: the system takes this much and refuses the rest.
+  // Space for half a row: the system accepts this much and refuses the rest.
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -129,7 +129,7 @@ TEST(RowFile, EndsWithAWholeRowOnAFullDiskAndContinuesWhenThereIsSpace) {
   EXPECT_EQ(text_of(folder / "rows.csv"), before + row_of(1) + "\n");
 }
 
-TEST(RowFile, ReportsAFolderThatIsNotThere) {
+TEST(RowFile, ReportsAMissingFolder) {
   const test::Folder folder;
   RowFile file(folder / "none/rows.csv", "header");
   EXPECT_THROW(file.flush(), FileError);
@@ -146,7 +146,7 @@ TEST(RowFile, StaysWithItsFileWhenTheFolderIsRenamed) {
   EXPECT_EQ(text_of(folder / "out.previous/rows.csv"), "header\n1\n");
 }
 
-TEST(RowFile, KilledAnywhereItHoldsWholeRowsAndAtMostOneWithoutAnEnd) {
+TEST(RowFile, HasCompleteRowsAndAtMostOneTruncatedAfterAKill) {
   const test::Folder folder;
   const std::string path = folder / "rows.csv";
   int with_rows = 0;
@@ -168,7 +168,7 @@ TEST(RowFile, KilledAnywhereItHoldsWholeRowsAndAtMostOneWithoutAnEnd) {
     std::string line;
     ASSERT_TRUE(std::getline(lines, line));
     EXPECT_EQ(line, "header");
-    // Lines that end in a line end are whole rows, without a gap.
+    // Lines with a line end are complete rows, without a gap.
     for (std::uint64_t n = 0; std::getline(lines, line) && !lines.eof(); ++n) {
       ASSERT_EQ(line, row_of(n, 20'000)) << n;
       ++with_rows;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose files lie in a run's folder: what a run wrote is moved and removed, what anybody else put
-// there stays.
+// Ownership of files in a run's folder: files of a run are moved and removed, all other files stay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +28,7 @@ void write(const std::string& path, const std::string& text) {
 }
 using test::text_of;
 
-/// A run that leaves three files with its number in them.
+/// Simulates a run that leaves three files with its number in them.
 void run(const std::string& out, int number) {
   RunFolder folder(out);
   folder.begin();
@@ -37,7 +36,7 @@ void run(const std::string& out, int number) {
     write_file_atomically(folder.path(name), std::to_string(number));
 }
 
-/// Every path below `folder` and what the files hold, in order.
+/// Returns every path below `folder` and the contents of its files, in order.
 std::vector<std::string> everything_in(const fs::path& folder) {
   std::vector<std::string> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -66,7 +65,7 @@ TEST(RunFolderLock, KeepsOneEarlierRun) {
   EXPECT_EQ(text_of(out + ".previous/frames/left_00001.png"), "2");
 }
 
-TEST(RunFolderLock, FoldersInFoldersGoWithWhatTheyHeld) {
+TEST(RunFolderLock, MovesNestedFoldersWithTheirFiles) {
   const test::Folder folder;
   const std::string out = folder / "out", deep = "maps/dig_00001/images/img_1.npy";
   {
@@ -81,7 +80,7 @@ TEST(RunFolderLock, FoldersInFoldersGoWithWhatTheyHeld) {
   EXPECT_FALSE(fs::exists(out + ".previous/maps"));
 }
 
-TEST(RunFolderLock, FilesOfOnesOwnSurviveAnyNumberOfRuns) {
+TEST(RunFolderLock, UserFilesSurviveAnyNumberOfRuns) {
   const test::Folder folder;
   const std::string out = folder / "out";
   run(out, 1);
@@ -97,7 +96,7 @@ TEST(RunFolderLock, FilesOfOnesOwnSurviveAnyNumberOfRuns) {
   EXPECT_EQ(text_of(out + ".previous/summary.json"), "5");
 }
 
-TEST(RunFolderLock, AFolderOfSomebodyElsesResultsIsRefusedUntouched) {
+TEST(RunFolderLock, RefusesAFolderWithForeignResults) {
   const test::Folder folder;
   const std::string out = folder / "out";
   write(out + "/summary.json", "of another program");
@@ -107,13 +106,13 @@ TEST(RunFolderLock, AFolderOfSomebodyElsesResultsIsRefusedUntouched) {
       << refusal(out);
   EXPECT_NE(refusal(out).find("--out"), std::string::npos);
   EXPECT_EQ(everything_in(folder.path()), before);
-  // The same where the earlier run would go.
+  // The same if the folder of the earlier run is foreign.
   run(folder / "mine", 1);
   write(folder / "mine.previous/summary.json", "of another program");
   const std::vector<std::string> with_mine = everything_in(folder.path());
   EXPECT_NE(refusal(folder / "mine"), "");
   EXPECT_EQ(everything_in(folder.path()), with_mine);
-  // A marker that another program, or another version, has left there is not ours to remove.
+  // A marker of another program or another version must not be removed.
   write(folder / "other/navvy.run", "something else\n");
   const std::vector<std::string> with_other = everything_in(folder.path());
   EXPECT_NE(refusal(folder / "other"), "");
@@ -135,7 +134,7 @@ TEST(RunFolderLock, TwoRunsIntoOneFolderAreRefused) {
   EXPECT_EQ(refusal(out), "");
 }
 
-TEST(RunFolderLock, WhatTheRunReadsIsNotRemovedUnderIt) {
+TEST(RunFolderLock, InputsOfTheRunAreNotRemoved) {
   const test::Folder folder;
   const std::string out = folder / "out";
   {
@@ -144,10 +143,10 @@ TEST(RunFolderLock, WhatTheRunReadsIsNotRemovedUnderIt) {
     for (const char* name : {"summary.json", "failed.snapshot"})
       write_file_atomically(failed.path(name), std::string("1"));
   }
-  // From the present results: they are moved, not removed.
+  // Inputs among the present results: they are moved, not removed.
   EXPECT_EQ(refusal(out, {out + "/failed.snapshot"}), "");
   EXPECT_EQ(text_of(out + ".previous/failed.snapshot"), "1");
-  // The run that went on from there has left results of its own; once more from the same snapshot.
+  // The resumed run has left its own results; once more from the same snapshot.
   run(out, 2);
   const std::string said = refusal(out, {"", out + ".previous/failed.snapshot"});
   EXPECT_NE(said.find("would be removed"), std::string::npos) << said;
@@ -155,12 +154,12 @@ TEST(RunFolderLock, WhatTheRunReadsIsNotRemovedUnderIt) {
   EXPECT_EQ(text_of(out + "/summary.json"), "2");
 }
 
-TEST(RunFolderLock, AMoveThatWasCutShortIsGoneOnWith) {
+TEST(RunFolderLock, ContinuesAnInterruptedMove) {
   const test::Folder folder;
   const std::string out = folder / "out";
   run(out, 1);
   run(out, 2);
-  // As a kill leaves it: the list says "moving", one file of three has come.
+  // State after a kill: the list says "moving", one file of three has been moved.
   write(out + ".previous/navvy.run",
         "navvy run folder 1 moving\nframes/left_00001.png\nsummary.json\ntelemetry.csv\n");
   fs::rename(out + "/summary.json", out + ".previous/summary.json");
@@ -173,7 +172,7 @@ TEST(RunFolderLock, AMoveThatWasCutShortIsGoneOnWith) {
   }
 }
 
-TEST(RunFolderLock, ADamagedListReachesNothingElse) {
+TEST(RunFolderLock, ADamagedListAffectsNoOtherFiles) {
   const test::Folder folder;
   const std::string out = folder / "out";
   write(folder / "precious", "mine");
@@ -186,7 +185,7 @@ TEST(RunFolderLock, ADamagedListReachesNothingElse) {
   EXPECT_NE(refusal(out).find("navvy.run"), std::string::npos);
 }
 
-TEST(RunFolderLock, AFileThatComesInBetweenIsNotOverwritten) {
+TEST(RunFolderLock, AFileCreatedMeanwhileIsNotOverwritten) {
   const test::Folder folder;
   RunFolder own(folder / "out");
   own.begin();
@@ -195,33 +194,33 @@ TEST(RunFolderLock, AFileThatComesInBetweenIsNotOverwritten) {
   EXPECT_NO_THROW(own.path("frames/left_00008.png"));
 }
 
-TEST(RunFolderLock, AFolderThatWasTakenAndNotUsedGoesAgain) {
+TEST(RunFolderLock, RemovesAFolderThatWasNotUsed) {
   const test::Folder folder;
   { const RunFolder unused(folder / "out"); }
   EXPECT_FALSE(fs::exists(folder / "out"));
-  // Those above it as well, as far up as they were made for it.
+  // Parent folders that were created for it are removed, too.
   fs::create_directory(folder / "mine");
   { const RunFolder unused(folder / "mine/of/a/run"); }
   EXPECT_TRUE(fs::is_empty(folder / "mine"));
-  // In a folder that was there only the marker goes.
+  // In an existing folder only the marker is removed.
   { const RunFolder unused(folder / "mine"); }
   EXPECT_TRUE(fs::is_empty(folder / "mine"));
-  // What came in the meantime stays, and what holds it.
+  // A file created meanwhile stays, with its folder.
   {
     const RunFolder unused(folder / "mine/of/a/run");
     write(folder / "mine/of/notes.txt", "of somebody");
   }
   EXPECT_EQ(text_of(folder / "mine/of/notes.txt"), "of somebody");
   EXPECT_FALSE(fs::exists(folder / "mine/of/a"));
-  // Results stay, of course, when the next run does not come to its beginning.
+  // Results stay if the next run fails before it begins.
   run(folder / "out", 1);
   const std::vector<std::string> before = everything_in(folder.path());
   { const RunFolder unused(folder / "out"); }
   EXPECT_EQ(everything_in(folder.path()), before);
 }
 
-/// Two that take one folder by turns: whoever has it holds a marker that the other one sees.
-TEST(RunFolderLock, AMarkerThatGoesUnderAnotherRunIsMadeAnew) {
+/// Two owners in turn: the present owner holds a marker that the other one sees.
+TEST(RunFolderLock, RecreatesAMarkerRemovedByAnotherRun) {
   const test::Folder folder;
   const std::string out = folder / "out";
   fs::create_directory(out);
@@ -231,7 +230,7 @@ TEST(RunFolderLock, AMarkerThatGoesUnderAnotherRunIsMadeAnew) {
         const RunFolder own(out);
         ++taken;
         without_marker += !fs::exists(out + "/navvy.run");
-      } catch (const InputError&) {  // the other one has it
+      } catch (const InputError&) {  // owned by the other one
       }
   };
   std::thread other(take);
@@ -246,8 +245,8 @@ TEST(CrashSummary, PutStatusAndMessageIntoTheLastSummary) {
   const test::Folder folder;
   CrashSummary words(folder / "reserve", folder / "summary.json");
   EXPECT_GE(fs::file_size(folder / "reserve"), 64u << 10);
-  EXPECT_FALSE(write_crash_summary("failed", "nothing was kept"))
-      << "and it may be asked once only";
+  EXPECT_FALSE(write_crash_summary("failed", "no summary was held"))
+      << "and it can be read only once";
   CrashSummary again(folder / "reserve2", folder / "summary.json");
   nlohmann::json summary{{"status", "running"}, {"steps", 7}, {"cycles", nlohmann::json::array()}};
   for (int i = 0; i < 5000; ++i)

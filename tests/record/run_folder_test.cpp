@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/record/run_1 is a folder that `navvy run` left when folders had format 1. It is kept as it
-// is, and every later version must read it: users' results outlive the program that made them.
+// tests/record/run_1 is a folder that `navvy run` wrote in format 1. It never changes, and every
+// later version must read it: results of users outlive the program that wrote them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string text_of(const std::string& file) {
   return std::string(bytes.begin(), bytes.end());
 }
 
-TEST(RunFolder, OfFormat1ReportsWhatMadeIt) {
+TEST(RunFolder, OfFormat1ReportsTheProgramThatWroteIt) {
   const RunInfo info = read_run_info(kKept);
   EXPECT_EQ(info.format, 1);
   EXPECT_EQ(info.version, "0.1.0");
@@ -37,7 +37,7 @@ TEST(RunFolder, OfFormat1ReportsWhatMadeIt) {
   EXPECT_FALSE(info.device.empty());
 }
 
-TEST(RunFolder, OfFormat1HoldsASceneThatIsReadWithEveryOverride) {
+TEST(RunFolder, OfFormat1HasASceneWithEveryOverride) {
   EXPECT_TRUE(scene_io::check(kKept + "/scene.sdf", control::step_kinds()).empty());
   const scene::Scene world = scene_io::load_scene(kKept + "/scene.sdf", control::step_kinds());
   EXPECT_EQ(world.name, "bucket_path");
@@ -53,7 +53,7 @@ TEST(RunFolder, OfFormat1HoldsASceneThatIsReadWithEveryOverride) {
   EXPECT_EQ(world.machines[0].program.steps.size(), 1u);
 }
 
-TEST(RunFolder, OfFormat1HoldsResultsThatScriptsKnow) {
+TEST(RunFolder, OfFormat1HasResultsThatScriptsRead) {
   const auto summary = nlohmann::json::parse(text_of("summary.json"));
   EXPECT_EQ(summary.at("schema_version"), 1);
   EXPECT_EQ(summary.at("status"), "finished");
@@ -81,7 +81,7 @@ TEST(RunFolder, OfALaterFormatIsRefusedAndNoFolderIsReported) {
   EXPECT_THROW(read_run_info(folder / "none"), FileError);
 }
 
-TEST(RunFolder, TextIsReadBackWhole) {
+TEST(RunFolder, TextIsReadBackUnchanged) {
   const test::Folder folder;
   const RunInfo info{
       kRunFormat, navvy_version(), {"navvy", "run", "a \"b\" c"}, "a.sdf", "some device"};

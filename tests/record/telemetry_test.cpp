@@ -22,9 +22,9 @@ TEST(Telemetry, StampsOfTwoStepsAreNeverTheSame) {
   EXPECT_EQ(time_stamp(10000.02), "10000.02");
 }
 
-/// A cycle of 20 s has 380 bytes in the summary, which is written whole: over a day some 10^5 times
-/// as often as that.
-TEST(Summary, IsRewrittenSoSeldomThatItsBytesGrowLikeTime) {
+/// A cycle of 20 s takes 380 bytes in the summary, which is rewritten as a whole: over a day some
+/// 10^5 times that.
+TEST(Summary, IsRewrittenSoRarelyThatItsBytesGrowLinearlyWithTime) {
   const auto written_by = [](double end) {
     double bytes = 0;
     for (double time = 0; time < end;) {
@@ -36,7 +36,7 @@ TEST(Summary, IsRewrittenSoSeldomThatItsBytesGrowLikeTime) {
   };
   EXPECT_LT(written_by(86400), 5000 * 86400 * 1.01);
   EXPECT_NEAR(written_by(2 * 86400) / written_by(86400), 2, 0.1);
-  // A short one is as fresh as before.
+  // A short one is updated as often as before.
   EXPECT_LT(rewrite_period(10000), 2.001);
 }
 

@@ -9,7 +9,7 @@
 namespace navvy::render {
 namespace {
 
-/// A cube turned outwards, its faces -1-ended, its points numbered from `first`.
+/// Adds a cube with outward faces, ended by -1, whose points are numbered from `first`.
 void add_cube(std::vector<Vec3f>& points, std::vector<std::int32_t>& indices, const Vec3f& at) {
   const auto first = static_cast<std::int32_t>(points.size());
   for (int k = 0; k < 8; ++k)
@@ -40,13 +40,13 @@ TEST_F(Solid, ACubeWithoutLidIsNot) {
   EXPECT_FALSE(is_solid(points_, indices_));
 }
 
-TEST_F(Solid, OneFaceTurnedRoundIsEnoughToOpenIt) {
+TEST_F(Solid, OneFlippedFaceOpensIt) {
   std::reverse(indices_.begin(), indices_.begin() + 4);
   EXPECT_FALSE(is_solid(points_, indices_));
 }
 
-TEST_F(Solid, APieceTurnedInwardsIsNotHiddenByALargerOne) {
-  // A small cube inside out beside a large one: the sum of volumes is positive all the same.
+TEST_F(Solid, DetectsAnInvertedPieceBesideALargerOne) {
+  // A small inverted cube beside a large one: the sum of volumes is still positive.
   for (Vec3f& p : points_) p *= 3;
   std::vector<Vec3f> small;
   std::vector<std::int32_t> inward;
@@ -58,7 +58,7 @@ TEST_F(Solid, APieceTurnedInwardsIsNotHiddenByALargerOne) {
   EXPECT_FALSE(is_solid(points_, indices_));
 }
 
-TEST_F(Solid, PointsAtOnePlaceCountAsOne) {
+TEST_F(Solid, CoincidentPointsCountAsOne) {
   std::vector<Vec3f> own;
   std::vector<std::int32_t> indices;
   for (const std::int32_t i : indices_) {

@@ -43,7 +43,7 @@ TEST_F(ImageTest, AFullDiskLeavesTheOldPicture) {
   const std::string path = folder_ + "/a.png";
   const Image old = gradient(8, 8), large = gradient(200, 200);
   write_png(path, old);
-  // A limit on the size of files stands for the full disk: write fails after the first bytes.
+  // A limit on the file size stands for the full disk: writing fails after the first bytes.
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);

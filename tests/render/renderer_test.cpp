@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of small scenes, looked at pixel by pixel. Everything here fails when Coin's fetched
-// functions go to another OpenGL than OSMesa (see src/render/gl_shim.cpp).
+// Pictures of small scenes, checked pixel by pixel. All of these fail if functions that Coin
+// fetches belong to an OpenGL other than OSMesa (see src/render/gl_shim.cpp).
 #include "render/renderer.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ scene::FrameCamera small_camera(const Vec3& eye, const Vec3& target) {
   return look_from(eye, target, kWidth, kHeight);
 }
 
-/// Column and row of a point of W in the picture of `camera`.
+/// Returns column and row of a point of W in the picture of `camera`.
 Vec2 project(const scene::FrameCamera& camera, const Vec3& p) {
   const Vec3 c = camera.X_WC.inverse() * p;
   const double scale = 0.5 * camera.width / std::tan(0.5 * camera.fov);
@@ -80,8 +80,8 @@ TEST_F(RendererTest, DrawsEveryColumnOfAHeightfield) {
   Renderer renderer(options);
   DepthImage depth;
   renderer.render(frame_, small_camera({0, 0, 8}, {0, 0, 0}), &depth);
-  // From 8 m above, 50 degrees see 7.5 m x 4.7 m of the 9.6 m square: ground in every pixel, 8 m
-  // away but for its unevenness of 0.02 m and the precision of a 24-bit depth buffer.
+  // From 8 m above, 50 degrees see 7.5 m x 4.7 m of the 9.6 m square: ground in every pixel, at 8 m
+  // except for its unevenness of 0.02 m and the precision of a 24-bit depth buffer.
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) ASSERT_NEAR(depth.at(x, y), 8.0, 0.05) << x << ", " << y;
   EXPECT_GE(renderer.stats().ground_triangles, 2000);
@@ -104,7 +104,7 @@ TEST_F(RendererTest, DugCellsChangePixelsWhereTheyAre) {
   const Vec2 corner = project(camera_, Vec3(-3, 3, 0));
   const int x = static_cast<int>(corner.x()), y = static_cast<int>(corner.y());
   ASSERT_TRUE(x >= 0 && y >= 0 && x < kWidth && y < kHeight);
-  EXPECT_EQ(before.pixel(x, y)[0], after.pixel(x, y)[0]) << "far from the cut nothing changes";
+  EXPECT_EQ(before.pixel(x, y)[0], after.pixel(x, y)[0]) << "pixels far from the cut are unchanged";
 }
 
 TEST_F(RendererTest, ADirtyRectangleGivesTheSamePictureAsAWholeUpdate) {
@@ -118,7 +118,7 @@ TEST_F(RendererTest, SeveralRectanglesGiveTheSamePictureAsAWholeUpdate) {
   Renderer updated;
   updated.render(frame_, camera_);
   scene::FrameGround& ground = frame_.ground;
-  // Two that share shadows, one far away, one column and one beyond the edge.
+  // Two that share shadows, one far away, one single column and one beyond the edge.
   ground.changed = {
       {40, 40, 50, 44}, {52, 41, 60, 47}, {5, 8, 9, 20}, {ground.nx - 3, 2, ground.nx - 2, 3}};
   for (const scene::FrameRect& rect : ground.changed)
@@ -177,19 +177,19 @@ TEST_F(RendererTest, TheContentOfABucketChangesPixels) {
   EXPECT_GT(changed_pixels(empty, full), 800);
 }
 
-TEST_F(RendererTest, NoLumpReachesThroughAPlate) {
+TEST_F(RendererTest, NoParticleReachesThroughAPlate) {
   scene::Visual plate = red_visual(scene::Geometry::Kind::kBox);
   plate.geometry.size = Vec3(0.02, 2, 2);
   frame_.shapes.push_back({&plate, make_pose(0, 0, 1.5)});
   const scene::FrameCamera from_behind = small_camera({-4, 0, 1.5}, {0, 0, 1.5});
   Renderer renderer;
   const Image bare = renderer.render(frame_, from_behind);
-  // Soil that lies against the plate's other face.
+  // Soil against the plate's other face.
   add_soil(frame_.particles, {0.03, -0.6, 1.0}, {0.3, 0.6, 2.0}, 0.1);
   EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20)
       << "lumps of full size would show";
   for (std::size_t i = 0; i < frame_.particles.position.size(); i += 3)
-    frame_.particles.room.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
+    frame_.particles.clearance.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
   EXPECT_EQ(changed_pixels(bare, renderer.render(frame_, from_behind)), 0);
 }
 
@@ -212,7 +212,7 @@ TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
           }
       ASSERT_GT(n, 300);
       const Vec2 expected = project(camera_, p);
-      // The middle of a body's outline differs from its projected centre by perspective: under 3
+      // The centre of a body's outline differs from its projected centre by perspective: under 3
       // pixels here.
       EXPECT_NEAR(sum_x / n, expected.x(), 3);
       EXPECT_NEAR(sum_y / n, expected.y(), 3);
@@ -221,7 +221,7 @@ TEST_F(RendererTest, BodiesAreDrawnAtTheirPose) {
 }
 
 TEST_F(RendererTest, CapsulesAndConesHaveTheirOutline) {
-  // From the side and from far off, so that perspective takes less than a pixel; widths of the
+  // From the side and from a distance, so that perspective takes less than a pixel; widths of the
   // picture's rows in metres.
   const Vec3 at(0, 0, 3);
   const scene::FrameCamera side = small_camera({0, -6, 3}, at);
@@ -247,8 +247,8 @@ TEST_F(RendererTest, CapsulesAndConesHaveTheirOutline) {
   for (const double z : {-0.45, 0.45}) EXPECT_EQ(width(Kind::kCone, z), 0) << z;
 }
 
-TEST_F(RendererTest, LargeMeshFilesAreDrawnWhole) {
-  // Coin hands meshes of this size to OpenGL in arrays, through functions it fetches by name.
+TEST_F(RendererTest, DrawsLargeMeshFilesCompletely) {
+  // Coin passes meshes of this size to OpenGL in arrays, through functions it fetches by name.
   const test::Folder folder;
   const std::string file = folder / "grid.obj";
   std::ofstream out(file);
@@ -338,7 +338,7 @@ TEST_F(RendererTest, RefusesImpossibleInput) {
   EXPECT_THROW(renderer.render(frame_, camera_), Error);
 }
 
-TEST_F(RendererTest, NotFiniteHeightsAndParticlesDoNoHarm) {
+TEST_F(RendererTest, ToleratesNonFiniteHeightsAndParticles) {
   frame_.ground.height[5000] = std::numeric_limits<float>::quiet_NaN();
   add_soil(frame_.particles, {0, 0, 0.5}, {0.3, 0.3, 0.8}, 0.1);
   frame_.particles.position[7] = std::numeric_limits<float>::infinity();
@@ -369,9 +369,9 @@ TEST_F(RendererTest, PrintsTheTimeOfALargeSite) {
       "1280 x 720 over 1024 x 1024 columns: %.1f ms a picture, %d ground triangles (wanted: 60 "
       "ms)\n",
       least, renderer.stats().ground_triangles);
-  // The budget holds but for skirts, walls and the surroundings.
+  // The budget holds except for skirts, walls and the surroundings.
   EXPECT_LT(renderer.stats().ground_triangles, 130000);
-  EXPECT_EQ(renderer.stats().tiles_rebuilt, 0) << "nothing changed, nothing is built again";
+  EXPECT_EQ(renderer.stats().tiles_rebuilt, 0) << "without a change no tile is rebuilt";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ std::size_t at(const scene::FrameGround& g, int ix, int iy) {
          static_cast<std::size_t>(ix);
 }
 
-/// Bucket of the picture in its link frame: inside corner points of the loose soil it holds.
+/// Fills the bucket with loose soil, given by inside corner points in its link frame.
 void fill_bucket(scene::FrameParticles& particles, const Pose& X_WBucket, double cell) {
   const double step = 0.5 * cell;
   std::uint32_t n = 1000000;
@@ -152,13 +152,13 @@ void add_machine(TrenchScene& scene, const std::string& dir, const MachinePose& 
   add_mesh(scene, dir + "/boom.obj", f.boom);
   add_mesh(scene, dir + "/stick.obj", f.stick);
   add_mesh(scene, dir + "/bucket.obj", f.bucket);
-  // Pins of the picture, near those of the machine's model.
+  // Pins in the picture, close to those of the machine's model.
   for (const double side : {0.34, -0.34})
     add_cylinder(scene, f.upper * Vec3(0.70, side, 0.20), f.boom * Vec3(2.20, side, 0.55), 0.075,
                  0.6);
   add_cylinder(scene, f.boom * Vec3(2.90, 0, 0.90), f.stick * Vec3(-0.68, 0, 0.17), 0.08, 0.6);
-  // Bucket linkage: where the rocker's circle about its pivot meets the coupler's about the pin on
-  // the bucket.
+  // Bucket linkage: intersection of the rocker's circle about its pivot with the coupler's about
+  // the pin on the bucket.
   const Vec3 pivot(2.084, 0, 0), pin = f.stick.inverse() * (f.bucket * Vec3(-0.2907, 0, 0.3294));
   const double reach = 0.697, coupler = 0.62, d = (pin - pivot).norm();
   const double along = (reach * reach - coupler * coupler + d * d) / (2 * d);
@@ -188,7 +188,7 @@ void make_trench_scene(TrenchScene& scene, const std::string& mesh_dir, int nx) 
   scene::FrameParticles& particles = scene.frame.particles;
   fill_bucket(particles, forward_kinematics(pose).bucket, 0.1);
   add_soil(particles, Vec3(5.2, -0.4, -0.95), Vec3(6.2, 0.4, -0.55), 0.1);
-  // A few lumps fall from the bucket.
+  // A few particles fall from the bucket.
   const Vec3 mouth = forward_kinematics(pose).bucket * Vec3(1.2, 0, -0.2);
   std::uint32_t n = 5000000;
   for (int i = 0; i < 260; ++i) {

@@ -43,7 +43,7 @@ TEST(Simulation, StepsSetsAndReadsWithoutAnOutputFolder) {
   EXPECT_FALSE(std::filesystem::exists("out"));
 }
 
-TEST(Simulation, ResetRepeatsTheRunBitForBit) {
+TEST(Simulation, ResetRepeatsTheRunBitIdentically) {
   Simulation simulation(bucket_scene(2));
   const std::string start = simulation.state_hash();
   dig(simulation, 300);
@@ -93,7 +93,7 @@ TEST(Simulation, SavesLoadsAndKeepsItsStateWhenALoadFails) {
   EXPECT_EQ(simulation.state_hash(), later);
 }
 
-TEST(Simulation, ChangedGivesRectanglesSinceTheLastCall) {
+TEST(Simulation, ChangedReturnsRectanglesSinceTheLastCall) {
   Simulation simulation(bucket_scene(2));
   const auto all = simulation.changed();
   ASSERT_EQ(all.size(), 1u);
@@ -144,7 +144,7 @@ TEST(Simulation, RunsToTheEndAndWritesItsFolder) {
   for (const char* file :
        {"out/telemetry.csv", "out/terrain_end.tif", "out/scene.sdf", "s.snapshot"})
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
-  // The folder is closed; the simulation goes on without it.
+  // The folder is closed; the simulation continues without it.
   simulation.reset();
   simulation.step();
   EXPECT_EQ(json_of(folder / "out/summary.json"), summary);
@@ -172,7 +172,7 @@ TEST(Simulation, HooksEndOrInterruptARun) {
   EXPECT_EQ(summary.at("message"), "SIGTEST");
 }
 
-/// Counts what it is called for; throws after some steps.
+/// Counts its callbacks; throws after some steps.
 class Counter final : public RunObserver {
  public:
   int fail_at = 1000, steps = 0, restarts = 0, closings = 0, finishes = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kernel of the soil on a handful of particles, small enough for a simulator of OpenCL
+// Runs every kernel of the soil on a handful of particles, few enough for a simulator of OpenCL
 // devices that checks each access (`./dev sanitize kernels`): `navvy_kernels [STEPS]` throws two
-// soils against a plate and prints what came of it; `navvy_kernels broken` reads one value behind a
-// buffer, to show that the simulator would say so.
+// soils against a plate and prints the result; `navvy_kernels broken` reads one value behind a
+// buffer, to verify that the simulator reports it.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -19,15 +19,15 @@ namespace {
 
 using namespace navvy;
 
-/// Two cells cubed of a soil that flies at the plate.
+/// Adds two cells cubed of a soil that flies at the plate.
 void throw_soil(lab::Site& site, const Vec3& low, double speed, int soil) {
   auto particles = site.fill({low, low + Vec3::Constant(2 * site.cell())}, {}, soil);
   for (soil::Particle& p : particles) p.v[0] = static_cast<float>(speed);
   site.solver().insert(particles);
 }
 
-/// A site of two metres with cells of 0.2 m. Soil that crosses its border in flight leaves it, so
-/// that particles are sorted both ways; soil that dilates asks for the longer law.
+/// Runs a site of two metres with cells of 0.2 m. Soil that crosses its border in flight leaves it,
+/// so that particles are sorted both ways; dilating soil uses the longer law.
 bool dig(int steps, bool dilating) {
   device::Device device;
   std::vector<scene::Soil> soils(2, lab::clean_sand(33));
@@ -48,7 +48,7 @@ bool dig(int steps, bool dilating) {
   const std::int64_t open = site.solver().ledger().error(),
                      left = site.solver().ledger().left_site.at(1);
   std::printf(
-      "%s: %d particles in %d blocks, %llu steps, %llu re-bins, %lld units left the site, books "
+      "%s: %d particles in %d blocks, %llu steps, %llu re-bins, %lld units left the site, ledger "
       "open by %lld, state "
       "%s\n",
       dilating ? "cohesive sand that dilates" : "sand", stats.particles, stats.blocks,

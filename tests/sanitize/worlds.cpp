@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds side by side, each in a thread of its own with a device of its own: `navvy_worlds SCENE
-// SECONDS [SCENE SECONDS]...` runs each for so long [s simulated] and prints its name, steps and
-// state hash. For builds under ThreadSanitizer and AddressSanitizer.
+// Runs worlds in parallel, each in its own thread with its own device: `navvy_worlds SCENE SECONDS
+// [SCENE SECONDS]...` runs each for this simulated time and prints its name, steps and state hash.
+// For builds under ThreadSanitizer and AddressSanitizer.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -21,22 +21,23 @@ using namespace navvy;
 struct Run {
   std::string file;
   double seconds = 0;
-  std::string told;  ///< its line
+  /// Line to print.
+  std::string line;
   bool failed = false;
 };
 
 void run(Run& one) {
   try {
-    // All of it in this thread: loading too must not know of the others.
+    // Everything happens in this thread: loading must be independent of the others, too.
     scene::Scene scene = scene_io::load_scene(one.file, control::step_kinds());
     const std::string name = scene.name;
     device::Device device("cpu");
     session::Session session(std::move(scene), device);
     while (session.world().time() < one.seconds && !session.done()) session.step();
-    one.told =
+    one.line =
         name + " " + std::to_string(session.world().steps()) + " steps " + session.state_hash();
   } catch (const std::exception& error) {
-    one.told = one.file + ": " + error.what();
+    one.line = one.file + ": " + error.what();
     one.failed = true;
   }
 }
@@ -57,7 +58,7 @@ int main(int argc, char** argv) {
   for (std::thread& thread : threads) thread.join();
   bool failed = false;
   for (const Run& one : runs) {
-    std::printf("%s\n", one.told.c_str());
+    std::printf("%s\n", one.line.c_str());
     failed = failed || one.failed;
   }
   return failed ? 1 : 0;

@@ -17,7 +17,7 @@ std::string messages(const Soil& soil) {
   return out;
 }
 
-TEST(SoilValues, TheDefaultSoilAndTheBoundsThemselvesAreAllowed) {
+TEST(SoilValues, AcceptsTheDefaultSoilAndTheBounds) {
   EXPECT_EQ(messages({}), "");
   Soil soil;
   const std::vector<SoilValue> values = soil_values(soil);
@@ -31,7 +31,7 @@ TEST(SoilValues, TheDefaultSoilAndTheBoundsThemselvesAreAllowed) {
     }
 }
 
-TEST(SoilValues, ReportsValuesOutsideByTheirSceneNameAndUnit) {
+TEST(SoilValues, ReportsValuesOutOfRangeWithSceneNameAndUnit) {
   Soil soil;
   soil.name = "mud";
   soil.friction_angle = radians(75);
@@ -47,7 +47,7 @@ TEST(SoilValues, ReportsValuesOutsideByTheirSceneNameAndUnit) {
       << all;
 }
 
-TEST(SoilValues, StiffnessFollowsTheCohesionWhereNoneIsGiven) {
+TEST(SoilValues, StiffnessFollowsTheCohesionByDefault) {
   EXPECT_EQ(Soil{}.young_modulus, default_stiffness(Soil{}.cohesion));
   EXPECT_EQ(default_stiffness(0), 1e6);
   EXPECT_EQ(default_stiffness(50e3), 10e6);
@@ -61,7 +61,7 @@ TEST(SoilValues, StiffnessFollowsTheCohesionWhereNoneIsGiven) {
   EXPECT_EQ(soil.young_modulus, 3e6) << "its own";
 }
 
-TEST(SoilValues, LooseCohesionFollowsTheResidualOneWhereNoneIsGiven) {
+TEST(SoilValues, LooseCohesionFollowsTheResidualOneByDefault) {
   EXPECT_EQ(Soil{}.loose_cohesion, default_loose_cohesion(Soil{}.residual_cohesion));
   Soil soil;
   soil.residual_cohesion = 1500;
@@ -73,7 +73,7 @@ TEST(SoilValues, LooseCohesionFollowsTheResidualOneWhereNoneIsGiven) {
   EXPECT_EQ(soil.loose_cohesion, 700) << "its own";
 }
 
-TEST(SoilValues, SoilTooSoftForItsCohesionGetsTheRequiredStiffnessAndItsCost) {
+TEST(SoilValues, ReportsRequiredStiffnessAndCostOfSoilTooSoftForItsCohesion) {
   Soil clay;
   clay.name = "clay";
   clay.cohesion = 50e3;

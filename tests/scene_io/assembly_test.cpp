@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models inside models: one machine, names with ::, poses through frames, faults with the part's
-// own line.
+// Models inside models: one machine, names with ::, poses through frames, faults with the line of
+// the part.
 #include "scene_io/assembly.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ std::string hinge(const std::string& name, const std::string& parent, const std:
          "</parent><child>" + child + "</child><axis><xyz>0 1 0</xyz></axis></joint>\n";
 }
 
-/// A cart: bed, axle 1 m behind it, a wheel on it, one mesh of its own folder.
+/// A cart: bed, axle 1 m behind it, a wheel on it, and one mesh in its folder.
 const std::string kCart =
     "<model name=\"cart\"><pose>9 9 9 0 0 0</pose>\n" + link("bed") +
     link("axle",
@@ -48,7 +48,7 @@ const std::string kCart =
     "<navvy:wheel><joint>spin</joint><radius_m>0.3</radius_m><width_m>0.2</width_m></navvy:wheel>\n"
     "</model>";
 
-/// A trailer hitched as the guide shows it: two parts and a joint.
+/// A trailer hitched as in the guide: two parts and a joint.
 const std::string kTrain =
     "<model name=\"train\">\n<include><uri>cart</uri><name>first</name></include>\n"
     "<include><uri>cart/model.sdf</uri><name>second</name><pose>-4 0 0 0 0 "
@@ -69,8 +69,8 @@ class Assembly : public testing::Test {
     std::ofstream(path) << text;
     return path.string();
   }
-  /// What reading the file told, or "".
-  std::string told(const std::string& file) const {
+  /// Returns the fault of reading the file, or "".
+  std::string fault_of(const std::string& file) const {
     try {
       load_machine(file);
     } catch (const InputError& error) {
@@ -91,20 +91,20 @@ TEST_F(Assembly, IsOneMachineWithNamesOfItsParts) {
   EXPECT_EQ(joints, (std::vector<std::string>{"first::spin", "hitch", "second::spin"}));
   ASSERT_EQ(train.wheels.size(), 2u);
   EXPECT_EQ(train.wheels[1].joint, "second::spin");
-  // Turned by half a turn 4 m behind: its axle lies 1 m ahead of its bed. The part's own place in a
-  // world counts not.
+  // Rotated by half a turn 4 m behind: its axle is 1 m ahead of its bed. The part's own pose in a
+  // world does not count.
   EXPECT_LT((train.links[1].X_ML.translation() - Vec3(-1, 0, 0.3)).norm(), 1e-12);
   EXPECT_LT((train.links[3].X_ML.translation() - Vec3(-3, 0, 0.3)).norm(), 1e-12);
-  // The joint's place goes through a frame of the part, the hitch's child is what the part's frame
-  // hangs on.
+  // The joint's pose goes through a frame of the part; the hitch's child is the link that carries
+  // the part's frame.
   EXPECT_LT((train.joints[2].X_LcJ.translation() - Vec3(0, 0.5, 0)).norm(), 1e-12);
   EXPECT_EQ(train.links[static_cast<std::size_t>(train.joints[1].child)].name, "second::bed");
-  // A mesh counts from the part's own file.
+  // Mesh paths are relative to the part's own file.
   EXPECT_EQ(train.links[3].visuals.at(0).geometry.mesh_file,
             std::filesystem::weakly_canonical(folder_ / "cart/axle.obj").string());
 }
 
-TEST_F(Assembly, OfAssembliesIsNamedThroughAllOfThem) {
+TEST_F(Assembly, NamesNestedPartsThroughAllLevels) {
   write("train.sdf", sdf(kTrain));
   const scene::Machine pair = load_machine(write(
       "pair.sdf",
@@ -117,8 +117,8 @@ TEST_F(Assembly, OfAssembliesIsNamedThroughAllOfThem) {
           "</model>")));
   const int block = pair.link_index("weight::block");
   ASSERT_GE(block, 0);
-  // The hub of the second cart: 3 m behind, 5 m aside, half a metre to its left, which is turned
-  // round; the block 1 m ahead in its turned frame.
+  // Hub of the second cart: 3 m behind, 5 m to the side, half a metre to its left, which is turned
+  // round; the block is 1 m ahead in its rotated frame.
   EXPECT_LT(
       (pair.links[static_cast<std::size_t>(block)].X_ML.translation() - Vec3(-4, 4.5, 0.3)).norm(),
       1e-9);
@@ -127,7 +127,7 @@ TEST_F(Assembly, OfAssembliesIsNamedThroughAllOfThem) {
       kPi / 6, 1e-12);
 }
 
-TEST_F(Assembly, ReadsTheSameFromASceneWrittenOut) {
+TEST_F(Assembly, ReadsTheSameFromAResolvedScene) {
   write("train.sdf", sdf(kTrain));
   const std::string world =
       "<world name=\"w\"><navvy:soil ref=\"loam\"/><navvy:ground><size_m>20 20</size_m>"
@@ -154,52 +154,53 @@ TEST_F(Assembly, ReadsTheSameFromASceneWrittenOut) {
 }
 
 TEST_F(Assembly, ReportsFileAndLineOfThePart) {
-  // Of what only the whole can find: a wheel on a joint that is none stands in the part's seventh
-  // line.
+  // A fault that only the assembled machine shows: a wheel on a missing joint, in the part's
+  // seventh line.
   std::string cart = kCart;
   cart.replace(cart.find("<joint>spin"), 11, "<joint>spun");
   write("bad/model.sdf", sdf(cart));
   write("bad/axle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const std::string words = told(
+  const std::string words = fault_of(
       write("whole.sdf", sdf("<model name=\"m\">\n<include><uri>bad</uri></include></model>")));
   EXPECT_NE(words.find("bad/model.sdf:8"), std::string::npos) << words;
   EXPECT_NE(words.find("spun"), std::string::npos) << words;
 }
 
-TEST_F(Assembly, RefusesWhatHasNoEndOrNoSense) {
+TEST_F(Assembly, RefusesRecursionAndNameClashes) {
   const auto including = [&](const std::string& what) {
     return sdf("<model name=\"m\">" + link("l") + "\n<include>" + what + "</include></model>");
   };
   write("self.sdf", including("<uri>self.sdf</uri>"));
-  EXPECT_NE(told(folder_ / "self.sdf").find("cannot be a part of itself"), std::string::npos);
+  EXPECT_NE(fault_of(folder_ / "self.sdf").find("cannot be a part of itself"), std::string::npos);
   write("a.sdf", including("<uri>b.sdf</uri>"));
   write("b.sdf", including("<uri>a.sdf</uri>"));
-  EXPECT_NE(told(folder_ / "a.sdf").find("b.sdf:4"), std::string::npos) << told(folder_ / "a.sdf");
-  EXPECT_NE(told(write("none.sdf", including(""))).find("needs <uri>"), std::string::npos);
-  EXPECT_NE(told(write("gone.sdf", including("<uri>gone</uri>"))).find("no such model"),
+  EXPECT_NE(fault_of(folder_ / "a.sdf").find("b.sdf:4"), std::string::npos)
+      << fault_of(folder_ / "a.sdf");
+  EXPECT_NE(fault_of(write("none.sdf", including(""))).find("needs <uri>"), std::string::npos);
+  EXPECT_NE(fault_of(write("gone.sdf", including("<uri>gone</uri>"))).find("no such model"),
             std::string::npos);
-  EXPECT_NE(
-      told(write("more.sdf", including("<uri>cart</uri><static>1</static>"))).find("has no place"),
-      std::string::npos);
-  // Twice under one name, and a link that a part's frame is called after.
+  EXPECT_NE(fault_of(write("more.sdf", including("<uri>cart</uri><static>1</static>")))
+                .find("has no place"),
+            std::string::npos);
+  // Two parts with one name, and a link with the name of a part's frame.
   const std::string twice =
-      told(write("twice.sdf", sdf("<model name=\"m\"><include><uri>cart</uri></include>\n"
-                                  "<include><uri>cart</uri></include></model>")));
+      fault_of(write("twice.sdf", sdf("<model name=\"m\"><include><uri>cart</uri></include>\n"
+                                      "<include><uri>cart</uri></include></model>")));
   EXPECT_NE(twice.find("cart"), std::string::npos) << twice;
-  // Ten of them inside each other.
+  // Ten parts nested in each other.
   for (int i = 0; i < 10; ++i)
     write("deep" + std::to_string(i) + ".sdf",
           including("<uri>deep" + std::to_string(i + 1) + ".sdf</uri>"));
   write("deep10.sdf", sdf("<model name=\"m\">" + link("l") + "</model>"));
-  EXPECT_NE(told(folder_ / "deep0.sdf").find("at most 8 deep"), std::string::npos)
-      << told(folder_ / "deep0.sdf");
+  EXPECT_NE(fault_of(folder_ / "deep0.sdf").find("at most 8 deep"), std::string::npos)
+      << fault_of(folder_ / "deep0.sdf");
 }
 
-TEST_F(Assembly, HasNoMoreLinksThanAMachineMay) {
+TEST_F(Assembly, IsLimitedInLinksLikeAMachine) {
   std::string many;
   for (int i = 0; i < 200; ++i) many += link("l" + std::to_string(i));
   write("many.sdf", sdf("<model name=\"many\">" + many + "</model>"));
-  const std::string words = told(write(
+  const std::string words = fault_of(write(
       "twice.sdf", sdf("<model name=\"m\"><include><uri>many.sdf</uri><name>a</name></include>"
                        "<include><uri>many.sdf</uri><name>b</name></include></model>")));
   EXPECT_NE(words.find("at most 300"), std::string::npos) << words.substr(0, 400);

@@ -116,7 +116,7 @@ class BrokenSceneTable {
   std::vector<BrokenScene> scenes_;
   std::map<std::string, std::string> bases_;
   int number_ = 0;
-  // The entry that is being read.
+  // State of the entry being read.
   bool is_base_ = false, has_added_ = false;
   std::string name_, text_, added_;
   std::map<std::string, std::string> edits_;

@@ -27,7 +27,7 @@ class BrokenScenes : public ::testing::Test {
     return check(folder_ / scene.file, control::step_kinds());
   }
 
-  /// Returns the entries that are scenes, without the parts that these include.
+  /// Returns the entries that are scenes, without the parts that they include.
   std::vector<test::BrokenScene> scenes() const {
     std::vector<test::BrokenScene> out;
     for (const test::BrokenScene& scene : table_.scenes())
@@ -59,7 +59,7 @@ TEST_F(BrokenScenes, EachIsRefusedWithFileLineElementValueAndRule) {
   }
 }
 
-TEST_F(BrokenScenes, AnErrorOfAnElementAlwaysKnowsItsLine) {
+TEST_F(BrokenScenes, AnErrorOfAnElementAlwaysHasItsLine) {
   for (const test::BrokenScene& scene : scenes())
     for (const Fault& fault : faults_of(scene))
       if (!fault.element.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collision shapes and masses that follow from the rest of a model, and planes that are the rock.
+// Collision shapes and masses derived from the rest of a model, and planes that stand for the rock.
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
@@ -11,7 +11,7 @@ namespace {
 
 using Kind = scene::Geometry::Kind;
 
-/// A scene on flat soil, its surface at 0.5 m, with these elements in the world.
+/// Returns a scene on flat soil, with its surface at 0.5 m and these elements in the world.
 scene::Scene scene_with(const std::string& elements, const std::string& ground = "") {
   return load_scene_from_string(
       "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil ref=\"loam\"/>"
@@ -32,7 +32,7 @@ const std::string kBody =
     visual("mast", "<capsule><radius>0.02</radius><length>0.3</length></capsule>") +
     visual("hat", "<cone><radius>0.1</radius><length>0.2</length></cone>");
 
-TEST(DerivedParts, CollideAsVisualsAndWeighByDensity) {
+TEST(DerivedParts, CollideLikeVisualsAndWeighByDensity) {
   const scene::Scene scene = scene_with(
       "<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>1000</navvy:density_kg_per_m3>" +
       visual("body", "<box><size>0.5 0.3 0.2</size></box>", "0 0 0.1 0 0 0") + "</link></model>");
@@ -63,7 +63,7 @@ TEST(DerivedParts, EveryShapeHasACollisionOfItsKind) {
   EXPECT_EQ(link.collisions[3].geometry.radius, 0.1);
 }
 
-TEST(DerivedParts, AGivenCollisionOrAWordAgainstItKeepsVisualsFromColliding) {
+TEST(DerivedParts, VisualsDoNotCollideIfACollisionIsGivenOrDisabled) {
   const std::string inertial =
       "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>";
   const scene::Scene given =
@@ -79,7 +79,7 @@ TEST(DerivedParts, AGivenCollisionOrAWordAgainstItKeepsVisualsFromColliding) {
   EXPECT_TRUE(none.machines.at(0).machine.derived.empty());
 }
 
-TEST(DerivedParts, ADensityOfAShapeGoesBeforeThatOfItsLink) {
+TEST(DerivedParts, ADensityOfAShapeOverridesThatOfItsLink) {
   const scene::Scene scene = scene_with(
       "<model name=\"r\"><link name=\"a\"><navvy:density_kg_per_m3>1000</navvy:density_kg_per_m3>"
       "<collision name=\"wood\"><geometry><box><size>1 1 1</size></box></geometry></collision>"
@@ -92,8 +92,7 @@ TEST(DerivedParts, ADensityOfAShapeGoesBeforeThatOfItsLink) {
   EXPECT_NEAR(link.inertia(1, 1), 4000.0 / 6 + 1000 * 0.75 * 0.75 + 3000 * 0.25 * 0.25, 1e-6);
 }
 
-// As Gazebo ships it, but for its texture; its numbers of friction are those of a pair that nobody
-// meant.
+// As shipped with Gazebo, but without its texture; its friction values are placeholders.
 const std::string kGroundPlane =
     "<model name=\"ground_plane\"><static>true</static><link name=\"link\"><collision "
     "name=\"collision\"><geometry>"
@@ -105,14 +104,14 @@ const std::string kGroundPlane =
     "100</size></plane></geometry></visual>"
     "</link></model>";
 
-TEST(GroundPlane, OfGazeboIsTheRockUnderTheSoil) {
+TEST(GroundPlane, OfGazeboBecomesTheRockUnderTheSoil) {
   const scene::Scene scene = scene_with(kGroundPlane);
   EXPECT_TRUE(scene.machines.at(0).machine.links.at(0).collisions.empty());
   ASSERT_TRUE(scene.ground.has_rock);
   EXPECT_EQ(heightfield::make_ground(scene).datum(), 0.0);
 }
 
-TEST(GroundPlane, AboveTheSoilItSaysWhatToWrite) {
+TEST(GroundPlane, AboveTheSoilReportsTheRemedy) {
   try {
     scene_with(kGroundPlane,
                "<trench><center_m>0 0</center_m><length_m>4</length_m><width_m>2</width_m>"

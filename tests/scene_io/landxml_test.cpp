@@ -13,7 +13,7 @@
 namespace navvy::scene_io {
 namespace {
 
-/// A file of one surface; `points` and `faces` begin on lines 8 and 10.
+/// Returns a file of one surface; `points` and `faces` begin on lines 8 and 10.
 std::string landxml(const std::string& units, const std::string& points, const std::string& faces,
                     const std::string& kind = "TIN") {
   return R"(<?xml version="1.0"?>
@@ -59,7 +59,7 @@ TEST(LandXml, IsReadAsEastingNorthingElevationWithoutInvisibleFaces) {
   EXPECT_EQ(out.tin->faces[0], (std::array<int, 3>{0, 1, 2}));
 }
 
-TEST(LandXml, ComesInMetresWhateverItCountsIn) {
+TEST(LandXml, ConvertsItsUnitToMetres) {
   const auto easting = [](const std::string& units) {
     const Read out = read(landxml("<Units>" + units + "</Units>", kFour, kFaces));
     return out.tin ? out.tin->points[2].x() : -1;
@@ -108,18 +108,18 @@ TEST(LandXml, ReportsAFaultyPointOnceAndNotByItsFaces) {
   const auto lines = [](const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
   };
-  // Of points 3 and 4 only the second is nowhere.
+  // Only the second of points 3 and 4 has no place.
   const std::string bad = faults("<P id=\"3\">1 2</P>", face);
   EXPECT_EQ(lines(bad), 2) << bad;
   EXPECT_NE(bad.find("'1 2'"), std::string::npos) << bad;
   EXPECT_EQ(bad.find("'3'"), std::string::npos) << bad;
   EXPECT_NE(bad.find("'4'"), std::string::npos) << bad;
-  // Any of them may be the one whose id is missing.
+  // Any of the points may be the one with the missing id.
   EXPECT_EQ(lines(faults("<P>1 2 3</P>", face)), 1) << faults("<P>1 2 3</P>", face);
   EXPECT_EQ(lines(faults("<P id=\"2\">1 2</P>", "<F>1 2 7</F>")), 1);
 }
 
-TEST(Design, OfASceneIsReadFromLandXmlBesideIt) {
+TEST(Design, OfASceneIsReadFromLandXmlInItsFolder) {
   const test::Folder folder;
   write_file_atomically(folder / "pit.xml", landxml(kMetres, kFour, kFaces));
   const auto load = [&](const std::string& design) {
@@ -130,7 +130,7 @@ TEST(Design, OfASceneIsReadFromLandXmlBesideIt) {
             design + "</navvy:design></world></sdf>");
     std::string resolved;
     const scene::Scene scene = load_scene(folder / "s.sdf", control::step_kinds(), {}, &resolved);
-    // Written out, it is found from anywhere, and known by its hash.
+    // In the resolved scene it is found from any folder and identified by its hash.
     if (!scene.design.file.empty())
       EXPECT_NE(resolved.find("<file>" + (folder / "pit.xml") + "</file>"), std::string::npos);
     return scene.design;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of somebody else's: what they may ask for is counted, and what is no plain file is refused
+// Files of unknown origin: their resources are counted, and anything but regular files is refused
 // by name.
 #include "core/limits.h"
 
@@ -36,7 +36,7 @@ std::string messages(const Faults& faults) {
   return all;
 }
 
-/// What reading a text has found and taken.
+/// Result of reading a text: faults and the scene.
 Faults read(const std::string& text, scene::Scene* world = nullptr) {
   Faults faults;
   const auto document = Document::parse(text, navvy::source_dir() + "/scenarios/mine.sdf", faults);
@@ -59,7 +59,7 @@ std::string include(int i) {
   return "<include><uri>model://ew180</uri><name>m" + n + "</name></include>";
 }
 
-TEST(Limits, FortyMachinesOfOneFileAreReadOnce) {
+TEST(Limits, ReadsAFileOfFortyMachinesOnce) {
   std::string machines;
   for (int i = 0; i < 40; ++i) machines += include(i);
   scene::Scene world;
@@ -72,7 +72,7 @@ TEST(Limits, FortyMachinesOfOneFileAreReadOnce) {
   EXPECT_EQ(faults.work.files, 2u) << "the machine's and the soil's";
 }
 
-TEST(Limits, AFaultInAFileThatManyUseIsReportedOnce) {
+TEST(Limits, AFaultInASharedFileIsReportedOnce) {
   const test::Folder folder;
   const std::string model = folder / "model.sdf";
   write_file_atomically(
@@ -92,8 +92,9 @@ TEST(Limits, TenThousandUnknownElementsAreReportedInAHundredLines) {
   EXPECT_NE(messages(faults).find("and 9900 more that are not shown"), std::string::npos);
 }
 
-/// Also on the disk, where reading ends at the limit: what to do is then not to look for the file.
-TEST(Limits, AFileThatIsTooLargeIsReportedWithWhatToDo) {
+/// Also for files on disk, where reading ends at the limit: the remedy must not be to search for
+/// the file.
+TEST(Limits, AFileThatIsTooLargeIsReportedWithARemedy) {
   const test::Folder folder;
   const std::string file = folder / "large.sdf";
   write_file_atomically(file, world_text(std::string(limits::kXmlBytes, ' ')));
@@ -107,7 +108,7 @@ TEST(Limits, AFileThatIsTooLargeIsReportedWithWhatToDo) {
   EXPECT_NE(missing[0].text().find("(check the path)"), std::string::npos) << missing[0].text();
 }
 
-TEST(Limits, EveryFaultIsCountedAlsoWhereFewAreReported) {
+TEST(Limits, CountsEveryFaultEvenIfFewAreReported) {
   const test::Folder folder;
   const std::string file = folder / "many.sdf";
   write_file_atomically(file, world_text(repeated("<thing/>\n", 10'000) +
@@ -136,13 +137,13 @@ TEST(Limits, BytesElementsNestingAttributesAndNamesOfAFileAreBounded) {
   EXPECT_TRUE(refused(
       world_text(repeated("<a>", limits::kXmlNesting) + repeated("</a>", limits::kXmlNesting)),
       "at most 64 elements inside each other"));
-  // The XML reader's own limit, before ours
+  // The XML reader's own limit applies before Navvy's.
   EXPECT_TRUE(refused(world_text(repeated("<a>", 50'000)), "DEPTH"));
   std::string attributes;
   for (std::size_t i = 0; i <= limits::kXmlAttributes; ++i)
     attributes += " a" + std::to_string(i) + "=\"\"";
   EXPECT_TRUE(refused(world_text("<light" + attributes + "/>"), "at most 32 attributes"));
-  // Before they are parsed, which would take hours: each is held against all others.
+  // Refused before parsing, which would take hours: each is compared with all others.
   std::string many;
   for (int i = 0; i < 1'000'000; ++i) many += " a" + std::to_string(i) + "='>'";
   EXPECT_TRUE(refused(world_text("<light" + many + "/>"), "at most 32 attributes"));
@@ -192,7 +193,8 @@ TEST(Limits, AnIncludedFileCountsAtEachUse) {
 
 TEST(Limits, AShellIsBoundedInTrianglesAndPieces) {
   const auto shell = [](const std::string& vertices, const std::string& triangles) {
-    return "<model name=\"m\"><navvy:physics>kinematic</navvy:physics><link name=\"b\"/><navvy:shell "
+    return "<model name=\"m\"><navvy:physics>kinematic</navvy:physics><link "
+           "name=\"b\"/><navvy:shell "
            "name=\"s\"><link>b</link>"
            "<vertices_m>" +
            vertices + "</vertices_m><triangles>" + triangles + "</triangles></navvy:shell></model>";
@@ -211,7 +213,7 @@ TEST(Limits, AShellIsBoundedInTrianglesAndPieces) {
   EXPECT_TRUE(refused(world_text(shell(vertices, triangles)), "a shell may have at most 5000"));
 }
 
-TEST(Limits, MeshesOfShapesAreReadOnceAndRefusedForWhatWouldEndARun) {
+TEST(Limits, MeshesOfShapesAreReadOnceAndCheckedBeforeARun) {
   const test::Folder folder;
   const std::string stands = "<static>1</static><link name=\"l\">";
   const std::string moves =
@@ -233,7 +235,7 @@ TEST(Limits, MeshesOfShapesAreReadOnceAndRefusedForWhatWouldEndARun) {
   const Faults drawn = read(world_text(model(stands, "visual", flat)));
   EXPECT_FALSE(drawn.has_errors()) << messages(drawn);
   EXPECT_EQ(drawn.work.meshes.size(), 1u);
-  // What moves collides by a hull, what stands by its triangles: one is enough.
+  // Moving bodies collide by a hull, static ones by their triangles; one triangle is enough.
   EXPECT_TRUE(refused(world_text(model(moves, "collision", flat)), "the mesh needs at least 4"));
   const Faults standing = read(world_text(model(stands, "collision", flat)));
   EXPECT_FALSE(standing.has_errors()) << messages(standing);
@@ -244,7 +246,7 @@ TEST(Limits, MeshesOfShapesAreReadOnceAndRefusedForWhatWouldEndARun) {
     many += "v 0 0 " + std::to_string(i) + "\n";
   write_file_atomically(flat, many);
   EXPECT_TRUE(refused(world_text(model(moves, "collision", flat)), "may have at most 50000"));
-  // Visuals collide where no collision is given.
+  // Visuals collide if no collision is given.
   EXPECT_TRUE(refused(world_text(model(moves, "visual", flat)), "or give the model a <collision>"));
 }
 
@@ -264,7 +266,7 @@ TEST(Limits, NamesThatWouldBreakAHeaderAreRefused) {
       refused(world_text("<model name=\"m\"><navvy:shell name=\"a,b\"/></model>"), "no comma"));
 }
 
-TEST(Limits, WhatIsNoUtf8IsRefusedWithItsLine) {
+TEST(Limits, RefusesInvalidUtf8WithItsLine) {
   EXPECT_TRUE(refused(world_text("\n<model name=\"caf\xE9\"/>"),
                       "mine.sdf:3: error: the file must be text in UTF-8"));
   EXPECT_TRUE(refused(world_text("<!-- caf\xE9 -->"), "UTF-8"));
@@ -276,7 +278,7 @@ TEST(Limits, WhatIsNoUtf8IsRefusedWithItsLine) {
                InputError);
 }
 
-TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
+TEST(Limits, RefusesPipesAndDevicesByNameForEveryPath) {
   const test::Folder folder;
   const std::string pipe = folder / "pipe.sdf", mesh = folder / "pipe.obj";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -302,7 +304,7 @@ TEST(Limits, PipesAndDevicesAreRefusedByNameWhereverAPathIsOpened) {
     EXPECT_TRUE(refused(world_text("<navvy:design><file>" + design + "</file></navvy:design>"),
                         "it is a pipe"));
   }
-  // A list of files that a run has left, changed by hand.
+  // A file list written by a run and edited by hand.
   Faults listed;
   const auto document =
       Document::parse(world_text("<navvy:resolved format=\"1\"><file hash=\"0\">" + mesh +

@@ -84,7 +84,7 @@ TEST(Loader, ReadsSoilsWithUnitsConvertedOnce) {
   EXPECT_EQ(world.soils[0].cohesion, 7000);
   EXPECT_EQ(world.soils[0].swell, 1.23);
   EXPECT_DOUBLE_EQ(world.soils[1].friction_angle, radians(35));
-  // A residual cohesion that nobody stated must not exceed the cohesion.
+  // An implied residual cohesion must not exceed the cohesion.
   EXPECT_EQ(world.soils[1].residual_cohesion, 0);
 }
 
@@ -142,7 +142,7 @@ TEST(Loader, ReadsCamerasLightAndSeed) {
   EXPECT_EQ(world.seed, 42u);
 }
 
-TEST(Loader, OrdersLinksBaseFirstAndJointsLikeTheLinksTheyMove) {
+TEST(Loader, OrdersLinksBaseFirstAndJointsByTheirChildLinks) {
   const char* text = R"(<sdf version="1.9" xmlns:navvy="navvy"><model name="m">
 <navvy:physics>kinematic</navvy:physics>
 <link name="tip"><pose relative_to="hinge">0 0 0 0 0 0</pose></link>
@@ -168,8 +168,7 @@ TEST(Loader, OrdersLinksBaseFirstAndJointsLikeTheLinksTheyMove) {
   EXPECT_EQ(machine.joints[1].upper, 2);
   EXPECT_EQ(machine.joints[1].effort, 50);
   EXPECT_EQ(machine.joints[0].effort, scene::Joint().effort);
-  // The arm lies at (1, 0, 2) turned left; its hinge is 3 m along it. 1e-9: rounding of the
-  // rotation.
+  // The arm is at (1, 0, 2) turned left; its hinge is 3 m along it. 1e-9: rounding of the rotation.
   EXPECT_LT((machine.links[2].X_ML.translation() - Vec3(1, 3, 2)).norm(), 1e-9);
 }
 
@@ -181,7 +180,7 @@ TEST(Loader, WarningsAreLoggedAndDoNotStopLoading) {
   EXPECT_NE(logged.find("warning: world/physics[p]: is ignored"), std::string::npos) << logged;
 }
 
-TEST(Loader, DigWidthIsTheBucketsUnlessStated) {
+TEST(Loader, DigWidthDefaultsToThatOfTheBucket) {
   const std::string digger =
       R"(<navvy:soil ref="loam"/><navvy:ground/><model name="d">
 <navvy:physics>kinematic</navvy:physics><link name="a"/><link name="b"/><link name="c"/><link name="e"/>
@@ -219,7 +218,7 @@ scene::Machine robot_with(const std::string& drive) {
   return world.machines.at(0).machine;
 }
 
-TEST(Loader, ADriveIsOfTheKindItsTypeNames) {
+TEST(Loader, ReadsTheKindOfADriveFromItsType) {
   const scene::Machine car =
       robot_with("<navvy:drive><max_steer_deg>20</max_steer_deg></navvy:drive>");
   EXPECT_EQ(std::get<scene::AckermannDrive>(car.drive).max_steer, radians(20));
@@ -249,7 +248,7 @@ TEST(Loader, ADriveMayHaveAnEngineWithGears) {
   EXPECT_EQ(engine->gears, (std::vector<double>{4, 2, 1}));
   EXPECT_EQ(engine->final_ratio, 12);
   EXPECT_EQ(engine->efficiency, 0.8);
-  EXPECT_EQ(scene::powertrain(car.drive).engine_power, 0) << "it shares nothing";
+  EXPECT_EQ(scene::powertrain(car.drive).engine_power, 0) << "it has no engine";
   const scene::Machine robot = robot_with(R"(<navvy:drive><engine><kind>speed_source</kind>
 <max_speed_rpm>3000</max_speed_rpm><max_torque_nm>2</max_torque_nm><gear_ratios>20</gear_ratios></engine></navvy:drive>)");
   EXPECT_EQ(scene::drive_engine(robot.drive)->kind, scene::CombustionEngine::Kind::kSpeedSource);
@@ -257,7 +256,7 @@ TEST(Loader, ADriveMayHaveAnEngineWithGears) {
   EXPECT_EQ(scene::drive_engine(robot_with("<navvy:drive/>").drive), nullptr);
 }
 
-TEST(Loader, AnEngineIsAParameterAndNoEngineIsNone) {
+TEST(Loader, AnEngineIsAParameterThatMayBeAbsent) {
   const auto of = [](const scene::Drive& drive) {
     scene::Scene world;
     world.machines.resize(1);
@@ -283,7 +282,7 @@ TEST(Loader, AnEngineIsAParameterAndNoEngineIsNone) {
   EXPECT_NE(of(other), of(geared));
 }
 
-/// A shell with this geometry on a link of its own.
+/// Returns a shell with this geometry on a separate link.
 scene::Shell shell_of(const std::string& geometry) {
   const scene::Scene world = load(R"(<navvy:soil ref="loam"/><navvy:ground/><model name="m">
 <navvy:physics>kinematic</navvy:physics><link name="a"/>
@@ -292,9 +291,9 @@ scene::Shell shell_of(const std::string& geometry) {
   return world.machines.at(0).machine.shells.at(0);
 }
 
-TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
-  // Quads, faces with texture and normal numbers, numbers from the end, comments and groups: what
-  // modellers export.
+TEST(Loader, AShellFromAnObjFileEqualsAnInlineShell) {
+  // Quads, faces with texture and normal numbers, negative indices, comments and groups: features
+  // that modellers export.
   const test::Folder folder;
   const std::string path = folder / "shell.obj";
   const std::string obj =
@@ -309,8 +308,8 @@ TEST(Loader, AShellFromAnObjFileIsTheOneWrittenInline) {
   ASSERT_EQ(mesh.triangles.size(), inline_shell.triangles.size());
   ASSERT_EQ(mesh.vertices.size(), inline_shell.vertices.size())
       << "corners that triangles share stay one";
-  // Which diagonal cuts a quad is the reader's choice: areas with their direction, above each level
-  // and in all.
+  // The diagonal of a quad is the reader's choice, so directed areas are compared, above each level
+  // and in total.
   const auto area = [](const scene::Shell& shell, double above) {
     Vec3 sum = Vec3::Zero();
     for (const auto& triangle : shell.triangles) {
@@ -351,7 +350,7 @@ TEST(Overrides, MoveMachinesAndChangeTheirPrograms) {
   EXPECT_EQ(longer.machines[0].program.steps[0].as<control::Wait>()->duration, 9);
 }
 
-TEST(Overrides, APoseWithAQuaternionKeepsItsTurn) {
+TEST(Overrides, APoseWithAQuaternionKeepsItsRotation) {
   std::string body = kBody;
   const std::string old = "<pose degrees=\"true\">1 2 0.5 0 0 90</pose>";
   // Turned by 90 deg about z, then pitched by none: the same pose as before.
@@ -369,7 +368,7 @@ TEST(Overrides, APoseWithAQuaternionKeepsItsTurn) {
   EXPECT_LT((turned.linear() * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 1e-12);
 }
 
-TEST(Overrides, AMachineIsMeantByItsWholeName) {
+TEST(Overrides, SelectAMachineByItsWholeName) {
   std::string body = kBody;
   const std::string named = "<uri>model://test_bucket</uri><name>second</name>";
   body.replace(body.find(named), named.size(), "<uri>model://test_bucket</uri>");
@@ -391,7 +390,7 @@ TEST(Loader, ADirectionsFaultIsReportedOnce) {
   }
 }
 
-TEST(Overrides, SeedDurationRenderTerrainAndSize) {
+TEST(Overrides, SetSeedDurationRenderTerrainAndSize) {
   Overrides overrides;
   overrides.seed = 7;
   overrides.duration = 12.5;
@@ -434,7 +433,7 @@ std::string logged_by(const Overrides& overrides) {
   return logged;
 }
 
-TEST(Overrides, WithoutEffectAreWarnings) {
+TEST(Overrides, WithoutEffectGiveWarnings) {
   EXPECT_EQ(logged_by(set("soil[fill].swell=1.3")), "");
   // Equal to the file's value, to that of the shipped soil, and to the default.
   for (const char* setting : {"soil[loam].cohesion_pa=7e3", "soil[loam].swell=1.23",
@@ -444,7 +443,7 @@ TEST(Overrides, WithoutEffectAreWarnings) {
         << setting;
   Overrides twice = set("solver.cell_m=0.1");
   twice.set.emplace_back("solver.cell_m", "0.15");
-  EXPECT_NE(logged_by(twice).find("a later setting gives the value"), std::string::npos);
+  EXPECT_NE(logged_by(twice).find("a later setting overrides the value"), std::string::npos);
   Overrides seed;
   seed.seed = 7;
   EXPECT_EQ(logged_by(seed), "") << "the second hills have no seed of their own";
@@ -460,7 +459,7 @@ TEST(Loader, ReadsElementsByTheirNamesOfEarlierReleases) {
   EXPECT_TRUE(load(body).machines.at(2).machine.kinematic);
 }
 
-TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {
+TEST(Overrides, NameTheCommandLineKeyAndTheNearestNameInFaults) {
   const std::string unknown = failure(kBody, set("soil.cohesion=8000"));
   EXPECT_NE(unknown.find("command line: error: world/navvy:soil[loam]/cohesion"), std::string::npos)
       << unknown;
@@ -474,7 +473,7 @@ TEST(Overrides, FaultsNameTheCommandLineKeyAndTheNearestName) {
   EXPECT_NE(failure(kBody, set("soil=1")).find("object.element=value"), std::string::npos);
   EXPECT_NE(failure(kBody, set("machine[first].x_m=900")).find("must stand on the site"),
             std::string::npos);
-  // It would stand in the scene that a run writes out, where no XML may hold it.
+  // It would be written into the resolved scene of a run, where XML cannot hold it.
   EXPECT_NE(failure(kBody, set("machine[first].z_m=1\v")).find("no control characters"),
             std::string::npos);
   EXPECT_THROW(parse_setting("soil.swell"), InputError);

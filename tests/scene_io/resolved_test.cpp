@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene written out as one text reads as the same scene.
+// A scene resolved into one text reads as the same scene.
 #include "scene_io/resolved.h"
 #include "control/step_kinds.h"
 
@@ -19,7 +19,7 @@ namespace navvy::scene_io {
 namespace {
 
 const std::string kShipped = navvy::source_dir() + "/scenarios";
-/// No file of this folder exists: nothing in the text may count from where it lies.
+/// This folder contains no files: the text must not depend on its own place.
 const std::string kElsewhere = "/no_such_folder/scene.sdf";
 
 void expect_equal(const scene::Machine& a, const scene::Machine& b) {
@@ -122,12 +122,12 @@ TEST(Resolved, TextHoldsEveryOverride) {
   EXPECT_EQ(resolved.seed, 77u);
   EXPECT_EQ(resolved.recording.duration, 12.5);
   EXPECT_EQ(resolved.soils[0].cohesion, 3000);
-  // Not stated by anyone: it followed the cohesion down.
+  // Not stated: it followed the cohesion.
   EXPECT_EQ(resolved.soils[0].residual_cohesion, world.soils[0].residual_cohesion);
   EXPECT_EQ(resolved.machines[0].X_WM.translation().x(), -8.5);
 }
 
-TEST(Resolved, ATableOfMaterialsIsWrittenOut) {
+TEST(Resolved, IncludesTheTableOfMaterials) {
   const std::string scene =
       R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="w"><navvy:soil ref="loam"/><navvy:ground/>
 <navvy:materials><file>materials.sdf</file><ground>earth</ground>
@@ -144,7 +144,7 @@ TEST(Resolved, ATableOfMaterialsIsWrittenOut) {
   EXPECT_GT(again.materials.pairs.size(), 5u);
 }
 
-TEST(Resolved, AMapOfTheCommandLineIsNamedWhereverTheTextLies) {
+TEST(Resolved, NamesAMapOfTheCommandLineIndependentlyOfItsPlace) {
   const test::Folder folder;
   write_file_atomically(folder / "map.asc", std::string("not read before the ground is laid"));
   Overrides overrides;

@@ -36,7 +36,7 @@ TEST(Schema, EveryFieldHasASentenceAndAnUnambiguousName) {
 
 TEST(Schema, DefaultsAreWithinTheirRanges) {
   visit(Schema(control::step_kinds()).root(), [](const SchemaNode& node) {
-    // Zero stands for "not given" where the range excludes it.
+    // Zero stands for "not given" if the range excludes it.
     if (node.type != "number" || node.initial.empty() || node.initial == "0") return;
     const double value = std::stod(node.initial);
     EXPECT_GE(value, node.range.min) << node.name;
@@ -55,7 +55,7 @@ TEST(Schema, ReadersFindPlacesListsAndReferences) {
   EXPECT_FALSE(schema().refers_to_part("soil"));
 }
 
-TEST(Schema, PrintsPartsForPeopleAndPrograms) {
+TEST(Schema, PrintsPartsAsTextAndJson) {
   const Schema all(control::step_kinds());
   ASSERT_NE(all.find("soil"), nullptr);
   const std::string text = schema_text(*all.find("soil"));

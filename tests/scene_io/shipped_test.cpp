@@ -95,7 +95,7 @@ TEST(ShippedFiles, TheTestBucketIsAConsistentlyWoundShell) {
     for (int i = 0; i < 3; ++i)
       ++uses[{t[static_cast<std::size_t>(i)], t[static_cast<std::size_t>((i + 1) % 3)]}];
   for (const auto& [edge, count] : uses) EXPECT_EQ(count, 1) << edge.first << "-" << edge.second;
-  // Normals point inside: towards the middle of the box that the shell fills.
+  // Normals point inwards: towards the middle of the box that the shell fills.
   for (const auto& t : shell.triangles) {
     const Vec3 a = shell.vertices[static_cast<std::size_t>(t[0])],
                b = shell.vertices[static_cast<std::size_t>(t[1])],
@@ -104,8 +104,8 @@ TEST(ShippedFiles, TheTestBucketIsAConsistentlyWoundShell) {
   }
 }
 
-// The listings of the pages that are whole files are loaded as they stand there.
-TEST(ShippedFiles, TheListingsOfThePagesLoad) {
+// Listings in the documentation that are whole files are loaded as printed.
+TEST(ShippedFiles, ListingsOfTheDocumentationLoad) {
   const std::string directory = navvy::build_dir() + "/tutorial";
   fs::create_directories(directory);
   int count = 0;

@@ -6,9 +6,9 @@
 namespace navvy::session {
 namespace {
 
-TEST(BucketGauge, TakesAForceApartByTheMotionOfTheEdge) {
-  // The link turns about its origin at 1 rad/s, the cutting edge 1.5 m ahead of it: it moves
-  // straight down.
+TEST(BucketGauge, SplitsAForceByTheMotionOfTheEdge) {
+  // The link turns about its origin at 1 rad/s with the cutting edge 1.5 m ahead of it, which
+  // therefore moves straight down.
   vehicle::LinkState link;
   link.w_WL = Vec3(0, 1, 0);
   const Vec3 p_tip(1.5, 0, 0);
@@ -23,7 +23,7 @@ TEST(BucketGauge, TakesAForceApartByTheMotionOfTheEdge) {
   EXPECT_DOUBLE_EQ(carried.uplift, 0);
 }
 
-TEST(BucketGauge, GivesNoDraftToAnEdgeAtRest) {
+TEST(BucketGauge, HasNoDraftAtAnEdgeAtRest) {
   vehicle::LinkState link;
   link.v_WL = Vec3(0.04, 0, 0);
   const BucketLoad load = load_of(Vec3(-1000, 0, 0), link, Vec3(1.5, 0, 0));
@@ -32,7 +32,7 @@ TEST(BucketGauge, GivesNoDraftToAnEdgeAtRest) {
 }
 
 TEST(BucketGauge, TurnsTheEdgeWithItsLink) {
-  // Upright link: its x axis points up, so that a turn about y moves the edge along W's x.
+  // Upright link: its x axis points up, so that a rotation about y moves the edge along W's x.
   vehicle::LinkState link;
   link.X_WL.linear() << 0, 0, -1, 0, 1, 0, 1, 0, 0;
   link.w_WL = Vec3(0, 2, 0);

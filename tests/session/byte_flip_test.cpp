@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real world saves nothing that its hash does not see: bytes of its snapshot are flipped one
-// after the other, and each time the load is refused, or the hash changes, or the byte belongs to a
-// field that says why it is not hashed.
+// A real world saves only state that its hash covers: bytes of its snapshot are flipped one by one,
+// and each time the load is refused, or the hash changes, or the byte belongs to a field that gives
+// a reason for not being hashed.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -25,7 +25,7 @@ using Texts = std::set<std::string>;
 
 class ByteFlip : public testing::Test {
  protected:
-  /// The scene with a sensor on its first machine, at `time` [s].
+  /// Makes the scene with a sensor on its first machine, at `time` [s].
   std::unique_ptr<Session> make(const std::string& scene, const std::vector<std::string>& settings,
                                 double time) {
     scene_io::Overrides overrides;
@@ -42,8 +42,8 @@ class ByteFlip : public testing::Test {
     return session;
   }
 
-  /// What the fields that are saved and not hashed say for it; constants, which loading compares,
-  /// do not count.
+  /// Reasons of the fields that are saved but not hashed; constants, which loading compares, do not
+  /// count.
   static Texts reasons(const Session& session) {
     ByteMap map;
     saved(session, &map);
@@ -56,21 +56,21 @@ class ByteFlip : public testing::Test {
   device::Device device_;
 };
 
-/// Of runs of more than 256 bytes one byte in so many: a load takes a millisecond, so that every
-/// byte of these 540 kB would take ten minutes. A prime shares no factor with the size of any
-/// element, and so comes to all bytes of them.
+/// One byte in so many in runs of more than 256 bytes: a load takes a millisecond, so that every
+/// byte of these 540 kB would take ten minutes. A prime has no common factor with the size of any
+/// element, and therefore reaches all of their bytes.
 constexpr std::size_t kStride = 401;
 
-/// Of shorter fields the first byte and every seventh after it: the lowest and the highest of a
-/// number of eight bytes. What is hashed is hashed whole; a field that was forgotten shows at its
+/// In shorter fields the first byte and every seventh after it: the lowest and the highest of a
+/// number of eight bytes. A hashed field is hashed as a whole, so a forgotten one shows at its
 /// first byte.
 constexpr std::size_t kShortStride = 7;
 
-/// Whoever adds a field to this list has thought about why a run does not depend on it.
+/// Add a field to this list only after checking that no run depends on it.
 const Texts kReasons = {"counts for people, no step reads them"};
 
-// Cells of 0.2 m: three thousand particles while the bucket goes through the soil.
-TEST_F(ByteFlip, OfADiggingBucketIsSeen) {
+// Cells of 0.2 m: three thousand particles while the bucket moves through the soil.
+TEST_F(ByteFlip, OfADiggingBucketIsDetected) {
   const std::vector<std::string> coarse = {"solver.cell_m=0.2"};
   const auto session = make("bucket_path.sdf", coarse, 1.5);
   ASSERT_GT(session->world().soil().counts().particles, 50);
@@ -80,7 +80,7 @@ TEST_F(ByteFlip, OfADiggingBucketIsSeen) {
 }
 
 // An excavator of rigid bodies on tyres, before it digs: Bullet's state, drive, ruts, operator.
-TEST_F(ByteFlip, OfAnExcavatorOnItsWheelsIsSeen) {
+TEST_F(ByteFlip, OfAnExcavatorOnItsWheelsIsDetected) {
   const auto session = make("trench.sdf", {}, 0.5), target = make("trench.sdf", {}, 0);
   EXPECT_EQ(test::flip_every_byte(*session, *target, kStride, kShortStride), "");
   // A brake that is off is not hashed; a set one is, by its held position.

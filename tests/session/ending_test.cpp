@@ -54,11 +54,11 @@ TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
   const ProgramReport report = session.programs().at(0);
   EXPECT_EQ(report.machine, 1);
   EXPECT_EQ(report.steps, 2);
-  ASSERT_EQ(report.list.size(), 1u) << "it does not tip its bed somewhere on the way";
+  ASSERT_EQ(report.list.size(), 1u) << "it does not tip its bed on the way";
   EXPECT_EQ(report.last().state, StepState::kBlocked);
   EXPECT_NE(report.last().reason.find("something holds it"), std::string::npos)
       << report.last().reason;
-  // Where it stands, and 5 s after it came to a stand.
+  // Its final position, and 5 s after it stopped.
   EXPECT_LT(report.last().place.x(), 3);
   EXPECT_GT(report.last().place.x(), -5);
   EXPECT_LT(report.last().end, 14);
@@ -67,7 +67,7 @@ TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
 }
 
 TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
-  // Across a slope of 30 deg the tyres' compliance does the rest; straight up it stands.
+  // Across a slope of 30 deg the tyres' compliance tips it; straight up it stands.
   device::Device device;
   const auto make = [&] {
     return std::make_unique<Session>(
@@ -90,9 +90,9 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
       << across.last().reason;
   EXPECT_EQ(upwards.last().state, StepState::kDone) << upwards.last().reason;
   EXPECT_GT(upwards.last().end, across.last().end);
-  // It was no false alarm: what was called tipped has gone on to lie on its side.
+  // No false alarm: the machine reported as tipped has rolled onto its side.
   EXPECT_GT(session->world().machines().at("across").stability().tilt, radians(40));
-  // The report outlives a snapshot.
+  // The report survives a snapshot.
   const auto resumed = make();
   load_saved(bytes, *resumed);
   while (!resumed->done()) resumed->step();
@@ -101,8 +101,8 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
 }
 
 TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
-  // One was never driven, one is taken by inputs: both roll over across 30 deg, a third one stands
-  // by.
+  // One was never driven, one is controlled by inputs: both roll over across 30 deg, while a third
+  // one stays upright.
   device::Device device;
   const auto make = [&] {
     return std::make_unique<Session>(
@@ -121,7 +121,7 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
   EXPECT_TRUE(session->fell_short());
   EXPECT_FALSE(session->complete());
   const std::vector<ProgramReport> reports = session->programs();
-  ASSERT_EQ(reports.size(), 2u) << "who stands and has no program has nothing to report";
+  ASSERT_EQ(reports.size(), 2u) << "an upright machine without a program has no report";
   for (const ProgramReport& report : reports) {
     EXPECT_EQ(report.last().state, StepState::kTipped);
     EXPECT_EQ(report.last().step, 0);
@@ -138,7 +138,7 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
   EXPECT_EQ(reports[1].last().element, "inputs");
   EXPECT_EQ(session->phase(0), "tipped");
   EXPECT_EQ(session->phase(2), "idle");
-  // How they stand are outputs.
+  // Tilt and state are outputs.
   EXPECT_GT(session->world().outputs().get("parked/stability/tilt"), radians(40));
   EXPECT_GT(session->world().outputs().get("upwards/stability/margin"), 0.1);
   EXPECT_NEAR(session->world().outputs().get("upwards/stability/tilt"), radians(30), radians(4));
@@ -177,7 +177,7 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   EXPECT_NE(logged()[0].find("size_m"), std::string::npos) << logged()[0];
 }
 
-TEST(SessionEnd, WithoutSettlingComesAfterTheProgramAndNotBeforeIt) {
+TEST(SessionEnd, WithoutSettlingIsRightAfterTheProgram) {
   device::Device device;
   scene::Scene scene =
       load("<size_m>16 8</size_m>",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A loaded dumper drives, tips, draws away and lowers its bed: the small sibling of
+// A loaded dumper drives, tips, moves away and lowers its bed: short version of
 // scenarios/load_truck.sdf.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLoad = 2000;  // [kg]
 
-/// haul.sdf with a shorter way, a lighter load and coarser soil.
+/// Returns haul.sdf with a shorter path, a lighter load and coarser soil.
 scene::Scene short_haul() {
   scene_io::Overrides overrides;
   overrides.render = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What maps show of a dig that is stopped in the middle, against the books.
+// Maps of a dig that is stopped in the middle agree with the ledger.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ double kilograms_of(const std::vector<std::int64_t>& masses) {
   return kilograms(std::accumulate(masses.begin(), masses.end(), std::int64_t{0}));
 }
 
-/// Volume of the columns' layers against the start, from masses and density states alone [m3].
+/// Volume change of the columns' layers, from masses and density states only [m3].
 double column_volume_change(const sim::World& world) {
   const heightfield::Ground& ground = world.ground();
   double sum = 0;
@@ -61,7 +61,7 @@ MapVolume volume_of(const heightfield::TerrainView& terrain) {
   return out;
 }
 
-/// Heights of the map against those of columns and the mass of what lies on each.
+/// Compares heights of the map with those of columns and the mass that rests on each.
 void expect_columns_and_what_lies(const heightfield::Terrain& map,
                                   const heightfield::Terrain& columns,
                                   const std::vector<heightfield::LooseGrain>& grains,
@@ -81,31 +81,31 @@ void expect_columns_and_what_lies(const heightfield::Terrain& map,
       squares += over * over;
       highest = std::max(highest, over);
     }
-  // Gates of a quarter of a cell; sums of floats in another order differ by far less.
+  // Tolerances of a quarter of a cell; sums of floats in another order differ by far less.
   EXPECT_LT(std::sqrt(squares / static_cast<double>(lying.size())), 0.25 * columns.cell());
   EXPECT_LT(highest, 1e-4) << "higher than its soil [m]";
 }
 
-TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
+TEST(MapVolume, OfADigStoppedAtTenTimesAgreesWithTheLedger) {
   device::Device device;
   Session session(sim::testing::load("bucket_path.sdf"), device);
   const sim::World& world = session.world();
   const scene::Soil& loam = world.description().soils[0];
-  double deepest_columns = 0;  // what a map of columns alone showed more than was dug [m3]
-  // On the ground, in it, dragging, curling, lifting, holding, over the heap, tipping, after it, at
-  // rest.
+  double deepest_columns = 0;  // excess of a map of columns over the dug volume [m3]
+  // Above the ground, in it, dragging, curling, lifting, holding, over the heap, tipping, after it,
+  // at rest.
   for (const double stop : {0.6, 1.5, 2.5, 3.5, 4.5, 6.0, 8.0, 11.0, 11.4, 13.0}) {
     SCOPED_TRACE(stop);
     while (world.time() < stop) session.step();
     const sim::MassLedger ledger = world.soil().mass_ledger();
     const sim::ActivePlaces active = sim::active_places(world);
-    // Every unit of mass is in one of the books.
+    // Every unit of mass is accounted for.
     EXPECT_EQ(ledger.error, 0);
     for (std::size_t i = 0; i < ledger.particles.size(); ++i)
       EXPECT_EQ(active.resting[i] + active.held[i] + active.elsewhere[i], ledger.particles[i]);
     const double held = kilograms_of(active.held), elsewhere = kilograms_of(active.elsewhere),
                  lies = kilograms_of(active.resting);
-    // The same question asked in another way.
+    // The same quantity from another query.
     EXPECT_NEAR(held, world.machines().at(0).tool(0).payload(), 1e-9);
 
     const heightfield::TerrainView map =
@@ -115,30 +115,29 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
     for (const heightfield::LooseGrain& grain : active.lying.grains())
       lying_volume +=
           kilograms(grain.mass) * static_cast<double>(grain.specific_volume) / loam.bank_density;
-    // Floats of the map round each of 4000 columns to 0.1 um: less than a litre's thousandth.
+    // Floats of the map round each of 4000 columns to 0.1 um: less than a thousandth of a litre.
     EXPECT_NEAR(shown.fill - shown.cut, column_volume_change(world) + lying_volume, 1e-6);
-    // Column by column: the map stands over the columns by the soil that lies there, and by nothing
-    // that hangs over it.
+    // Column by column: the map is above the columns by the soil that rests there, and not by soil
+    // in the air.
     expect_columns_and_what_lies(map, world.ground(), active.lying.grains(), loam.bank_density);
-    // In mass: the columns lack what lies on them, what is carried and what flies, and nothing
-    // else.
+    // In mass: the columns lack exactly the soil that rests on them, is carried, or is in the air.
     EXPECT_NEAR(
         kilograms_of(ledger.columns) + lies + held + elsewhere + kilograms_of(ledger.left_site), 0,
         1e-9);
-    // Soil that lies is neither denser than pressed soil nor looser than swell allows.
+    // Resting soil is neither denser than compacted soil nor looser than swell allows.
     EXPECT_GE(lying_volume, 0.88 * lies / loam.bank_density);
     EXPECT_LE(lying_volume, 1.001 * loam.swell * lies / loam.bank_density);
 
     const record::Earthwork earth = record::measure_earthwork(world, active.lying);
     EXPECT_GE(earth.loose_volume, 0);
     EXPECT_GE(earth.bank_volume, 0);
-    // A twentieth of a cell a column is left out of the sums of earthwork: at most so much of what
-    // moved.
+    // A twentieth of a cell per column is omitted from the sums of earthwork: at most this share of
+    // the moved soil.
     const double moved = earth.soils[0].dug - earth.soils[0].spoil;
     const double left_out = 0.05 * world.ground().cell() * shown.active_area * loam.bank_density;
     EXPECT_NEAR(moved, held + elsewhere, left_out + 1);
-    // The cut on the map is the soil that is gone from there, swollen at most; columns alone show a
-    // pit full of soil.
+    // The cut on the map is the soil that was removed, swollen at most; columns alone show a pit
+    // full of soil.
     EXPECT_LE(shown.cut, earth.bank_volume + left_out / loam.bank_density);
     const MapVolume columns =
         volume_of(sim::terrain_view(world, heightfield::SurfaceKind::kColumns));
@@ -149,7 +148,7 @@ TEST(MapVolume, OfADigStoppedAtTenMomentsIsTheLedgers) {
                   shown.cut, columns.cut, earth.bank_volume, lies, held, elsewhere);
     std::printf("[ VALUE    ] cut [m3] at %.1f s: %s\n", stop, text);
   }
-  // Or the test would prove nothing.
+  // Otherwise the test would prove nothing.
   EXPECT_GT(deepest_columns, 0.5);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers and a patch of a third soil in one scene, dug through by one scoop: every soil keeps books
-// of its own.
+// Layers and a patch of a third soil in one scene, dug through by one scoop: every soil has its own
+// ledger.
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
@@ -22,8 +22,8 @@ void replace(std::string& text, const std::string& what, const std::string& with
   text.replace(at, what.size(), with);
 }
 
-/// bucket_path.sdf on topsoil over loam, with a patch of sand under the second half of the scoop
-/// and half its width.
+/// Returns bucket_path.sdf on topsoil over loam, with a patch of sand under the second half of the
+/// scoop and half its width.
 scene::Scene patched_scene() {
   const std::string path = navvy::source_dir() + "/scenarios/bucket_path.sdf";
   const std::vector<char> file = read_file(path);
@@ -39,11 +39,11 @@ scene::Scene patched_scene() {
   return scene_io::load_scene_from_string(text, path, control::step_kinds(), overrides);
 }
 
-TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnLedger) {
+TEST(SessionWithPatches, HasALedgerPerSoilOfLayersAndPatch) {
   device::Device device;
   Session session(patched_scene(), device);
   const sim::World& world = session.world();
-  std::vector<double> active(3, 0.0);  // most at once [kg]
+  std::vector<double> active(3, 0.0);  // largest active mass [kg]
   while (!session.done()) {
     session.step();
     const sim::MassLedger ledger = world.soil().mass_ledger();
@@ -56,13 +56,13 @@ TEST(SessionOfPatches, LayersAndAPatchAreDugEachWithItsOwnLedger) {
   const record::Earthwork earth = record::measure_earthwork(world, sim::active_places(world).lying);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = world.description().soils.at(i).name;
-    const double kept = earth.soils.at(i).spoil / earth.soils[i].dug;
-    print_value(name + ": dug [kg]", earth.soils[i].dug, "> 50", "books per soil");
-    print_value(name + ": spoil / dug", kept, "1 +-1 %", "books per soil");
+    const double ratio = earth.soils.at(i).spoil / earth.soils[i].dug;
+    print_value(name + ": dug [kg]", earth.soils[i].dug, "> 50", "ledger per soil");
+    print_value(name + ": spoil / dug", ratio, "1 +-1 %", "ledger per soil");
     EXPECT_GT(active[i], 0) << name;
-    // Of about 700 kg in all: the scoop went through each
+    // The total is about 700 kg: the scoop cut through each.
     EXPECT_GT(earth.soils[i].dug, 50) << name;
-    EXPECT_NEAR(kept, 1, 0.01) << name;  // particles that fell back into the cut are neither
+    EXPECT_NEAR(ratio, 1, 0.01) << name;  // particles that fell back into the cut are neither
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole worlds for a few seconds: repeatable, resumable, hash of everything, forces that come from
-// soil.
+// Whole worlds for a few seconds: repeatability, resuming, hashes of the whole state, forces that
+// come from soil.
 #include "session/session.h"
 #include "control/activities/dig/dig.h"
 #include "control/step_kinds.h"
@@ -58,7 +58,7 @@ TEST_F(SessionTest, TheSameRunTwiceEndsInTheSameState) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
+TEST_F(SessionTest, ASnapshotInMidRunResumesToTheSameState) {
   const scene::Scene description = load("bucket_path.sdf");
   const auto whole = make(description);
   run_to(*whole, 1.3);
@@ -73,7 +73,7 @@ TEST_F(SessionTest, ASnapshotInMidRunGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
-TEST_F(SessionTest, AParticleBudgetShrinksActivationAndNeitherDropsSoilNorStretchesTheStep) {
+TEST_F(SessionTest, AParticleBudgetOnlyReducesActivation) {
   const auto run = [&](const std::string& budget) {
     auto session = make(load("bucket_path.sdf", {"solver.max_particles=" + budget}));
     run_to(*session, 2.2);
@@ -110,7 +110,7 @@ TEST_F(SessionTest, ABlockThatStartsActiveCollapsesIntoAHeap) {
   EXPECT_EQ(session->world().soil().mass_ledger().error, 0);
 }
 
-TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
+TEST_F(SessionTest, ASnapshotOfAWheeledMachineResumesToTheSameState) {
   const scene::Scene description = load("trench.sdf");
   const auto whole = make(description);
   run_to(*whole, 0.8);
@@ -122,7 +122,7 @@ TEST_F(SessionTest, AMachinesSnapshotOnItsWheelsGoesOnToTheSameState) {
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
 }
 
-TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
+TEST_F(SessionTest, ARefusedCommandDoesNotStopTheProgram) {
   const scene::Scene description = load("two_excavators.sdf");
   const auto session = make(description);
   run_to(*session, 0.2);
@@ -142,8 +142,9 @@ TEST_F(SessionTest, ARefusedCommandLeavesTheProgramAlone) {
   EXPECT_EQ(session->phase(0), phase);
 }
 
-TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
-  // Both excavators drive and dig; the first one is stopped on its way and keeps the pose it had.
+TEST_F(SessionTest, AnInputEndsOnlyTheProgramOfItsMachine) {
+  // Both excavators drive and dig; the first one is stopped during the drive and keeps the pose it
+  // had.
   const scene::Scene description = load("two_excavators.sdf");
   const auto session = make(description);
   const sim::World& world = session->world();
@@ -170,7 +171,7 @@ TEST_F(SessionTest, AnInputTakesItsMachineFromItsProgramAndNoOther) {
   EXPECT_EQ(resumed->state_hash(), session->state_hash());
 }
 
-TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
+TEST_F(SessionTest, ACommandByHandleEndsTheProgramAndARefusedInputDoesNot) {
   const auto session = make(load("bucket_path.sdf"));
   session->step();
   EXPECT_THROW(session->set("bucket/slide_x/velocity", std::nan("")), InputError);
@@ -185,7 +186,7 @@ TEST_F(SessionTest, ACommandByHandleTakesItsMachineAndARefusedInputDoesNot) {
   EXPECT_NEAR(slide.position() - start, 0.5 * (session->world().time() - begun), 1e-9);
 }
 
-TEST_F(SessionTest, ASensorIsAddedByTheInterfaceOfSimAndKeptInSnapshots) {
+TEST_F(SessionTest, ASensorIsAddedThroughSimAndSavedInSnapshots) {
   const scene::Scene description = load("bucket_path.sdf");
   const auto with_grid = [&] {
     auto session = make(description);
@@ -217,7 +218,7 @@ TEST_F(SessionTest, TheGroundOfASnapshotIsReadWithoutASession) {
   EXPECT_GT(ground.touched_tiles(), 0u);
 }
 
-TEST_F(SessionTest, ADriveCommandGivenByChannelsOutlivesASnapshot) {
+TEST_F(SessionTest, ADriveCommandByChannelsIsRestoredFromASnapshot) {
   scene::Scene description = load("trench.sdf");
   description.machines[0].program.steps.clear();
   const auto first = make(description);
@@ -246,7 +247,7 @@ TEST_F(SessionTest, ForceComesFromSoilAndOnlyFromSoil) {
   EXPECT_GT(in_soil, 500);
 }
 
-TEST_F(SessionTest, FourTimesTheCohesionNeedsMoreForce) {
+TEST_F(SessionTest, FourTimesTheCohesionRequiresMoreForce) {
   double mean[2];
   const char* cohesion[] = {"soil.cohesion_pa=5000", "soil.cohesion_pa=20000"};
   for (int i = 0; i < 2; ++i) {
@@ -275,7 +276,7 @@ TEST_F(SessionTest, TwoExcavatorsStandInOneWorld) {
     double load = 0;
     for (int w = 0; w < 4; ++w)
       load += session->world().machines().at(m).wheel(w).state().force_W.z();
-    // 18 t standing still; the springs still ring a little.
+    // 18 t at rest; the springs still oscillate a little.
     EXPECT_NEAR(load, 18000 * kGravity, 0.15 * 18000 * kGravity) << "machine " << m;
   }
 }
@@ -296,7 +297,7 @@ TEST_F(SessionTest, AnUnreachableTrenchIsReportedBeforeTheRun) {
   }
 }
 
-TEST_F(SessionTest, ChannelsAreNamedAndAWrongNameGetsTheNearest) {
+TEST_F(SessionTest, ListsChannelsAndSuggestsTheNearestForAWrongName) {
   const auto session = make(load("trench.sdf"));
   const sim::World& world = session->world();
   EXPECT_NO_THROW(session->set("excavator/boom_joint/position", 0.5));

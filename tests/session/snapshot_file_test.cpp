@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snapshots as files: damaged ones, those of another scene, and those that somebody made up.
+// Snapshots as files: damaged ones, those of another scene, and crafted ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class SnapshotFile : public testing::Test {
     std::ofstream(path_, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
-  /// Why `session` does not take the file; empty when it does.
+  /// Returns why `session` refuses the file; empty if it accepts it.
   std::string refusal(Session& session, bool anyway = false) const {
     try {
       session.load(path_, anyway);
@@ -61,8 +61,8 @@ class SnapshotFile : public testing::Test {
 
 const std::vector<std::string> kCoarse = {"solver.cell_m=0.2"};
 
-TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
-  // With the bucket in the soil.
+TEST_F(SnapshotFile, RefusesTenThousandDamagedFiles) {
+  // At a time when the bucket is in the soil.
   const auto session = make("bucket_path.sdf", kCoarse, 1.5);
   ASSERT_GT(session->world().soil().counts().particles, 0u);
   session->save(path_);
@@ -79,8 +79,8 @@ TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
       bytes.resize(any(bytes.size()));
       ++cuts;
     } else if (i % 5 == 4) {
-      // Two runs of bytes change places.
-      while (bytes == whole) {  // equal bytes in each other's place are no damage
+      // Swaps two runs of bytes.
+      while (bytes == whole) {  // swapping equal bytes is no damage
         const std::size_t size = 1 + any(64), from = any(bytes.size() - size),
                           to = any(bytes.size() - size);
         std::swap_ranges(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(from, to)),
@@ -100,13 +100,13 @@ TEST_F(SnapshotFile, TenThousandDamagesAreAllRefused) {
   EXPECT_EQ(flips + cuts + swaps, 10000);
   std::printf("%zu bytes: %d flipped bits, %d cuts, %d swaps, all refused\n", whole.size(), flips,
               cuts, swaps);
-  // Refused before it touched anything: the run could go on.
+  // Refused before anything was modified: the run can continue.
   EXPECT_EQ(session->state_hash(), hash);
   put(whole);
   EXPECT_EQ(refusal(*session), "");
 }
 
-TEST_F(SnapshotFile, OfAnotherCohesionMassOrPlaceIsRefusedAndSaysWhatDiffers) {
+TEST_F(SnapshotFile, OfAnotherCohesionMassOrPlaceIsRefusedWithTheDifference) {
   const auto session = make("bucket_path.sdf", kCoarse, 0.05);
   session->save(path_);
   const std::vector<std::pair<std::string, std::string>> changes = {
@@ -135,7 +135,7 @@ TEST_F(SnapshotFile, HashesCoverTheWholeStartingGroundAndEveryParameter) {
   std::sort(hashes.begin(), hashes.end());
   EXPECT_EQ(std::adjacent_find(hashes.begin(), hashes.end()), hashes.end())
       << "before the first step";
-  // Hills that nothing has touched yet.
+  // Untouched hills.
   const auto hills = [&](std::uint64_t seed) {
     scene_io::Overrides overrides;
     overrides.set = {scene_io::parse_setting(kCoarse[0])};
@@ -153,7 +153,7 @@ TEST_F(SnapshotFile, HashesCoverTheWholeStartingGroundAndEveryParameter) {
   EXPECT_EQ(hills(1), hills(1));
 }
 
-/// What a field of this size may be made to say: as integers and as floating-point numbers.
+/// Extreme values for a field of this size, as integers and as floating-point numbers.
 std::vector<std::vector<char>> extremes(std::size_t size) {
   std::vector<std::vector<char>> out;
   const auto add = [&](const auto& value) {
@@ -175,9 +175,9 @@ std::vector<std::vector<char>> extremes(std::size_t size) {
   return out;
 }
 
-// Every field of a state in turn says something that no run ever wrote, with a checksum that fits:
-// it is refused by its name, or the run stops with a message, or goes on for three steps; the
-// program survives.
+// Every field of a state in turn gets a value that no run wrote, with a matching checksum: it is
+// refused by name, or the run stops with a message, or it continues for three steps; the program
+// survives.
 TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
   int met = 0, tried = 0, refused = 0, stopped = 0;
   for (const char* name : {"bucket_path.sdf", "trench.sdf"}) {
@@ -189,8 +189,7 @@ TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
     const std::vector<char> bytes = saved(*session, &map);
     std::string last;
     for (const ByteMap::Field& field : map.fields) {
-      // Of lists of many alike the first few elements stand for all: names differ in their numbers
-      // only.
+      // The first few elements of a list stand for all: names differ only in their numbers.
       std::string kind;
       for (const char c : field.path)
         if (c < '0' || c > '9') kind += c;
@@ -202,7 +201,7 @@ TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
         for (const std::vector<char>& extreme : extremes(width))
           for (const std::size_t at : {std::size_t{0}, field.size / 2 / width * width}) {
             if (at != 0 && field.size <= 8) continue;
-            // All of them take half a minute; every third still reaches every kind of field.
+            // All of them take half a minute; every third still covers every kind of field.
             if (++met % 3 != 0) continue;
             std::vector<char> crafted = bytes;
             std::copy(extreme.begin(), extreme.end(),
@@ -220,7 +219,7 @@ TEST_F(SnapshotFile, CraftedValuesAreRefusedOrSurvived) {
           }
       }
     }
-    // It is none the worse for all that.
+    // The session is still intact.
     load_saved(bytes, *target);
     EXPECT_EQ(target->state_hash(), session->state_hash()) << name;
   }

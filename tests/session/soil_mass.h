@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the soil of a world lies, for tests of what machines carry.
+// Distribution of soil in a world, for tests of the load of machines.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace navvy::session::testing {
 
-/// Soil that came to the rectangle [low, high] of W since the start [kg]: gain of its columns and
-/// the particles over them.
+/// Returns the soil gained by the rectangle [low, high] of W since the start [kg]: in its columns
+/// and the particles above them.
 inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& high) {
   const heightfield::Ground& ground = world.ground();
   const Vec2i from = ground.column_at(low.x(), low.y()), to = ground.column_at(high.x(), high.y());
@@ -29,7 +29,7 @@ inline double mass_gained(const sim::World& world, const Vec2& low, const Vec2& 
   return kilograms(sum);
 }
 
-/// Soil in the shell `name` of machine `m` [kg].
+/// Returns the soil in the shell `name` of machine `m` [kg].
 inline double carried(const sim::World& world, int m, const std::string& name) {
   return world.machines().at(m).tool(name).payload();
 }

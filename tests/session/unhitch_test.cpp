@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program lets a trailer go; so does an input, which leaves the program to go on.
+// A program releases a trailer; so does an input, which does not end the program.
 #include <gtest/gtest.h>
 
 #include "control/step_kinds.h"
@@ -23,7 +23,7 @@ Vec3 place(const sim::World& world, const char* machine) {
   return world.machines().at(machine).link(0).pose().translation();
 }
 
-TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
+TEST(Unhitch, TheTrailerStaysWhereItsProgramReleasesIt) {
   device::Device device;
   Session session(unhitch(), device);
   const sim::World& world = session.world();
@@ -36,8 +36,8 @@ TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
     apart = std::max(apart, world.outputs().get("trailer/hitch/apart"));
   }
   EXPECT_TRUE(session.complete());
-  // It was drawn to the place and rolled on by the length of its drawbar at most; the robot came
-  // back.
+  // It was drawn to the place and rolled on by at most the length of its drawbar; the robot
+  // returned.
   EXPECT_GT(left.x(), 0.5);
   EXPECT_LT((place(world, "trailer") - left).head<2>().norm(), 0.5);
   EXPECT_LT((place(world, "robot") - Vec3(-2.5, 2.5, 0)).head<2>().norm(), 0.3);
@@ -46,7 +46,7 @@ TEST(Unhitch, TheTrailerStaysWhereItsProgramLetsItGo) {
   EXPECT_EQ(world.soil().mass_ledger().error, 0);
 }
 
-TEST(Unhitch, AnInputLetsGoAndLeavesTheProgramToGoOn) {
+TEST(Unhitch, AnInputReleasesTheTrailerAndTheProgramContinues) {
   device::Device device;
   Session session(unhitch(), device);
   for (int i = 0; i < 300; ++i) session.step();
@@ -54,7 +54,7 @@ TEST(Unhitch, AnInputLetsGoAndLeavesTheProgramToGoOn) {
   EXPECT_EQ(session.world().outputs().get("trailer/hitch/closed"), 0);
   while (!session.done()) session.step();
   EXPECT_TRUE(session.complete());
-  // Out of reach by now: refused, and nothing changes.
+  // Out of reach now: refused without effect.
   EXPECT_THROW(session.set("trailer/hitch/closed", 1), InputError);
   EXPECT_EQ(session.world().outputs().get("trailer/hitch/closed"), 0);
 }

@@ -11,7 +11,7 @@
 namespace navvy::sim {
 namespace {
 
-/// A site of 24 by 24 m with active soil above `bottom` in a square of this width.
+/// Returns a site of 24 by 24 m with active soil above `bottom` in a square of this width.
 scene::Scene active_square(double width, double bottom, int budget) {
   const std::string w = std::to_string(width);
   return scene_io::load_scene_from_string(
@@ -28,7 +28,7 @@ void check(const scene::Scene& scene) {
   check_active(scene, heightfield::make_ground(scene, nullptr));
 }
 
-TEST(LimitsOfActiveSoil, ABoxThatHoldsMoreThanTheBudgetIsRefusedByName) {
+TEST(LimitsOfActiveSoil, RefuseABoxAboveTheBudgetByName) {
   // 10 m by 10 m by 1 m in cells of 0.1 m: 100 000 cells of eight particles.
   EXPECT_NO_THROW(check(active_square(10, -1, 801'000)));
   try {
@@ -41,7 +41,7 @@ TEST(LimitsOfActiveSoil, ABoxThatHoldsMoreThanTheBudgetIsRefusedByName) {
   }
 }
 
-TEST(LimitsOfActiveSoil, ABoxAboveTheGroundHoldsNothing) {
+TEST(LimitsOfActiveSoil, IgnoreABoxAboveTheGround) {
   EXPECT_NO_THROW(check(active_square(2, 5, 1000)));
 }
 

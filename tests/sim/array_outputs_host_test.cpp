@@ -46,7 +46,7 @@ TEST(ArrayOutputs, RefuseEmptyShapesAndNamesInUse) {
   EXPECT_THROW(outputs.add(image()), InputError);
 }
 
-TEST(ArrayOutputs, HashAndSnapshotHoldEverythingAReaderSees) {
+TEST(ArrayOutputs, HashAndSaveEverythingVisibleToReaders) {
   ArrayOutputs outputs, copy;
   const int i = outputs.add(image());
   copy.add(image());
@@ -61,7 +61,7 @@ TEST(ArrayOutputs, HashAndSnapshotHoldEverythingAReaderSees) {
   EXPECT_EQ(test::flip_every_byte(outputs, copy), "");
 }
 
-TEST(ArrayOutputs, LoadOnlyWhatFitsThem) {
+TEST(ArrayOutputs, LoadOnlyMatchingArrays) {
   ArrayOutputs outputs, larger, renamed, none;
   outputs.add(image());
   ArrayChannel channel = image();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller reaches by name: the same for a robot moved by kinematics and by forces, and
-// levers and links of an excavator.
+// Channels of a controller: the same for a robot moved by kinematics and by forces, and levers and
+// links of an excavator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,13 +30,13 @@ class ControllerChannels : public ::testing::Test {
   device::Device device_;
 };
 
-TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
+TEST_F(ControllerChannels, HaveTheSameNamesInBothEngines) {
   World exact(testing::load("paper/diff_kinematic.sdf"), device_),
       rolling(testing::load("paper/diff_physics.sdf"), device_);
   EXPECT_TRUE(exact.description().machines[0].machine.kinematic);
   EXPECT_FALSE(rolling.description().machines[0].machine.kinematic);
-  // But for the six numbers, which forces do not take, and for what tells that a machine with
-  // masses tips over.
+  // Except for the six numbers, which the dynamic engine does not accept, and for the tipping state
+  // of a machine with masses.
   const auto without = [](std::vector<std::string> list, const std::string& part,
                           std::size_t count) {
     const auto holds = [&](const std::string& name) {
@@ -52,9 +52,9 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
   for (World* world : {&exact, &rolling}) {
     world->inputs().set("robot/spin_left/velocity", 4);
     world->inputs().set("robot/spin_right/velocity", 4);
-    // No more than half of the register: 0.43 of a turn.
+    // At most half of the register: 0.43 of a turn.
     while (world->time() < 0.7) world->step();
-    // 4 rad/s of 0.7 s, and up to 0.15 s of a motor's start.
+    // 4 rad/s for 0.7 s, and up to 0.15 s for a motor's start.
     EXPECT_NEAR(world->outputs().get("robot/pose/x"), -3.5 + 0.1 * 4 * 0.7, 0.1 * 4 * 0.16);
     const double turns = world->outputs().get("robot/spin_left/position") / (2 * kPi);
     EXPECT_EQ(world->outputs().get("robot/spin_left/counts"),
@@ -67,8 +67,8 @@ TEST_F(ControllerChannels, OfBothEnginesHaveTheSameNames) {
 
 TEST_F(ControllerChannels, AKinematicMachineFollowsItsCommandAndPushesSoil) {
   scene::Scene scene = testing::load("bucket_path.sdf");
-  // Let go of the world, its slides as they are: the whole machine comes down into the soil and
-  // goes ahead.
+  // Freed from the world with fixed slides: the whole machine is lowered into the soil and moves
+  // ahead.
   scene.machines[0].machine.fixed_base = false;
   World world(scene, device_);
   const double before = world.outputs().get("bucket/pose/z");
@@ -90,7 +90,7 @@ TEST_F(ControllerChannels, AKinematicMachineFollowsItsCommandAndPushesSoil) {
   EXPECT_THROW(world.commands().set(world.machines().at("bucket"), far), InputError);
 }
 
-/// A block of 0.6 x 0.6 x 0.4 m by its visual alone.
+/// Returns a block of 0.6 x 0.6 x 0.4 m, defined only by its visual.
 std::string block(const std::string& name, const std::string& x, const std::string& about) {
   return "<model name=\"" + name + "\"><pose>" + x + " 0 0.2 0 0 0</pose>" + about +
          "<link name=\"block\"><navvy:density_kg_per_m3>2600</navvy:density_kg_per_m3><visual "
@@ -144,7 +144,7 @@ TEST_F(ControllerChannels, EncodersAndTheirFaultsAreInHashAndSnapshot) {
   EXPECT_EQ(whole.outputs().get("robot/pose/x"), other.outputs().get("robot/pose/x"));
 }
 
-TEST_F(ControllerChannels, OfAPowerTrainReportShaftsAndAcceptGears) {
+TEST_F(ControllerChannels, ReportShaftsAndAcceptGearsOfAPowerTrain) {
   World world(testing::load("paper/power_train.sdf"), device_);
   world.inputs().set("truck/drive/speed", 2);
   world.inputs().set("truck/drive/gear", 1);
@@ -170,7 +170,7 @@ TEST_F(ControllerChannels, OfAPowerTrainReportShaftsAndAcceptGears) {
       InputError);
 }
 
-TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
+TEST_F(ControllerChannels, LeversMoveTheArmByTheMachinesControlPattern) {
   for (const bool sae : {false, true}) {
     SCOPED_TRACE(sae ? "SAE" : "ISO");
     scene::Scene scene = testing::load("trench.sdf");
@@ -183,7 +183,7 @@ TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
     world.inputs().set("excavator/levers/right_y", 0.04);  // within the dead band
     world.inputs().set("excavator/levers/left_x", -1);     // to the left
     for (int i = 0; i < 200; ++i) world.step();
-    // ISO draws the stick in, SAE lifts the boom; the other one is held.
+    // ISO retracts the stick, SAE raises the boom; the other one is held.
     if (sae) EXPECT_GT(rate("boom_joint"), 0.05);
     if (!sae) EXPECT_LT(rate("arm_joint"), -0.05);
     EXPECT_NEAR(rate(sae ? "arm_joint" : "boom_joint"), 0, 0.02);
@@ -191,7 +191,7 @@ TEST_F(ControllerChannels, LeversMoveTheArmInThePatternOfTheMachine) {
   }
 }
 
-TEST_F(ControllerChannels, BrakesHoldJointsUntilTheyAreLetGo) {
+TEST_F(ControllerChannels, BrakesHoldJointsUntilReleased) {
   World world(testing::load("trench.sdf"), device_);
   const auto get = [&](const char* name) {
     return world.outputs().get(std::string("excavator/") + name);
@@ -202,7 +202,7 @@ TEST_F(ControllerChannels, BrakesHoldJointsUntilTheyAreLetGo) {
   for (int i = 0; i < 200; ++i) world.step();
   EXPECT_EQ(get("swing_joint/brake"), 1);
   EXPECT_NEAR(get("swing_joint/position"), 0, 1e-3);
-  world.inputs().set("excavator/drive/speed", 0.5);  // the lock is no matter of the drive
+  world.inputs().set("excavator/drive/speed", 0.5);  // the lock does not affect the drive
   for (int i = 0; i < 200; ++i) world.step();
   EXPECT_EQ(get("front_axle_oscillation/brake"), 1);
   world.inputs().set("excavator/swing_joint/brake", 0);
@@ -213,14 +213,14 @@ TEST_F(ControllerChannels, BrakesHoldJointsUntilTheyAreLetGo) {
   EXPECT_THROW(
       world.commands().set_brake(world.machines().at("excavator").joint("boom_joint"), true),
       InputError);
-  // Of the same machine: how near it is to tipping.
+  // Tipping state of the same machine.
   EXPECT_GT(get("stability/tipping_load"), 500);
   // It drives and swings: inertia counts.
   EXPECT_GT(get("stability/loaded_margin"), 0.3);
   EXPECT_LT(get("stability/loaded_margin"), 1.3);
 }
 
-TEST_F(ControllerChannels, OfACrawlerAreThoseOfADifferentialDrive) {
+TEST_F(ControllerChannels, OfACrawlerEqualThoseOfADifferentialDrive) {
   World world(testing::load("paper/tracks.sdf"), device_);
   World wheeled(testing::load("paper/diff_physics.sdf"), device_);
   for (const char* name : {"drive/speed", "drive/steer", "drive/brake"}) {
@@ -237,7 +237,7 @@ TEST_F(ControllerChannels, OfACrawlerAreThoseOfADifferentialDrive) {
   EXPECT_GT(world.outputs().get("crawler/drive_right/spin"), 0);
   EXPECT_GT(world.outputs().get("crawler/pose/yaw"), 0.05);
   EXPECT_GT(world.outputs().get("crawler/drive_left/load"), 50e3);
-  // As one number: ruts, shear and tracks are part of the state.
+  // One hash covers ruts, shear and tracks, which are part of the state.
   World other(testing::load("paper/tracks.sdf"), device_);
   load_saved(saved(world), other);
   EXPECT_EQ(hash_of(other).digest(), hash_of(world).digest());
@@ -246,7 +246,7 @@ TEST_F(ControllerChannels, OfACrawlerAreThoseOfADifferentialDrive) {
   EXPECT_EQ(hash_of(other).digest(), hash_of(world).digest());
 }
 
-TEST_F(ControllerChannels, AnyLinkIsWatchedByItsName) {
+TEST_F(ControllerChannels, WatchAnyLinkByItsName) {
   World world(testing::load("trench.sdf"), device_);
   const std::size_t before = world.outputs().size();
   world.watch("excavator/stick");

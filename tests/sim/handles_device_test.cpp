@@ -18,7 +18,7 @@ namespace {
 std::atomic<std::uint64_t> allocations{0};
 }  // namespace
 
-// Every allocation of this program is counted: handles promise to make none.
+// Counts every allocation of this program: handles must not allocate.
 void* operator new(std::size_t size) {
   ++allocations;
   if (void* p = std::malloc(size > 0 ? size : 1)) return p;
@@ -67,7 +67,7 @@ TEST_F(Handles, DescribeTheirChannels) {
   EXPECT_EQ(bucket.rock_force().z(), world.outputs().get("excavator/bucket/rock_force_z"));
   EXPECT_EQ(bucket.payload(), world.outputs().get("excavator/bucket/payload"));
   EXPECT_EQ(machine.pump().flow, world.outputs().get("excavator/pump/flow"));
-  // And what the engine itself says, of a link that is not the base.
+  // The engine's own result, for a link that is not the base.
   const LinkHandle stick = machine.link("stick");
   const vehicle::LinkState state = parts(world).coupling.engine(0).link(
       parts(world).coupling.index(0), machine.description().link_index("stick"));
@@ -78,7 +78,7 @@ TEST_F(Handles, DescribeTheirChannels) {
   EXPECT_FALSE(bucket.is_bed());
 }
 
-TEST_F(Handles, OfAnUnknownNameSuggestTheNearest) {
+TEST_F(Handles, SuggestTheNearestForAnUnknownName) {
   const World world(testing::load("trench.sdf"), device_);
   const MachineHandle machine = world.machines().at(0);
   EXPECT_NE(failure([&] { world.machines().at("excavater"); }).find("'excavator'"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest real sampler: a grid of ground heights that goes with a machine. It shows what a
-// sensor touches: this file, and `add` where the world or session is made.
+// The smallest real sampler: a grid of ground heights that moves with a machine. It shows all that
+// a sensor needs: this file, and `add` where the world or session is made.
 #pragma once
 
 #include <cmath>

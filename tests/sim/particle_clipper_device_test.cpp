@@ -13,7 +13,7 @@
 namespace navvy::sim {
 namespace {
 
-/// The first shell of a scene's first machine, as the world has it.
+/// First shell of a scene's first machine, at its pose in the world.
 struct ShellInWorld {
   explicit ShellInWorld(const World& world)
       : geometry(world.description().machines[0].machine.shells.at(0), world.ground().cell()) {
@@ -54,11 +54,11 @@ TEST(ParticleClipperTest, IsTheDistanceToTheFaceOfTheClosestPlateUpToItsReach) {
   add(particles, shell.X_WT * Vec3(0, 0, 5));
   expected.push_back(kReach);
   ParticleClipper(world).keep_off(particles, 0, kReach);
-  ASSERT_EQ(particles.room.size(), expected.size());
+  ASSERT_EQ(particles.clearance.size(), expected.size());
   // Places are floats: a hundredth of a millimetre.
   for (std::size_t i = 0; i < expected.size(); ++i)
-    EXPECT_NEAR(particles.room[i], expected[i], 1e-5) << i;
-  EXPECT_LE(particles.room[0], 0.03f);
+    EXPECT_NEAR(particles.clearance[i], expected[i], 1e-5) << i;
+  EXPECT_LE(particles.clearance[0], 0.03f);
 }
 
 TEST(ParticleClipperTest, KeepsDrawnParticlesOffTheFacesOnTheirOwnSide) {
@@ -86,14 +86,14 @@ TEST(ParticleClipperTest, KeepsDrawnParticlesOffTheFacesOnTheirOwnSide) {
     const double was = geometry.distance(before[i]), now = geometry.distance(p_T);
     EXPECT_GT(was * now, 0) << i << ": through the plate";
     EXPECT_GE(std::abs(now), std::abs(was) - 1e-5) << i << ": nearer than before";
-    EXPECT_NEAR(particles.room[i], std::clamp(std::abs(now) - half, 0.0, kReach), 2e-5) << i;
-    // With enough space it does not move.
+    EXPECT_NEAR(particles.clearance[i], std::clamp(std::abs(now) - half, 0.0, kReach), 2e-5) << i;
+    // With enough clearance it does not move.
     if (std::abs(was) - half > kGap + 1e-5) EXPECT_LE((p_T - before[i]).norm(), 1e-5) << i;
     moved += (p_T - before[i]).norm() > 1e-4 ? 1 : 0;
-    close += particles.room[i] < kGap - 1e-4 ? 1 : 0;
+    close += particles.clearance[i] < kGap - 1e-4 ? 1 : 0;
   }
   EXPECT_GE(moved, before.size() / 2);
-  // Only the narrowest corners between plates leave less space.
+  // Only the narrowest corners between plates leave less clearance.
   EXPECT_LE(close, before.size() / 50);
 }
 

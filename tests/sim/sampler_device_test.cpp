@@ -23,7 +23,7 @@ constexpr double kSpacing = 0.5, kRate = 50;
 
 class SamplerTest : public ::testing::Test {
  protected:
-  /// The trench's excavator, rolling over its yard.
+  /// The trench's excavator, rolling over its site.
   std::unique_ptr<World> rolling(bool with_grid = true) {
     auto world = std::make_unique<World>(testing::load("trench.sdf"), device_);
     if (with_grid) world->add(grid(*world));
@@ -39,7 +39,7 @@ class SamplerTest : public ::testing::Test {
   device::Device device_;
 };
 
-TEST_F(SamplerTest, LooksAtOnceAndThenAtItsRate) {
+TEST_F(SamplerTest, SamplesAtOnceAndThenAtItsRate) {
   const auto world = rolling();
   const int grid = world->arrays().index("excavator/height_grid");
   EXPECT_EQ(world->arrays().view(grid).sequence(), 1u);
@@ -47,7 +47,7 @@ TEST_F(SamplerTest, LooksAtOnceAndThenAtItsRate) {
   run_to(*world, 0.21);
   const ArrayView view = world->arrays().view(grid);
   EXPECT_EQ(view.sequence(), 1u + 10u);  // at 0 and after each of ten periods of 20 ms
-  // Of the step nearest to the period's end.
+  // Sampled in the step nearest to the period's end.
   EXPECT_LE(std::abs(view.time() - 0.2), 0.5 * world->dt() + 1e-9);
 }
 
@@ -63,7 +63,7 @@ TEST_F(SamplerTest, PublishesTheGroundUnderTheMachineInItsFrame) {
   EXPECT_GT(view.X_WF().translation().x(), -9);  // it rolls
   for (const int row : {0, 4, 8}) {
     const Vec3 p_W = view.X_WF() * Vec3(kSpacing * (2 - 4), kSpacing * (row - 4), 0);
-    // Wheels press ruts meanwhile: as deep as they get in a tenth of a second.
+    // Meanwhile wheels press ruts: their depth in a tenth of a second.
     EXPECT_NEAR(values[static_cast<std::size_t>(row * kNodes + 2)],
                 world->ground().sample(p_W.x(), p_W.y()) - view.X_WF().translation().z(), 0.02);
   }
@@ -82,7 +82,7 @@ TEST_F(SamplerTest, IsReadInPlace) {
   EXPECT_GT(world->arrays().view(0).sequence(), first);
 }
 
-TEST_F(SamplerTest, ChangesNothingOfTheWorldItLooksAt) {
+TEST_F(SamplerTest, DoesNotAffectTheWorld) {
   const auto watched = rolling(), alone = rolling(false);
   run_to(*watched, 0.1);
   run_to(*alone, 0.1);
@@ -91,7 +91,7 @@ TEST_F(SamplerTest, ChangesNothingOfTheWorldItLooksAt) {
   for (std::size_t i = 0; i < without.size(); ++i) EXPECT_EQ(with[i], without[i]);
 }
 
-TEST_F(SamplerTest, GoesOnFromASnapshotToTheSameState) {
+TEST_F(SamplerTest, ResumesFromASnapshotToTheSameState) {
   const auto whole = rolling();
   run_to(*whole, 0.05);
   const std::vector<char> bytes = saved(*whole);
@@ -107,7 +107,7 @@ TEST_F(SamplerTest, GoesOnFromASnapshotToTheSameState) {
   EXPECT_THROW(load_saved(bytes, *blind), InputError);
 }
 
-TEST_F(SamplerTest, NamesAreUniqueAndAWrongOneGetsTheNearest) {
+TEST_F(SamplerTest, HasUniqueNamesAndSuggestsTheNearest) {
   const auto world = rolling();
   EXPECT_THROW(world->add(grid(*world)), InputError);
   try {
@@ -133,7 +133,7 @@ class Clumsy final : public Sampler {
   void sample(const World&, Publisher&) override {}
 };
 
-TEST_F(SamplerTest, OneThatIsRefusedLeavesNoTrace) {
+TEST_F(SamplerTest, HasNoEffectWhenRefused) {
   const auto world = rolling(false);
   const std::string hash = world->hashes().state(), list = channel_list(*world);
   EXPECT_THROW(world->add(std::make_unique<Clumsy>()), InputError);
@@ -141,7 +141,7 @@ TEST_F(SamplerTest, OneThatIsRefusedLeavesNoTrace) {
   EXPECT_EQ(world->hashes().state(), hash);
 }
 
-TEST_F(SamplerTest, StandsInTheListOfChannels) {
+TEST_F(SamplerTest, IsInTheListOfChannels) {
   const auto world = rolling();
   const std::string list = channel_list(*world);
   EXPECT_NE(list.find("arrays:"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shipped scenes without their programs: a world knows no operator.
+// Shipped scenes without their programs: a world has no operator.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be read of a snapshot on a machine without OpenCL: this program has the label host and
-// asks for no device.
+// Reads parts of a snapshot on a machine without OpenCL: this program has the label host and opens
+// no device.
 #include "sim/snapshot.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@
 namespace navvy::sim {
 namespace {
 
-/// A snapshot as a world writes it, up to and with its ground; `dug` has a hole. What follows is
-/// not to be read.
+/// A snapshot as a world writes it, up to and including its ground; `dug` has a hole. The rest must
+/// not be read.
 struct Front {
   SnapshotStart start;
   SnapshotHead head;
@@ -40,7 +40,7 @@ void write(const std::string& path, const scene::Scene& scene, heightfield::Grou
       path, seal(saved(Front{{start_of(scene, dug), scene.name}, {scene.name, 0.001, 250}, dug})));
 }
 
-TEST(Snapshot, GivesItsGroundWithoutADevice) {
+TEST(Snapshot, ReadsItsGroundWithoutADevice) {
   const test::Folder folder;
   const scene::Scene scene = testing::load("bucket_path.sdf");
   heightfield::Ground dug = heightfield::make_ground(scene);
@@ -71,8 +71,8 @@ TEST(Snapshot, OfAnotherSceneIsRefusedByItsName) {
   EXPECT_THROW(load_ground(scene, folder / "none.snapshot"), FileError);
 }
 
-/// Each of the three alone, by the smallest change that a run would feel.
-TEST(Snapshot, OfAnotherMassCohesionOrPlaceIsRefusedByWhatDiffers) {
+/// Each of the three alone, changed by the smallest amount that affects a run.
+TEST(Snapshot, OfAnotherMassCohesionOrPlaceIsRefusedWithTheDifference) {
   const test::Folder folder;
   const scene::Scene scene = testing::load("bucket_path.sdf");
   heightfield::Ground ground = heightfield::make_ground(scene);

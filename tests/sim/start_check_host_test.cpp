@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines that start in the ground are named; what may have its foot in it is not.
+// Machines that start in the ground are named, except for those that may be partly in it.
 #include "sim/start_check.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace navvy::sim {
 namespace {
 
-/// What is wrong with how these machines start on flat loam, its surface at 0.
+/// Returns the faults of the initial poses of these machines on flat loam, with its surface at 0.
 std::vector<Fault> faults_of(const std::string& machines) {
   return check_start(scene_io::load_scene_from_string(
                          "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\"><navvy:soil "
@@ -55,22 +55,22 @@ TEST(StartCheck, NamesABodyThatStartsBelowTheGround) {
 }
 
 TEST(StartCheck, NamesAWheelThatStartsBelowTheGround) {
-  // The wheels' centres are 0.525 m up; the chassis stays above.
+  // The wheels' centres are 0.525 m up; the chassis stays above the ground.
   expect_one(faults_of(digger("-0.8")),
              {"w.sdf:", "include[digger]", "0.2", "wheel '", "navvy:on_ground"});
 }
 
-TEST(StartCheck, LetsABodyLieInTheGroundToItsMiddleAndAMachineSink) {
+TEST(StartCheck, AllowsBodiesInTheGroundToTheirMiddleAndSunkenMachines) {
   EXPECT_TRUE(faults_of(stone("-0.01", "")).empty());
   EXPECT_TRUE(faults_of(digger("-0.1")).empty());
 }
 
-TEST(StartCheck, LetsWhatStandsAndWhatIsMovedByItsScriptBeInTheGround) {
+TEST(StartCheck, AllowsStaticAndScriptedModelsInTheGround) {
   EXPECT_TRUE(faults_of(stone("-0.35", "<static>true</static>")).empty());
   EXPECT_TRUE(faults_of(stone("-0.35", "<navvy:physics>kinematic</navvy:physics>")).empty());
 }
 
-TEST(StartCheck, NamesAnEyeThatNoHookReachesAndLetsHitchedOnesOverlap) {
+TEST(StartCheck, NamesAnEyeOutOfReachAndAllowsHitchedMachinesToOverlap) {
   const auto train = [](const std::string& x, const std::string& closed) {
     return "<include><uri>model://robot</uri><name>robot</name></include><include><uri>model://"
            "robot_trailer</uri>"
@@ -80,14 +80,14 @@ TEST(StartCheck, NamesAnEyeThatNoHookReachesAndLetsHitchedOnesOverlap) {
            "<child>trailer::chassis</child><hook_m>-0.1 0 0.15</hook_m><eye_m>0.6 0 0.15</eye_m>" +
            closed + "</navvy:hitch>";
   };
-  // The drawbar reaches 0.3 m into the robot, where its hook is.
+  // The drawbar extends 0.3 m into the robot, where its hook is.
   EXPECT_TRUE(faults_of(train("-0.7", "")).empty());
   expect_one(faults_of(train("-1.2", "")),
              {"w.sdf:", "navvy:hitch[tow]", "within 0.1 m of the hook", "0.500", "trailer"});
   EXPECT_TRUE(faults_of(train("-1.2", "<closed>false</closed>")).empty());
 }
 
-TEST(StartCheck, FindsNothingInTheGroundInWhatIsShipped) {
+TEST(StartCheck, AcceptsShippedScenes) {
   int scenes = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(navvy::source_dir() + "/scenarios")) {

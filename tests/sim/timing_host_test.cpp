@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The base step divides the control period, and samples fall on the nearest step for as long as a
-// run may last.
+// The base step divides the control period, and samples fall on the nearest step for the longest
+// possible run.
 #include "sim/timing.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace navvy::sim {
 namespace {
 
-// As in the shipped scenes at a cell of 0.1 m; no rate below divides it.
+// Step of the shipped scenes at a cell of 0.1 m; no rate below divides it.
 constexpr double kLongest = 0.0015847860538827258;
 constexpr double kDay = 86400;
 
@@ -20,7 +20,7 @@ TEST(Timing, TheBaseStepDividesTheControlPeriod) {
     const double dt = base_step(kLongest, 1 / rate), steps = 1 / (rate * dt);
     EXPECT_NEAR(steps, std::round(steps), 1e-9) << rate << " Hz";
     EXPECT_LE(dt, kLongest * (1 + 1e-9)) << rate << " Hz";
-    // Not shorter than it must be: with one step fewer it would be too long.
+    // Not shorter than necessary: with one step fewer it would be too long.
     if (steps > 1.5) EXPECT_GT(1 / rate / (std::round(steps) - 1), kLongest) << rate << " Hz";
   }
   EXPECT_DOUBLE_EQ(base_step(kLongest, 1 / 500.0), 0.001);
@@ -35,7 +35,7 @@ TEST(Timing, AStepThatAlreadyDividesThePeriodIsUnchanged) {
 
 TEST(Timing, SamplesOfADayAreNeverFartherThanHalfAStep) {
   for (const double rate : {50.0, 20.0, 7.0, 4.0, 500.0, 0.3}) {
-    // Looked at around many times of the day; walking through all of its 5e7 steps would prove
+    // Checked around many times of the day; walking through all of its 5e7 steps would prove
     // nothing more.
     for (std::uint64_t n = 0; static_cast<double>(n) / rate < kDay; n = n * 3 / 2 + 1) {
       const double time = static_cast<double>(n) / rate;
@@ -77,7 +77,7 @@ TEST(Timing, ControlStepsFallOnTheStepsThatDivideTheirPeriodForADay) {
   }
 }
 
-TEST(Timing, ARateAboveTheStepsGivesEveryStep) {
+TEST(Timing, ARateAboveThatOfStepsSamplesEveryStep) {
   for (std::uint64_t step = 0; step < 1000; ++step) EXPECT_TRUE(sample_due(step, kLongest, 1e5));
   EXPECT_EQ(sample_number(0, kLongest, 1e5), 0u);
 }

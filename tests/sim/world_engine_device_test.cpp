@@ -29,7 +29,7 @@ TEST(WorldEngine, ComesFromTheFactoryOfTheCaller) {
   EXPECT_EQ(own.hashes().state(), usual.hashes().state());
 }
 
-TEST(WorldEngine, IsRequiredFromTheFactory) {
+TEST(WorldEngine, RefusesAFactoryThatReturnsNone) {
   device::Device device;
   const auto make_nothing = [](const Vec3&, const scene::Materials&) {
     return std::unique_ptr<vehicle::PhysicsEngine>();

@@ -7,7 +7,7 @@
 namespace navvy::soak {
 namespace {
 
-/// Each kind's most over rows [from, to).
+/// Returns the largest values of each kind over rows [from, to).
 Bytes most(const std::vector<Phase>& rows, std::size_t from, std::size_t to) {
   Bytes out;
   for (std::size_t i = from; i < to; ++i) {
@@ -21,7 +21,7 @@ Bytes most(const std::vector<Phase>& rows, std::size_t from, std::size_t to) {
 }  // namespace
 
 Bytes growth(const std::vector<Phase>& phases, std::size_t cycles) {
-  // A process begins with memory of its own.
+  // Each process has its own memory.
   std::map<int, std::vector<Phase>> processes;
   for (const Phase& phase : phases) processes[phase.process].push_back(phase);
   Bytes worst{INT64_MIN, INT64_MIN, INT64_MIN};
@@ -47,7 +47,7 @@ std::vector<std::string> broken_claims(const std::vector<Phase>& phases,
       out.push_back(what + " grew by " + std::to_string(bytes) +
                     " bytes after the first quarter, " + std::to_string(allowed) + " are allowed");
   };
-  judge("memory given out by malloc", grown.heap, allowance.heap);
+  judge("memory allocated by malloc", grown.heap, allowance.heap);
   judge("resident memory", grown.resident, allowance.resident);
   judge("memory of the device's buffers", grown.device, allowance.device);
   for (const Phase& phase : phases) {

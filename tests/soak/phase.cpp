@@ -20,7 +20,7 @@ const char* const kHeader =
     "cycle,simulated_s,wall_s,process,heap_bytes,resident_bytes,device_bytes,particles,ledger_"
     "units,state_hash";
 
-/// What stands behind the last `mark` of the C library's report, in size="...".
+/// Returns the number after the last `mark` of the C library's report, in size="...".
 std::int64_t size_after(const std::string& report, const std::string& mark) {
   const std::size_t at = report.rfind(mark);
   if (at == std::string::npos) return 0;
@@ -28,7 +28,7 @@ std::int64_t size_after(const std::string& report, const std::string& mark) {
   return size == std::string::npos ? 0 : std::atoll(report.c_str() + size + 6);
 }
 
-/// mallinfo2 tells of the main arena alone, and every thread of the driver has one of its own.
+/// mallinfo2 reports only the main arena, but every thread of the driver has its own.
 std::int64_t heap_in_use() {
   char* text = nullptr;
   std::size_t length = 0;
@@ -38,7 +38,7 @@ std::int64_t heap_in_use() {
   std::fclose(stream);
   const std::string report(text, length);
   std::free(text);
-  // The sums over all arenas come last; large blocks, which are mapped each by itself, are in none.
+  // The sums over all arenas come last; large blocks, which are mapped individually, are in none.
   return size_after(report, "<system type=\"current\"") -
          size_after(report, "<total type=\"fast\"") - size_after(report, "<total type=\"rest\"") +
          size_after(report, "<total type=\"mmap\"");
@@ -70,7 +70,7 @@ std::vector<Phase> read_phases(const std::string& path) {
   if (!std::filesystem::exists(path)) return out;
   std::ifstream in(path);
   std::string line;
-  // A last row without its end was cut short
+  // A last row without its line end is incomplete.
   for (int number = 1; std::getline(in, line) && !in.eof(); ++number) {
     if (number == 1) continue;
     for (char& c : line)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a soak notes once a cycle, always at the same phase of it, and the table it keeps of that.
+// Record of a soak after each cycle, always at the same phase, and the table of these records.
 #pragma once
 
 #include <cstdint>
@@ -8,36 +8,45 @@
 
 namespace navvy::soak {
 
-/// Bytes that this process holds.
+/// Bytes held by this process.
 struct Bytes {
-  /// Given out by malloc, all arenas; what a thread keeps ready counts as given out.
+  /// Allocated by malloc in all arenas, including memory that a thread caches.
   std::int64_t heap = 0;
-  std::int64_t resident = 0;  ///< of the process, in memory
-  std::int64_t device = 0;    ///< of buffers on the device
+  /// Resident memory of the process.
+  std::int64_t resident = 0;
+  /// Buffers on the device.
+  std::int64_t device = 0;
 };
 
-/// Asks the C library and the system. `device`: as device::Device::memory_used says.
+/// Queries the C library and the system. `device`: as returned by device::Device::memory_used.
 Bytes bytes_in_use(std::uint64_t device);
 
-/// How things stood at the end of a cycle.
+/// State at the end of a cycle.
 struct Phase {
-  long cycle = 0;   ///< how many are done
-  double time = 0;  ///< simulated [s]
-  double wall = 0;  ///< since its process began [s]
-  int process = 0;  ///< which of those that took turns, from 1
+  /// Number of finished cycles.
+  long cycle = 0;
+  /// Simulated time [s].
+  double time = 0;
+  /// Wall time since its process began [s].
+  double wall = 0;
+  /// Number of the process, from 1.
+  int process = 0;
   Bytes bytes;
-  int particles = 0;        ///< awake
-  std::int64_t ledger = 0;  ///< error of the mass ledger [kMassQuantum]
-  std::string hash;         ///< of the state
+  /// Number of active particles.
+  int particles = 0;
+  /// Error of the mass ledger [kMassQuantum].
+  std::int64_t ledger = 0;
+  /// Hash of the state.
+  std::string hash;
 };
 
-/// Rows of phases.csv, whole ones only; none when there is no such file. @throws FileError,
+/// Returns the complete rows of phases.csv; none if the file does not exist. @throws FileError,
 /// InputError.
 std::vector<Phase> read_phases(const std::string& path);
-/// Replaces the table by these rows, whole.
+/// Replaces the table by these rows as a whole.
 void write_phases(const std::string& path, const std::vector<Phase>& phases);
-/// Adds a row. The rows stay in the file alone: kept in memory they would be the growth that is
-/// looked for.
+/// Appends a row. Rows are kept in the file only: in memory they would be the growth that the soak
+/// looks for.
 void append_phase(const std::string& path, const Phase& phase);
 
 }  // namespace navvy::soak

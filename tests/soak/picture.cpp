@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// bytes.svg: three strips, one a kind of bytes, over simulated hours.
+// bytes.svg: three strips, one per kind of bytes, over simulated hours.
 #include <algorithm>
 #include <cstdio>
 
@@ -8,14 +8,14 @@
 namespace navvy::soak {
 namespace {
 
-constexpr double kWide = 900, kHigh = 170, kLeft = 90, kTop = 30;  // of a strip [px]
+constexpr double kWide = 900, kHigh = 170, kLeft = 90, kTop = 30;  // size of a strip [px]
 
 struct Kind {
   const char* name;
   std::int64_t Bytes::*bytes;
   const char* color;
 };
-constexpr Kind kKinds[] = {{"given out by malloc", &Bytes::heap, "#1f6feb"},
+constexpr Kind kKinds[] = {{"allocated by malloc", &Bytes::heap, "#1f6feb"},
                            {"resident", &Bytes::resident, "#8250df"},
                            {"buffers of the device", &Bytes::device, "#bf8700"}};
 
@@ -31,7 +31,8 @@ std::string mib(double bytes) {
   return text;
 }
 
-/// One strip with its top at `top`: from zero up, or nobody could tell growth from noise.
+/// Draws a strip with its top at `top`. The axis starts at zero, so that growth can be
+/// distinguished from noise.
 std::string strip(const std::vector<Phase>& phases, const Kind& kind, double top, double hours) {
   double most = 1;
   for (const Phase& p : phases) most = std::max(most, static_cast<double>(p.bytes.*kind.bytes));
@@ -68,7 +69,7 @@ std::string picture(const std::vector<Phase>& phases) {
     out += strip(phases, kind, top, hours);
     top += kHigh;
   }
-  // After the first quarter nothing may grow.
+  // No growth is allowed after the first quarter.
   const double quarter = kLeft + kWide / 4;
   std::snprintf(text, sizeof text,
                 "<path d=\"M%.1f %.0fV%.0f\" stroke=\"#888\" stroke-dasharray=\"4 4\"/>\n", quarter,

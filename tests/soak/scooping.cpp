@@ -14,13 +14,13 @@
 namespace navvy::soak {
 namespace {
 
-/// Where the bucket is told to be, linear in between [s, m, m, deg].
+/// Commanded pose of the bucket, linear in between [s, m, m, deg].
 struct Knot {
   double time, x, z, curl;
 };
 // High above, down to the sand, 0.25 m into it, dragged, curled, lifted, carried back over the cut,
-// tipped, up and away until most of the sand sleeps. What falls out fills the cut again, so that
-// every cycle finds about the ground that the one before found.
+// tipped, up and away until most of the sand is inactive. The dumped soil refills the cut, so that
+// every cycle starts from nearly the same ground.
 constexpr Knot kPath[] = {{0, -0.8, 1.4, -70},   {0.7, -0.8, 0.45, -70},  {1.3, -0.6, 0.15, -70},
                           {2.3, 0.3, 0.15, -62}, {2.8, 0.45, 0.45, 0},    {3.2, 0.45, 0.8, 0},
                           {3.6, -0.3, 0.8, 0},   {4.1, -0.3, 0.8, -150},  {4.5, -0.3, 0.8, -150},

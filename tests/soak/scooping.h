@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bucket that scoops and dumps back, for ever the same.
+// A bucket that scoops and dumps the soil back repeatedly.
 #pragma once
 
 #include <array>
@@ -16,24 +16,24 @@ namespace navvy::soak {
 
 constexpr double kCycle = 6;  ///< simulated [s]
 
-/// A session of scoops.sdf whose bucket follows one path again and again. What it is told depends
-/// on the step's number alone, so it goes on from a snapshot as if it had never stopped.
+/// A session of scoops.sdf whose bucket repeats one path. Its commands depend only on the step's
+/// number, so it continues from a snapshot as if it had not stopped.
 class Scooping {
  public:
-  /// From the start, or from the snapshot `from`; results of the run go to `record` as `navvy run`
-  /// leaves them, unless it is empty. @throws InputError, FileError, device::DeviceError.
+  /// Begins at the start, or from the snapshot `from`; results of the run go to `record` as with
+  /// `navvy run`, unless it is empty. @throws InputError, FileError, device::DeviceError.
   Scooping(device::Device& device, const std::string& from, const std::string& record);
   /// Closes the results.
   ~Scooping();
   Scooping(const Scooping&) = delete;
   Scooping& operator=(const Scooping&) = delete;
 
-  /// Until the bucket is back where it began, empty. @throws SimulationError, FileError.
+  /// Runs until the empty bucket is back at its start. @throws SimulationError, FileError.
   void cycle();
-  /// Done since the start, those before a snapshot too.
+  /// Number of cycles since the start, including those before a snapshot.
   long cycles() const;
   void save(const std::string& snapshot) const { session_->save(snapshot); }
-  /// How it stands; wall time and process are the caller's.
+  /// Present state; the caller sets wall time and process.
   Phase phase() const;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a plan's files lie.
+/// Paths of a plan's files.
 struct Files {
   explicit Files(const std::string& folder)
       : phases(folder + "/phases.csv"),
@@ -29,7 +29,7 @@ std::string if_there(const std::string& file) { return fs::exists(file) ? file :
 
 bool stopped(const Plan& plan) { return plan.stop && plan.stop(); }
 
-/// The one long run, until the plan's cycles are done or somebody stops it.
+/// Runs the long run until the plan's cycles are done or the user stops it.
 void run_on(device::Device& device, const Plan& plan, const Files& files) {
   std::vector<Phase> before = read_phases(files.phases);
   if (!before.empty() && before.back().cycle >= plan.cycles && fs::exists(files.snapshot)) return;
@@ -57,15 +57,15 @@ void run_on(device::Device& device, const Plan& plan, const Files& files) {
   scooping.save(files.snapshot);
 }
 
-/// Hash after `cycle`, as the long run's table has it; empty when it has no such row.
+/// Returns the hash after `cycle` in the long run's table; empty if it has no such row.
 std::string hash_after(const std::vector<Phase>& phases, long cycle) {
   for (const Phase& phase : phases)
     if (phase.cycle == cycle) return phase.hash;
   return "";
 }
 
-/// Four sessions one after the other, each from the snapshot that the one before left. Says what
-/// differs.
+/// Runs four sessions in sequence, each from the snapshot of the one before, and reports
+/// differences.
 long run_quarters(device::Device& device, const Plan& plan, const Files& files,
                   std::vector<std::string>& broken) {
   const std::vector<Phase> phases = read_phases(files.phases);
@@ -73,7 +73,7 @@ long run_quarters(device::Device& device, const Plan& plan, const Files& files,
   long done = 0;
   while (done < plan.cycles) {
     Scooping scooping(device, if_there(files.quarter), "");
-    // One of another plan's quarters: it is none of ours.
+    // A quarter of another plan is ignored.
     if (scooping.cycles() % quarter != 0 || scooping.cycles() > plan.cycles) {
       fs::remove(files.quarter);
       continue;
@@ -139,7 +139,7 @@ std::string told(const Result& result, const Plan& plan) {
                   kib(most), kib(grown));
     out += text;
   };
-  line("given out by malloc", result.most.heap, result.grown.heap);
+  line("allocated by malloc", result.most.heap, result.grown.heap);
   line("resident", result.most.resident, result.grown.resident);
   line("buffers of the device", result.most.device, result.grown.device);
   std::snprintf(text, sizeof text, "  state %s; resumed quarters equal up to %.3f h\n",

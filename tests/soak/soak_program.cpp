@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `./dev soak HOURS`. Status: 0 all claims hold, 1 one does not or the run failed, 2 usage, 130
-// stopped before the end.
+// `./dev soak HOURS`. Status: 0 all claims hold, 1 a claim is violated or the run failed, 2 usage,
+// 130 stopped before the end.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

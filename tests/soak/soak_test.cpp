@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The short form of `./dev soak`, and that it would tell.
+// The short version of `./dev soak`, and checks that it detects faults.
 #include "soak/soak.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Phase phase(long cycle, std::int64_t heap) {
   return out;
 }
 
-/// Forty cycles that fill their lists in the first ten and are flat from then on.
+/// Returns forty cycles whose memory grows in the first ten and is flat from then on.
 std::vector<Phase> sound() {
   std::vector<Phase> out;
   for (long i = 1; i <= 40; ++i) out.push_back(phase(i, 10'000'000 + 50'000 * std::min(i, 10L)));
@@ -36,7 +36,7 @@ TEST(SoakClaims, HoldForBytesThatGrowInTheFirstQuarterOnly) {
   EXPECT_EQ(growth(sound()).heap, 0);
 }
 
-TEST(SoakClaims, ReportOfALeakOfSixteenKibibytesACycle) {
+TEST(SoakClaims, ReportALeakOfSixteenKibibytesPerCycle) {
   std::vector<Phase> rows = sound();
   for (Phase& row : rows) row.bytes.heap += 16384 * row.cycle;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
@@ -44,22 +44,22 @@ TEST(SoakClaims, ReportOfALeakOfSixteenKibibytesACycle) {
       << broken_claims(rows)[0];
 }
 
-TEST(SoakClaims, ReportOfABufferOfTheDeviceMore) {
+TEST(SoakClaims, ReportAnAdditionalBufferOnTheDevice) {
   std::vector<Phase> rows = sound();
   rows.back().bytes.device += 4096;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
   EXPECT_NE(broken_claims(rows)[0].find("device"), std::string::npos);
 }
 
-TEST(SoakClaims, ReportOfALedgerThatIsOffByOneUnit) {
+TEST(SoakClaims, ReportALedgerThatIsOffByOneUnit) {
   std::vector<Phase> rows = sound();
   rows[17].ledger = 1;
   ASSERT_EQ(broken_claims(rows).size(), 1u);
   EXPECT_NE(broken_claims(rows)[0].find("off by 1 units after cycle 18"), std::string::npos);
 }
 
-TEST(SoakClaims, CompareAProcessWithItselfAlone) {
-  // The second one began with 9 MB more, which is no growth; that it grows by itself is.
+TEST(SoakClaims, CompareAProcessOnlyWithItself) {
+  // The second process began with 9 MB more, which is no growth; its own growth is.
   std::vector<Phase> rows = sound();
   for (Phase row : sound()) {
     row.cycle += 40;
@@ -72,7 +72,7 @@ TEST(SoakClaims, CompareAProcessWithItselfAlone) {
   EXPECT_EQ(broken_claims(rows).size(), 1u);
 }
 
-TEST(SoakTable, LeavesOutARowThatAKillCutShort) {
+TEST(SoakTable, SkipsARowTruncatedByAKill) {
   const test::Folder folder;
   write_phases(folder / "phases.csv", sound());
   std::ofstream(folder / "phases.csv", std::ios::app) << "41,410.000,8.1,1,1050";
@@ -82,8 +82,8 @@ TEST(SoakTable, LeavesOutARowThatAKillCutShort) {
   EXPECT_EQ(rows[39].hash, sound()[39].hash);
 }
 
-/// A few cycles. Bytes still grow by what the third scoop meets for the first time: 0.31 MiB on the
-/// heap and buffers of 0.26 MiB on the device, which is what an allowance is here.
+/// Returns a plan of a few cycles. Bytes still grow by the cases of the third scoop: 0.31 MiB on
+/// the heap and buffers of 0.26 MiB on the device, which is the allowance here.
 Plan few(const std::string& folder, long cycles) {
   Plan plan;
   plan.folder = folder;
@@ -92,7 +92,7 @@ Plan few(const std::string& folder, long cycles) {
   return plan;
 }
 
-TEST(Soak, FourCyclesStayFlatKeepTheirMassAndEndAsFourResumedQuartersDo) {
+TEST(Soak, FourCyclesHaveFlatMemoryAndMatchFourResumedQuarters) {
   const test::Folder folder;
   device::Device device;
   const Plan plan = few(folder / "soak", 4);
@@ -109,7 +109,7 @@ TEST(Soak, FourCyclesStayFlatKeepTheirMassAndEndAsFourResumedQuartersDo) {
   EXPECT_NE(rows[2].hash, rows[3].hash) << "it digs";
   EXPECT_NE(test::text_of(folder / "soak/bytes.svg").find("</svg>"), std::string::npos);
 
-  // Had the run come to another state there, the quarters would tell.
+  // If the run had another state there, the quarters would differ.
   rows[1].hash = "ffffffffffffffff";
   write_phases(folder / "soak/phases.csv", rows);
   std::filesystem::remove(folder / "soak/quarter.snapshot");
@@ -119,7 +119,7 @@ TEST(Soak, FourCyclesStayFlatKeepTheirMassAndEndAsFourResumedQuartersDo) {
   EXPECT_EQ(parted.compared, 2);
 }
 
-TEST(Soak, ResumesFromAnyPartAndReportsWhatACycleRetains) {
+TEST(Soak, ResumesFromAnyPartAndReportsALeakPerCycle) {
   const test::Folder folder;
   device::Device device;
   // Stopped after each cycle, in the long run and in the quarters.
@@ -134,7 +134,7 @@ TEST(Soak, ResumesFromAnyPartAndReportsWhatACycleRetains) {
   EXPECT_EQ(pieces.processes, 4);
   EXPECT_TRUE(pieces.broken.empty()) << pieces.broken.front();
 
-  // A longer plan goes on with what is there; something is kept in each of its cycles.
+  // A longer plan continues the folder; memory leaks in each of its cycles.
   plan.cycles = 8;
   plan.stop = [&] { return read_phases(folder / "pieces/phases.csv").back().cycle == 8; };
   std::vector<std::unique_ptr<char[]>> kept;
@@ -142,7 +142,7 @@ TEST(Soak, ResumesFromAnyPartAndReportsWhatACycleRetains) {
   const Result leaking = soak(device, plan);
   EXPECT_EQ(leaking.reached, 8);
   ASSERT_FALSE(leaking.broken.empty());
-  EXPECT_NE(leaking.broken[0].find("memory given out by malloc grew"), std::string::npos)
+  EXPECT_NE(leaking.broken[0].find("memory allocated by malloc grew"), std::string::npos)
       << leaking.broken[0];
 }
 

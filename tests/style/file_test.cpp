@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shape of files: licence line, length, what libraries must not do, kernel rules
-// (kernels/README.md).
+// Form of files: licence line, length, bans in libraries, kernel rules (kernels/README.md).
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -45,7 +44,7 @@ TEST(Files, StayWithinTheirLength) {
   EXPECT_EQ(report(found), "");
 }
 
-TEST(Files, HaveNoLineThatDoesNotFitAScreen) {
+TEST(Files, HaveNoLineBeyondTheColumnLimit) {
   constexpr std::size_t kWidest = 100;  // as clang-format wraps C++
   std::vector<std::string> found;
   for (const char* folder : {"src", "kernels", "tests", "bench", "examples"}) {
@@ -53,8 +52,8 @@ TEST(Files, HaveNoLineThatDoesNotFitAScreen) {
       std::istringstream lines(file.text);
       std::string line;
       for (int number = 1; std::getline(lines, line); ++number) {
-        // An #include cannot be broken; a text that users see, or a scene in a raw string, may
-        // stand in one piece.
+        // An #include cannot be broken; a message to users, or a scene in a raw string, may stay in
+        // one piece.
         if (line.size() <= kWidest || line.find('"') != std::string::npos || line.front() == '<')
           continue;
         found.push_back(file.path + ":" + std::to_string(number) + ": " +
@@ -82,7 +81,7 @@ std::vector<std::string> banned(const SourceFile& file, const std::vector<Ban>& 
   return found;
 }
 
-TEST(Libraries, NeitherPrintNorExitNorGuess) {
+TEST(Libraries, NeitherPrintNorExitNorUseUnrepeatableRandomNumbers) {
   const std::vector<Ban> bans = {
       {"std::cout", "libraries never print: use core/log.h"},
       {"std::cerr", "libraries never print: use core/log.h"},
@@ -106,7 +105,7 @@ TEST(Libraries, NeitherPrintNorExitNorGuess) {
   EXPECT_EQ(report(found), "");
 }
 
-TEST(Libraries, BansAreSeenInCodeAndNotInComments) {
+TEST(Libraries, BansApplyToCodeAndNotToComments) {
   const std::vector<Ban> bans = {{"exit(", "no"}, {"double", "no"}};
   EXPECT_EQ(
       banned(SourceFile{"a", "// exit(1)\n\"exit(2)\"; /* exit(3)\n */ my_exit(4); double_x;\n"},
@@ -117,7 +116,7 @@ TEST(Libraries, BansAreSeenInCodeAndNotInComments) {
             "a:2: exit(: no\na:2: double: no\n");
 }
 
-/// Whether the first include of `name`, or of the file it includes first, and so on, is
+/// Returns true if the first include of `name`, or of the file it includes first, and so on, is
 /// common/portable.h.
 bool begins_portable(const std::string& name) {
   if (name == "common/portable.h") return true;
@@ -144,7 +143,7 @@ std::vector<std::string> check_kernel(const SourceFile& file) {
       {"FP_CONTRACT", "common/portable.h sets it for all"},
   };
   std::vector<std::string> found = banned(file, bans);
-  // `native_` and the vendors' extensions are prefixes: look for them as beginnings of words too.
+  // `native_` and the vendors' extensions are prefixes, so beginnings of words are searched, too.
   const std::string code = code_only(file.text);
   for (const char* prefix : {"native_", "cl_nv_", "cl_amd_", "cl_intel_"}) {
     if (code.find(prefix) != std::string::npos) found.push_back(file.path + ": uses " + prefix);
@@ -159,8 +158,8 @@ std::vector<std::string> check_kernel(const SourceFile& file) {
     }
     if (!include.angle && !exists("kernels/" + include.name))
       found.push_back(where + "no kernels/" + include.name);
-    // A header's own guard is the one conditional allowed around an include; <...> is for the host,
-    // behind another.
+    // A header's own guard is the only conditional allowed around an include; <...> is for the
+    // host, inside another one.
     if (!include.angle && include.depth > (header ? 1 : 0))
       found.push_back(where + "include inside a conditional");
     if (include.angle && (!header || include.depth < 2))
@@ -172,7 +171,7 @@ std::vector<std::string> check_kernel(const SourceFile& file) {
   return found;
 }
 
-TEST(Kernels, KeepTheRulesOfTheirReadme) {
+TEST(Kernels, FollowTheRulesOfTheirReadme) {
   std::vector<std::string> found;
   const std::vector<SourceFile> files = sources("kernels", {".cl", ".h"});
   ASSERT_FALSE(files.empty());
@@ -184,7 +183,7 @@ TEST(Kernels, KeepTheRulesOfTheirReadme) {
   EXPECT_EQ(report(found), "");
 }
 
-TEST(Kernels, ThatBreakARuleAreFound) {
+TEST(Kernels, ViolationsOfRulesAreFound) {
   const auto violations = [](const std::string& path, const std::string& text) {
     return check_kernel(SourceFile{path, text}).size();
   };

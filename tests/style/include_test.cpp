@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who may include whom: the table of src/README.md, and the one place of every third-party library.
+// Include directions: the table of src/README.md, and the single place of every third-party
+// library.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,14 +53,14 @@ const std::map<std::string, Names>& arrows() {
   return table;
 }
 
-/// Folders that may include more than their room: a camera draws, no other sensor does.
+/// Folders that may include more than their module: a camera draws, no other sensor does.
 const std::map<std::string, Names>& wings() {
   static const std::map<std::string, Names> table = {{"src/sensor/camera", {"render"}},
                                                      {"src/formats/ros", {"sensor"}}};
   return table;
 }
 
-/// Everything `module` may include: itself and what the arrows reach.
+/// Returns the modules that `module` may include: itself and those reachable by the arrows.
 Names reachable(const std::string& module) {
   Names seen = {"core"};
   std::vector<std::string> open = {module};
@@ -73,7 +74,7 @@ Names reachable(const std::string& module) {
   return seen;
 }
 
-/// A third-party library: how its headers begin, and the folders that may include them.
+/// A third-party library: prefix of its headers, and the folders that may include them.
 struct Library {
   std::string name;
   std::vector<std::string> prefixes;
@@ -107,8 +108,7 @@ bool starts_with(const std::string& text, const std::string& prefix) {
 }
 
 bool is_system(const std::string& name) {
-  // Standard C++ headers have neither folder nor suffix; of POSIX what files, time and signals
-  // need.
+  // Standard C++ headers have neither folder nor suffix; POSIX headers for files, time and signals.
   static const Names posix = {"fcntl.h",    "unistd.h", "signal.h",  "dlfcn.h",
                               "execinfo.h", "poll.h",   "pthread.h", "termios.h"};
   return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 ||
@@ -167,7 +167,7 @@ std::vector<std::string> check(const SourceFile& file) {
   return found;
 }
 
-/// Clients of a world: they see it through handles, channels and samplers.
+/// Clients of a world, which use it through handles, channels and samplers.
 const Names& clients() {
   static const Names table = {"src/map",     "src/formats", "src/planner", "src/earthwork",
                               "src/session", "src/record",  "src/control", "src/sensor",
@@ -176,8 +176,8 @@ const Names& clients() {
   return table;
 }
 
-/// What clients may not see, also not through another header: the parts of a world and those who
-/// solve it.
+/// Modules that clients may not include, not even through another header: the parts of a world and
+/// their solvers.
 const Names& inner() {
   static const Names table = {"coupling/",
                               "soil/",
@@ -189,34 +189,34 @@ const Names& inner() {
   return table;
 }
 
-/// Files of clients that must see inside, each with its reason.
+/// Files of clients that must include internals, each with its reason.
 const std::map<std::string, std::string>& insiders() {
   static const std::map<std::string, std::string> table = {
       {"src/cli/lab_command.cpp", "runs the laboratory, whose rigs are built of the solver itself"},
-      {"src/cli/lab_output.h", "tells what the laboratory measured"},
-      {"src/cli/lab_output.cpp", "tells what the laboratory measured"},
+      {"src/cli/lab_output.h", "prints what the laboratory measured"},
+      {"src/cli/lab_output.cpp", "prints what the laboratory measured"},
   };
   return table;
 }
 
-/// How `file` reaches an inner header, "a -> b -> c"; empty when it does not. `read` gives a
-/// header's text by its name below src/.
-std::string way_inside(const SourceFile& file,
-                       const std::function<std::string(const std::string&)>& read) {
+/// Returns how `file` reaches an inner header, "a -> b -> c"; empty if it does not. `read` returns
+/// a header's text by its name below src/.
+std::string path_inside(const SourceFile& file,
+                        const std::function<std::string(const std::string&)>& read) {
   Names seen;
-  std::vector<std::pair<std::string, std::string>> open;  // name below src/, the way to it
-  const auto follow = [&](const std::string& text, const std::string& way) {
+  std::vector<std::pair<std::string, std::string>> open;  // name below src/, the path to it
+  const auto follow = [&](const std::string& text, const std::string& path) {
     for (const Include& include : includes(text))
       if (!include.angle && seen.insert(include.name).second)
-        open.emplace_back(include.name, way + " -> " + include.name);
+        open.emplace_back(include.name, path + " -> " + include.name);
   };
   follow(file.text, file.path);
   while (!open.empty()) {
-    const auto [name, way] = open.back();
+    const auto [name, path] = open.back();
     open.pop_back();
     for (const std::string& forbidden : inner())
-      if (starts_with(name, forbidden)) return way;
-    follow(read(name), way);
+      if (starts_with(name, forbidden)) return path;
+    follow(read(name), path);
   }
   return "";
 }
@@ -231,26 +231,26 @@ std::string header_text(const std::string& name) {
   return it == texts.end() ? "" : it->second;
 }
 
-TEST(Includes, OfClientsNeverReachSoilExchangeOrEngines) {
+TEST(Includes, ClientsNeverReachSoilExchangeOrEngines) {
   std::vector<std::string> found;
   Names pardoned;
   int files = 0;
   for (const std::string& folder : clients())
     for (const SourceFile& file : sources(folder, {".h", ".cpp"})) {
       ++files;
-      const std::string way = way_inside(file, header_text);
-      if (way.empty()) continue;
+      const std::string path = path_inside(file, header_text);
+      if (path.empty()) continue;
       if (insiders().count(file.path) > 0)
         pardoned.insert(file.path);
       else
-        found.push_back(way);
+        found.push_back(path);
     }
   ASSERT_GT(files, 20) << "the clients were not found";
   EXPECT_EQ(report(found), "");
-  EXPECT_EQ(pardoned.size(), insiders().size()) << "an exception that nobody needs any more";
+  EXPECT_EQ(pardoned.size(), insiders().size()) << "an exception that is no longer needed";
 }
 
-TEST(Includes, OfAWrongKindAreFoundThroughOtherHeaders) {
+TEST(Includes, ViolationsThroughOtherHeadersAreFound) {
   const std::map<std::string, std::string> headers = {
       {"sim/open.h", "#include \"sim/inside.h\"\n"},
       {"sim/inside.h", "#include \"soil/solver.h\"\n"},
@@ -259,17 +259,17 @@ TEST(Includes, OfAWrongKindAreFoundThroughOtherHeaders) {
     const auto it = headers.find(name);
     return it == headers.end() ? std::string() : it->second;
   };
-  const auto way = [&](const std::string& header) {
-    return way_inside(SourceFile{"src/record/a.cpp", "#include \"" + header + "\"\n"}, read);
+  const auto path = [&](const std::string& header) {
+    return path_inside(SourceFile{"src/record/a.cpp", "#include \"" + header + "\"\n"}, read);
   };
-  EXPECT_EQ(way("sim/open.h"), "src/record/a.cpp -> sim/open.h -> sim/inside.h -> soil/solver.h");
-  EXPECT_EQ(way("sim/closed.h"), "");
-  EXPECT_EQ(way("vehicle/machine_state.h"), "");
-  EXPECT_NE(way("sim/world_parts.h"), "");
+  EXPECT_EQ(path("sim/open.h"), "src/record/a.cpp -> sim/open.h -> sim/inside.h -> soil/solver.h");
+  EXPECT_EQ(path("sim/closed.h"), "");
+  EXPECT_EQ(path("vehicle/machine_state.h"), "");
+  EXPECT_NE(path("sim/world_parts.h"), "");
 }
 
-/// Rooms and their direct arrows as the table "Module map" of src/README.md has them. Notes in
-/// brackets do not count.
+/// Returns the modules and their direct arrows from the table "Module map" of src/README.md. Notes
+/// in brackets are ignored.
 std::map<std::string, Names> map_of_readme(const std::string& page) {
   std::map<std::string, Names> out;
   static const std::regex row(R"(\n\| (\w+) \|[^\n|]*\| ([^\n|]*) \|)");
@@ -286,18 +286,18 @@ TEST(Includes, ArrowsAreThoseOfTheModuleMap) {
   const std::string page = read_source("src/README.md").text;
   const std::size_t begin = page.find("## Module map"), end = page.find("\n## ", begin + 1);
   ASSERT_NE(end, std::string::npos);
-  const std::map<std::string, Names> told = map_of_readme(page.substr(begin, end - begin));
-  for (const auto& [room, to] : arrows()) {
-    if (!exists("src/" + room)) continue;  // to come: told in prose below the table
-    ASSERT_EQ(told.count(room), 1u) << room << " has no row in src/README.md";
-    if (told.at(room) == Names{"everything"}) continue;
+  const std::map<std::string, Names> documented = map_of_readme(page.substr(begin, end - begin));
+  for (const auto& [module, to] : arrows()) {
+    if (!exists("src/" + module)) continue;  // planned: described below the table
+    ASSERT_EQ(documented.count(module), 1u) << module << " has no row in src/README.md";
+    if (documented.at(module) == Names{"everything"}) continue;
     Names here;
     for (const std::string& name : to)
       if (exists("src/" + name)) here.insert(name);
-    Names open = told.at(room);
+    Names open = documented.at(module);
     open.erase("core");  // open to all
     here.erase("core");
-    EXPECT_EQ(open, here) << room;
+    EXPECT_EQ(open, here) << module;
   }
 }
 
@@ -312,7 +312,7 @@ TEST(Includes, FollowTheArrowsOfTheModuleMap) {
   EXPECT_EQ(report(found), "");
 }
 
-TEST(Includes, OfAWrongKindAreFound) {
+TEST(Includes, ViolationsAreFound) {
   const auto violations = [](const std::string& path, const std::string& text) {
     return check(SourceFile{path, text}).size();
   };
@@ -337,7 +337,7 @@ TEST(Includes, OfAWrongKindAreFound) {
   EXPECT_EQ(violations("src/attic/a.cpp", ""), 1u);
 }
 
-TEST(Includes, OfSlowLibrariesStayOutOfHeaders) {
+TEST(Includes, SlowLibrariesStayOutOfHeaders) {
   std::vector<std::string> found;
   for (const SourceFile& file : sources("src", {".h"})) {
     if (file.ends_with("_private.h")) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// References lead somewhere: [docs/FILE.md, HEADING] to a heading, [Name YEAR] to an entry of
-// docs/bibliography.md. Nothing leads to a document that is not in the repository.
+// Checks references: [docs/FILE.md, HEADING] must match a heading, [Name YEAR] an entry of
+// docs/bibliography.md. No reference leads to a document outside the repository.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// What references may lead to: headings of each page of docs/ in lower case, and the keys of the
+/// Targets of references: headings of each page of docs/ in lower case, and the keys of the
 /// bibliography.
-struct Book {
+struct Targets {
   std::map<std::string, Names> headings;
   Names entries;
 };
@@ -33,33 +33,32 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Takes up a page: its headings of any level, and what stands as "- **[Name YEAR]**".
-void read_page(const SourceFile& page, Book& book) {
+/// Adds a page: its headings of any level, and entries of the form "- **[Name YEAR]**".
+void read_page(const SourceFile& page, Targets& targets) {
   static const std::regex heading(R"(^#+ +(.*?) *$)"), entry(R"(^- \*\*\[([^\]]+)\]\*\*.*$)");
   std::istringstream lines(page.text);
   std::string line;
   bool code = false;  // a fenced block may hold lines that begin with #
-  Names& headings = book.headings[page.path];
+  Names& headings = targets.headings[page.path];
   while (std::getline(lines, line)) {
     if (line.compare(0, 3, "```") == 0) code = !code;
     std::smatch match;
     if (!code && std::regex_match(line, match, heading)) headings.insert(lower(match[1]));
     if (page.path == "docs/bibliography.md" && std::regex_match(line, match, entry))
-      book.entries.insert(match[1]);
+      targets.entries.insert(match[1]);
   }
 }
 
-const Book& book() {
-  static const Book shared = [] {
-    Book out;
+const Targets& targets() {
+  static const Targets shared = [] {
+    Targets out;
     for (const SourceFile& page : sources("docs", {".md"})) read_page(page, out);
     return out;
   }();
   return shared;
 }
 
-/// Documents that only their writers had, as they used to be called; some count only when a number
-/// follows.
+/// Documents that only their writers had, by their former names; some count only before a number.
 struct Absent {
   const char* name;
   bool numbered;
@@ -78,7 +77,7 @@ constexpr Absent kAbsent[] = {{"SOIL_SOLVER", false},
                               {"issues", true},
                               {"Issue", true}};
 
-/// The first of them that `line` names; null when none.
+/// Returns the first of them that `line` names; null if none.
 const char* absent_in(const std::string& line) {
   for (const Absent& absent : kAbsent)
     for (std::size_t at = line.find(absent.name); at != std::string::npos;
@@ -91,10 +90,10 @@ const char* absent_in(const std::string& line) {
   return nullptr;
 }
 
-/// Wrong references of one line. A reference stands on one line.
-std::vector<std::string> wrong_references(const std::string& line, const Book& book) {
-  // A page with what follows the comma up to the bracket; without one the reference goes on beyond
-  // the line.
+/// Returns the wrong references of one line. A reference must not be broken over lines.
+std::vector<std::string> wrong_references(const std::string& line, const Targets& targets) {
+  // A page, and the text from the comma to the bracket; without a bracket the reference continues
+  // beyond the line.
   static const std::regex page(R"re(\[(docs/[\w./-]+\.md)(?:, *([^\]]*))?(\]|$))re");
   static const std::regex literature(
       R"re(\[([A-Z][\w'-]+(?: (?:and|&) [A-Z][\w'-]+)*),? ((?:17|18|19|20)\d\d)[,:;\]])re");
@@ -102,23 +101,24 @@ std::vector<std::string> wrong_references(const std::string& line, const Book& b
   if (const char* absent = absent_in(line))
     found.push_back(std::string(absent) + " leads out of the repository");
   if (line.find('[') == std::string::npos)
-    return found;  // the expressions are slow and most lines hold nothing for them
+    return found;  // the expressions are slow and most lines have no reference
   for (std::sregex_iterator it(line.begin(), line.end(), page), end; it != end; ++it) {
     const std::string name = (*it)[1], heading = lower((*it)[2]);
-    const auto at = book.headings.find(name);
-    if (at == book.headings.end())
+    const auto at = targets.headings.find(name);
+    if (at == targets.headings.end())
       found.push_back("no page " + name);
     else if ((*it)[3].length() == 0)
       found.push_back("a reference stands on one line: " + it->str());
     else if ((*it)[2].matched && at->second.count(heading) == 0)
       found.push_back(name + " has no heading '" + heading + "'");
   }
-  // The first name and the year are the key; "et al." would hide an entry that is not there.
+  // The first name and the year are the key; "et al." would hide a missing entry.
   if (line.find(" et al.") != std::string::npos)
     found.push_back("a reference is [Name YEAR], without et al.");
   for (std::sregex_iterator it(line.begin(), line.end(), literature), end; it != end; ++it) {
     const std::string key = (*it)[1].str() + " " + (*it)[2].str();
-    if (book.entries.count(key) == 0) found.push_back("docs/bibliography.md has no [" + key + "]");
+    if (targets.entries.count(key) == 0)
+      found.push_back("docs/bibliography.md has no [" + key + "]");
   }
   return found;
 }
@@ -128,19 +128,19 @@ std::vector<std::string> check(const SourceFile& file) {
   std::istringstream lines(file.text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number)
-    for (const std::string& wrong : wrong_references(line, book()))
+    for (const std::string& wrong : wrong_references(line, targets()))
       found.push_back(file.path + ":" + std::to_string(number) + ": " + wrong);
   return found;
 }
 
 TEST(References, LeadToAHeadingOrAnEntryOfTheBibliography) {
-  ASSERT_FALSE(book().entries.empty()) << "docs/bibliography.md was not found";
+  ASSERT_FALSE(targets().entries.empty()) << "docs/bibliography.md was not found";
   std::vector<std::string> found;
   for (const char* folder : {"src", "kernels", "tests", "bench", "docs", "terrain", "vehicles",
                              "scenarios", "examples", "cmake"})
     for (const SourceFile& file : sources(folder, {".h", ".cpp", ".cl", ".cmake", "CMakeLists.txt",
                                                    ".md", ".py", ".sdf", ".csv"})) {
-      // Names what must not be named.
+      // This file contains the banned names.
       if (file.path == "tests/style/reference_test.cpp") continue;
       const std::vector<std::string> more = check(file);
       found.insert(found.end(), more.begin(), more.end());
@@ -152,8 +152,8 @@ TEST(References, LeadToAHeadingOrAnEntryOfTheBibliography) {
   EXPECT_EQ(report(found), "");
 }
 
-TEST(References, ThatLeadNowhereAreFound) {
-  Book small;
+TEST(References, WithoutATargetAreFound) {
+  Targets small;
   read_page({"docs/soil.md", "# Soil\n\n## Swell, and heaps\n```\n# no heading\n```\n"}, small);
   read_page({"docs/bibliography.md", "- **[Klar 2016]** G. Klar.\n"}, small);
   const auto wrong = [&](const std::string& line) { return wrong_references(line, small).size(); };
@@ -176,7 +176,7 @@ TEST(References, ThatLeadNowhereAreFound) {
   EXPECT_EQ(wrong("there is no evidence of an issue here, nor of validation"), 0u);
 }
 
-/// Names of all tests as "Suite.Case".
+/// Returns the names of all tests as "Suite.Case".
 Names test_cases() {
   static const std::regex declared(R"re(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))re");
   Names out;
@@ -187,9 +187,8 @@ Names test_cases() {
   return out;
 }
 
-TEST(References, OfTunedConstantsNameATestThatIsThere) {
-  // "tuned: Suite.Case"; other words after the colon tell in a sentence what a constant was chosen
-  // by.
+TEST(References, OfTunedConstantsNameAnExistingTest) {
+  // "tuned: Suite.Case"; other words after the colon describe how a constant was chosen.
   static const std::regex tuned(R"re(tuned: ([A-Z]\w*\.[A-Z]\w*))re");
   const Names known = test_cases();
   ASSERT_GT(known.size(), 100u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The repository's text files, for the tests that read them.
+// Text files of the repository, for the tests that read them.
 #pragma once
 
 #include <string>
@@ -15,15 +15,16 @@ struct SourceFile {
   std::string extension() const;                ///< ".h"; empty when there is none
 };
 
-/// Every file below `folder` (relative to the repository) with one of these extensions or names,
-/// sorted by path.
+/// Returns every file below `folder` (relative to the repository) with one of these extensions or
+/// names, sorted by path.
 std::vector<SourceFile> sources(const std::string& folder, const std::vector<std::string>& endings);
-/// One file, `path` relative to the repository; its text is empty when it is not there.
+/// Returns one file, with `path` relative to the repository; its text is empty if it does not
+/// exist.
 SourceFile read_source(const std::string& path);
 bool exists(const std::string& path);
 
-/// One `#include`: the name, whether it stands in angle brackets, line number, and depth of
-/// enclosing conditionals (an include guard counts).
+/// One `#include`: the name, angle brackets or quotes, line number, and depth of enclosing
+/// conditionals (an include guard counts).
 struct Include {
   std::string name;
   bool angle = false;
@@ -32,14 +33,15 @@ struct Include {
 };
 std::vector<Include> includes(const std::string& text);
 
-/// `text` with comments and the contents of string literals blanked out; lines are kept.
+/// Returns `text` with comments and the contents of string literals blanked out; lines are
+/// preserved.
 std::string code_only(const std::string& text);
 int count_lines(const std::string& text);
 
-/// Where `word` stands as a whole word: line numbers.
+/// Returns the line numbers of `word` as a whole word.
 std::vector<int> lines_with_word(const std::string& code, const std::string& word);
 
-/// Joins messages, one a line, for EXPECT_EQ(report, "").
+/// Joins messages, one per line, for EXPECT_EQ(report, "").
 std::string report(const std::vector<std::string>& messages);
 
 }  // namespace navvy::style

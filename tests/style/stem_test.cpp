@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One stem for one stage: kernel, host, test and bench of it are found under the same name.
+// One stem for one stage: its kernel, host, test and bench have the same name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string stem_of(const std::string& path) {
   return file.substr(0, file.find('.'));
 }
 
-/// Stems of the kernels of a schedule.
+/// Returns the stems of a schedule's kernels.
 std::vector<std::string> stages(const std::string& schedule) {
   std::vector<std::string> out;
   for (const SourceFile& file : sources("kernels/soil/" + schedule, {".cl"}))
@@ -27,7 +27,7 @@ std::vector<std::string> stages(const std::string& schedule) {
   return out;
 }
 
-/// Whether a file below `folder` is named `begin` + anything + `end`.
+/// Returns true if a file below `folder` is named `begin` + anything + `end`.
 bool has_file(const std::string& folder, const std::string& begin, const std::string& end) {
   const std::vector<SourceFile> files = sources(folder, {".h", ".cpp"});
   return std::any_of(files.begin(), files.end(), [&](const SourceFile& file) {
@@ -54,7 +54,7 @@ TEST(Stems, OfBothSchedulesAreTheSame) { EXPECT_EQ(stages("lanes"), stages("grou
 
 TEST(Stems, OfKernelsHaveARowInABench) {
   // Kernels are timed inside whole steps, where memory and neighbours are as in a run: `soil_bench
-  // --profile` prints a row for each. The case of soil_bench in which a stage costs most:
+  // --profile` prints a row for each. Case of soil_bench in which a stage costs most:
   const std::map<std::string, std::string> cases = {{"particle_to_grid", "collapse_64k"},
                                                     {"grid_update", "collapse_64k"},
                                                     {"grid_to_particle", "collapse_64k"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The language of the project: words of docs/glossary.md, doc comments with a subject, and one name
-// for one class or header.
+// Language of the project: terms of docs/glossary.md, doc comments with a subject, and unique names
+// of classes and headers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,8 +54,8 @@ bool allowed(const Term& term, const SourceFile& file) {
   return false;
 }
 
-/// The text with its code blanked out: comments and the contents of string literals stay. Contents
-/// of `code_only` are the complement, and both keep every line.
+/// Returns the text with its code blanked out: comments and the contents of string literals remain.
+/// The result of `code_only` is the complement, and both preserve every line.
 std::string words_only(const std::string& text) {
   std::string words = text;
   const std::string code = code_only(text);
@@ -86,19 +86,19 @@ std::vector<SourceFile> code_files() {
   return files;
 }
 
-TEST(Terms, OfTheGlossaryAreUsedInCommentsAndMessages) {
+TEST(Terms, ReplacedByTheGlossaryAreAbsentInCommentsAndMessages) {
   std::vector<std::string> found;
   for (const SourceFile& file : code_files()) find_terms(file, words_only(file.text), found);
   EXPECT_EQ(report(found), "") << found.size() << " places";
 }
 
-/// The text without code spans, which quote names of elements, layers and options.
+/// Returns the text without code spans, which quote names of elements, layers and options.
 std::string without_code_spans(const std::string& text) {
   static const std::regex span("`[^`\n]+`", std::regex::optimize);
   return std::regex_replace(text, span, "");
 }
 
-TEST(Terms, OfTheGlossaryAreUsedInPages) {
+TEST(Terms, ReplacedByTheGlossaryAreAbsentInPages) {
   std::vector<std::string> found;
   for (const char* folder : {"docs", "scenarios", "terrain", "vehicles", "src", "kernels", "bench"})
     for (const SourceFile& file : sources(folder, {".md"}))
@@ -110,7 +110,7 @@ TEST(Terms, OfTheGlossaryAreUsedInPages) {
   EXPECT_EQ(report(found), "") << found.size() << " places";
 }
 
-TEST(Terms, ThatAreBannedAreFoundInCommentsAndTextsAndNotInCode) {
+TEST(Terms, BannedOnesAreFoundInCommentsAndTextsAndNotInCode) {
   const SourceFile file{"src/x.cpp",
                         "// It is told where to go.\n"
                         "int room = 1;\n"
@@ -122,7 +122,7 @@ TEST(Terms, ThatAreBannedAreFoundInCommentsAndTextsAndNotInCode) {
                                    "src/x.cpp:3: 'crumb'; use loose particle"}));
 }
 
-/// First words of a doc comment that leave its subject out.
+/// Returns true for first words of a doc comment that leave its subject out.
 bool lacks_subject(const std::string& word) {
   static const std::set<std::string> words = {
       "of",  "what",   "whether",  "where",   "as",   "by",  "at",    "from", "how",  "in",
@@ -132,7 +132,7 @@ bool lacks_subject(const std::string& word) {
   return words.count(lower) > 0;
 }
 
-/// Line numbers of doc comments (`///` paragraphs) that begin without a subject.
+/// Returns the line numbers of doc comments (`///` paragraphs) that begin without a subject.
 std::vector<int> comments_without_subject(const std::string& text) {
   static const std::regex first("^\\s*///\\s+([A-Za-z]+).*");
   std::vector<int> lines;

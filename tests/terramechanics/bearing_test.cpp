@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bearing capacity, and soil that flows instead of being compacted: limits and published numbers.
+// Bearing capacity, and soil that flows instead of being compacted: limits and published values.
 #include "terramechanics/bearing.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ scene::Soil sand() {
   return soil;
 }
 
-TEST(Bearing, FactorsAreTerzaghis) {
+TEST(Bearing, FactorsMatchTerzaghi) {
   // Nc, Nq, Ngamma as tabulated by phi: [Terzaghi 1943].
   struct Row {
     double phi, c, q, gamma;
@@ -37,7 +37,7 @@ TEST(Bearing, FactorsAreTerzaghis) {
   }
 }
 
-TEST(Bearing, OfFrictionlessClayIsItsCohesionAndTheSurcharge) {
+TEST(Bearing, OfFrictionlessClayFollowsFromCohesionAndSurcharge) {
   scene::Soil clay;
   clay.friction_angle = 0;
   clay.cohesion = 12e3, clay.residual_cohesion = 4e3, clay.loose_cohesion = 3e3;
@@ -59,27 +59,27 @@ TEST(Bearing, SoilFlowsOnlyBeyondItsBearingCapacity) {
   // 98 kPa at 0.12 m compact 0.082 m of 0.12: (98 / 1532)^(1 / 1.1) by hand.
   EXPECT_NEAR(bearing_capacity(bank, b, 0.12), 98e3, 2e3);
   EXPECT_NEAR(pushed_depth(bank, b, 0, 0.12), 0.12 - 0.082, 0.002);
-  // Never more than it sinks; more where it lies loose; nothing while it stands.
+  // Never more than it sinks; more in loose soil; none at rest.
   for (double z = 0.01; z < 0.5; z += 0.03) {
     EXPECT_LE(pushed_depth(bank, b, 0, z), pushed_depth(loose, b, 0, z)) << z;
     EXPECT_LE(pushed_depth(loose, b, 0, z), z) << z;
     EXPECT_EQ(pushed_depth(bank, b, z, z), 0);
   }
-  // In steps as at once.
+  // In steps, the same as at once.
   double sum = 0;
   for (int i = 0; i < 40; ++i) sum += pushed_depth(bank, b, 0.005 * i, 0.005 * (i + 1));
   EXPECT_NEAR(pushed_depth(bank, b, 0, 0.2), sum, 1e-12);
   EXPECT_EQ(pushed_depth({}, b, 0, 1), 0);
 }
 
-TEST(Bearing, MudFlows) {
+TEST(Bearing, IsExceededInMud) {
   scene::Soil mud;
   mud.friction_angle = 0;
   mud.cohesion = mud.residual_cohesion = 10;
   EXPECT_GT(pushed_depth({&mud, 1}, 0.3, 0.05, 0.1), 0.99 * 0.05);
 }
 
-TEST(Bulldozing, IsBekkersPassiveResistance) {
+TEST(Bulldozing, MatchesBekkersPassiveResistance) {
   // Without friction: R = b (2/3 c z 5.712 + gamma z^2 (4 x 2 + 1) / 2).
   scene::Soil clay;
   clay.friction_angle = 0;
@@ -99,7 +99,7 @@ TEST(Bulldozing, IsBekkersPassiveResistance) {
   EXPECT_EQ(passive_resistance({}, 0.28, 0.1), 0);
 }
 
-TEST(Bulldozing, IsMobilisedByHowFarTheRimPushesAhead) {
+TEST(Bulldozing, IsMobilisedByTheTravelOfTheRim) {
   const scene::Soil soil = sand();
   const SoilState bank{&soil, 1};
   const double r = 0.5, z = 0.1, full = passive_resistance(bank, 0.3, z);
@@ -112,8 +112,8 @@ TEST(Bulldozing, IsMobilisedByHowFarTheRimPushesAhead) {
     expected += 2 * x * (1 - std::exp(-r * (theta - std::sin(theta)) / soil.janosi_k)) / 1000;
   }
   EXPECT_NEAR(share(1), expected, 0.01 * expected);
-  EXPECT_LT(share(1), 1 - std::exp(-0.02175 / soil.janosi_k));  // of the soil at the surface
-  EXPECT_EQ(share(0.8), 0);                                     // what slips carries soil back
+  EXPECT_LT(share(1), 1 - std::exp(-0.02175 / soil.janosi_k));  // share of the soil at the surface
+  EXPECT_EQ(share(0.8), 0);  // a slipping wheel carries soil back
   EXPECT_EQ(share(0), 0);
   EXPECT_GT(share(1.25), share(1));
   EXPECT_EQ(share(INFINITY), 1);     // locked

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grounds given by functions, for wheels in tests.
+// Grounds defined by functions, for wheels in tests.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace navvy::terramechanics {
 
-/// A surface over x and y [m]; the normal by differences over 0.1 m. A firm floor until told its
-/// soil. Bodies meet it by triangles between nodes `spacing` [m] apart.
+/// A surface over x and y [m], with its normal from differences over 0.1 m. A firm floor unless
+/// given a soil. Bodies touch it as triangles between nodes `spacing` [m] apart.
 class FunctionGround final : public GroundQuery {
  public:
   explicit FunctionGround(std::function<double(double, double)> height, double spacing = 0.2)
@@ -37,7 +37,7 @@ class FunctionGround final : public GroundQuery {
 inline FunctionGround flat() {
   return FunctionGround([](double, double) { return 0.0; });
 }
-/// Plane that rises along x.
+/// Returns a plane that rises along x.
 inline FunctionGround slope(double angle) {
   return FunctionGround([t = std::tan(angle)](double x, double) { return t * x; });
 }

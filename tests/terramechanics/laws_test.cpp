@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plate, shear and tyre patch against their closed forms.
+// Plate, shear and tyre patch compared with their closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace navvy::terramechanics {
 namespace {
 
-TEST(Plate, PressureIsBekkersLaw) {
+TEST(Plate, PressureFollowsBekkersLaw) {
   scene::Soil soil;
   soil.bekker_kc = 1000, soil.bekker_kphi = 2e6, soil.bekker_n = 0.5;
   // (1000 / 0.25 + 2e6) sqrt(0.04): rounding only.
@@ -29,7 +29,7 @@ TEST(Plate, SinkageInvertsPressure) {
       EXPECT_NEAR(plate_sinkage(soil, plate_pressure(soil, z, width), width), z, 1e-12);
 }
 
-TEST(Plate, WithoutPressureOrConstantsDoesNotSink) {
+TEST(Plate, DoesNotSinkWithoutPressureOrConstants) {
   scene::Soil soil;
   EXPECT_EQ(plate_sinkage(soil, 0, 0.28), 0);
   EXPECT_EQ(plate_sinkage(soil, -1e3, 0.28), 0);
@@ -37,17 +37,17 @@ TEST(Plate, WithoutPressureOrConstantsDoesNotSink) {
   EXPECT_EQ(plate_sinkage(soil, 1e5, 0.28), 0);
 }
 
-TEST(Shear, MobilisesAsJanosiSays) {
+TEST(Shear, MobilisesByJanosisLaw) {
   EXPECT_EQ(mobilised_share(0, 0.02), 0);
   EXPECT_NEAR(mobilised_share(0.02, 0.02), 1 - std::exp(-1.0), 1e-15);
   EXPECT_EQ(mobilised_share(-0.02, 0.02), mobilised_share(0.02, 0.02));
-  // Far on it is Coulomb's strength, against the way the rim slips.
+  // For large travel it is Coulomb's strength, opposite to the rim's slip.
   const ShearStrength strength{500, std::tan(radians(30))};
   EXPECT_NEAR(shear_stress(strength, 1e4, 10, 0.02), 500 + 1e4 * std::tan(radians(30)), 1e-9);
   EXPECT_NEAR(shear_stress(strength, 1e4, -10, 0.02), -(500 + 1e4 * std::tan(radians(30))), 1e-9);
 }
 
-TEST(Shear, RimSlidesWhereFrictionIsLess) {
+TEST(Shear, RimSlidesIfItsFrictionIsLower) {
   scene::Soil soil;
   soil.friction_angle = radians(32), soil.residual_cohesion = 800;
   soil.tool_friction_angle = radians(20), soil.adhesion = 50;
@@ -58,7 +58,7 @@ TEST(Shear, RimSlidesWhereFrictionIsLess) {
   EXPECT_EQ(rim_strength(soil).slope, std::tan(radians(32)));
 }
 
-TEST(TyrePatch, OnFirmGroundIsTheChordOfItsDeflection) {
+TEST(TyrePatch, EqualsTheChordOfItsDeflectionOnFirmGround) {
   scene::Soil rock;
   rock.bekker_kc = 0, rock.bekker_kphi = 1e15, rock.bekker_n = 1;
   scene::Wheel tyre;
@@ -85,17 +85,17 @@ TEST(TyrePatch, CarriesTheLoadAtTheSinkageOfItsPressure) {
   }
 }
 
-TEST(TyrePatch, OfATwinPairIsThatOfEachTyre) {
+TEST(TyrePatch, OfATwinPairEqualsThatOfEachTyre) {
   const scene::Soil loam;
   scene::Wheel single, pair;
   pair.twin_spacing = 0.32;
-  pair.stiffness = 2 * single.stiffness;  // of the pair
+  pair.stiffness = 2 * single.stiffness;  // stiffness of the pair
   const TyrePatch one = tyre_patch(single, loam, 20e3), each = tyre_patch(pair, loam, 40e3);
   EXPECT_EQ(one.sinkage, each.sinkage);
   EXPECT_EQ(one.half_length, each.half_length);
 }
 
-TEST(TyrePatch, WithoutLoadIsNone) {
+TEST(TyrePatch, VanishesWithoutLoad) {
   EXPECT_EQ(tyre_patch({}, {}, 0).half_length, 0);
   EXPECT_EQ(tyre_patch({}, {}, -10).half_length, 0);
 }

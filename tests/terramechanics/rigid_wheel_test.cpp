@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wheel by Bekker's and Janosi's laws: its limits.
+// Limits of a wheel by Bekker's and Janosi's laws.
 #include "terramechanics/rigid_wheel.h"
 
 #include <gtest/gtest.h>
@@ -47,18 +47,18 @@ TEST(RigidWheel, SinksByBekkersClosedFormInMeasuredSand) {
   EXPECT_NEAR(rigid_wheel({0.0625, 0.06, 24.6, 0}, sand).sinkage, 0.0260, 0.05 * 0.0260);
 }
 
-TEST(RigidWheel, SpinningWheelFeelsTheRimsFriction) {
+TEST(RigidWheel, SpinningWheelMobilisesTheRimsFriction) {
   scene::Soil soil = plain();
   soil.janosi_k = 1e-5;  // fully mobilised
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, 0.9}, soil);
-  // The rim's forces stand within the entry angle of upright, so the torque is r tan delta load, a
-  // few percent less.
+  // The rim's forces act within the entry angle of the vertical, so the torque is r tan delta load,
+  // a few percent less.
   EXPECT_NEAR(force.torque, 0.5 * std::tan(radians(20)) * 300,
               0.05 * 0.5 * std::tan(radians(20)) * 300);
   EXPECT_GT(force.drawbar, 0);
 }
 
-TEST(RigidWheel, LockedWheelIsDragged) {
+TEST(RigidWheel, LockedWheelResistsByItsFriction) {
   const WheelForce force = rigid_wheel({0.5, 0.2, 300, -1}, plain());
   EXPECT_LT(force.drawbar, -std::tan(radians(20)) * 300);
   EXPECT_LT(force.torque, 0);
@@ -73,8 +73,8 @@ TEST(RigidWheel, PushesSoilAheadUnlessItSlips) {
     EXPECT_GT(force.bulldozing, before) << slip;
     before = force.bulldozing;
   }
-  // Locked, all of it: without cohesion b gamma z^2 Kgamma / 2 with tan phi' = 2/3 tan 30 deg, Nq'
-  // 8.31, Ngamma' 5.13.
+  // Fully locked: without cohesion b gamma z^2 Kgamma / 2 with tan phi' = 2/3 tan 30 deg, Nq' 8.31,
+  // Ngamma' 5.13.
   const WheelForce locked = rigid_wheel({0.5, 0.2, 300, -1}, soil);
   const double tan_phi = 2.0 / 3 * std::tan(radians(30));
   const double k_gamma = (2 * 5.13 / tan_phi + 1) / (1 + tan_phi * tan_phi);
@@ -92,7 +92,7 @@ TEST(RigidWheel, PullGrowsWithSlip) {
   }
 }
 
-TEST(RigidWheel, SinksDeeperBySlipAsLyaskoSays) {
+TEST(RigidWheel, SinksDeeperBySlipByLyaskosLaw) {
   scene::Soil soil = plain();
   soil.tool_friction_angle = 0;
   const double rolling = rigid_wheel({0.5, 0.2, 300, 0}, soil).sinkage;
@@ -101,7 +101,7 @@ TEST(RigidWheel, SinksDeeperBySlipAsLyaskoSays) {
     WheelCase wheel{0.5, 0.2, 300, slip};
     EXPECT_EQ(rigid_wheel(wheel, soil).sinkage, rolling);
     wheel.slip_sinkage = 1;
-    // 2 %: Bekker's power is that of small entry angles.
+    // 2 %: Bekker's power holds for small entry angles.
     EXPECT_NEAR(rigid_wheel(wheel, soil).sinkage, deeper * rolling, 0.02 * deeper * rolling)
         << slip;
   }
@@ -132,7 +132,7 @@ TEST(RigidWheel, GrousersShearSoilOnSoil) {
             smooth + 0.5 * (std::tan(radians(30)) - std::tan(radians(20))) * 300);
 }
 
-TEST(RigidWheel, DrawbarHasItsPeakWhereSlipSinksIt) {
+TEST(RigidWheel, DrawbarPeaksWhenSlipIncreasesSinkage) {
   double best = -1e9, at = 0, last = 0;
   for (double slip = 0; slip < 0.96; slip += 0.05) {
     WheelCase wheel{0.5, 0.2, 2000, slip};
@@ -145,7 +145,7 @@ TEST(RigidWheel, DrawbarHasItsPeakWhereSlipSinksIt) {
   EXPECT_LT(last, best - 10);
 }
 
-TEST(RigidWheel, SaysWhenTheGroundDoesNotCarryTheLoad) {
+TEST(RigidWheel, ReportsWhenTheGroundCannotCarryTheLoad) {
   scene::Soil mud = plain();
   mud.bekker_kphi = 1000;
   EXPECT_FALSE(rigid_wheel({0.5, 0.2, 3000, 0}, mud).carried);

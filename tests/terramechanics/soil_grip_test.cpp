@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tyres on soil: what slip mobilises of the soil's strength.
+// Tyres on soil: strength of the soil mobilised by slip.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace navvy::terramechanics {
 namespace {
 
 constexpr double kStep = 1.0 / 600;
-constexpr double kHeight = 0.49;  // of the axle: 35 mm of deflection
+// Height of the axle: 35 mm of deflection.
+constexpr double kHeight = 0.49;
 
 scene::Wheel twin() {
   scene::Wheel wheel;
@@ -24,14 +25,14 @@ scene::Wheel twin() {
   return wheel;
 }
 
-/// Level and level it stays: no rut, so that grip alone is measured.
+/// Returns level ground without ruts, so that only grip is measured.
 FunctionGround level(const scene::Soil& soil) {
   FunctionGround ground = flat();
   ground.set_soil([&soil](double, double) { return SoilState{&soil, 1}; });
   return ground;
 }
 
-/// Force after `seconds` at these speeds of carrier and rim [m/s].
+/// Returns the force after `seconds` at these speeds of carrier and rim [m/s].
 TyreForce steady(const GroundQuery& ground, const Vec2& carrier, double rim, double seconds = 5) {
   TyreMotion motion;
   motion.X_WWheel.translation() = Vec3(0, 0, kHeight);
@@ -44,8 +45,9 @@ TyreForce steady(const GroundQuery& ground, const Vec2& carrier, double rim, dou
   return out;
 }
 
-/// A rut that this tyre presses into level ground: it has sunk by `z` [m], and from `from` [m] on,
-/// either way, nobody has been. What pressing takes is told as so little that it does not count.
+/// A rut that this tyre presses into level ground: it has sunk by `z` [m], and the ground from
+/// `from` [m] on, in either direction, is untouched. The work of pressing is set so small that it
+/// does not count.
 class FreshRut final : public GroundQuery {
  public:
   FreshRut(const scene::Soil& soil, double z, double from = 0.47)
@@ -81,7 +83,7 @@ TEST(TyreOnSoil, PullGrowsWithSlipAndSaturatesAtTheSoilsStrength) {
   EXPECT_LT(limit_of(loam, load), 0.8 * load);  // rubber on a floor
 }
 
-TEST(TyreOnSoil, SlipIsThatOfCarcassAndSoilInSeries) {
+TEST(TyreOnSoil, SlipIsTheSumOfCarcassAndSoil) {
   const scene::Soil loam;
   const double slip = 0.1;
   const TyreForce out = steady(level(loam), Vec2(1 - slip, 0), 1);
@@ -103,7 +105,7 @@ TEST(TyreOnSoil, SideForceAndPullShareOneLimit) {
   const double limit = limit_of(loam, straight.force_W.z());
   EXPECT_NEAR(straight.force_W.head<2>().norm(), limit, 0.01 * limit);
   EXPECT_NEAR(askew.force_W.head<2>().norm(), limit, 0.01 * limit);
-  // Against the slip, which is at 45 deg
+  // Opposite to the slip, which is at 45 deg
   EXPECT_NEAR(-askew.force_W.y() / askew.force_W.x(), 1, 0.01);
 }
 
@@ -117,7 +119,7 @@ TEST(TyreOnSoil, SideForceGrowsWithTheSlipAngle) {
   }
 }
 
-TEST(TyreOnSoil, WithoutKAndStrongerThanRubberIsAFirmFloor) {
+TEST(TyreOnSoil, TreatsStrongSoilWithoutKAsAFirmFloor) {
   scene::Soil rock;
   rock.cohesion = rock.residual_cohesion = 1e9;
   rock.janosi_k = 1e-9;
@@ -128,7 +130,7 @@ TEST(TyreOnSoil, WithoutKAndStrongerThanRubberIsAFirmFloor) {
   }
 }
 
-TEST(TyreOnSoil, StandingItHoldsWhatItBoreWithoutCreep) {
+TEST(TyreOnSoil, HoldsItsForceAtRestWithoutCreep) {
   const scene::Soil loam;
   const FunctionGround ground = level(loam);
   TyreMotion motion;
@@ -155,13 +157,13 @@ TEST(TyreOnSoil, ForceIsTheMobilisedShareOfTheLimit) {
   for (int i = 0; i < 200; ++i) {
     const Vec2 f =
         shear_force(tyre, 0.5, Vec2(0.1, 0), 0, soil, 60 / 0.25, kStep, bristle, sheared);
-    // What Newton's steps leave open.
+    // Residual of Newton's steps.
     EXPECT_NEAR(-f.x(), soil.limit * mobilised_share(sheared, soil.janosi_k), 1e-4 * soil.limit)
         << i;
   }
 }
 
-TEST(TyreOnSoil, InTheAirForgets) {
+TEST(TyreOnSoil, ForgetsItsStateInTheAir) {
   const scene::Soil loam;
   TyreMotion motion;
   motion.X_WWheel.translation() = Vec3(0, 0, 0.6);
@@ -171,13 +173,13 @@ TEST(TyreOnSoil, InTheAirForgets) {
   EXPECT_EQ(state.sheared[0], 0);
 }
 
-/// How much less it pulls [N] than on the same ground where it has not sunk.
+/// Returns the loss of pull [N] compared with the same ground without sinkage.
 double held_back(const GroundQuery& rut, const scene::Soil& soil, double speed, double rim) {
   return steady(level(soil), Vec2(speed, 0), rim).force_W.x() -
          steady(rut, Vec2(speed, 0), rim).force_W.x();
 }
 
-TEST(TyreOnSoil, IsHeldBackByWhatItPushesAhead) {
+TEST(TyreOnSoil, IsHeldBackBySoilPushedAhead) {
   const scene::Soil loam;
   const scene::Wheel tyre = twin();
   const double z = 0.08;
@@ -196,7 +198,7 @@ TEST(TyreOnSoil, IsHeldBackByWhatItPushesAhead) {
   EXPECT_NEAR(held_back(rut, loam, -1, -1), -pushes(1), 1e-6 * all);
 }
 
-TEST(TyreOnSoil, PushesNothingAheadWhereItMeetsNothingHigher) {
+TEST(TyreOnSoil, PushesNothingAheadWithoutHigherGround) {
   const scene::Soil loam;
   const FreshRut along(loam, 0.08, 1e3);  // back into its own rut
   EXPECT_NEAR(held_back(along, loam, 1, 1), 0, 1e-3);
@@ -204,7 +206,7 @@ TEST(TyreOnSoil, PushesNothingAheadWhereItMeetsNothingHigher) {
   EXPECT_LT(held_back(second, loam, 1, 0), 0.02 * held_back(FreshRut(loam, 0.08), loam, 1, 0));
 }
 
-TEST(TyreOnSoil, IsNotPushedBackAtRestNorHarderThanItPresses) {
+TEST(TyreOnSoil, IsNotPushedBackAtRestOrBeyondItsThrust) {
   scene::Soil rigid;
   rigid.cohesion = rigid.residual_cohesion = 1e6;
   const FreshRut rut(rigid, 0.08);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The law of a track by itself: thrust against slip, standing still, resistance.
+// The law of a single track: thrust against slip, standing still, resistance.
 #include "terramechanics/track.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 1000;
 
-/// Eight rollers every 0.35 m at z = 0.15, so that the lower run lies at z = 0.
+/// Eight rollers every 0.35 m at z = 0.15, so that the lower run is at z = 0.
 scene::Wheel running_track() {
   scene::Track track;
   for (int i = 0; i < 8; ++i) track.rollers.emplace_back(1.225 - 0.35 * i, 0, 0.15);
@@ -34,7 +34,7 @@ scene::Wheel running_track() {
   return wheel;
 }
 
-/// Pressed by 5 mm, 50 kN, at this speed over the ground and of the track [m/s].
+/// Pressed by 5 mm, 50 kN, at these speeds over the ground and of the track [m/s].
 TrackMotion moving(double ground_speed, double track_speed) {
   TrackMotion motion;
   motion.X_WC = make_pose(0, 0, -0.005);
@@ -63,7 +63,7 @@ scene::Soil clay() {
   return soil;
 }
 
-TEST(Track, ThrustGrowsWithSlipAsJanosiAndHanamotoSay) {
+TEST(Track, ThrustGrowsWithSlipByJanosiAndHanamoto) {
   const scene::Wheel wheel = running_track();
   const scene::Soil soil = clay();
   FunctionGround ground = flat();
@@ -79,15 +79,15 @@ TEST(Track, ThrustGrowsWithSlipAsJanosiAndHanamotoSay) {
                             (1 - (1 - std::exp(-x)) / x);
     print_value("thrust at slip " + std::to_string(slip) + " [N]", force.force_W.x(),
                 std::to_string(expected) + " +-4 %", "[Wong 2008]");
-    // 4 %: eight segments, on each of which shear counts as in its middle.
+    // 4 %: eight segments, on each of which shear is evaluated at its middle.
     EXPECT_NEAR(force.force_W.x(), expected, 0.04 * expected);
     EXPECT_NEAR(force.slip, slip, 1e-9);
-    // What pushes the machine the sprocket has to give.
+    // The sprocket provides the thrust of the machine.
     EXPECT_NEAR(force.torque, -wheel.radius * force.force_W.x(), 1e-6 * std::abs(force.torque));
   }
 }
 
-TEST(Track, BrakesAndBacksAsItDrives) {
+TEST(Track, BrakesAndReversesLikeItDrives) {
   const scene::Wheel wheel = running_track();
   const double drives = steady(wheel, moving(0.9, 1), flat()).force_W.x();
   EXPECT_GT(drives, 0);
@@ -98,7 +98,7 @@ TEST(Track, BrakesAndBacksAsItDrives) {
 TEST(Track, GripsAFloorByCoulombAndNoMore) {
   const scene::Wheel wheel = running_track();
   EXPECT_NEAR(steady(wheel, moving(0, 1), flat()).force_W.x(), 0.7 * 50e3, 0.01 * 0.7 * 50e3);
-  // Across, too: the sum of both is what is bounded.
+  // The bound also applies to the sum with a lateral force.
   TrackMotion aside = moving(0, 1);
   aside.v_W.y() = 1;
   const TrackForce force = steady(wheel, aside, flat());
@@ -106,7 +106,7 @@ TEST(Track, GripsAFloorByCoulombAndNoMore) {
   EXPECT_NEAR(force.force_W.x(), -force.force_W.y(), 0.02 * 0.7 * 50e3);
 }
 
-TEST(Track, OnLooseSoilHasTheLooseCohesion) {
+TEST(Track, HasTheLooseCohesionOnLooseSoil) {
   const scene::Wheel wheel = running_track();
   scene::Soil soil = clay();
   soil.loose_cohesion = 1e3;
@@ -114,14 +114,14 @@ TEST(Track, OnLooseSoilHasTheLooseCohesion) {
   EXPECT_DOUBLE_EQ(track_strength(wheel, {&soil, 0.95}).cohesion, 12e3);
   EXPECT_NEAR(track_strength(wheel, {&soil, 1.1}).cohesion, 6.5e3, 1e-6);
   EXPECT_DOUBLE_EQ(track_strength(wheel, {&soil, 1.2}).cohesion, 1e3);
-  // At most the residual one, as in the law.
+  // At most the residual cohesion, as in the law.
   soil.loose_cohesion = 5e3;
   EXPECT_DOUBLE_EQ(track_strength(wheel, {&soil, 1.2}).cohesion, 3e3);
   EXPECT_DOUBLE_EQ(track_strength(wheel, {}).slope, 0.7);
 }
 
-TEST(Track, FeelsBekkersResistanceOfGroundThatNobodyPressed) {
-  // It stands in a rut of its own as deep as its pressure makes it; ahead lies fresh ground.
+TEST(Track, HasBekkersResistanceOnUntouchedGround) {
+  // It is in its own rut as deep as its pressure makes it; the ground ahead is untouched.
   scene::Wheel wheel = running_track();
   const scene::Soil soil = clay();
   const double pressure = 50e3 / (8 * 0.35 * 0.5), z = plate_sinkage(soil, pressure, wheel.width);
@@ -130,18 +130,18 @@ TEST(Track, FeelsBekkersResistanceOfGroundThatNobodyPressed) {
   TrackMotion motion = moving(1, 1);
   motion.X_WC.translation().z() -= z;
   const double compaction = wheel.width * pressure * z / (soil.bekker_n + 1);
-  // Its idler rolls over z without slip and pushes as much ahead as a wheel does.
+  // Its idler rolls over z without slip and pushes as much soil ahead as a wheel does.
   const double idler = wheel.track->idler_radius + wheel.track->thickness;
   const double expected = compaction + bulldozing({&soil, 1}, wheel.width, idler, z, 1);
   EXPECT_GT(expected, 1.01 * compaction);
   EXPECT_NEAR(steady(wheel, motion, ground).force_W.x(), -expected, 0.02 * expected);
-  // In the rut of one before it there is none.
+  // In an existing rut there is none.
   FunctionGround rut([z](double, double) { return -z; });
   rut.set_soil([&soil](double, double) { return SoilState{&soil, 1.0}; });
   EXPECT_NEAR(steady(wheel, motion, rut).force_W.x(), 0, 0.01 * expected);
 }
 
-TEST(Track, InTheAirCarriesNothingAndForgets) {
+TEST(Track, CarriesNothingInTheAirAndForgets) {
   const scene::Wheel wheel = running_track();
   TrackState state = TrackState::of(*wheel.track);
   for (int i = 0; i < 100; ++i) track_force(wheel, moving(0, 1), flat(), kStep, state);

@@ -28,10 +28,10 @@ TyreMotion at(double height, double x = 0) {
 
 TEST(TyreForce, CarriesByItsDeflectionOnAnyPlane) {
   const scene::Wheel tyre = twin();
-  // The exact deflection of a disc on a plane, whatever ray finds it.
+  // The exact deflection of a disc on a plane, independent of the rays.
   for (const double angle : {0.0, 3.0, 7.5, 11.0, 20.0}) {
     const FunctionGround ground = slope(radians(angle));
-    const double away = tyre.radius - 0.03;  // of the centre from the plane
+    const double away = tyre.radius - 0.03;  // distance of the centre from the plane
     TyreState state;
     const TyreForce out =
         tyre_force(tyre, at(away / std::cos(radians(angle))), ground, kStep, state);
@@ -41,12 +41,12 @@ TEST(TyreForce, CarriesByItsDeflectionOnAnyPlane) {
   }
 }
 
-TEST(TyreForce, InTheAirIsNothing) {
+TEST(TyreForce, IsZeroInTheAir) {
   TyreState state;
   state.bristle[0] = Vec2(0.01, 0);
   const TyreForce out = tyre_force(twin(), at(0.6), flat(), kStep, state);
   EXPECT_TRUE(out.force_W.isZero());
-  EXPECT_TRUE(state.bristle[0].isZero());  // what no longer touches forgets
+  EXPECT_TRUE(state.bristle[0].isZero());  // a strip without contact forgets its state
 }
 
 TEST(TyreForce, FrictionIsLimitedByCoulomb) {
@@ -91,7 +91,7 @@ TEST(TyreForce, RollingWheelSlipsInProportionToItsForce) {
   EXPECT_GT(out.force_W.x(), 0);  // a wheel that turns faster pushes forward
 }
 
-TEST(TyreForce, TwinOnAnEdgeStandsOnOneTyre) {
+TEST(TyreForce, TwinOnAnEdgeIsCarriedByOneTyre) {
   const FunctionGround ground([](double, double y) { return y > 0 ? 0.0 : -1.0; });
   TyreState state;
   const TyreForce out = tyre_force(twin(), at(0.49), ground, kStep, state);
@@ -114,7 +114,7 @@ TEST(TyreFriction, IsTheWeakerOfRubberAndSoil) {
   EXPECT_EQ(tyre_friction(tyre, {&clay, 1}, 2e4), 0.7);
 }
 
-TEST(TyreForce, AsksForTheSoilUnderEachTrackThatTouches) {
+TEST(TyreForce, QueriesTheSoilUnderEachTouchingStrip) {
   const scene::Soil loam;
   std::vector<Vec2> asked;
   FunctionGround ground([](double, double y) { return y > 0 ? 0.0 : -1.0; });

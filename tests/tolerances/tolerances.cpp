@@ -22,7 +22,7 @@ std::string trimmed(const std::string& text) {
                                     : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-/// Cells of a Markdown row, without the bars at its ends.
+/// Returns the cells of a Markdown row, without the bars at its ends.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> out;
   std::size_t from = 1;
@@ -42,7 +42,7 @@ double number(const std::string& text, double if_empty) {
   return value;
 }
 
-/// "0.1 .. 0.2", ".. 0.2", "0.1 ..".
+/// Parses "0.1 .. 0.2", ".. 0.2", "0.1 ..".
 Band band_of(const std::string& text) {
   const std::size_t dots = text.find("..");
   if (dots == std::string::npos) throw std::invalid_argument(text);
@@ -52,19 +52,19 @@ Band band_of(const std::string& text) {
   return out;
 }
 
-/// Gates are written with a few digits.
+/// Compares bounds, which the table gives with a few digits.
 bool same(double a, double b) {
   return a == b || std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b));
 }
 
-/// The table of this tree, and which rows of it were measured.
+/// The table of this tree, and the rows that were measured.
 struct Table {
   std::vector<KnownDeviation> rows;
   std::set<const KnownDeviation*> seen;
 
-  const KnownDeviation* find(const std::string& test, const std::string& figure) {
+  const KnownDeviation* find(const std::string& test, const std::string& quantity) {
     for (const KnownDeviation& row : rows)
-      if (row.test == test && row.figure == figure) {
+      if (row.test == test && row.quantity == quantity) {
         seen.insert(&row);
         return &row;
       }
@@ -86,14 +86,14 @@ std::string name_of(const testing::TestInfo& test) {
   return std::string(test.test_suite_name()) + "." + test.name();
 }
 
-/// A test that ran to its end must have measured every row it has in the table.
+/// Fails a test that ran to its end without measuring every row it has in the table.
 class EveryRowIsMeasured : public testing::EmptyTestEventListener {
   void OnTestEnd(const testing::TestInfo& test) override {
     if (test.result()->Skipped() || test.result()->HasFatalFailure()) return;
     for (const KnownDeviation& row : table().rows)
       if (row.test == name_of(test) && table().seen.count(&row) == 0)
-        ADD_FAILURE() << kTable << " has a row for '" << row.figure << "', which " << row.test
-                      << " does not measure: mend its name or take it out";
+        ADD_FAILURE() << kTable << " has a row for '" << row.quantity << "', which " << row.test
+                      << " does not measure: correct its name or remove it";
   }
 };
 
@@ -115,7 +115,7 @@ const char* mark(Verdict verdict) {
     case Verdict::kNewlyMet:
       return "ok, table old";
     case Verdict::kToleranceMoved:
-      return "GATE MOVED";
+      return "TOLERANCE MOVED";
   }
   return "";
 }
@@ -128,24 +128,26 @@ std::vector<KnownDeviation> parse_known_deviations(const std::string& text) {
   std::string line;
   for (int number = 1, in_table = 0; std::getline(lines, line); ++number) {
     if (line.empty() || line.front() != '|') in_table = 0;
-    // A table's first two lines are its head.
+    // The first two lines of a table are its head.
     if (line.empty() || line.front() != '|' || ++in_table <= 2) continue;
     const auto refuse = [&](const std::string& why) {
       throw std::runtime_error(std::string(kTable) + ":" + std::to_string(number) + ": " + why);
     };
     const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != 5) refuse("a row has five cells: test, figure, now, gate, why");
+    if (cells.size() != 5) refuse("a row has five cells: test, quantity, now, tolerance, cause");
     KnownDeviation row = {cells[0], cells[1], {}, {}, cells[4]};
     try {
       row.now = band_of(cells[2]), row.tolerance = band_of(cells[3]);
     } catch (const std::exception&) {
-      refuse("'now' and 'gate' are written '0.1 .. 0.2', a side of the gate may be empty");
+      refuse(
+          "'now' and 'tolerance' are written '0.1 .. 0.2'; a side of the tolerance may be empty");
     }
-    if (row.reason.empty()) refuse("say why it misses");
+    if (row.reason.empty()) refuse("the cause is missing");
     if (row.now.low <= row.tolerance.high && row.now.high >= row.tolerance.low)
-      refuse("'now' reaches into the gate");
+      refuse("'now' overlaps the tolerance");
     for (const KnownDeviation& other : out)
-      if (other.test == row.test && other.figure == row.figure) refuse("this figure stands twice");
+      if (other.test == row.test && other.quantity == row.quantity)
+        refuse("this quantity occurs twice");
     out.push_back(row);
   }
   return out;
@@ -163,46 +165,47 @@ Verdict judge(const KnownDeviation* known, double measured, const Band& toleranc
   return between ? Verdict::kBetterDeviation : Verdict::kWorse;
 }
 
-void expect_between(const std::string& figure, double measured, double low, double high,
+void expect_between(const std::string& quantity, double measured, double low, double high,
                     const std::string& source, double expected) {
   const testing::TestInfo* running = testing::UnitTest::GetInstance()->current_test_info();
   const KnownDeviation* known =
-      running == nullptr ? nullptr : table().find(name_of(*running), figure);
+      running == nullptr ? nullptr : table().find(name_of(*running), quantity);
   const Verdict verdict = judge(known, measured, {low, high});
   char wanted[32] = "";
   if (!std::isnan(expected)) std::snprintf(wanted, sizeof wanted, "%.5g", expected);
-  std::printf("| %-44s | %12.5g | %8s | %10.5g .. %-10.5g | %-10s | %s |\n", figure.c_str(),
+  std::printf("| %-44s | %12.5g | %8s | %10.5g .. %-10.5g | %-10s | %s |\n", quantity.c_str(),
               measured, wanted, low, high, mark(verdict), source.c_str());
   switch (verdict) {
     case Verdict::kMet:
       break;
     case Verdict::kOutOfTolerance:
-      ADD_FAILURE() << figure << ": " << measured << " is outside " << low << " .. " << high;
+      ADD_FAILURE() << quantity << ": " << measured << " is outside " << low << " .. " << high;
       break;
     case Verdict::kKnownDeviation:
     case Verdict::kBetterDeviation:
-      // ./dev validate gathers these lines.
-      std::printf("[KNOWN DEVIATION] %s: %s = %.5g, gate %.5g .. %.5g: %s%s\n", known->test.c_str(),
-                  figure.c_str(), measured, low, high, known->reason.c_str(),
+      // ./dev validate collects these lines.
+      std::printf("[KNOWN DEVIATION] %s: %s = %.5g, tolerance %.5g .. %.5g: %s%s\n",
+                  known->test.c_str(), quantity.c_str(), measured, low, high, known->reason.c_str(),
                   verdict == Verdict::kBetterDeviation
-                      ? " (better than the table says: narrow its row)"
+                      ? " (better than in the table: narrow its row)"
                       : "");
       break;
     case Verdict::kWorse:
-      ADD_FAILURE() << figure << ": " << measured << " misses " << low << " .. " << high
-                    << " by more than " << kTable << " says (" << known->now.low << " .. "
+      ADD_FAILURE() << quantity << ": " << measured << " is outside " << low << " .. " << high
+                    << " by more than in " << kTable << " (" << known->now.low << " .. "
                     << known->now.high
-                    << "): mend what made it worse; if the change is wanted, write the figure into "
-                       "the table and say why";
+                    << "): correct the cause; if the change is wanted, write the new range into "
+                       "the table with its cause";
       break;
     case Verdict::kNewlyMet:
-      ADD_FAILURE() << figure << ": " << measured << " now meets its gate: take its row out of "
-                    << kTable << " and the miss out of tests/README.md";
+      ADD_FAILURE() << quantity << ": " << measured
+                    << " now meets its tolerance: remove its row from " << kTable
+                    << " and the deviation from tests/README.md";
       break;
     case Verdict::kToleranceMoved:
-      ADD_FAILURE() << figure << ": the test's gate " << low << " .. " << high << " is not that of "
-                    << kTable << ", " << known->tolerance.low << " .. " << known->tolerance.high
-                    << ": a gate stays as its source gives it";
+      ADD_FAILURE() << quantity << ": the test's tolerance " << low << " .. " << high
+                    << " is not that of " << kTable << ", " << known->tolerance.low << " .. "
+                    << known->tolerance.high << ": a tolerance keeps the value of its source";
       break;
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures against their gates, with a table of known deviations (known_deviations.md): a miss that
-// is in the table shows but does not fail, so that a new one does. Nothing is forgiven in silence:
-// a figure worse than the table says fails, and so does one that meets its gate while the table
-// still calls it a miss, a gate that is not the table's, a row that nothing measures any more.
+// Compares results with their tolerances, with a table of known deviations (known_deviations.md): a
+// deviation in the table is reported but does not fail, so that a new one does. A result also fails
+// if it is worse than its row, or meets its tolerance while the table still lists it, if the test's
+// tolerance is not that of the table, or if a row is no longer measured.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace navvy::tolerances {
 
-/// low .. high; infinite where a side is open.
+/// A range low .. high; infinite on an open side.
 struct Band {
   double low = 0, high = 0;
   bool holds(double value) const { return value >= low && value <= high; }
@@ -21,36 +21,46 @@ struct Band {
 
 /// One row of the table.
 struct KnownDeviation {
-  std::string test;    ///< as `./dev validate` names the case
-  std::string figure;  ///< as printed
-  Band now;            ///< where the figure lies at present, outside the gate
+  /// Name of the case as in `./dev validate`.
+  std::string test;
+  /// Quantity as printed.
+  std::string quantity;
+  /// Present range of the result, outside the tolerance.
+  Band now;
   Band tolerance;
   std::string reason;
 };
 
-/// Rows of the Markdown table in `text`: | test | figure | now | gate | why |.
-/// @throws std::runtime_error naming the line that is no such row, whose band reaches into its
-/// gate, or which stands twice.
+/// Returns the rows of the Markdown table in `text`: | test | quantity | now | tolerance | cause |.
+/// @throws std::runtime_error naming the line that is not such a row, whose range overlaps its
+/// tolerance, or which occurs twice.
 std::vector<KnownDeviation> parse_known_deviations(const std::string& text);
 
 enum class Verdict {
-  kMet,              ///< within its gate, not in the table
-  kOutOfTolerance,   ///< outside, not in the table: fails
-  kKnownDeviation,   ///< outside, as the table says
-  kBetterDeviation,  ///< outside still, but nearer to the gate than the table says: narrow the row
-  kWorse,            ///< farther outside than the table says: fails
-  kNewlyMet,         ///< within, while the table says it is missed: fails, take the row out
-  kToleranceMoved    ///< the test's gate is not the table's: fails
+  /// Within its tolerance, not in the table.
+  kMet,
+  /// Outside, not in the table: fails.
+  kOutOfTolerance,
+  /// Outside, as in the table.
+  kKnownDeviation,
+  /// Outside, but nearer to the tolerance than in the table: narrow the row.
+  kBetterDeviation,
+  /// Farther outside than in the table: fails.
+  kWorse,
+  /// Within, while the table lists a deviation: fails, remove the row.
+  kNewlyMet,
+  /// The test's tolerance differs from the table: fails.
+  kToleranceMoved
 };
 
-/// `known` is null for a figure that is not in the table. Not a number is outside every gate and
-/// worse than every row.
+/// Judges a result. `known` is null for a quantity that is not in the table. NaN is outside every
+/// tolerance and worse than every row.
 Verdict judge(const KnownDeviation* known, double measured, const Band& tolerance);
 
-/// Prints the row figure, measured, expected, gate, result, source (tests/validation/table.py reads
-/// it), and fails the running test as `judge` says. `expected` is left empty when it is not a
-/// number.
-void expect_between(const std::string& figure, double measured, double low, double high,
+/// Prints the row quantity, measured, expected, tolerance, result, source (read by
+/// tests/validation/table.py), and fails the running test according to `judge`. `expected` is left
+/// empty if it is NaN.
+void expect_between(const std::string& quantity, double measured, double low, double high,
                     const std::string& source,
                     double expected = std::numeric_limits<double>::quiet_NaN());
 

@@ -12,19 +12,20 @@
 namespace navvy::tolerances {
 namespace {
 
-const std::string kHead = "Prose.\n\n| Test | Figure | Now | Gate | Why |\n|---|---|---|---|---|\n";
+const std::string kHead =
+    "Prose.\n\n| Test | Quantity | Now | Tolerance | Cause |\n|---|---|---|---|---|\n";
 
-/// A figure of 12 % against a gate of 10 %, and one of 27 against 28.3 or more.
+/// A result of 12 % with a tolerance of 10 %, and one of 27 with 28.3 or more.
 const KnownDeviation kAbove = {"T.a", "over-dug", {0.11, 0.13}, {0, 0.10}, "because"};
 const KnownDeviation kBelow = {"T.b", "angle", {26.5, 27.5}, {28.3, 36}, "because"};
 
-TEST(Judge, WithoutARowTheToleranceDecides) {
+TEST(Judge, TheToleranceDecidesWithoutARow) {
   EXPECT_EQ(judge(nullptr, 0.10, {0, 0.10}), Verdict::kMet);
   EXPECT_EQ(judge(nullptr, 0.11, {0, 0.10}), Verdict::kOutOfTolerance);
   EXPECT_EQ(judge(nullptr, std::nan(""), {0, 0.10}), Verdict::kOutOfTolerance);
 }
 
-TEST(Judge, AKnownDeviationStandsWhereTheTableHasIt) {
+TEST(Judge, AKnownDeviationWithinItsRowDoesNotFail) {
   EXPECT_EQ(judge(&kAbove, 0.12, {0, 0.10}), Verdict::kKnownDeviation);
   EXPECT_EQ(judge(&kBelow, 27, {28.3, 36}), Verdict::kKnownDeviation);
 }
@@ -32,8 +33,8 @@ TEST(Judge, AKnownDeviationStandsWhereTheTableHasIt) {
 TEST(Judge, AWorseResultAndNotANumberFail) {
   EXPECT_EQ(judge(&kAbove, 0.131, {0, 0.10}), Verdict::kWorse);
   EXPECT_EQ(judge(&kBelow, 26.4, {28.3, 36}), Verdict::kWorse);
-  EXPECT_EQ(judge(&kBelow, 36.1, {28.3, 36}), Verdict::kWorse) << "beyond the gate's other side";
-  EXPECT_EQ(judge(&kAbove, -0.01, {0, 0.10}), Verdict::kWorse) << "beyond the gate's other side";
+  EXPECT_EQ(judge(&kBelow, 36.1, {28.3, 36}), Verdict::kWorse) << "beyond the other bound";
+  EXPECT_EQ(judge(&kAbove, -0.01, {0, 0.10}), Verdict::kWorse) << "beyond the other bound";
   EXPECT_EQ(judge(&kAbove, std::nan(""), {0, 0.10}), Verdict::kWorse);
 }
 
@@ -42,12 +43,12 @@ TEST(Judge, AToleranceNewlyMetAsksToUpdateTheTable) {
   EXPECT_EQ(judge(&kBelow, 28.3, {28.3, 36}), Verdict::kNewlyMet);
 }
 
-TEST(Judge, ADeviationThatShrankStaysADeviation) {
+TEST(Judge, ASmallerDeviationIsStillADeviation) {
   EXPECT_EQ(judge(&kAbove, 0.105, {0, 0.10}), Verdict::kBetterDeviation);
   EXPECT_EQ(judge(&kBelow, 28, {28.3, 36}), Verdict::kBetterDeviation);
 }
 
-TEST(Judge, AToleranceOtherThanTheTablesFails) {
+TEST(Judge, AToleranceThatDiffersFromTheTableFails) {
   EXPECT_EQ(judge(&kAbove, 0.12, {0, 0.15}), Verdict::kToleranceMoved);
   EXPECT_EQ(judge(&kAbove, 0.12, {0.01, 0.10}), Verdict::kToleranceMoved);
   EXPECT_EQ(judge(&kBelow, 27, {28.301, 36}), Verdict::kKnownDeviation)
@@ -59,7 +60,7 @@ TEST(KnownDeviations, ReadsRowsAndOpenSides) {
       parse_known_deviations(kHead + "| S/A.b/c | x, y | 1.4 .. 1.5 | 1.6 .. | too small |\n");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].test, "S/A.b/c");
-  EXPECT_EQ(rows[0].figure, "x, y");
+  EXPECT_EQ(rows[0].quantity, "x, y");
   EXPECT_DOUBLE_EQ(rows[0].now.high, 1.5);
   EXPECT_DOUBLE_EQ(rows[0].tolerance.low, 1.6);
   EXPECT_EQ(rows[0].tolerance.high, std::numeric_limits<double>::infinity());
@@ -69,7 +70,7 @@ TEST(KnownDeviations, ReadsRowsAndOpenSides) {
 TEST(KnownDeviations, RefusesRowsThatWouldHideSomething) {
   const std::string good = "| A.b | x | 1.4 .. 1.5 | 1.6 .. 2 | why |\n";
   for (const char* bad :
-       {"| A.b | x | 1.4 .. 1.7 | 1.6 .. 2 | why |\n",  // reaches into its gate
+       {"| A.b | x | 1.4 .. 1.7 | 1.6 .. 2 | why |\n",  // overlaps its tolerance
         "| A.b | x | 1.4 .. 1.5 | 1.6 .. 2 | |\n",      // no reason
         "| A.b | x | 1.4 | 1.6 .. 2 | why |\n",         // no band
         "| A.b | x | 1.4 .. | 1.6 .. 2 | why |\n",      // everything above 1.4
@@ -78,7 +79,7 @@ TEST(KnownDeviations, RefusesRowsThatWouldHideSomething) {
   EXPECT_THROW(parse_known_deviations(kHead + good + good), std::runtime_error) << "twice";
 }
 
-TEST(KnownDeviations, TheTableOfThisTreeReads) {
+TEST(KnownDeviations, TheTableOfThisTreeIsValid) {
   std::ifstream file(navvy::source_dir() + "/tests/tolerances/known_deviations.md");
   std::stringstream text;
   text << file.rdbuf();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil that sleeps must not be felt: a bucket on a prescribed path, with the soil that it wakes as
-// far as usual and twice as far around and below.
+// The size of the active zone must not affect forces: a bucket on a prescribed path with the usual
+// zone, and with a zone twice as large around and below.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -14,9 +14,11 @@ namespace navvy::validation {
 namespace {
 
 struct Drag {
-  double force = 0;                  ///< mean over the drag, against its motion [N]
-  double payload = 0;                ///< when the bucket is up [kg]
-  std::uint64_t particle_steps = 0;  ///< until then
+  double force = 0;  ///< mean over the drag, against its motion [N]
+  /// Payload when the bucket is raised [kg].
+  double payload = 0;
+  /// Particle-steps up to then.
+  std::uint64_t particle_steps = 0;
 };
 
 Drag drag(const std::string& zone) {
@@ -40,11 +42,11 @@ Drag drag(const std::string& zone) {
   return out;
 }
 
-TEST(ActiveZone, TwiceAsLargeIsFeltByLessThanTwoPercent) {
+TEST(ActiveZone, DoublingItChangesTheForceByLessThanTwoPercent) {
   const Drag usual = drag("1"), twice = drag("2");
   const char* source =
       "the active zone has no effect [docs/validation.md, Buckets and carried loads]";
-  print_value("mean draft of the drag [N]", usual.force, "not gated", source);
+  print_value("mean draft of the drag [N]", usual.force, "no tolerance", source);
   expect_between("mean draft, zone twice as large / as usual", twice.force / usual.force, 0.98,
                  1.02, source);
   expect_between("load, zone twice as large / as usual", twice.payload / usual.payload, 0.98, 1.02,

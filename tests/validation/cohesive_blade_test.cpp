@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A blade in cohesive soil: its strength must be felt at any cohesion, speed and cell, and be felt
-// still when the blade has gone on. Soil that does not soften, 200 times as stiff as its cohesion.
+// A blade in cohesive soil: the full strength must act at any cohesion, speed and cell, and
+// continue to act after the first travel. The soil does not soften and is 200 times as stiff as its
+// cohesion.
 #include <algorithm>
 #include <string>
 
@@ -34,23 +35,23 @@ lab::Report push(const Push& of, double from, double travel) {
   return report;
 }
 
-/// Largest low-passed force over the expected one, until half the depth has been gone: then a pile
-/// adds its weight.
+/// Returns the largest low-passed force over the expected one, up to a travel of half the depth:
+/// later a pile adds its weight.
 double peak_of(const Push& of) { return lab::measured(push(of, 0.1, 0.15), "peak over expected"); }
-/// Mean over 0.20 .. 0.25 m of travel over the expected force.
+/// Returns the mean over 0.20 .. 0.25 m of travel over the expected force.
 double late_of(const Push& of) {
   return lab::measured(push(of, 0.2, 0.25), "horizontal over expected");
 }
 
 std::string kilopascals(double cohesion) { return lab::short_text(cohesion / 1000) + " kPa"; }
 
-TEST(CohesiveBlade, FeelsTheWholeStrengthAtAnyCohesion) {
+TEST(CohesiveBlade, MeetsTheFullStrengthAtAnyCohesion) {
   double least = 1e9, most = 0, sum = 0;
   for (const double cohesion : {6e3, 20e3, 50e3, 150e3}) {
     const double peak = peak_of({cohesion});
     expect_between("smooth blade, peak / Reece, c " + kilopascals(cohesion), peak, 0.85, 1.10,
                    std::string("[Reece 1964] ") + kSource, 1);
-    // What yields must not open and lose its cohesion as it rebounds.
+    // Yielding soil must not open and lose its cohesion as it rebounds.
     expect_between("smooth blade, force after 0.2 m / peak, c " + kilopascals(cohesion),
                    late_of({cohesion}) / peak, 0.8, kNoLimit, kSource);
     least = std::min(least, peak), most = std::max(most, peak), sum += peak;
@@ -59,20 +60,20 @@ TEST(CohesiveBlade, FeelsTheWholeStrengthAtAnyCohesion) {
                  -kNoLimit, 0.12, kSource, 0);
 }
 
-TEST(CohesiveBlade, WithToolFrictionIsTheSlipLines) {
+TEST(CohesiveBlade, MatchesSlipLinesWithToolFriction) {
   for (const double cohesion : {6e3, 20e3, 50e3})
     expect_between("delta 20 deg, peak / slip lines, c " + kilopascals(cohesion),
                    peak_of({cohesion, 20}), 0.80, 1.05,
                    std::string("[Sokolovskii 1965] ") + kSource, 1);
 }
 
-TEST(CohesiveBlade, FeelsAdhesion) {
+TEST(CohesiveBlade, ForceIncludesAdhesion) {
   expect_between("adhesion 10 kPa, c 20 kPa, peak / slip lines",
                  peak_of({20e3, 0, 0.15, 0.1, 10e3}), 0.85, 1.10,
                  std::string("[Sokolovskii 1965] ") + kSource, 1);
 }
 
-TEST(CohesiveBlade, FeelsNoSpeedAndNoCell) {
+TEST(CohesiveBlade, ForceDoesNotDependOnSpeedOrCell) {
   const double slow = peak_of({50e3, 0, 0.05}), fast = peak_of({50e3, 0, 0.5});
   expect_between("peak at 0.05 m/s / peak at 0.5 m/s, c 50 kPa", slow / fast, 0.9, kNoLimit,
                  kSource, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Digs in ground that makes it hard, in scenes of their own (digs/): they end by themselves, at the
-// depth asked for.
+// Digs in difficult ground, in scenes of their own (digs/), end by themselves at the requested
+// depth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace {
 constexpr const char* kFolder = "tests/validation/digs";
 constexpr const char* kSource = "digs that end [docs/validation.md, Whole digs]";
 
-/// How the machine stood while its bucket was in the ground.
+/// Records the tilt of the machine while its bucket is in the ground.
 class ScoopWatch {
  public:
   void look(const session::Session& session) {
     const std::string phase = session.phase(0);
     const Mat3 R = session.world().machines().at(0).link(0).pose().linear();
-    // Of the base's x axis over the horizontal: these digs lie ahead of the machine.
+    // Angle of the base's x axis above the horizontal: these digs are ahead of the machine.
     const double pitch = std::asin(R(2, 0)), time = session.world().time();
     if (phase == "penetrate" && last_ != phase) start_ = pitch;
     if (phase == "penetrate" || phase == "drag" || phase == "curl")
@@ -42,8 +42,8 @@ class ScoopWatch {
   double start_ = 0, rise_ = 0, curl_start_ = 0, longest_curl_ = 0;
 };
 
-/// A figure of a step's account; not a number when it is not there, which no bound holds.
-double figure(const control::StepReport& step, const std::string& name) {
+/// Returns a value of a step's account; NaN if it is missing, which fails every tolerance.
+double value_of(const control::StepReport& step, const std::string& name) {
   for (const control::Measurement& one : step.figures)
     if (one.name == name) return one.value;
   return std::nan("");
@@ -59,7 +59,7 @@ void PrintTo(const DigCase& c, std::ostream* out) { *out << c.file; }
 
 class EndingDigs : public testing::TestWithParam<DigCase> {};
 
-TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
+TEST_P(EndingDigs, ReachTheirDepthAndStop) {
   const DigCase& c = GetParam();
   const scene::Scene description = load_scene(c.file, c.settings, kFolder);
   session::Session session(description, shared_device());
@@ -75,21 +75,22 @@ TEST_P(EndingDigs, ComeToTheirDepthAndStop) {
   expect_between("cycles", static_cast<double>(session.cycles().size()), 3, c.most_cycles, kSource);
   expect_between("design volume removed, share", trench.inside_volume / trench.design_volume, 0.85,
                  1.0, "the trench [docs/validation.md, Whole digs]");
-  // What the run tells of it agrees: "finished" is said of a dig that came to its depth and of no
-  // other.
+  // The run's report agrees: "finished" only for a dig that reached its depth.
   const session::ProgramReport program = session.programs().at(0);
   const auto reported_dig =
       std::find_if(program.list.begin(), program.list.end(),
                    [](const control::StepReport& step) { return step.element == "dig"; });
   ASSERT_NE(reported_dig, program.list.end());
-  EXPECT_EQ(reported_dig->state, control::StepState::kDone) << session::report_line(program, "the machine");
+  EXPECT_EQ(reported_dig->state, control::StepState::kDone)
+      << session::report_line(program, "the machine");
   EXPECT_TRUE(session.complete()) << session::report_line(program, "the machine");
   EXPECT_FALSE(session.fell_short());
-  EXPECT_NEAR(figure(*reported_dig, "depth_m"), dig.depth, 1e-12);
-  // Half the depth was once called finished; half of the length is at least so deep.
-  EXPECT_GT(figure(*reported_dig, "depth_reached_m"), 0.75 * dig.depth);
-  EXPECT_LT(figure(*reported_dig, "volume_left_m3"),
-            0.15 * figure(*reported_dig, "design_volume_m3"));
+  EXPECT_NEAR(value_of(*reported_dig, "depth_m"), dig.depth, 1e-12);
+  // A dig of half the depth was once reported as finished; at least half of the length has that
+  // depth.
+  EXPECT_GT(value_of(*reported_dig, "depth_reached_m"), 0.75 * dig.depth);
+  EXPECT_LT(value_of(*reported_dig, "volume_left_m3"),
+            0.15 * value_of(*reported_dig, "design_volume_m3"));
   expect_between("nose's rise in a scoop [deg]", watch.rise(), 0, 3, kSource);
   expect_between("longest curl [s]", watch.longest_curl(), 1, 6, kSource);
   expect_between("ledger error [units]",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces come from the soil: the scoop of bucket_path.sdf against the wedge, with other soils, and
-// without any.
+// Forces come from the soil: the scoop of bucket_path.sdf compared with the wedge, with other
+// soils, and without soil.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +18,13 @@ constexpr const char* kSource = "forces come from the soil [docs/validation.md, 
 // Times of the path [s]: dragged level at 0.3 m of depth; then curled; lifted clear.
 constexpr double kDragStart = 2.0, kDragEnd = 3.6, kLifted = 7.0;
 constexpr double kDepth = 0.3;
-const char* const kHalfDensity = "soil.bank_density_kg_per_m3=770";  // of the loam's 1540
+// Half of the loam's 1540.
+const char* const kHalfDensity = "soil.bank_density_kg_per_m3=770";
 
-/// What the bucket felt along the path.
+/// Forces on the bucket along the path.
 struct Scooped {
-  double drag = 0;     ///< mean resistance against the level drag [N]
+  /// Mean resistance during the level drag [N].
+  double drag = 0;
   double most = 0;     ///< largest |force| of a step [N]
   double payload = 0;  ///< at the end [kg]
 };
@@ -44,8 +46,8 @@ Scooped scoop(const std::vector<std::string>& settings, double until) {
   return out;
 }
 
-/// Resistance along the way of a blade like the bucket's floor: 70 to 62 degrees of curl lay it at
-/// 17 to 25 degrees.
+/// Resistance along the path of a blade like the bucket's floor: 70 to 62 degrees of curl incline
+/// it by 17 to 25 degrees.
 double wedge(const scene::Scene& world) {
   const scene::Soil& soil = world.soils.at(0);
   lab::BladeCase blade;
@@ -59,21 +61,21 @@ double wedge(const scene::Scene& world) {
   return lab::mckyes_ali(blade).horizontal;
 }
 
-TEST(ScoopForce, IsThatOfTheWedgeWithinAFactorOfTwo) {
+TEST(ScoopForce, MatchesTheWedgeWithinAFactorOfTwo) {
   const Scooped loam = scoop({}, kLifted);
   const double expected = wedge(load_scene("bucket_path.sdf"));
   std::printf("drag %.0f N, McKyes and Ali %.0f N, payload %.1f kg\n", loam.drag, expected,
               loam.payload);
   expect_between("drag / McKyes and Ali", loam.drag / expected, 0.5, 2,
                  "[McKyes 1977] [docs/validation.md, Whole digs]");
-  // Half the bank density, all else equal. Its cohesion then holds twice the height, so it heaps
-  // higher.
+  // Half the bank density with all else equal. Its cohesion then holds twice the height, so it
+  // heaps higher.
   const Scooped light = scoop({kHalfDensity}, kLifted);
   expect_between("payload at half the density / payload, loam", light.payload / loam.payload, 0.45,
                  0.55, kSource);
 }
 
-TEST(ScoopForce, OfSandLoadsTheBucketInProportionToItsDensity) {
+TEST(ScoopForce, LoadsTheBucketInProportionToTheDensityOfSand) {
   const std::vector<std::string> sand = {"soil.cohesion_pa=0", "soil.residual_cohesion_pa=0"};
   std::vector<std::string> light = sand;
   light.push_back(kHalfDensity);
@@ -85,20 +87,20 @@ TEST(ScoopForce, GrowsWithTheCohesion) {
   const Scooped weak = scoop({}, kDragEnd);
   const Scooped strong =
       scoop({"soil.cohesion_pa=24000", "soil.residual_cohesion_pa=6000"}, kDragEnd);
-  // The wedge's cohesive part alone is 2/3 of the force: 4 x c makes it 3 x. Softening and the load
-  // take from that.
+  // The wedge's cohesive part is 2/3 of the force: 4 x c makes it 3 x. Softening and the load
+  // reduce that.
   expect_between("drag at 4 c / drag", strong.drag / weak.drag, 1.2, 4, kSource);
 }
 
-TEST(ScoopForce, IsExactlyNothingWithoutSoil) {
-  // The same path 3 m over the ground.
+TEST(ScoopForce, IsExactlyZeroWithoutSoil) {
+  // The same path 3 m above the ground.
   const Scooped air = scoop({"ground.surface_m=-3"}, kLifted);
   expect_between("largest force in the air [N]", air.most, 0, 0, kSource);
   expect_between("payload in the air [kg]", air.payload, 0, 0, kSource);
 }
 
-/// Mean of what bears the bucket up over 0.2 s before `until` [N].
-double borne(session::Session& session, double until) {
+/// Returns the mean upward force on the bucket over 0.2 s before `until` [N].
+double support(session::Session& session, double until) {
   run_to(session, until - 0.2);
   double sum = 0, steps = 0;
   for (; session.world().time() < until; ++steps) {
@@ -108,13 +110,13 @@ double borne(session::Session& session, double until) {
   return sum / steps;
 }
 
-TEST(PressedBucket, IsHeldUpByItsSoilForAsLongAsItIsHeld) {
+TEST(PressedBucket, IsSupportedByItsSoilWhileItIsHeld) {
   session::Session session(load_scene("pressed_bucket.sdf", {}, "tests/validation/digs"),
                            shared_device());
-  // It stops at 0.9 s; what pressing fast adds is gone soon after.
-  const double stopped = borne(session, 1.4), later = borne(session, 4.9);
+  // It stops at 0.9 s; the excess from fast pressing vanishes soon after.
+  const double stopped = support(session, 1.4), later = support(session, 4.9);
   print_value("pressed bucket: supporting force half a second after it stopped [N]", stopped,
-              "no gate", kSource);
+              "no tolerance", kSource);
   expect_between("pressed bucket: force after 4 s / after 0.5 s", later / stopped, 0.9, 1.02,
                  "soil at rest stays at rest [docs/tools.md, stand-off]");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1.4 t of soil in the excavator's bucket of 0.7 t, free to move on a servo, at the default step
-// and half of it.
+// 1.4 t of soil in the excavator's bucket of 0.7 t, supported by a servo, at the default step and
+// at half of it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,13 +17,13 @@ constexpr const char* kSource =
     "1.4 t in the 0.7 t bucket [docs/validation.md, Buckets and carried loads]";
 constexpr double kLoad = 1400;  ///< [kg]
 
-/// The bucket as a free body on a servo that holds its place and attitude.
+/// The bucket as a free body on a servo that holds its position and attitude.
 class HangingBucket {
  public:
   explicit HangingBucket(const scene::Machine& machine, double dt)
       : link_(machine.links.at(static_cast<std::size_t>(machine.link_index("bucket")))), dt_(dt) {
     const scene::Shell& shell = machine.shells.at(0);
-    // The mouth looks along -z of the link: turned over, the bucket holds its load.
+    // The mouth faces -z of the link: upside down, the bucket holds its load.
     home_ = make_pose(10.03, 10.02, 2.0, kPi, 0, 0);
     const soil::ShellGeometry geometry(shell, 0.1);
     std::vector<Vec3> places;
@@ -32,7 +32,7 @@ class HangingBucket {
       for (double y = -0.6; y < 0.6; y += h)
         for (double x = -0.5; x < 1.6; x += h) {
           const Vec3 p(x, y, z);
-          // Level with the rim and a hand high; inside is +z of the link.
+          // Level with the rim and 8 cm high; inside is +z of the link.
           if (z > -0.08 && x > 0.2 && x < 1.2 && geometry.holds(p) && geometry.distance(p) > 0.04)
             places.push_back(home_ * p);
         }
@@ -75,8 +75,8 @@ class HangingBucket {
 
  private:
   void step() {
-    // A stiff servo, as an arm on closed valves: 4 Hz for bucket and load together, their weight
-    // carried.
+    // A stiff servo, like an arm with closed valves: 4 Hz for bucket and load together, with their
+    // weight compensated.
     const double omega = 2 * kPi * 4, total = link_.mass + kLoad;
     const double stiffness = total * omega * omega, damping = 2 * 0.7 * total * omega,
                  gyration2 = 0.4;
@@ -88,7 +88,7 @@ class HangingBucket {
     const Vec3 torque =
         -gyration2 * (stiffness * turn.angle() * turn.axis() + damping * motion_.w_WT) +
         kLoad * kGravity * arm.cross(Vec3::UnitZ());
-    // Inertia about the link's origin; the body turns slowly, gyroscopic terms are left out.
+    // Inertia about the link's origin; the body rotates slowly, so gyroscopic terms are omitted.
     Mat3 cross;
     cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
     Mat6 inertia;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The granular rigs at the sizes their gates are given for, and at half the cell. A miss fails
-// unless it is in tolerances/known_deviations.md.
+// The granular rigs at the sizes for which their tolerances are given, and at half the cell. A
+// deviation fails unless it is in tolerances/known_deviations.md.
 #include "validation/rig_case.h"
 #include "values.h"
 
@@ -13,19 +13,20 @@ class GranularLab : public testing::TestWithParam<RigCase> {};
 
 TEST_P(GranularLab, MeetsItsTolerances) { expect_tolerances(GetParam()); }
 
-// A fast stream spreads by its momentum, which no static angle speaks of: figures without a gate.
+// A fast stream spreads by its momentum, which a static angle does not describe: values without a
+// tolerance.
 TEST(FastPour, SpreadsByItsMomentum) {
   const lab::Report report = lab::run_rig("pour", {{"speed", 0.8}, {"drop", 4}});
   EXPECT_FALSE(report.find("repose after rest")->judged());
   for (const char* figure : {"repose after pouring", "repose after rest"})
     print_value("poured at 0.8 m/s from 4 cells, " + std::string(figure) + " [deg]",
-                lab::measured(report, figure), "no gate", "navvy lab pour");
+                lab::measured(report, figure), "no tolerance", "navvy lab pour");
   EXPECT_EQ(report.ledger_error, 0);
 }
 
-// What is dug and poured is loose and remoulded: loam of 6 kPa that kept more than its loose
-// cohesion would stand in heaps of 50 to 70 deg.
-TEST(PouredLoam, HeapsAsSpoilDoes) {
+// Dug and poured soil is loose and remoulded: loam of 6 kPa that kept more than its loose cohesion
+// would form heaps of 50 to 70 deg.
+TEST(PouredLoam, FormsHeapsLikeSpoil) {
   const lab::Report report = lab::run_rig("pour", {}, [](lab::Setup& s) {
     s.soil.name = "loam";
     s.soil.bank_density = 1540, s.soil.swell = 1.23, s.soil.friction_angle = radians(30);
@@ -41,7 +42,7 @@ TEST(PouredLoam, HeapsAsSpoilDoes) {
 }
 
 // The soils of `swell` and `throw` are the rigs' defaults, loam of swell 1.23 and sand of none,
-// unless said.
+// unless stated.
 const std::map<std::string, double> kHalfStep = {{"courant", 0.25}};
 const SoilChange kDrySand = {.phi_degrees = 33, .cohesion = 0, .swell = 1.13, .bank_density = 1600};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tool rigs at the sizes their gates are given for. A miss fails unless it is in
-// tolerances/known_deviations.md.
+// The tool rigs at the sizes for which their tolerances are given. A deviation fails unless it is
+// in tolerances/known_deviations.md.
 #include <utility>
 
 #include "validation/rig_case.h"
@@ -22,7 +22,7 @@ double force_of(const std::map<std::string, double>& geometry, double cell,
   return lab::measured(report, "horizontal force");
 }
 
-TEST(ToolLab, NarrowBladeInWashedSand) {
+TEST(ToolLab, CutsWashedSandWithANarrowBlade) {
   // Obermayr 2011, N
   const double depths[] = {0.10, 0.15, 0.20, 0.25}, forces[] = {280, 505, 820, 1310};
   double error = 0, last = 0, first = 0;
@@ -48,7 +48,7 @@ TEST(ToolLab, NarrowBladeInWashedSand) {
   expect_between("exponent of force against depth", exponent, 1.6, 2.3, source);
 }
 
-/// The narrow blade of that experiment at another speed, step or cell [N].
+/// Returns the force on the narrow blade of that experiment at another speed, step or cell [N].
 double narrow_blade(double depth, double speed, double courant, double cell) {
   return force_of({{"plane", 0},
                    {"width", 0.2},
@@ -64,21 +64,23 @@ double narrow_blade(double depth, double speed, double courant, double cell) {
                   });
 }
 
-TEST(ToolLab, NarrowBladeOverSpeedsAndSteps) {
+TEST(ToolLab, CutsAtSpeedsAndStepsWithANarrowBlade) {
   const char* source = "[docs/validation.md, Blades and earth pressure]";
   const double usual = narrow_blade(0.15, 0.45, 0.5, 0.05);
   expect_between("narrow blade, force at half the step / at the step",
                  narrow_blade(0.15, 0.45, 0.25, 0.05) / usual, 0.97, 1.03, source);
   expect_between("narrow blade, force at 0.15 m/s / at 0.45 m/s",
                  narrow_blade(0.15, 0.15, 0.5, 0.05) / usual, 0.95, 1.05, source);
-  // Two cells of depth do not resolve the wedge: what four make of it.
+  // Two cells of depth do not resolve the wedge; compare with four.
   print_value("narrow blade, 0.10 m deep, force in cells of 0.05 m [N]",
-              narrow_blade(0.10, 0.45, 0.5, 0.05), "no gate", "280 N measured [Obermayr 2011]");
+              narrow_blade(0.10, 0.45, 0.5, 0.05), "no tolerance",
+              "280 N measured [Obermayr 2011]");
   print_value("narrow blade, 0.10 m deep, force in cells of 0.025 m [N]",
-              narrow_blade(0.10, 0.45, 0.5, 0.025), "no gate", "280 N measured [Obermayr 2011]");
+              narrow_blade(0.10, 0.45, 0.5, 0.025), "no tolerance",
+              "280 N measured [Obermayr 2011]");
 }
 
-/// A blade 0.20 m long in plane strain, as the formula has it, cuts 0.10 m of sand.
+/// A blade 0.20 m long in plane strain, as in the formula, cuts 0.10 m of sand.
 lab::Report rake(double degrees, double speed, double from, double travel) {
   lab::Report report = lab::run_rig("blade",
                                     {{"width", 0.33},
@@ -101,16 +103,16 @@ lab::Report rake(double degrees, double speed, double from, double travel) {
   return report;
 }
 
-/// The force against what the pile in front of the blade demands, whatever the pile.
+/// Expects the force to match the demand of the pile in front of the blade, for any pile.
 void expect_wedge(const lab::Report& report, const std::string& name) {
-  // The plane wedge is an upper bound at delta 26.6, zero dilatancy lowers it further: hence the
-  // wide band.
+  // The plane wedge is an upper bound at delta 26.6, and zero dilatancy lowers the force further:
+  // hence the wide range.
   expect_between("force / wedge under its pile, " + name,
                  lab::measured(report, "at the end over its wedge"), 0.75, 1.25,
                  "wedge under the pile as it lies [Coulomb 1776]");
 }
 
-TEST(ToolLab, RakedBladeInSand) {
+TEST(ToolLab, CutsSandWithARakedBlade) {
   // Miedema's formula for the largest force, N
   const double rakes[] = {30, 45, 60}, forces[] = {259, 400, 605};
   double slow = 0, fast = 0;
@@ -119,12 +121,12 @@ TEST(ToolLab, RakedBladeInSand) {
     // The experiment's speed.
     const lab::Report creeping = rake(rakes[i], 0.05, 0.4, 0.5);
     const double force = lab::measured(creeping, "horizontal force");
-    // No experiment stands behind these values: an upper bound and a trend with the rake.
+    // No experiment supports these values: an upper bound and a trend with the rake.
     expect_between("force / Miedema, " + name, force / forces[i], 0, 1,
                    "[Miedema 2014], upper bound [docs/validation.md, Blades and earth pressure]");
     expect_wedge(creeping, name);
     EXPECT_GT(force, std::exchange(slow, force));
-    // Six times as fast, where the pile is full grown after 1 m.
+    // Six times as fast, where the pile is fully developed after 1 m.
     const lab::Report quick = rake(rakes[i], 0.3, 1.0, 1.5);
     expect_wedge(quick, name + ", 0.3 m/s");
     EXPECT_GT(lab::measured(quick, "horizontal force"),
@@ -132,8 +134,8 @@ TEST(ToolLab, RakedBladeInSand) {
   }
 }
 
-// One element of soil through the kernels: the same strength at any speed.
-TEST(ShearStrength, OfASampleIsTheSineOfItsFriction) {
+// One element of soil through the kernels has the same strength at any speed.
+TEST(ShearStrength, OfASampleMatchesTheSineOfItsFriction) {
   for (const double speed : {0.6, 0.05, 0.005}) {
     const lab::Report report = lab::run_rig("shear", {{"speed", speed}});
     const lab::Quantity* ratio = report.find("tau over sigma");
@@ -143,7 +145,7 @@ TEST(ShearStrength, OfASampleIsTheSineOfItsFriction) {
   }
 }
 
-TEST(ShearStrength, OfATriaxialSampleIsMatsuokasAndNakais) {
+TEST(ShearStrength, OfATriaxialSampleMatchesMatsuokaNakai) {
   for (const double path : {0.0, 1.0}) {
     const lab::Report report = lab::run_rig("triaxial", {{"path", path}});
     const lab::Quantity* angle = report.find("mobilised friction angle");
@@ -152,8 +154,9 @@ TEST(ShearStrength, OfATriaxialSampleIsMatsuokasAndNakais) {
   }
 }
 
-// Until its lid neither lifts nor leaks the box measures its own rim: a figure without a gate.
-TEST(ShearStrength, OfTheDirectShearBoxHasNoTolerance) {
+// As long as its lid neither lifts nor leaks, the box measures its own rim: a value without a
+// tolerance.
+TEST(ShearStrength, IsReportedForTheDirectShearBox) {
   for (const double cell : {0.1, 0.05}) {
     const double cells = 2.4 / cell;
     const lab::Report report = lab::run_rig("box", {{"length", cells}, {"height", cells / 6}},

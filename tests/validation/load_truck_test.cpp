@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scenarios/load_truck.sdf from start to end: the bed holds what the buckets brought, the heap what
-// the bed held.
+// scenarios/load_truck.sdf from start to end: the bed holds the payloads of the buckets, and the
+// heap the load of the bed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ TEST(LoadTruck, TheBedHoldsFivePayloadsAndTheHeapHoldsTheBed) {
   const sim::World& world = session.world();
   const int truck = world.description().machine_index("dumper");
   ASSERT_GE(truck, 0);
-  // Where the truck stands, how much its bed holds, before it drives off and after.
+  // Position of the truck and load of its bed, before it drives off and after.
   double loaded = -1, from = 0, to = 0, fastest_rise = 0;
   std::size_t tips = 0;
   while (!session.done()) {
@@ -39,13 +39,13 @@ TEST(LoadTruck, TheBedHoldsFivePayloadsAndTheHeapHoldsTheBed) {
   for (const session::Cycle& cycle : session.cycles()) brought += cycle.payload_dump;
   ASSERT_EQ(session.tips().size(), 2u);
   const double before_tip = session.tips()[0].payload_start;
-  // The lip is 1.45 m behind the rear axle; the heap lies within 4 m of it.
+  // The rear edge of the bed is 1.45 m behind the rear axle; the heap is within 4 m of it.
   const double heap = session::testing::mass_gained(world, Vec2(to - 5.5, -4), Vec2(to + 2.5, 4));
   expect_between("passes", static_cast<double>(session.cycles().size()), 5, 5, kSource);
   expect_between("sum of the payloads [kg]", brought, 1000, 4000, kSource);
   expect_between("bed mass / sum of payloads", loaded / brought, 0.99, 1.01, kSource);
-  expect_between("way of the truck [m]", to - from, 50, 51, kSource);
-  expect_between("bed mass after the way / before", before_tip / loaded, 0.99, 1.01, kSource);
+  expect_between("path of the truck [m]", to - from, 50, 51, kSource);
+  expect_between("bed mass after the drive / before", before_tip / loaded, 0.99, 1.01, kSource);
   expect_between("heap / bed mass", heap / before_tip, 0.99, 1.01, kSource);
   expect_between("left in the bed [kg]", session::testing::carried(world, truck, "bed"), 0,
                  0.01 * before_tip, kSource);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Momentum while digging, closed from both sides of the bucket: the machine with its weight, tyres
-// and the soil's impulses; the soil in a box that is itself a tool, so that what its floor and
-// walls give is measured too.
+// Momentum balance while digging, from both sides of the bucket: the machine with its weight, tyres
+// and the soil's impulses; the soil in a box that is itself a tool, so that the forces of its floor
+// and walls are measured too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kSource = "conservation of momentum [docs/validation.md, Whole digs]";
 
-/// The trench with the machine standing at its place already.
+/// Returns the trench scene with the machine already at its place.
 scene::Scene standing_at_the_trench() {
   scene::Scene world = load_scene("trench.sdf", {"machine.x_m=-4"});
   scene::Program& program = world.machines.at(0).program;
@@ -63,8 +63,7 @@ TEST(Momentum, OfTheMachineClosesOverASecondOfDigging) {
       (engine.accounts()->momentum(m) - start).x(), (engine.accounts()->momentum(m) - start).y(),
       (engine.accounts()->momentum(m) - start).z());
   expect_between("bucket impulse of 1 s [N s]", bucket_size, 1000, 1e6, "a dig, not a touch");
-  expect_between("machine: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3,
-                 kSource);
+  expect_between("machine: residual / bucket impulse", open.norm() / bucket_size, 0, 1e-3, kSource);
   expect_between("nodal solve: residual / scale", residual, 0, 1e-5, kSource);
 }
 
@@ -76,7 +75,7 @@ Vec3 momentum(const std::vector<soil::Particle>& particles) {
 }
 
 TEST(Momentum, OfTheSoilClosesOverASecondOfDiggingInABox) {
-  // 0.5 m of cohesive soil in a box held 1 m over the ground; a small bucket is drawn through it
+  // 0.5 m of cohesive soil in a box held 1 m above the ground; a small bucket is drawn through it
   // for a second.
   scene::Soil soil = soil::rig::sand(33);
   soil.cohesion = soil.residual_cohesion = 2000;
@@ -87,7 +86,7 @@ TEST(Momentum, OfTheSoilClosesOverASecondOfDiggingInABox) {
   std::array<soil::ToolImpulse, 2> impulses;
   motions[0].tool = solver.add_tool(soil::rig::open_box(1.8, 1.2, 0.8));
   motions[0].X_WT = make_pose(10.02, 10.01, 1.0, 0, 0, 0);
-  // On its side, mouth to -x, its lip 0.3 m over the box's floor.
+  // On its side, mouth to -x, its cutting edge 0.3 m above the box's floor.
   motions[1].tool = solver.add_tool(soil::rig::open_box(0.4, 0.4, 0.4));
   motions[1].X_WT = make_pose(10.7, 10.01, 1.75, 0, radians(-80), 0);
   solver.insert(rig.fill({corner, corner + Vec3(1.75, 1.15, 0.5)}));
@@ -119,8 +118,7 @@ TEST(Momentum, OfTheSoilClosesOverASecondOfDiggingInABox) {
               kilograms(units), bucket.x(), bucket.y(), bucket.z(), box.x(), box.y(), box.z(),
               weight.z());
   expect_between("bucket impulse of 1 s [N s]", bucket_size, 100, 1e6, "a dig, not a touch");
-  expect_between("soil: what is left / bucket impulse", open.norm() / bucket_size, 0, 1e-3,
-                 kSource);
+  expect_between("soil: residual / bucket impulse", open.norm() / bucket_size, 0, 1e-3, kSource);
   expect_between("ledger error [units]", static_cast<double>(solver.ledger().error()), 0, 0,
                  kSource);
 }

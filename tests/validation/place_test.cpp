@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same dig, from waking to deposit, at both ends of a square kilometre.
+// The same dig, from activation to deposition, at both ends of a square kilometre.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +23,8 @@ struct Dug {
   double wall = 0;  ///< [s]
 };
 
-/// The scoop of bucket_path.sdf with its frame at (x, y) of a site whose corner is W's origin, to
-/// the end.
+/// The scoop of bucket_path.sdf with its frame at (x, y) of a site whose corner is the origin of W,
+/// to the end.
 Dug dig_at(double x, double y, double until = 20) {
   session::Session session(
       load_scene(
@@ -48,7 +48,7 @@ Dug dig_at(double x, double y, double until = 20) {
   EXPECT_EQ(session.world().soil().mass_ledger().error, 0);
   std::printf(
       "(%.1f, %.1f): force %.6g N, payload %.6g kg, bank %.6g m3, loose %.6g m3, %.6g "
-      "particle-steps, %d still awake, "
+      "particle-steps, %d still active, "
       "%.1f s\n",
       x, y, out.force, out.payload, out.earth.bank_volume, out.earth.loose_volume, out.work,
       session.world().soil().counts().particles, out.wall);
@@ -66,7 +66,7 @@ void compare(const Dug& near, const Dug& far) {
   expect_between("loose volume far / near", far.earth.loose_volume / near.earth.loose_volume, low,
                  high, kSource);
   expect_between("particle-steps far / near", far.work / near.work, low, high, kSource);
-  std::printf("wall time far / near %.2f (not gated: the machine is shared)\n",
+  std::printf("wall time far / near %.2f (no tolerance: the machine is shared)\n",
               far.wall / near.wall);
 }
 

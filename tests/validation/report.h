@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One printed row a measurement: figure, measured, expected, gate, source; known deviations show
-// without failing (tolerances/tolerances.h).
+// Prints one row per measurement: quantity, measured, expected, tolerance, source; known deviations
+// are reported without failing (tolerances/tolerances.h).
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ using tolerances::expect_between;
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Every result of a rig that its gate judges, and the ledger.
+/// Judges every result of a rig that has a tolerance, and the ledger.
 inline void expect_tolerances(const lab::Report& report) {
   for (const lab::Quantity& q : report.results)
     if (q.judged())

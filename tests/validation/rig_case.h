@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One run of a rig that must meet its gates: what the laboratory's parameterised cases are made of.
+// One run of a rig that must meet its tolerances: the element of the laboratory's parameterised
+// cases.
 #pragma once
 
 #include <map>
@@ -12,10 +13,12 @@
 
 namespace navvy::validation {
 
-/// What a case changes in the rig's default soil; kNone keeps the default.
+/// Changes of a case to the rig's default soil; kNone keeps the default.
 struct SoilChange {
-  double phi_degrees = lab::kNone;   ///< friction angle [deg]
-  double cohesion = lab::kNone;      ///< the residual one too [Pa]
+  /// Friction angle [deg].
+  double phi_degrees = lab::kNone;
+  /// Cohesion, also the residual one [Pa].
+  double cohesion = lab::kNone;
   double young = lab::kNone;         ///< Young's modulus [Pa]
   double swell = lab::kNone;         ///< loose volume / bank volume [-]
   double bank_density = lab::kNone;  ///< [kg/m3]
@@ -34,10 +37,12 @@ struct SoilChange {
 };
 
 struct RigCase {
-  const char* name;  ///< of the test
+  /// Name of the test.
+  const char* name;
   const char* rig;
-  std::map<std::string, double> geometry;  ///< other than the rig's default
-  double cell = lab::kNone;                ///< kNone: the rig's default [m]
+  /// Parameters other than the rig's defaults.
+  std::map<std::string, double> geometry;
+  double cell = lab::kNone;  ///< kNone: the rig's default [m]
   SoilChange soil = {};
 };
 
@@ -46,7 +51,7 @@ inline std::string case_name(const testing::TestParamInfo<RigCase>& tested) {
   return tested.param.name;
 }
 
-/// Runs the rig and holds it against its gates.
+/// Runs the rig and compares it with its tolerances.
 inline void expect_tolerances(const RigCase& c) {
   expect_tolerances(lab::run_rig(c.rig, c.geometry, [&](lab::Setup& setup) {
     if (!std::isnan(c.cell)) setup.cell = c.cell;

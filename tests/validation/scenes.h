@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shipped scenes with other values, one device for all cases of the program.
+// Shipped scenes with changed values, and one device for all cases of the program.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@
 
 namespace navvy::validation {
 
-/// A shipped scene without pictures, or one of another folder of the tree; `settings` as with
-/// `navvy run --set`.
+/// Returns a shipped scene without pictures, or one of another folder of the tree; `settings` as
+/// with `navvy run --set`.
 inline scene::Scene load_scene(const std::string& name,
                                const std::vector<std::string>& settings = {},
                                const std::string& folder = "scenarios") {
@@ -26,7 +26,7 @@ inline scene::Scene load_scene(const std::string& name,
                               control::step_kinds(), overrides);
 }
 
-/// Kernels build once.
+/// Returns a shared device, so that kernels are built once.
 inline device::Device& shared_device() {
   static device::Device device;
   return device;

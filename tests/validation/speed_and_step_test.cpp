@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forces at several speeds and two steps each: one that depends on either has no value. A miss
-// fails unless it is in tolerances/known_deviations.md.
+// Forces at several speeds and two steps each: a result that depends on either is not meaningful. A
+// deviation fails unless it is in tolerances/known_deviations.md.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -31,7 +31,7 @@ double spread(const std::vector<double>& values) {
   return (*high - *low) * static_cast<double>(values.size()) / sum;
 }
 
-TEST(ToolSpread, OfASmoothBladeOverSpeedsAndSteps) {
+TEST(ToolSpread, IsSmallForASmoothBladeOverSpeedsAndSteps) {
   std::vector<double> whole;
   double mean = 0, worst = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
@@ -47,17 +47,17 @@ TEST(ToolSpread, OfASmoothBladeOverSpeedsAndSteps) {
                  kStep);
 }
 
-// Four times slower than the slowest of the others: nothing of the contact goes by time.
-TEST(ToolSpread, OfABladeThatCreeps) {
+// Four times slower than the slowest of the others: contact does not depend on time.
+TEST(ToolSpread, IsSmallForACreepingBlade) {
   const double creeping = blade(0.05, 0.0125, 0.5);
   expect_between("smooth blade, cells of 0.05 m, force at 0.0125 m/s / at 0.05 m/s",
                  creeping / blade(0.05, 0.05, 0.5), 0.95, 1.05, kSource);
-  // Three cells deep: what so few cannot resolve.
+  // Three cells deep: the limit of so few cells.
   print_value("smooth blade, cells of 0.1 m, force at 0.0125 m/s / at 0.05 m/s",
-              blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no gate", kSource);
+              blade(0.1, 0.0125, 0.5) / blade(0.1, 0.05, 0.5), "no tolerance", kSource);
 }
 
-TEST(ToolSpread, OfASmoothBladeInCoarseCells) {
+TEST(ToolSpread, IsSmallForASmoothBladeInCoarseCells) {
   std::vector<double> whole;
   double worst = 0;
   for (const double speed : {0.05, 0.15, 0.3}) {
@@ -68,14 +68,14 @@ TEST(ToolSpread, OfASmoothBladeInCoarseCells) {
                  0.13, kSource);
   expect_between("smooth blade, cells of 0.1 m: largest change at half the step", worst, 0, 0.01,
                  kStep);
-  // Soil that a fast blade sets moving adds rho v^2 d w to Rankine's 2606 N: 1600 kg/m3, 0.3 m, 1
-  // m.
+  // Soil that a fast blade sets in motion adds rho v^2 d w to Rankine's 2606 N: 1600 kg/m3, 0.3 m,
+  // 1 m.
   const double inertia = 1600 * 0.6 * 0.6 * 0.3 / 2606.4;
   expect_between("smooth blade, cells of 0.1 m, 0.6 m/s: force less rho v^2 d w / Rankine",
                  blade(0.1, 0.6, 0.5) - inertia, 0.95, 1.05, kSource);
 }
 
-/// A force over its formula, and the bounds of what it may be where tool friction leaves two.
+/// A force relative to its formula, and its bounds where tool friction leaves two.
 struct Judged {
   double force = 0, expected = 0, low = 0, high = 0;
 };
@@ -87,7 +87,7 @@ Judged judged(const lab::Report& report, const std::string& name) {
   return {q->measured, q->expected, q->low, q->high};
 }
 
-/// A wall of 1 m that goes in by a fifth of its height [N/m].
+/// A wall of 1 m that moves into the soil by a fifth of its height [N/m].
 Judged wall(double cell, double speed, double delta_degrees) {
   return judged(lab::run_rig("wall", {{"speed", speed}},
                              [&](lab::Setup& s) {
@@ -97,7 +97,7 @@ Judged wall(double cell, double speed, double delta_degrees) {
                 "passive force");
 }
 
-/// A rough blade, stiff enough for its wedge to come up within 0.08 m of travel [N].
+/// A rough blade in soil stiff enough to develop its wedge within 0.08 m of travel [N].
 Judged rough_blade(double cell, double speed) {
   return judged(lab::run_rig("blade", {{"speed", speed}, {"from", 0.08}, {"travel", 0.12}},
                              [&](lab::Setup& s) {
@@ -108,7 +108,7 @@ Judged rough_blade(double cell, double speed) {
                 "horizontal force");
 }
 
-/// Speeds against each other, and their mean against what it may be.
+/// Compares the forces at all speeds with each other, and their mean with its bounds.
 void expect_one_force(const std::string& name, const std::vector<Judged>& runs, double most_spread,
                       double low, double high) {
   std::vector<double> forces;
@@ -120,7 +120,7 @@ void expect_one_force(const std::string& name, const std::vector<Judged>& runs, 
                  high / runs[0].expected, kSource, 1);
 }
 
-TEST(ToolSpread, OfASmoothWallOverSpeeds) {
+TEST(ToolSpread, IsSmallForASmoothWallOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {wall(cell, 0.05, 0), wall(cell, 0.2, 0)};
     expect_one_force("smooth wall, cells of " + lab::short_text(cell) + " m, 0.05 and 0.2 m/s",
@@ -128,7 +128,7 @@ TEST(ToolSpread, OfASmoothWallOverSpeeds) {
   }
 }
 
-TEST(ToolSpread, OfARoughWallOverSpeeds) {
+TEST(ToolSpread, IsSmallForARoughWallOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {wall(cell, 0.05, 20), wall(cell, 0.2, 20)};
     expect_one_force(
@@ -137,7 +137,7 @@ TEST(ToolSpread, OfARoughWallOverSpeeds) {
   }
 }
 
-TEST(ToolSpread, OfARoughBladeOverSpeeds) {
+TEST(ToolSpread, IsSmallForARoughBladeOverSpeeds) {
   for (const double cell : {0.1, 0.05}) {
     const std::vector<Judged> runs = {rough_blade(cell, 0.05), rough_blade(cell, 0.15),
                                       rough_blade(cell, 0.3)};
@@ -147,14 +147,14 @@ TEST(ToolSpread, OfARoughBladeOverSpeeds) {
   }
 }
 
-// Eight depths of the lip within a cell: what the grid decides about where a blade ends.
-TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
+// Eight depths of the cutting edge within a cell: the effect of the grid on the end of a blade.
+TEST(ToolSpread, IsSmallForASmoothBladeOverDepthsWithinACell) {
   std::vector<double> forces;
   double mean = 0, squares = 0;
   for (int i = 0; i < 8; ++i) {
-    const lab::Report report =
-        lab::run_rig("blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"tolerance-percent", 0}},
-                     [](lab::Setup& s) { s.cell = 0.1; });
+    const lab::Report report = lab::run_rig(
+        "blade", {{"speed", 0.15}, {"depth", 0.3 + 0.0125 * i}, {"tolerance-percent", 0}},
+        [](lab::Setup& s) { s.cell = 0.1; });
     forces.push_back(lab::measured(report, "horizontal over expected"));
     mean += forces.back() / 8;
   }
@@ -163,7 +163,7 @@ TEST(ToolSpread, OfASmoothBladeOverDepthsWithinACell) {
                  std::sqrt(squares) / mean, 0, 0.04, kSource);
 }
 
-TEST(ToolSpread, OfARakedBladeOverSteps) {
+TEST(ToolSpread, IsSmallForARakedBladeOverSteps) {
   const auto force = [](double courant) {
     const lab::Report report = lab::run_rig("blade",
                                             {{"width", 0.33},
@@ -189,7 +189,7 @@ TEST(ToolSpread, OfARakedBladeOverSteps) {
                  force(0.25) / whole, 0.97, 1.03, kStep);
 }
 
-TEST(ToolSpread, OfABucketsDragOverSteps) {
+TEST(ToolSpread, IsSmallForABucketsDragOverSteps) {
   const auto drag = [](double courant) {
     const lab::Report report = lab::run_rig("bucket", {{"courant", courant}});
     return lab::measured(report, "mean horizontal force of the drag");

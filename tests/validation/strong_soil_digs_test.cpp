@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a machine feels of stronger soil and of the step: the shipped trench in clay, its first
-// scoop from loam to clay that no bucket of its size cuts at full slices, and its forces at three
-// steps.
+// Effect of stronger soil and of the step on a machine: the shipped trench in clay, its first scoop
+// from loam to clay that no bucket of its size cuts at full slices, and its forces at three steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +16,8 @@ namespace {
 
 constexpr const char* kSource = "[docs/validation.md, Digs in strong soil]";
 
-/// The trench's soil with another cohesion, which remoulding takes to a quarter as that of loam,
-/// and 200 times as stiff.
+/// Settings for the trench's soil with another cohesion, which remoulding reduces to a quarter as
+/// in loam, and 200 times as stiff.
 std::vector<std::string> with_cohesion(double pascals) {
   const auto set = [](const char* name, double value) {
     return std::string("soil.") + name + "=" + std::to_string(value);
@@ -30,12 +29,16 @@ std::vector<std::string> with_cohesion(double pascals) {
 /// The first scoops of the trench.
 struct Scoops {
   int count = 0;
-  double payload = 0;  ///< mean, when the bucket is out [kg]
-  double draft = 0;    ///< mean of the scoops' largest forces against the lip [N]
-  double force = 0;    ///< mean of the soil's force on the bucket, in contact [N]
-  /// From the start of one to the start of the next, mean; of one: until its end [s].
+  /// Mean payload when the bucket is out [kg].
+  double payload = 0;
+  /// Mean of the scoops' largest forces on the cutting edge [N].
+  double draft = 0;
+  /// Mean force of the soil on the bucket in contact [N].
+  double force = 0;
+  /// Mean time from the start of one scoop to the start of the next; for one scoop: until its end
+  /// [s].
   double cycle = 0;
-  /// Time in which soil held a joint of the arm, its bucket in the ground [s].
+  /// Time in which soil blocked a joint of the arm with the bucket in the ground [s].
   double held = 0;
   bool finished = true;  ///< not given up before
 };
@@ -75,14 +78,14 @@ Scoops dig(const std::vector<std::string>& settings, int scoops) {
   return out;
 }
 
-TEST(StrongSoil, IsFeltByTheFirstScoop) {
+TEST(StrongSoil, AffectsTheFirstScoop) {
   double first = 0, last = 0;
   for (const double kilopascals : {6.0, 50.0, 150.0}) {
     const Scoops scoop = dig(with_cohesion(1000 * kilopascals), 1);
     const std::string name =
         "first scoop, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
     print_value(name + "largest draft [N]", scoop.draft, "rises with c", kSource);
-    print_value(name + "payload [kg]", scoop.payload, "not gated", kSource);
+    print_value(name + "payload [kg]", scoop.payload, "no tolerance", kSource);
     print_value(name + "held by the soil [s]", scoop.held, "the last one is held", kSource);
     if (first == 0) first = scoop.draft;
     last = scoop.draft;
@@ -102,7 +105,8 @@ TEST(StrongSoil, FillsNoMoreAndTakesLonger) {
     const Scoops clay = dig(with_cohesion(1000 * kilopascals), kScoops);
     const std::string name =
         "four scoops, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
-    // A dig that ends before says why (session::ProgramReport); it has no four scoops to compare.
+    // A dig that ends earlier reports why (session::ProgramReport); it has no four scoops to
+    // compare.
     print_value(name + "scoops", clay.count, "4, or the dig says why not", kSource);
     expect_between(name + "payload / payload in loam", clay.payload / loam.payload, 0, 1.03,
                    kSource);
@@ -115,7 +119,7 @@ TEST(StrongSoil, FillsNoMoreAndTakesLonger) {
   }
 }
 
-TEST(StrongSoil, FeelsNoStep) {
+TEST(StrongSoil, ForcesDoNotDependOnTheStep) {
   constexpr int kScoops = 4;
   double least = 1e9, most = 0, sum = 0;
   for (const char* courant : {"0.25", "0.5", "0.8"}) {

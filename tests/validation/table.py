@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Figures of the tests: from their output into results.csv, from there into the tables of docs/validation.md.
+"""Results of the tests: from their output into results.csv, from there into the tables of docs/validation.md.
 
   table.py collect RESULTS.csv CASE=LOG... [--state S] [--device D] [--date DAY] [--seconds SECONDS.csv]
   table.py write RESULTS.csv PAGE.md    writes the page's tables anew
@@ -9,15 +9,15 @@
   table.py check-summary RESULTS.csv PAGE.md
   table.py selftest
 
-A table stands in the page between two marks; the first names the cases it holds, as shell patterns:
+A table is in the page between two marks; the first names the cases it holds, as shell patterns:
 
   <!-- generated: begin; cases: Rest.* GranularLab.*/Rest -->
   <!-- generated: end -->
 
 Every row of results.csv belongs to exactly one table. `collect` renews the rows of the cases in the logs; a log without
 `CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/tolerances,
-| figure | measured | expected | gate | result | source |, and those of tests/values.h,
-[ VALUE    ] figure: measured M, expected E (source).
+| quantity | measured | expected | tolerance | result | source |, and those of tests/values.h,
+[ VALUE    ] quantity: measured M, expected E (source).
 """
 import argparse
 import collections
@@ -27,23 +27,24 @@ import os
 import re
 import sys
 
-COLUMNS = ["case", "figure", "measured", "half", "expected", "gate", "result", "source", "seconds", "date", "device",
+COLUMNS = ["case", "quantity", "measured", "half", "expected", "tolerance", "result", "source", "seconds", "date", "device",
            "state"]
 RESULTS = {"ok": "within", "MISS": "miss", "known deviation": "known deviation", "ok, table old": "within",
-           "GATE MOVED": "miss"}
+           "TOLERANCE MOVED": "miss"}
 BEGIN = re.compile(r"^<!-- generated: begin; cases: (.*) -->$")
 SUMMARY = "<!-- generated: begin; summary -->"
 END = "<!-- generated: end -->"
-GATED = re.compile(r"^(?:\d+: )?\| (.*) \|$")
+JUDGED = re.compile(r"^(?:\d+: )?\| (.*) \|$")
 VALUE = re.compile(r"^(?:\d+: )?\[ VALUE    \] (.*): measured (\S+), expected (.*) \((.*)\)$")
 RUNS = re.compile(r"^(?:\d+: )?\[ RUN      \] (\S+)")
 TEST = re.compile(r"^\d+/\d+ Testing: (\S+)", re.M)
-# The gates' own test, and the soil's tests once more in the other schedule: no figures of their own.
-NO_FIGURES = re.compile(r"ExpectBetween\.|test_soil_in_groups$")
+# Tests of the tolerances themselves, and the soil's tests repeated in the other schedule: no
+# separate results.
+NO_RESULTS = re.compile(r"ExpectBetween\.|test_soil_in_groups$")
 
 
 def tidy(text):
-    """Numbers without the zeros that %f leaves behind them."""
+    """Numbers without trailing zeros of %f."""
     return re.sub(r"\d+\.\d{6}(?!\d)", lambda found: found[0].rstrip("0").rstrip("."), text)
 
 
@@ -60,34 +61,34 @@ def save(path, rows):
 
 
 def rows_of(text, case=None):
-    """Rows of a test's output; `case` names what does not say it itself."""
+    """Rows of a test's output; `case` names rows without a case."""
     out, running, names = [], case, TEST if TEST.search(text) else RUNS
     for line in text.splitlines():
         line = line.rstrip()
         started = names.match(line) if case is None else None
         if started:
             running = started[1]
-        value, gated = VALUE.match(line), GATED.match(line)
+        value, judged = VALUE.match(line), JUDGED.match(line)
         if value:
-            out.append({"case": running, "figure": tidy(value[1]), "measured": value[2], "expected": tidy(value[3]),
-                        "gate": "", "result": "value", "source": value[4]})
-        elif gated:
-            cells = [cell.strip() for cell in gated[1].split("|")]
+            out.append({"case": running, "quantity": tidy(value[1]), "measured": value[2], "expected": tidy(value[3]),
+                        "tolerance": "", "result": "value", "source": value[4]})
+        elif judged:
+            cells = [cell.strip() for cell in judged[1].split("|")]
             if len(cells) != 6 or cells[4] not in RESULTS:
                 continue
-            out.append({"case": running, "figure": cells[0], "measured": cells[1], "expected": cells[2],
-                        "gate": " ".join(cells[3].split()), "result": RESULTS[cells[4]], "source": cells[5]})
+            out.append({"case": running, "quantity": cells[0], "measured": cells[1], "expected": cells[2],
+                        "tolerance": " ".join(cells[3].split()), "result": RESULTS[cells[4]], "source": cells[5]})
     return out
 
 
 def collect(rows, found, seconds, date, device, state):
     """`rows` with those of the cases in `found` renewed in their place; what was entered as half the cell stays."""
-    half = {(row["case"], row["figure"]): row["half"] for row in rows}
+    half = {(row["case"], row["quantity"]): row["half"] for row in rows}
     fresh = collections.defaultdict(list)
     for row in found:
-        if NO_FIGURES.match(row["case"]):
+        if NO_RESULTS.match(row["case"]):
             continue
-        key = (row["case"], row["figure"])
+        key = (row["case"], row["quantity"])
         fresh[row["case"]].append(dict(row, half=half.get(key, ""), seconds=seconds.get(row["case"], ""), date=date,
                                        device=device, state=state))
     out = []
@@ -102,15 +103,15 @@ def collect(rows, found, seconds, date, device, state):
     return out
 
 
-def shown_gate(gate):
-    low, dots, high = gate.partition(" .. ")
+def shown_tolerance(tolerance):
+    low, dots, high = tolerance.partition(" .. ")
     if not dots:
-        return gate
+        return tolerance
     if low == "-inf":
         return "at most " + high
     if high == "inf":
         return "at least " + low
-    return low if low == high else gate
+    return low if low == high else tolerance
 
 
 def bold(text, row):
@@ -118,11 +119,11 @@ def bold(text, row):
 
 
 def merged(rows):
-    """`rows` with the same figure of a case with parameters (Case/0, Case/1 ...) in one, as least .. largest."""
+    """`rows` with the same quantity of a case with parameters (Case/0, Case/1 ...) in one, as least .. largest."""
     out, place = [], {}
     for row in rows:
         family = re.sub(r"/\d+$", "/*", row["case"])
-        key = (family, row["figure"], row["expected"], row["gate"])
+        key = (family, row["quantity"], row["expected"], row["tolerance"])
         if family == row["case"] or key not in place:
             place[key] = len(out)
             out.append(dict(row, values=[row["measured"]]))
@@ -138,7 +139,7 @@ def table(rows):
     """Markdown of one table. A case whose name ends in Half becomes a column of the case it halves."""
     rows = merged(rows)
     names = {row["case"] for row in rows}
-    halves = {(row["case"][:-4], row["figure"]): row for row in rows
+    halves = {(row["case"][:-4], row["quantity"]): row for row in rows
               if row["case"].endswith("Half") and row["case"][:-4] in names}
     runs = []
     lines = ["| Case | Quantity | Measured | Half the cell | Expected | Tolerance | Source | s | Run |",
@@ -151,14 +152,14 @@ def table(rows):
         if run not in runs:
             runs.append(run)
         half, seconds = row["half"], row["seconds"]
-        finer = halves.get((row["case"], row["figure"]))
+        finer = halves.get((row["case"], row["quantity"]))
         if finer:
             half = bold(finer["measured"], finer)
             seconds += "; half " + finer["seconds"] if finer["seconds"] else ""
         again = row["case"] == last
         last = row["case"]
-        cells = ["" if again else row["case"], row["figure"], bold(row["measured"], row), half, row["expected"],
-                 shown_gate(row["gate"]), row["source"], "" if again else seconds, "abcdefghijkl"[runs.index(run)]]
+        cells = ["" if again else row["case"], row["quantity"], bold(row["measured"], row), half, row["expected"],
+                 shown_tolerance(row["tolerance"]), row["source"], "" if again else seconds, "abcdefghijkl"[runs.index(run)]]
         lines.append("| " + " | ".join(cells) + " |")
     lines.append("")
     for letter, (date, state, device) in zip("abcdefghijkl", runs):
@@ -168,7 +169,7 @@ def table(rows):
 
 
 def written(page, rows):
-    """The page with its tables made of `rows`; and what is wrong with the marks."""
+    """The page with its tables generated from `rows`, and faults of the marks."""
     out, wrong, taken, inside = [], [], collections.Counter(), False
     for line in page.splitlines():
         begin = BEGIN.match(line)
@@ -193,7 +194,7 @@ def written(page, rows):
         wrong.append("the last table does not end")
     for case in dict.fromkeys(row["case"] for row in rows):
         if taken[case] != 1:
-            wrong.append("%s stands in %d tables" % (case, taken[case]))
+            wrong.append("%s is in %d tables" % (case, taken[case]))
     return "\n".join(out) + "\n", wrong
 
 
@@ -220,10 +221,10 @@ def slug(heading):
 
 
 def summary(rows, chosen):
-    """Markdown of the chosen quantities, one row each, and what is wrong with the choice."""
+    """Markdown of the chosen quantities, one row each, and faults of the choice."""
     found, wrong = {}, []
     for row in rows:
-        found.setdefault((row["case"], row["figure"]), row)
+        found.setdefault((row["case"], row["quantity"]), row)
     lines = ["| Section | Case | Measured | Expected | Tolerance | Pass |", "|---|---|---|---|---|---|"]
     last = None
     for choice in chosen:
@@ -235,7 +236,7 @@ def summary(rows, chosen):
         link = "" if section == last else "[%s](validation.md#%s)" % (section, slug(section))
         last = section
         lines.append("| " + " | ".join([link, choice["what"], bold(rounded(row["measured"]), row),
-                                        rounded(row["expected"]), rounded(shown_gate(row["gate"])), shown_result(row)]) + " |")
+                                        rounded(row["expected"]), rounded(shown_tolerance(row["tolerance"])), shown_result(row)]) + " |")
     counts = collections.Counter(row["result"] for row in rows)
     lines += ["", "Of all %d results with a tolerance of their own, %d are within it and %d are not; of these, %d are"
               % (sum(counts.values()) - counts["value"], counts["within"], counts["miss"] + counts["known deviation"],
@@ -248,7 +249,7 @@ def summary(rows, chosen):
 
 
 def with_summary(page, rows, chosen):
-    """The page with the lines between its marks made of `rows`; and what is wrong."""
+    """The page with the lines between its marks generated from `rows`, and faults."""
     begin, end = SUMMARY + "\n", END + "\n"
     head, found, rest = page.partition(begin)
     if not found or end not in rest:
@@ -262,8 +263,8 @@ def selftest():
            "[ VALUE    ] drag (dry): measured 3.5, expected 3 +-20 % (statics, as above)\n| Test | Figure |\n")
     rows = rows_of(log)
     assert [r["case"] for r in rows] == ["A.Holds", "A.Holds"], rows
-    assert rows[0]["gate"] == "0 .. inf" and rows[0]["result"] == "known deviation", rows
-    assert rows[1]["figure"] == "drag (dry)" and rows[1]["source"] == "statics, as above", rows
+    assert rows[0]["tolerance"] == "0 .. inf" and rows[0]["result"] == "known deviation", rows
+    assert rows[1]["quantity"] == "drag (dry)" and rows[1]["source"] == "statics, as above", rows
     assert rows_of("1/2 Testing: C\n" + log)[0]["case"] == "C"
     finer = rows_of("| force [N] | 4 | 1 | 0 .. inf | ok | Rankine |", "A.HoldsHalf")
     kept = collect([], rows + finer, {"A.Holds": "2"}, "2026-01-02", "cpu", "abc")
@@ -282,7 +283,7 @@ def selftest():
     assert not wrong and "old" not in short and short.endswith("prose\n"), (short, wrong)
     assert "[Rest, and stress](validation.md#rest-and-stress) | a force | **2** | 1 | at least 0 | **no**" in short, short
     assert with_summary(page, kept, [dict(chosen[0], quantity="x")])[1] == ["no result 'x' of A.Holds"]
-    assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B stands in 0 tables"]
+    assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B is in 0 tables"]
     assert written("<!-- generated: begin; cases: C.* -->\n", [])[1] == ["no case is called C.*",
                                                                          "the last table does not end"]
 
@@ -327,7 +328,7 @@ def main():
             file.write(after)
     elif before != after:
         wrong.append("edited")
-        print("%s: a table is not what %s gives: ./dev docs writes it" % (path, options.results), file=sys.stderr)
+        print("%s: a table differs from %s: ./dev docs writes it" % (path, options.results), file=sys.stderr)
     return 1 if wrong else 0
 
 

@@ -27,7 +27,7 @@ void PrintTo(const Spot& spot, std::ostream* out) { *out << spot.file; }
 const Spot kSpots[] = {{"Hummocks", "lidar_hummocky_1m.tif", Vec2(200, 200)},
                        {"RiverBank", "kootenai_channel_1m.asc", Vec2(32, 14)}};
 
-/// Path of a map, empty when it is not on this machine.
+/// Returns the path of a map, empty if it is not on this machine.
 std::string map_file(const std::string& name) {
   const char* given = std::getenv("NAVVY_TEST_DATA");
   const std::filesystem::path folder =

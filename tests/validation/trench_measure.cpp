@@ -40,7 +40,7 @@ bool belongs_to_dig(const OnLine& q, double length, double width) {
   return q.s >= -kAround && q.s <= length + kAround && std::abs(q.t) <= 0.5 * width + kAround;
 }
 
-/// Share of the cell around p that lies inside the design, by 5 x 5 points.
+/// Returns the share of the cell around p that is inside the design, by 5 x 5 points.
 double covered(const Vec2& p, const Line& line, double cell, double width) {
   int inside = 0;
   for (int i = -2; i <= 2; ++i)
@@ -51,7 +51,7 @@ double covered(const Vec2& p, const Line& line, double cell, double width) {
   return inside / 25.0;
 }
 
-/// One cell's share of the sums of a slice across the line.
+/// Sums over a slice across the line, accumulated cell by cell.
 struct Slice {
   double floor_sum = 0, floor_count = 0, moment = 0, removed = 0;
 };
@@ -82,7 +82,7 @@ TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig
       if (s < 0 || s >= cell * static_cast<double>(slices.size())) continue;
       Slice& slice = slices[static_cast<std::size_t>(s / cell)];
       if (drop > 0.5 * cell) slice.moment += drop * t, slice.removed += drop;
-      // The floor is judged over the middle half of the width, clear of crumbs at the walls.
+      // The floor is judged over the middle half of the width, clear of loose soil at the walls.
       if (std::abs(t) < 0.25 * dig.width) slice.floor_sum += drop, slice.floor_count += 1;
     }
   out.design_volume = length * dig.width * dig.depth;
@@ -91,7 +91,7 @@ TrenchMeasure measure(const heightfield::Ground& ground, const control::Dig& dig
     if (!(slice.floor_count > 0)) continue;
     const double depth = slice.floor_sum / slice.floor_count;
     if (std::abs(depth - dig.depth) <= 0.10) ++good;
-    // Ends are ramps; the line is judged where at least half the depth was taken.
+    // Ends are ramps; the line is judged where at least half the depth was removed.
     if (depth > 0.5 * dig.depth)
       out.center_offset = std::max(out.center_offset, std::abs(slice.moment / slice.removed));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trench: the shipped scene from start to end, measured on the ground it leaves.
+// The trench: the shipped scene from start to end, measured on the final ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace navvy::validation {
 namespace {
 
-/// Mean time from the start of a cycle to the start of the next [s].
+/// Returns the mean time from the start of a cycle to the start of the next [s].
 double mean_cycle_time(const std::vector<session::Cycle>& cycles) {
   if (cycles.size() < 2) return kNoLimit;
   return (cycles.back().start - cycles.front().start) / static_cast<double>(cycles.size() - 1);
@@ -74,7 +74,7 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   expect_between("machine's vertical speed [m/s]", fastest_rise, 0, 1.0,
                  "a machine does not jump [docs/validation.md, Machines]");
   print_value("mean cycle [s]", mean_cycle_time(session.cycles()),
-              "13 .. 18 at 60 .. 90 deg of swing, not gated",
+              "13 .. 18 at 60 .. 90 deg of swing, no tolerance",
               "plausibility [docs/validation.md, Whole digs]");
   double worst_loss = 0;
   for (const session::Cycle& cycle : session.cycles())
@@ -84,7 +84,8 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   for (const session::Cycle& cycle : session.cycles()) uplift = std::max(uplift, cycle.uplift_peak);
   expect_between("soil's push up on the bucket in a curl, less the load [N]", uplift, 0, 10e3,
                  "the heel does not carry the machine [docs/validation.md, Whole digs]");
-  print_value("peak draft of the cutting edge [N]", session.force().draft_peak, "not gated", "plausibility");
+  print_value("peak draft of the cutting edge [N]", session.force().draft_peak, "no tolerance",
+              "plausibility");
   expect_between("payload change, lift-out to dump", worst_loss, 0, 0.01,
                  "the shell holds its load [docs/validation.md, Buckets and carried loads]");
 }

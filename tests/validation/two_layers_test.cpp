@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scenarios/two_layers.sdf from start to end: the trench goes through topsoil into loam, each
-// booked by itself.
+// scenarios/two_layers.sdf from start to end: the trench goes through topsoil into loam, each with
+// its own ledger.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kSource = "two layers [docs/validation.md, Whole digs]";
 
-/// What the cut took out of the uppermost `cap` [m] of all columns that were dug [m3].
+/// Returns the volume that the cut removed from the uppermost `cap` [m] of all dug columns [m3].
 double cut_above(const heightfield::Ground& ground, double cap) {
   double sum = 0;
   for (int iy = 0; iy < ground.ny(); ++iy)
@@ -37,7 +37,8 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
   const record::Earthwork earth = record::measure_earthwork(world);
   const sim::MassLedger ledger = world.soil().mass_ledger();
   const double cap = description.ground.layers.at(0).thickness;
-  double swelled = 0;  // of what was dug, each soil at its own loose density [m3]
+  // Dug volume, each soil at its own loose density [m3].
+  double swelled = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const scene::Soil& soil = description.soils.at(i);
     const record::SoilMoved& moved = earth.soils.at(i);
@@ -47,8 +48,8 @@ TEST(TwoLayers, AreDugAndDumpedEachWithItsOwnLedger) {
         ledger.columns[i] + ledger.particles[i] + ledger.left_site[i] - ledger.inserted[i];
     expect_between(soil.name + ": ledger error [units]", static_cast<double>(error), 0, 0, kSource);
   }
-  // Below the border crumbs of both soils lie on the floor, so that the cut's shape no longer tells
-  // what was dug.
+  // Below the border, loose soil of both kinds covers the floor, so that the shape of the cut no
+  // longer shows the dug volume.
   expect_between(
       "topsoil dug / cut above the border, by mass",
       earth.soils[0].dug / (cut_above(world.ground(), cap) * description.soils[0].bank_density),

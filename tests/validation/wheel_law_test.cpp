@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wheel law beside measured smooth wheels: its stiffness and one coefficient of slip sinkage
-// are fitted to two slips, the others are predicted.
+// The wheel law compared with measured smooth wheels: its stiffness and one coefficient of slip
+// sinkage are fitted at two slips, the others are predicted.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -22,8 +22,10 @@ struct Row {
 struct Experiment {
   WheelCase wheel;
   scene::Soil soil;
-  std::vector<Row> rows;  ///< gated
-  Row rolling, slipping;  ///< fitted: stiffness on the one, slip sinkage on the other
+  /// Rows with a tolerance.
+  std::vector<Row> rows;
+  /// Fitted rows: stiffness on the first, slip sinkage on the second.
+  Row rolling, slipping;
   std::string source;
 };
 
@@ -54,7 +56,7 @@ void fit(Experiment& e) {
               e.wheel.slip_sinkage);
 }
 
-/// Sinkage within 30 %, pull within 30 % of the range measured.
+/// Expects sinkage within 30 %, and pull within 30 % of the measured range.
 void predict(const Experiment& e) {
   const auto [least, most] = std::minmax_element(
       e.rows.begin(), e.rows.end(), [](const Row& a, const Row& b) { return a.pull < b.pull; });
@@ -73,7 +75,7 @@ void predict(const Experiment& e) {
 
 scene::Soil sand(double phi_degrees, double exponent, double janosi_k) {
   scene::Soil soil;
-  // Of the rim nothing is told
+  // The rim's friction is not published.
   soil.friction_angle = soil.tool_friction_angle = radians(phi_degrees);
   soil.cohesion = soil.residual_cohesion = soil.adhesion = 0;
   soil.bekker_kc = 0, soil.bekker_n = exponent, soil.janosi_k = janosi_k;

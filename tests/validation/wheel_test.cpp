@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rig `wheel` beside a measured smooth wheel in dry sand. Wheel laws are gated once they are
-// fitted to part of the data; the particles are fitted to nothing, so here the load, leaks and the
-// order of the pulls are gated and the rest is shown.
+// The rig `wheel` compared with a measured smooth wheel in dry sand. Wheel laws have tolerances
+// once they are fitted to part of the data; the particles are not fitted, so here the load, leaks
+// and the order of the pulls have tolerances and the rest is printed.
 #include "lab/run_rig.h"
 #include "validation/report.h"
 #include "values.h"
@@ -14,7 +14,7 @@ struct Measured {
   double slip, load, pull, sinkage;
 };
 
-TEST(WheelLab, SmoothWheelInDrySand) {
+TEST(WheelLab, CarriesASmoothWheelInDrySand) {
   const Measured rows[] = {
       {-0.5, 23.2, -17.2, 23.3}, {0, 24.6, -1.3, 14.1}, {0.5, 25.3, 1.0, 22.4}};
   double before = -1e9;
@@ -33,9 +33,8 @@ TEST(WheelLab, SmoothWheelInDrySand) {
   }
 }
 
-// What a wheel of particles feels of the step and of its speed; pull and sinkage themselves are not
-// gated.
-TEST(WheelLab, SmoothWheelOverSpeedsAndSteps) {
+// Effect of step and speed on a wheel on particles; pull and sinkage themselves have no tolerance.
+TEST(WheelLab, ReportsASmoothWheelOverSpeedsAndSteps) {
   const auto wheel = [](double speed, double courant) {
     const Report report = run_rig("wheel", {{"slip", 0.5},
                                             {"load-n", 25.3},
@@ -46,9 +45,9 @@ TEST(WheelLab, SmoothWheelOverSpeedsAndSteps) {
     EXPECT_EQ(measured(report, "particles through the wheel"), 0);
     const std::string name =
         "wheel at slip 0.5, " + short_text(speed) + " m/s, Courant " + short_text(courant);
-    print_value(name + ": pull [N]", measured(report, "drawbar pull"), "1.0 measured, no gate",
+    print_value(name + ": pull [N]", measured(report, "drawbar pull"), "1.0 measured, no tolerance",
                 "[docs/validation.md, Wheels]");
-    print_value(name + ": sinkage [mm]", measured(report, "sinkage"), "22.4 measured, no gate",
+    print_value(name + ": sinkage [mm]", measured(report, "sinkage"), "22.4 measured, no tolerance",
                 "[docs/validation.md, Wheels]");
     return measured(report, "sinkage");
   };

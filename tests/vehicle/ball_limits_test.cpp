@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ball joints with stops: a drawbar leans and turns as far as its hitch allows.
+// Ball joints with stops: a drawbar leans and twists within the limits of its hitch.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kStep = 1.0 / 600;
 
-/// A post in the ground and 100 kg, as heavy about every axis, 1 m along x of a ball joint. Frames
-/// are turned against each other, so that no axis stands for another one.
+/// A fixed post and 100 kg with equal moments of inertia, 1 m along x of a ball joint. Frames are
+/// rotated against each other, so that no axis coincides with another one.
 scene::Machine hitch(double cone, double twist) {
   scene::Machine m;
   m.name = "hitch";
@@ -33,8 +33,7 @@ scene::Machine hitch(double cone, double twist) {
   return m;
 }
 
-/// Of the bar now against the start: how far its x axis leans and how far it has turned about it
-/// [deg].
+/// Motion of the bar since the start: lean of its x axis and twist about it [deg].
 struct Bend {
   double lean, turn;
 };
@@ -54,7 +53,7 @@ TEST(BallLimits, HoldABarThatFalls) {
     double worst = 0;
     testing::run(*engine, testing::flat(), 3, kStep,
                  [&](double) { worst = std::max(worst, bend(*engine, m).lean); });
-    // 0.1 deg: a step's turn at the moment of the stop.
+    // 0.1 deg: the rotation of one step at the stop.
     EXPECT_NEAR(bend(*engine, m).lean, cone, 0.1);
     EXPECT_LT(worst, cone + 0.2);
   }
@@ -77,18 +76,18 @@ TEST(BallLimits, HoldABarThatIsTurned) {
   }
 }
 
-TEST(BallLimits, OfAFreeBallAreNone) {
+TEST(BallLimits, DoNotActOnAFreeBall) {
   const scene::Machine m = hitch(kPi, kPi);
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(m, Pose::Identity());
   double worst = 0;
   testing::run(*engine, testing::flat(), 2, kStep,
                [&](double) { worst = std::max(worst, bend(*engine, m).lean); });
-  // A pendulum that starts level swings to the other side.
+  // A pendulum released level swings to the other side.
   EXPECT_GT(worst, 170);
 }
 
-TEST(BallLimits, ResumeBitIdentical) {
+TEST(BallLimits, ResumeBitIdentically) {
   const scene::Machine m = hitch(radians(20), radians(10));
   const auto first = make_bullet_engine(Vec3(0, 0, -kGravity)),
              second = make_bullet_engine(Vec3(0, 0, -kGravity));

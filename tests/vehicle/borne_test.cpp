@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose bodies supported by soil, and what rests on them.
+// Loose bodies supported by soil, and bodies that rest on them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kLower = 468, kUpper = 200;  // [kg]
-constexpr double kHigh = 50;                  // [m] over the ground, which nothing here shall touch
+constexpr double kHigh = 50;  // height above the ground, which must not be touched [m]
 
 scene::Machine block(double mass) {
   scene::Machine m;
@@ -34,8 +34,9 @@ std::unique_ptr<PhysicsEngine> pair() {
   return engine;
 }
 
-/// Firm soil under the lower block: after all else it gives what stops it. The impulse [N s].
-Vec3 bear(PhysicsEngine& engine, double dt) {
+/// Firm soil under the lower block: after all other forces it applies the impulse that stops the
+/// block. @return the impulse [N s].
+Vec3 support(PhysicsEngine& engine, double dt) {
   const LinkState link = engine.link(0, 0);
   Vec6 twist;
   twist << link.w_WL, link.v_WL;
@@ -57,26 +58,26 @@ TEST(SupportedBody, ABodyOnABodySupportedBySoilDoesNotSink) {
       const int steps = static_cast<int>(std::lround(seconds / dt));
       for (int i = 0; i < steps; ++i) {
         engine->step(dt, ground);
-        sum += bear(*engine, dt);
+        sum += support(*engine, dt);
       }
       return sum;
     };
-    // Contacts press out at 2 per second what the blocks overlap by at the start.
+    // Contacts resolve the initial overlap of the blocks at a rate of 2 per second.
     run(6);
     const double lower = height(*engine, 0), upper = height(*engine, 1);
     const double share = run(10).z() / (10 * (kLower + kUpper) * kGravity);
     print_value("upper block of two on firm soil, sinking in 10 s [mm]",
                 1000 * (upper - height(*engine, 1)), "<= 0.2", "statics");
-    // Contacts go on pressing out the last tenths of a millimetre. Without what the solver expects
-    // the upper block falls with the lower one in every step, by 9 and 2 mm until pressing out
-    // keeps up with it.
+    // Contacts continue to resolve the last tenths of a millimetre. Without the solver's expected
+    // support the upper block falls with the lower one in every step, by 9 and 2 mm, until the
+    // contact correction balances it.
     EXPECT_NEAR(height(*engine, 0), lower, 2e-4) << dt;
     EXPECT_NEAR(height(*engine, 1), upper, 2e-4) << dt;
     EXPECT_NEAR(share, 1, 1e-5) << dt;
   }
 }
 
-TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
+TEST(SupportedBody, ASingleBodyReceivesExactlyTheAppliedImpulses) {
   const double dt = 1.0 / 600;
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(block(kLower), make_pose(0, 0, kHigh));
@@ -87,7 +88,7 @@ TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
     momentum.z() -= dt * kLower * kGravity;
     EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9)
         << "what the soil reads, step " << i;
-    // Pushes that come and go, with gaps, so that what is expected is wrong nearly always.
+    // Intermittent pushes, so that the expected support is nearly always wrong.
     if (i % 7 < 4) {
       const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)),
           L(0, 0, 0.1 * std::sin(i));
@@ -103,13 +104,13 @@ TEST(SupportedBody, ABodyByItselfTakesWhatItIsGivenAndNothingElse) {
   EXPECT_NEAR(engine->link(0, 0).w_WL.z(), spin.z() / (kLower / 12 * 0.72), 1e-9);
 }
 
-TEST(SupportedBody, ASnapshotKnowsWhatTheNextStepExpects) {
+TEST(SupportedBody, ASnapshotHoldsTheExpectedSupport) {
   const double dt = 1.0 / 600;
   const auto ground = testing::flat();
   const auto go_on = [&](PhysicsEngine& engine, int steps) {
     for (int i = 0; i < steps; ++i) {
       engine.step(dt, ground);
-      bear(engine, dt);
+      support(engine, dt);
     }
   };
   const auto engine = pair(), resumed = pair();

@@ -34,8 +34,8 @@ TEST(BulletContact, BoxRestsOnTheGroundWithItsWeight) {
   // 1 cm: the contact is a stiff spring (1000 kg on 4 x 2e7 N/m is 0.1 mm) plus Bullet's margins.
   EXPECT_NEAR(engine->link(0, 0).X_WL.translation().z(), 1000.5, 0.01);
   EXPECT_NEAR(engine->link(1, 0).X_WL.translation().z(), 1001.5, 0.01);
-  // Contacts are found afresh in every step, so a resting box trembles, by less than a centimetre a
-  // second.
+  // Contacts are detected anew in every step, so a resting box vibrates by less than a centimetre
+  // per second.
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 0.02);
   EXPECT_NEAR(impulse.z(), 1000 * kGravity * 2, 0.005 * 1000 * kGravity * 2);
 }
@@ -64,7 +64,7 @@ TEST(BulletContact, FrictionHoldsBelowAndSlidesAboveItsAngle) {
   }
 }
 
-TEST(BulletContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane) {
+TEST(BulletContact, ABoxSlidesOverTrianglesLikeOverAPlane) {
   // It starts off the lattice's lines and slides down along, across and between them.
   const double angle = radians(35);
   const auto after_a_second = [&](double spacing, double yaw) {
@@ -80,9 +80,9 @@ TEST(BulletContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane) {
   };
   const double expected = kGravity * (std::sin(angle) - 0.5 * std::cos(angle));
   for (const double yaw : {0.0, radians(20.0), radians(45.0)}) {
-    // Two triangles as large as the slope have no sides to hook onto.
+    // Two triangles as large as the slope have no inner edges to catch on.
     const Vec3 plane = after_a_second(40, yaw);
-    // 15 %: across its two directions Bullet's friction is that much too small; along them it is
+    // 15 %: across its two directions Bullet's friction is too small by that much; along them it is
     // right to 1 %.
     EXPECT_NEAR(plane.norm(), expected, (yaw > 0 ? 0.15 : 0.01) * expected)
         << degrees(yaw) << " deg";
@@ -92,8 +92,8 @@ TEST(BulletContact, ABoxSlidesOverAPlaneOfTrianglesAsOverAPlane) {
   }
 }
 
-TEST(BulletContact, ABodyOnAnEdgeOfTheGroundStandsOnItsTop) {
-  // A terrace 1 m high, its wall one cell wide: a box that juts out over it by a third is held, not
+TEST(BulletContact, ABodyOnAnEdgeOfTheGroundRestsOnItsTop) {
+  // A terrace 1 m high with a wall one cell wide: a box that overhangs it by a third is held, not
   // pushed off.
   const FunctionGround ground([](double x, double) { return x < 0.01 ? 1.0 : 0.0; }, 0.1);
   auto engine = make_bullet_engine(kDown);
@@ -111,7 +111,7 @@ TEST(BulletContact, AWallOfTheGroundStopsABody) {
   double highest = 0;
   run(*engine, ground, 2, kStep,
       [&](double) { highest = std::max(highest, engine->link(0, 0).X_WL.translation().z()); });
-  // The wall's foot is at 0.9 m, half a metre before the box's middle.
+  // The wall begins at 0.9 m, half a metre before the box's middle.
   EXPECT_NEAR(engine->link(0, 0).X_WL.translation().x(), 0.4, 0.05);
   EXPECT_LT(highest, 0.6);
 }
@@ -133,7 +133,7 @@ TEST(BulletContact, LoweredGroundLetsABodyFall) {
   engine->add_machine(box(), make_pose(0, 0, 0.5));
   run(*engine, flat(), 1, kStep);
   run(*engine, FunctionGround([](double, double) { return -2.0; }), 0.2, kStep);
-  // No stale contact holds it back: free fall, first order in the step.
+  // No stale contact holds it: free fall, first order in the step.
   EXPECT_NEAR(engine->link(0, 0).v_WL.z(), -kGravity * 0.2, 0.02 * kGravity * 0.2);
 }
 
@@ -144,16 +144,15 @@ TEST(BulletContact, MachinesPushEachOtherAndMomentumIsConserved) {
   engine->apply_impulse(0, 0, Vec3(2000, 0, 0), Vec3::Zero(), Vec3::Zero());
   run(*engine, FunctionGround([](double, double) { return -5.0; }), 1, kStep);
   EXPECT_GT(engine->accounts()->momentum(1).x(), 500);
-  // 1e-6: the iterations of the solver act on both bodies alike.
+  // 1e-6: the iterations of the solver act equally on both bodies.
   EXPECT_LT(
       (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - Vec3(2000, 0, 0)).norm(),
       2e-3);
   EXPECT_TRUE(engine->accounts()->ground_impulse(1).isZero());
 }
 
-TEST(BulletContact, EachBodyMeetsTheGroundInFullWhereverTheOtherIs) {
-  // A ridge one cell wide under one of two boxes that are a kilometre apart: it is not sampled
-  // away.
+TEST(BulletContact, EachBodyTouchesTheFullGroundFarFromOthers) {
+  // A ridge one cell wide under one of two boxes a kilometre apart must be sampled.
   const FunctionGround ground(
       [](double x, double) { return std::abs(x - 1000) < 0.05 ? 0.2 : 0.0; });
   auto engine = make_bullet_engine(kDown);
@@ -164,7 +163,7 @@ TEST(BulletContact, EachBodyMeetsTheGroundInFullWhereverTheOtherIs) {
   EXPECT_NEAR(engine->link(1, 0).X_WL.translation().z(), 0.7, 0.02);
 }
 
-TEST(BulletContact, WhatFallsThroughTheGroundIsNamed) {
+TEST(BulletContact, NamesABodyThatFallsThroughTheGround) {
   auto engine = make_bullet_engine(kDown);
   scene::Machine ghost = box();
   ghost.name = "ghost";
@@ -180,9 +179,9 @@ TEST(BulletContact, WhatFallsThroughTheGroundIsNamed) {
   }
 }
 
-TEST(BulletContact, TwoHundredBodiesOfWhichTwoTouchCostNoSearchOfAllPairs) {
-  // What touches is found whatever else is there: the pair in the crowd moves as the pair alone, to
-  // the bit.
+TEST(BulletContact, FindsTwoTouchingBodiesOfTwoHundredWithoutTestingAllPairs) {
+  // Contacts do not depend on other bodies: the pair in the crowd moves exactly like the pair
+  // alone.
   const auto end = [&](int others) {
     auto engine = make_bullet_engine(Vec3::Zero());
     engine->add_machine(box(), make_pose(0, 0, 50));
@@ -210,7 +209,7 @@ TEST(BulletContact, ExcavatorsStandAndDriveInOneWorldWithoutTouching) {
     run(*engine, flat(), 2, kStep);
     return engine->link(0, 0).X_WL.translation();
   };
-  // 1e-4: the solver stops on the residual of both, so its last digits differ.
+  // 1e-4: the solver stops at the residual of both, so the last digits differ.
   EXPECT_LT((together(true) - together(false)).norm(), 1e-4);
 }
 

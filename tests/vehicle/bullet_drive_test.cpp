@@ -19,7 +19,7 @@ using testing::run;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-/// Radius of the circle through three points in the plane.
+/// Returns the radius of the circle through three points in the plane.
 double circle_radius(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double area2 = std::abs((b - a).head<2>().x() * (c - a).y() - (b - a).y() * (c - a).x());
   return (b - a).head<2>().norm() * (c - b).head<2>().norm() * (a - c).head<2>().norm() /
@@ -34,7 +34,7 @@ TEST(BulletDrive, StandsStillOnItsTyres) {
   run(*engine, ground, 4, kStep);
   const Vec3 before = engine->link(0, 0).X_WL.translation();
   run(*engine, ground, 5, kStep);
-  // A hundredth of a millimetre: nothing creeps.
+  // A hundredth of a millimetre: no creep.
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - before).norm(), 1e-5);
   double load = 0;
   for (int w = 0; w < 4; ++w) load += engine->wheel(0, w).force_W.z();
@@ -68,7 +68,7 @@ TEST(BulletDrive, TurnsOnTheAckermannRadiusAtWalkingSpeed) {
   }
 }
 
-TEST(BulletDrive, KeepsTheAskedSpeed) {
+TEST(BulletDrive, KeepsTheCommandedSpeed) {
   for (const double angle : {0.0, 8.0}) {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(ew180(), make_pose(0, 0, 0, 0, -radians(angle)));
@@ -77,7 +77,8 @@ TEST(BulletDrive, KeepsTheAskedSpeed) {
     double fastest = 0;
     run(*engine, ground, 6, kStep,
         [&](double) { fastest = std::max(fastest, engine->link(0, 0).v_WL.norm()); });
-    // 4 %: the governor keeps the wheels' speed; pulling 25 kN uphill two twins slip by 2 %.
+    // 4 %: the governor controls the speed of the wheels; pulling 25 kN uphill two twins slip by 2
+    // %.
     EXPECT_NEAR(engine->link(0, 0).v_WL.norm(), 1.0, 0.04) << angle;
     EXPECT_LT(fastest, 1.2) << angle;
   }
@@ -105,7 +106,7 @@ TEST(BulletDrive, SlidesDownWhereFrictionCannotHold) {
   const double v0 = engine->link(0, 0).v_WL.norm();
   run(*engine, ground, 1, kStep);
   const double expected = kGravity * (std::sin(radians(20)) - 0.3 * std::cos(radians(20)));
-  // 2 %: the body still rocks on its springs.
+  // 2 %: the body still oscillates on its springs.
   EXPECT_NEAR(engine->link(0, 0).v_WL.norm() - v0, expected, 0.02 * kGravity);
 }
 
@@ -122,7 +123,7 @@ TEST(BulletDrive, PushAtTheEdgeSlidesTheMachineOnMu03) {
                         engine->link(0, 0).X_WL * Vec3(3.5, 0, 0.5));
     };
     const Vec3 before = engine->link(0, 0).X_WL.translation();
-    // Applied slowly, so that the stretching bristles do not swing.
+    // Applied slowly, so that the stretching bristles do not oscillate.
     for (int i = 0; i < 1200; ++i) {
       push(i / 1200.0);
       engine->step(kStep, ground);
@@ -135,14 +136,14 @@ TEST(BulletDrive, PushAtTheEdgeSlidesTheMachineOnMu03) {
       EXPECT_LT(engine->link(0, 0).v_WL.norm(), 1e-4);
     } else {
       const double expected = 0.1 * 0.3 * kGravity * 2;
-      // 3 %: what still swings.
+      // 3 %: remaining oscillation.
       EXPECT_NEAR(engine->link(0, 0).v_WL.head<2>().norm() - v0, expected, 0.03 * expected);
     }
   }
 }
 
 TEST(BulletDrive, DropsIntoATrenchWithoutBeingLaunched) {
-  // One bucket wide, 0.8 m deep, across the way; the chassis meets its edges.
+  // One bucket wide, 0.8 m deep, across the path; the chassis touches its edges.
   const FunctionGround ground([](double x, double) {
     return x > 5 && x < 6.05 ? -0.8 * std::min({1.0, (x - 5) / 0.1, (6.05 - x) / 0.1}) : 0.0;
   });
@@ -210,7 +211,7 @@ TEST(BulletDrive, TrailerWheelsTurnFreelyAndMotorsObeySetJoint) {
   const double rolling = engine->link(0, 0).v_WL.x();
   EXPECT_GT(rolling, 0.5);
   EXPECT_LT(rolling, 1.0);  // 2000 kg at 2000 N s, less the wheels' spin and rolling resistance
-  // Differential drive by hand: both rear wheels at different speeds turn the cart.
+  // A manual differential drive: the rear wheels at different speeds turn the cart.
   for (const char* name : {"front_left_joint", "front_right_joint"})
     engine->set_joint(0, m.joint_index(name), {JointMode::kFree, 0});
   engine->set_joint(0, m.joint_index("rear_left_joint"), {JointMode::kVelocity, 2});

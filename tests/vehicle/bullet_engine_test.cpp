@@ -42,7 +42,7 @@ TEST(BulletEngine, LinkPosesAgreeWithForwardKinematicsWhileTheMachineMoves) {
   });
 }
 
-TEST(BulletEngine, HoldTorqueIsTheAnalyticOne) {
+TEST(BulletEngine, HoldTorqueMatchesTheClosedForm) {
   auto engine = make_bullet_engine(kDown);
   const scene::Machine m = arm();
   engine->add_machine(m, Pose::Identity());
@@ -57,7 +57,7 @@ TEST(BulletEngine, HoldTorqueIsTheAnalyticOne) {
   const double boom = moment(poses[1].translation(), 1) + moment(poses[1].translation(), 2);
   const double stick = moment(poses[2].translation(), 2);
   EXPECT_NEAR(engine->joint(0, 0).position, 0.3, 1e-5);
-  // 1e-5: what the iterations of the solver leave.
+  // 1e-5: residual of the solver's iterations.
   EXPECT_NEAR(engine->joint(0, 0).effort, boom, 1e-5 * boom);
   EXPECT_NEAR(engine->joint(0, 1).effort, stick, 1e-5 * std::abs(boom));
 }
@@ -104,7 +104,7 @@ TEST(BulletEngine, FreeJointsSwingAsAPendulum) {
   engine->set_joint(0, 0, {JointMode::kFree, 0});
   engine->set_joint(0, 1, {JointMode::kPosition, 0});
   const auto ground = flat();
-  // Both links as one physical pendulum about the boom's foot.
+  // Both links as one physical pendulum about the boom's pivot.
   const double i_boom = m.links[1].inertia(1, 1) + 1200 * (2.5 * 2.5 + 0.3 * 0.3);
   const double i_stick = m.links[2].inertia(1, 1) + 600 * 6.2 * 6.2;
   const Vec3 moment = 1200 * Vec3(2.5, 0, 0.3) + 600 * Vec3(6.2, 0, 0);
@@ -122,7 +122,7 @@ TEST(BulletEngine, FreeJointsSwingAsAPendulum) {
   EXPECT_NEAR(crossings[4] - crossings[0], 2 * period, 0.005 * 2 * period);
 }
 
-TEST(BulletEngine, ImpulseChangesTheMomentumByItself) {
+TEST(BulletEngine, AnImpulseChangesTheMomentumByItsValue) {
   auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(ew180(), make_pose(3, 2, 5, 0.1, 0.2, 0.3));
   const auto ground = testing::FunctionGround([](double, double) { return -100.0; });
@@ -161,7 +161,7 @@ TEST(BulletEngine, InverseMassPredictsTheVelocityChangeOfAnImpulse) {
   }
 }
 
-TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
+TEST(BulletEngine, RepeatedAndResumedRunsAreEqual) {
   const auto ground = testing::FunctionGround([](double x, double) { return 0.1 * std::sin(x); });
   const auto build = [&] {
     auto engine = make_bullet_engine(kDown);
@@ -196,12 +196,12 @@ TEST(BulletEngine, SameRunTwiceIsEqualAndAResumedRunToo) {
   load_saved(bytes, *resumed);
   drive(*resumed, 1, 2);
   EXPECT_EQ(digest(*whole), digest(*resumed));
-  // And it is no constant: another second moves on.
+  // The state is not constant: another second changes it.
   drive(*resumed, 2, 2.1);
   EXPECT_NE(digest(*whole), digest(*resumed));
 }
 
-TEST(BulletEngine, FailsClearlyOnBadInput) {
+TEST(BulletEngine, ReportsInvalidInput) {
   auto engine = make_bullet_engine(kDown);
   scene::Machine m = arm();
   m.links[1].mass = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How two materials touch, against closed forms: friction at rest and sliding, rebound, softness.
+// Contact of two materials compared with closed forms: static and kinetic friction, rebound,
+// softness.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ using testing::slope;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-/// Steel on earth and on stone alike.
+/// Returns materials with these values for steel on earth and on stone.
 scene::Materials table(double at_rest, double sliding, double restitution = 0,
                        double softness = 0) {
   scene::Materials out;
@@ -39,7 +40,7 @@ scene::Machine ball(double radius) {
   return m;
 }
 
-/// How far a steel box that starts downhill with `speed` [m/s] goes in `time` [s] on a slope.
+/// Travel of a steel box that starts downhill with `speed` [m/s], in `time` [s] on a slope.
 struct Slid {
   double way = 0, speed = 0;
 };
@@ -56,7 +57,7 @@ Slid slid(const scene::Materials& materials, double angle, double speed, double 
 }
 
 TEST(BulletMaterials, ABlockStartsAtTheAngleOfStaticFriction) {
-  // 1 deg to both sides of atan(0.6); a box of 1 m stands on either.
+  // 1 deg on both sides of atan(0.6); a box of 1 m remains upright on either.
   const scene::Materials materials = table(0.6, 0.45);
   EXPECT_LT(slid(materials, std::atan(0.6) - radians(1), 0, 3).way, 0.02);
   EXPECT_GT(slid(materials, std::atan(0.6) + radians(1), 0, 3).way, 1);
@@ -70,7 +71,7 @@ TEST(BulletMaterials, ABlockThatSlidesStopsBelowTheAngleOfKineticFriction) {
   EXPECT_LT(below.speed, 0.01);
   EXPECT_NEAR(below.way, 0.5 / (kGravity * std::sin(radians(1)) / std::cos(angle)), 0.3);
   EXPECT_GT(slid(materials, angle + radians(1), 1, 8).speed, 2);
-  // Between the two angles what rests stays, and what slides goes on.
+  // Between the two angles a body at rest stays, and a sliding one continues.
   const double between = std::atan(0.52);
   EXPECT_LT(slid(materials, between, 0, 3).way, 0.02);
   EXPECT_GT(slid(materials, between, 1, 3).speed, 1);
@@ -84,7 +85,7 @@ TEST(BulletMaterials, ABallReboundsToTheSquareOfItsRestitution) {
       double highest = 0;
       bool struck = false;
       const double fall = std::sqrt(2 * height / kGravity);
-      // Up to the top of the first rebound.
+      // Until the top of the first rebound.
       run(*engine, flat(), fall + e * fall + 0.02, kStep, [&](double) {
         const LinkState now = engine->link(0, 0);
         struck = struck || now.v_WL.z() > 0;
@@ -110,9 +111,9 @@ TEST(BulletMaterials, ABlockReboundsFlatAndComesToRest) {
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 0.05);
 }
 
-TEST(BulletMaterials, SoftnessGivesItsSinkage) {
-  // 1000 kg by 2e-6 m/N are 19.6 mm, on the ground (four points, or a ball's one) and on a body
-  // that stands.
+TEST(BulletMaterials, SoftnessDeterminesTheSinkage) {
+  // 1000 kg by 2e-6 m/N are 19.6 mm, on the ground (four points, or one for a ball) and on a static
+  // body.
   const double expected = 2e-6 * 1000 * kGravity;
   const scene::Materials materials = table(0.5, 0.5, 0, 2e-6);
   for (const bool round : {false, true}) {
@@ -131,7 +132,7 @@ TEST(BulletMaterials, SoftnessGivesItsSinkage) {
   EXPECT_NEAR(1.5 - engine->link(1, 0).X_WL.translation().z(), expected, 0.1 * expected);
 }
 
-TEST(BulletMaterials, ATableLeavesLinksWithoutAMaterialAlone) {
+TEST(BulletMaterials, ATableDoesNotAffectLinksWithoutAMaterial) {
   const auto end = [](const scene::Materials& materials, const std::string& material) {
     auto engine = make_bullet_engine(kDown, materials);
     engine->add_machine(of(material, testing::box()), make_pose(0.3, 0.4, 0.9, 0.1));
@@ -143,7 +144,7 @@ TEST(BulletMaterials, ATableLeavesLinksWithoutAMaterialAlone) {
   EXPECT_NE(end({}, ""), end(table(0.9, 0.1, 0.5, 1e-6), "steel"));
 }
 
-TEST(BulletMaterials, MomentumIsConservedInABlow) {
+TEST(BulletMaterials, MomentumIsConservedInAnImpact) {
   auto engine = make_bullet_engine(Vec3::Zero(), table(0.5, 0.4, 0.7));
   engine->add_machine(of("steel", testing::box()), make_pose(0, 0, 50));
   engine->add_machine(of("stone", testing::box()), make_pose(1.5, 0.1, 50.05));

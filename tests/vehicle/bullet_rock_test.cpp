@@ -48,7 +48,7 @@ struct OverRock {
   int bucket = -1;
 };
 
-TEST(BulletRock, ABoomThatPressesStallsWithTheForceOfItsCylinder) {
+TEST(BulletRock, ABoomStallsWithTheForceOfItsCylinder) {
   OverRock dig(true);
   const int boom = dig.joint(dig.machine.arm.boom);
   dig.turn(dig.machine.arm.boom, -0.3);
@@ -59,7 +59,7 @@ TEST(BulletRock, ABoomThatPressesStallsWithTheForceOfItsCylinder) {
     touched = touched || dig.rock_force().z() > 0;
     if (touched) bounce = std::max(bounce, dig.lowest() - kRock);
   });
-  print_value("bucket pressed on rock, deepest corner [mm]", 1e3 * (kRock - lowest), "1, gated",
+  print_value("bucket pressed on rock, deepest corner [mm]", 1e3 * (kRock - lowest), "1, tolerance",
               "coupling of the rock");
   EXPECT_GT(lowest, kRock - 1e-3);
   EXPECT_LT(dig.lowest(), kRock + 1e-3) << "it does not hover";
@@ -69,7 +69,7 @@ TEST(BulletRock, ABoomThatPressesStallsWithTheForceOfItsCylinder) {
   EXPECT_TRUE(state.stalled);
   EXPECT_NEAR(state.velocity, 0, 1e-4);
   EXPECT_NEAR(state.effort, -state.effort_limit, 1e-3 * state.effort_limit);
-  // Moments about the boom's foot: cylinder, weight outward of it, rock.
+  // Moments about the boom's pivot: cylinder, weight outward of it, rock.
   const Vec3 foot = dig.engine->link(0, dig.machine.link_index("boom")).X_WL.translation();
   double weight = 0;
   for (const char* name : {"boom", "stick", "bucket"}) {
@@ -102,7 +102,7 @@ TEST(BulletRock, AMachineLiftsItselfOnItsBucket) {
     fastest = std::max(fastest, dig.engine->link(0, 0).v_WL.z());
   });
   EXPECT_GT(lowest, kRock - 5e-3);
-  EXPECT_LT(fastest, 1.0) << "nothing is launched";
+  EXPECT_LT(fastest, 1.0) << "the machine is not launched";
   double front = 0;
   for (std::size_t w = 0; w < dig.machine.wheels.size(); ++w)
     if (dig.machine.wheels[w].joint.find("front") != std::string::npos)
@@ -110,7 +110,7 @@ TEST(BulletRock, AMachineLiftsItselfOnItsBucket) {
   print_value("force of the rock [N]", dig.rock_force().z(), "lifts the front wheels", "test");
   EXPECT_EQ(front, 0);
   EXPECT_GT(dig.rock_force().z(), 15e3);
-  // At rest ground and rock carry the weight.
+  // At rest, ground and rock carry the weight.
   Vec3 sum = Vec3::Zero();
   run(*dig.engine, flat(), 1, kStep,
       [&](double) { sum += dig.engine->accounts()->ground_impulse(0); });
@@ -136,7 +136,7 @@ TEST(BulletRock, SteelSlidesOnItWithFriction) {
   EXPECT_NEAR(along / up, 0.5, 0.02) << "against the motion";
 }
 
-TEST(BulletRock, AResumedRunPressesTheSame) {
+TEST(BulletRock, AResumedRunPressesEqually) {
   OverRock dig(false), again(false);
   for (OverRock* rig : {&dig, &again}) {
     rig->turn(rig->machine.arm.boom, -0.3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buckets and beds meet bodies with the plates of their shells.
+// Buckets and beds touch bodies with the plates of their shells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,8 +48,8 @@ scene::Machine stone_ball(double radius, double mass) {
   return body(mass, geometry);
 }
 
-/// A boulder of 80 faces, the corners of an icosahedron and the middles of its edges on a ball, as
-/// an OBJ file.
+/// Writes a boulder of 80 faces, the corners of an icosahedron and the midpoints of its edges on a
+/// sphere, as an OBJ file.
 std::string boulder_mesh(const test::Folder& folder, double radius) {
   const double g = 0.5 * (1 + std::sqrt(5.0));
   std::vector<Vec3> corners;
@@ -86,7 +86,7 @@ TEST(BulletSteel, MomentumOfTwoTouchingMachinesIsConserved) {
   const Vec3 thrown(0, -1500, 0);
   engine->apply_impulse(1, 0, thrown, Vec3::Zero(), side);
   run(*engine, flat(), 1, kStep);
-  // The side of the bucket stopped it, and nothing else could.
+  // Only the side of the bucket can have stopped it.
   EXPECT_GT(engine->accounts()->momentum(0).norm(), 0.3 * thrown.norm());
   const double lost =
       (engine->accounts()->momentum(0) + engine->accounts()->momentum(1) - thrown).norm() /
@@ -112,7 +112,8 @@ TEST(BulletSteel, AMovingBedHoldsAStone) {
   run(*engine, flat(), 1, kStep);
   const Vec3 before = in_bed();
   EXPECT_NEAR(before.z() - box.low.z(), 0.29 + truck.shells[0].half_thickness, 0.03);
-  // Off, round a bend, and a stop by the governor: 1.5 m/s2, a third of what holds the stone.
+  // Departure, a bend, and a stop by the governor: 1.5 m/s2, a third of the limit that holds the
+  // stone.
   double farthest = 0;
   const auto look = [&](double) { farthest = std::max(farthest, (in_bed() - before).norm()); };
   engine->set_drive(0, {2.5, 0, false});
@@ -122,19 +123,19 @@ TEST(BulletSteel, AMovingBedHoldsAStone) {
   EXPECT_GT((engine->link(0, bed).X_WL.translation() - X_WL.translation()).norm(), 8);
   engine->set_drive(0, {0, 0, false});
   run(*engine, flat(), 3, kStep, look);
-  print_value("a stone in a bed that drives and brakes, way in it", farthest, "<= 0.1 m",
+  print_value("a stone in a bed that drives and brakes, travel in it", farthest, "<= 0.1 m",
               "friction 0.48");
   EXPECT_LT(farthest, 0.1);
 }
 
-/// The test bucket, 1.4 times as large, on a column that swings: what its joints are told is where
-/// it is.
+/// The test bucket, 1.4 times as large, on a swinging column: its joints follow their targets
+/// exactly.
 struct Crane {
   explicit Crane(PhysicsEngine& in) : engine(in) {
     machine = scene_io::load_machine(scene_io::find_data("vehicles/test_bucket/model.sdf"));
     machine.kinematic = false;
     for (Vec3& v : machine.shells.at(0).vertices) v *= 1.4;
-    // Between base and carriage.
+    // Inserted between base and carriage.
     machine.links.insert(
         machine.links.begin() + 1,
         testing::box_link("column", Pose::Identity(), 1000, Vec3::Zero(), Vec3(1, 1, 1)));
@@ -166,7 +167,7 @@ struct Crane {
   std::array<double, 4> now{};
 };
 
-TEST(BulletSteel, ABucketTakesUpAStoneCarriesItAndSetsItDown) {
+TEST(BulletSteel, ABucketPicksUpCarriesAndSetsDownAStone) {
   const test::Folder folder;
   auto engine = make_bullet_engine(kDown);
   Crane crane(*engine);
@@ -181,8 +182,8 @@ TEST(BulletSteel, ABucketTakesUpAStoneCarriesItAndSetsItDown) {
   const auto stone = [&] { return Vec3(engine->link(1, 0).X_WL.translation()); };
   const auto in_bucket = [&] { return Vec3(engine->link(0, 4).X_WL.inverse() * stone()); };
   const double flat_curl = radians(-56);
-  // The cutting edge 0.756 m ahead of the hinge and 0.31 m below it: down on the ground, under the stone,
-  // curled, up.
+  // The cutting edge is 0.756 m ahead of the hinge and 0.31 m below it: down on the ground, under
+  // the stone, curled, up.
   crane.go({0, 1.6, 0.345, flat_curl}, 1);
   crane.go({0, 2.3, 0.345, flat_curl}, 3);
   crane.go({0, 2.3, 0.5, radians(-20)}, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller may rely on, whichever engine moves the machine: one set of tests over both.
+// Guarantees to a controller, for every engine that moves the machine: one set of tests for both.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ std::unique_ptr<PhysicsEngine> engine_of(const std::string& name) {
 
 /// The robot with motors and encoders, left and right its first two wheels.
 scene::Machine counted_robot() {
-  // A ball that grips enough to roll, where it may.
+  // A ball with enough grip to roll, if it can.
   scene::Machine m = testing::robot(0.05);
   m.wheels[2].rolling_resistance = 0.001;
   for (std::size_t w = 0; w < 2; ++w) {
@@ -74,7 +74,7 @@ class ControllerContract : public ::testing::TestWithParam<std::string> {
 
 TEST_P(ControllerContract, WheelSpeedsDriveTheRobotOnTheirArc) {
   build(counted_robot());
-  // The brake holds every wheel that is not taken: here the ball.
+  // The brake holds every wheel without a command: here the ball.
   engine->set_drive(0, {0, 0, false});
   // 0.5 and 0.3 m/s at the rims: v = 0.4 m/s, w = -0.5 rad/s on a track of 0.4 m.
   turn_wheels(5, 3);
@@ -84,11 +84,11 @@ TEST_P(ControllerContract, WheelSpeedsDriveTheRobotOnTheirArc) {
   print_value("speed of the robot [m/s]", forward_speed(), "0.4", "mean of the rims");
   print_value("its yaw rate [rad/s]", base().w_WL.z(), "-0.5", "difference of the rims / track");
   // 8 %: a tyre under load is 4 mm smaller than 100 and slips, and the ball is drawn sideways; the
-  // other engine misses by a step's chord.
+  // kinematic engine deviates by a step's chord.
   const double share = GetParam() == "Bullet" ? 0.08 : 1e-6;
   EXPECT_NEAR(forward_speed(), 0.4, share * 0.4);
   EXPECT_NEAR(base().w_WL.z(), -0.5, share * 0.5);
-  // What is not driven rolls along: the ball of half the radius.
+  // The undriven ball of half the radius rolls along.
   EXPECT_NEAR(engine->wheel(0, 2).spin, forward_speed() / 0.05, 0.25 * forward_speed() / 0.05);
 }
 
@@ -101,13 +101,13 @@ TEST_P(ControllerContract, OppositeWheelSpeedsTurnTheRobotOnTheSpot) {
   EXPECT_LT(base().X_WL.translation().head<2>().norm(), 0.01);
 }
 
-TEST_P(ControllerContract, ADriveCommandTakesTheWheelsBack) {
+TEST_P(ControllerContract, ADriveCommandOverridesWheelSpeeds) {
   build(counted_robot());
   turn_wheels(5, 5);
   go(2);
   engine->set_drive(0, {-0.3, 0, false});
   go(4);
-  // The governor keeps the wheels' speed, the tyres slip
+  // The governor controls the speed of the wheels; the tyres slip.
   EXPECT_NEAR(forward_speed(), -0.3, 0.04 * 0.3);
   engine->set_drive(0, {0, 0, true});
   go(3);
@@ -125,7 +125,7 @@ TEST_P(ControllerContract, AckermannRollsByItsWheelSpeedsAndSteeringAngles) {
     const double angle = w % 2 == 0 ? angles.left : angles.right;
     if (!wheel.steer_joint.empty())
       engine->set_joint(0, machine.joint_index(wheel.steer_joint), {JointMode::kPosition, angle});
-    // The inner wheel of a turn to the left goes the shorter way.
+    // The inner wheel of a left turn has the shorter path.
     const double share =
         w % 2 == 0 ? 1 - 0.5 * drive.track / radius : 1 + 0.5 * drive.track / radius;
     if (wheel.driven)
@@ -135,15 +135,15 @@ TEST_P(ControllerContract, AckermannRollsByItsWheelSpeedsAndSteeringAngles) {
   go(8);
   print_value("radius of the turn [m]", forward_speed() / base().w_WL.z(), "7",
               "L / tan of the bicycle's angle");
-  // 3 % of a radius is the gate of Ackermann drives [docs/validation.md]; speed as above.
+  // 3 % of a radius is the tolerance of Ackermann drives [docs/validation.md]; speed as above.
   EXPECT_NEAR(forward_speed() / base().w_WL.z(), radius, 0.03 * radius);
   EXPECT_NEAR(forward_speed(), 1, 0.05);
 }
 
-TEST_P(ControllerContract, CountsAreTheJointsTurnsAndWrap) {
+TEST_P(ControllerContract, CountsFollowTheJointAndWrap) {
   build(counted_robot());
   EXPECT_EQ((*encoders)[0].counts(), 0u);
-  // Backwards first: the register goes down through 0.
+  // Backwards first: the register passes 0 downwards.
   turn_wheels(-1, 1);
   go(0.5);
   const auto expected = [&](std::size_t wheel) {
@@ -154,7 +154,7 @@ TEST_P(ControllerContract, CountsAreTheJointsTurnsAndWrap) {
   EXPECT_LT((*encoders)[1].counts(), 0x8000u);
   turn_wheels(10, 10);
   go(3);
-  // Four turns and more: the register has wrapped. One count: sums of steps round otherwise than
+  // More than four turns: the register has wrapped. One count: sums of steps round differently from
   // one product.
   EXPECT_GT(joint_of(machine.wheels[0].joint), 4 * 2 * kPi);
   for (std::size_t w = 0; w < 2; ++w)
@@ -182,7 +182,7 @@ TEST_P(ControllerContract, InjectedFaultsFalsifyTheCountsAndNothingElse) {
   };
   // A wheel that slips by 0.2 turns by 1 / 0.8 of what it rolls. One count for rounding.
   EXPECT_NEAR(counts(0, turned / 0.8), turned / 0.8, 1);
-  // By chance: six standard deviations of a binomial.
+  // Random loss: six standard deviations of a binomial.
   EXPECT_NEAR(counts(1, 0.9 * turned), 0.9 * turned, 6 * std::sqrt(turned * 0.1 * 0.9));
 }
 
@@ -198,7 +198,7 @@ TEST_P(ControllerContract, LeversOpenValves) {
   EXPECT_NEAR(engine->joint(0, swing).velocity,
               0.5 * m.joints[static_cast<std::size_t>(swing)].velocity, 0.01);
   EXPECT_GT(engine->joint(0, boom).position, before + 0.02);
-  // Closed: it stands within the valve's time, and stays.
+  // Closed: it stops within the valve's time, and stays.
   engine->set_joint(0, boom, {JointMode::kOpening, 0});
   go(1);
   const double held = engine->joint(0, boom).position;
@@ -206,7 +206,7 @@ TEST_P(ControllerContract, LeversOpenValves) {
   EXPECT_NEAR(engine->joint(0, boom).position, held, 1e-3);
 }
 
-TEST_P(ControllerContract, LinksTellPoseAndTwistThatBelongTogether) {
+TEST_P(ControllerContract, LinksReportConsistentPoseAndTwist) {
   build(testing::ew180());
   const int stick = machine.link_index("stick");
   engine->set_joint(0, machine.joint_index(machine.arm.stick), {JointMode::kOpening, 0.4});
@@ -224,7 +224,7 @@ TEST_P(ControllerContract, LinksTellPoseAndTwistThatBelongTogether) {
   EXPECT_GT(after.w_WL.norm(), 0.1);
 }
 
-TEST_P(ControllerContract, GoesOnEqualFromASnapshotWithWheelsTakenAndFaultsInjected) {
+TEST_P(ControllerContract, ResumesEqualWithWheelCommandsAndInjectedFaults) {
   scene::Machine m = counted_robot();
   m.encoders[1].missed = 0.05;
   build(m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crawlers: the shipped excavator on tracks and the shipped robot, against closed forms.
+// Crawlers: the shipped excavator on tracks and the shipped robot, compared with closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ TEST_P(Crawlers, GoStraightAtTheCommandedSpeedInBothDirections) {
     const double speed = share * top_speed();
     engine->set_drive(0, {speed, 0, false});
     run(*engine, flat(), 6, kStep);
-    // 4 %: as drives on tyres.
+    // 4 %: as for drives on tyres.
     EXPECT_NEAR(forward(), speed, 0.04 * std::abs(speed));
     EXPECT_NEAR(engine->link(0, 0).w_WL.z(), 0, 2e-3);
   }
@@ -98,7 +98,7 @@ TEST_P(Crawlers, TurnLessThanTheirTracksWouldWithoutSlip) {
               "(v_r - v_l) / B");
   EXPECT_LT(turned, bound);
   EXPECT_GT(turned, 0.4 * bound);
-  // The same by kinematics is the bound itself.
+  // The kinematic engine gives the bound itself.
   const auto rolling = make_kinematic_engine();
   rolling->add_machine(machine, Pose::Identity());
   rolling->set_drive(0, {speed, 0.5 * speed / gauge(), false});
@@ -106,7 +106,7 @@ TEST_P(Crawlers, TurnLessThanTheirTracksWouldWithoutSlip) {
   EXPECT_NEAR(rolling->link(0, 0).w_WL.z(), 0.5 * speed / gauge(), 1e-9);
 }
 
-TEST_P(Crawlers, PivotOnTheSpotAgainstTheMomentOfTheirTracks) {
+TEST_P(Crawlers, TurnOnTheSpotAgainstTheMomentOfTheirTracks) {
   const double rate = 0.5 * top_speed() / gauge();
   engine->set_drive(0, {0, rate, false});
   run(*engine, flat(), 4, kStep);
@@ -125,11 +125,12 @@ TEST_P(Crawlers, PivotOnTheSpotAgainstTheMomentOfTheirTracks) {
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - before).head<2>().norm(), 0.25 * gauge());
 }
 
-TEST_P(Crawlers, PullOnAFloorWithWhatTheirTracksGrip) {
+TEST_P(Crawlers, PullOnAFloorWithTheGripOfTheirTracks) {
   run(*engine, flat(), 2, kStep);
   engine->set_drive(0, {0.5 * top_speed(), 0, false});
   const double weight = mass_of(machine) * kGravity;
-  // A tether at the ground, so that the load stays where it is; 2 % of the weight a centimetre.
+  // A tether at ground level, so that the load distribution does not change; 2 % of the weight per
+  // centimetre.
   double pull = 0;
   run(*engine, flat(), 8, kStep, [&](double) {
     const LinkState base = engine->link(0, 0);
@@ -153,7 +154,7 @@ TEST_P(Crawlers, PullOnSoilByItsCohesionAndFriction) {
   soil.bekker_kphi = 1e9;  // hardly sinks: the pull is the shear's alone
   auto ground = flat();
   ground.set_soil([&soil](double, double) { return terramechanics::SoilState{&soil, 1.0}; });
-  // With motors that are not what limits it.
+  // Motors that do not limit the pull.
   auto& drive = std::get<scene::DifferentialDrive>(machine.drive);
   drive.tractive_force = 3 * mass_of(machine) * kGravity;
   drive.power *= 10;
@@ -185,15 +186,15 @@ TEST_P(Crawlers, PullOnSoilByItsCohesionAndFriction) {
 TEST_P(Crawlers, StandOnASlopeUpToTheirFriction) {
   const double limit = std::atan(friction());
   for (const double beside : {-radians(3), radians(3)}) {
-    // Braked, and more than the brakes take: those are not what is asked here.
+    // Braked beyond the limit of the brakes, which are not tested here.
     scene::Machine strong = machine;
     std::get<scene::DifferentialDrive>(strong.drive).brake_force = 1e6;
     const double angle = limit + beside;
     const auto built = make_bullet_engine(kDown);
     built->add_machine(strong, make_pose(0, 0, 0, 0, -angle, 0));
     const auto hill = testing::slope(angle);
-    // It is put down and slides until it has weight on its rollers, and rocks until its rollers
-    // have settled.
+    // It is set down and slides until its rollers carry weight, and oscillates until they have
+    // settled.
     run(*built, hill, 20, kStep);
     const Vec3 before = built->link(0, 0).X_WL.translation();
     run(*built, hill, 2, kStep);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Differentials: what they do to the speeds and torques of their shafts, by the textbook's
-// identities.
+// Differentials: speeds and torques of their shafts, by the textbook's identities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +24,7 @@ scene::Machine on_ice(const scene::Differential& axles, const scene::Differentia
   drive.centre = centre;
   for (std::size_t w = 0; w < cart.wheels.size(); ++w) {
     cart.wheels[w].friction = w % 2 == 0 ? 0.05 : 0.8;
-    cart.wheels[w].rolling_resistance = 0;  // a torque of its own
+    cart.wheels[w].rolling_resistance = 0;  // a separate torque
     cart.wheels[w].driven = all_driven || w >= 2;
   }
   return cart;
@@ -33,11 +32,15 @@ scene::Machine on_ice(const scene::Differential& axles, const scene::Differentia
 
 /// Means over the last second of four up a slope at full power.
 struct Climb {
-  double speed = 0;                      // [m/s]
-  double left = 0, right = 0;            // force of the rear wheels along the slope [N]
-  double spin_left = 0, spin_right = 0;  // of the rear wheels [rad/s]
-  double gain_left = 0, gain_right = 0;  // of those [rad/s2]
-  double spin_front = 0;                 // of both front wheels, the mean
+  double speed = 0;  // [m/s]
+  // Forces of the rear wheels along the slope [N].
+  double left = 0, right = 0;
+  // Speeds of the rear wheels [rad/s].
+  double spin_left = 0, spin_right = 0;
+  // Angular accelerations of the rear wheels [rad/s2].
+  double gain_left = 0, gain_right = 0;
+  // Mean speed of both front wheels [rad/s].
+  double spin_front = 0;
 };
 Climb climb(const scene::Machine& cart, double angle) {
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
@@ -60,11 +63,11 @@ Climb climb(const scene::Machine& cart, double angle) {
   return out;
 }
 
-TEST(DifferentialLock, AnOpenOneGivesBothSidesWhatTheWorseOneTakes) {
-  // 2000 kg on 4 deg ask for 1370 N; the rear wheel on ice takes some 250.
+TEST(DifferentialLock, AnOpenOneLimitsBothSidesToTheWeakerOne) {
+  // 2000 kg on 4 deg require 1370 N; the rear wheel on ice transmits some 250.
   const Climb open = climb(on_ice({}), radians(4));
   EXPECT_LT(open.speed, 0);
-  // Torques are equal; what the road does not take of it turns the wheel faster: 100 kg, 0.8 m x
+  // Torques are equal; the part that the road does not take accelerates the wheel: 100 kg, 0.8 m x
   // 0.8 m.
   const double inertia = 100 * (0.8 * 0.8 + 0.8 * 0.8) / 12,
                radius = testing::cart().wheels[3].radius;
@@ -73,14 +76,14 @@ TEST(DifferentialLock, AnOpenOneGivesBothSidesWhatTheWorseOneTakes) {
   EXPECT_GT(open.spin_left, open.spin_right + 2);
 }
 
-TEST(DifferentialLock, ALockedOneTurnsBothAlike) {
+TEST(DifferentialLock, ALockedOneTurnsBothSidesEqually) {
   const Climb locked = climb(on_ice({Kind::kLocked, 0, 0}), radians(4));
   EXPECT_GT(locked.speed, 1);
   EXPECT_NEAR(locked.spin_left, locked.spin_right, 1e-3 * locked.spin_right);
   EXPECT_GT(locked.right, 3 * locked.left);
 }
 
-TEST(DifferentialLock, OneWithLimitedSlipGivesTheSlowerSideItsLockingTorqueMore) {
+TEST(DifferentialLock, LimitedSlipAddsItsLockingTorqueToTheSlowerSide) {
   // 300 N m over a radius of 0.52 m.
   const scene::Differential slips{Kind::kLimitedSlip, 300, 0};
   const scene::Machine cart = on_ice(slips);
@@ -89,12 +92,12 @@ TEST(DifferentialLock, OneWithLimitedSlipGivesTheSlowerSideItsLockingTorqueMore)
   const double radius = cart.wheels[3].radius;
   EXPECT_NEAR((limited.right - limited.left) - (open.right - open.left), 300 / radius,
               0.1 * 300 / radius);
-  // A bias that asks for more than the road can take from it does not slip at all.
+  // A bias larger than the road can take prevents slip altogether.
   const Climb strong = climb(on_ice({Kind::kLimitedSlip, 5000, 0}), radians(4));
   EXPECT_NEAR(strong.spin_left, strong.spin_right, 1e-3 * strong.spin_right);
 }
 
-TEST(DifferentialLock, OfTheCentreHoldsAxlesTogether) {
+TEST(DifferentialLock, OfTheCentreCouplesTheAxles) {
   scene::Machine cart = on_ice({Kind::kLocked, 0, 0}, {Kind::kLocked, 0, 0}, true);
   // The whole front axle on ice.
   cart.wheels[1].friction = 0.05;

@@ -38,7 +38,7 @@ TEST(Differential, SidesDifferByYawRateTimesTrack) {
   EXPECT_EQ(spot.right, -0.2);
 }
 
-TEST(Differential, BeyondItsSpeedGoesSlowerOnTheSameArc) {
+TEST(Differential, SlowsDownOnTheSameArcBeyondItsSpeed) {
   scene::DifferentialDrive drive;
   drive.track = 0.4, drive.max_speed = 1;
   const SideSpeeds sides = side_speeds(drive, {2, 4, false});
@@ -69,7 +69,7 @@ TEST(DriveLine, EveryKindFollowsTheArcOfItsEquivalentBicycle) {
   }
 }
 
-TEST(DriveLine, KnowsTheSideOfEachWheel) {
+TEST(DriveLine, AssignsEachWheelToItsSide) {
   const auto wheels = drive_wheels(testing::cart());
   ASSERT_EQ(wheels.size(), 4u);
   for (std::size_t w = 0; w < 4; ++w) {
@@ -78,7 +78,7 @@ TEST(DriveLine, KnowsTheSideOfEachWheel) {
   }
 }
 
-TEST(DriveLine, BrakedGivesNoTorqueAndForgetsWhatItAsked) {
+TEST(DriveLine, HasNoTorqueWhenBrakedAndForgetsItsCommand) {
   const scene::Machine machine = testing::robot();
   const auto line = make_drive_line(machine);
   const std::vector<WheelTurn> turns = {
@@ -91,7 +91,7 @@ TEST(DriveLine, BrakedGivesNoTorqueAndForgetsWhatItAsked) {
   EXPECT_EQ(torque[2], 0);
   line->torques({0, 2, true}, turns, 46, kStep, torque);
   EXPECT_EQ(torque, std::vector<double>(3, 0.0));
-  EXPECT_EQ(hash_of(*line).digest(), fresh);  // the wheels stand, as at the start
+  EXPECT_EQ(hash_of(*line).digest(), fresh);  // the wheels are at rest, as at the start
 }
 
 TEST(SpeedGovernor, KeepsWithinTractiveForceAndPower) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive command promises, the same for every engine and every kind of drive: one set of
-// tests over all of them.
+// Guarantees of a drive command, for every engine and every kind of drive: one set of tests for all
+// of them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,9 +23,9 @@ constexpr double kStep = 1.0 / 600;
 
 struct Case {
   std::string engine, drive;
-  /// Share by which a turn may miss: tyres of the dynamic engine slip. The other one rolls exactly,
-  /// but its velocity is a step's chord, seen along the heading at the step's end: 1 - cos(w dt /
-  /// 2).
+  /// Allowed relative error of a turn: tyres of the dynamic engine slip. The kinematic one rolls
+  /// exactly, but its velocity is a step's chord, seen along the heading at the step's end: 1 -
+  /// cos(w dt / 2).
   double tolerance;
 };
 
@@ -61,7 +61,7 @@ TEST_P(Drives, GoStraightAtTheCommandedSpeedInBothDirections) {
   for (const double speed : {1.0, -0.6}) {
     engine->set_drive(0, command(speed));
     run(*engine, flat(), 5, kStep);
-    // 4 %: the governor keeps the wheels' speed, the tyres slip.
+    // 4 %: the governor controls the speed of the wheels; the tyres slip.
     EXPECT_NEAR(forward_speed(), speed, 0.04 * std::abs(speed));
     EXPECT_NEAR(base().w_WL.z(), 0, 1e-3);
     for (std::size_t w = 0; w < machine.wheels.size(); ++w)
@@ -76,21 +76,21 @@ TEST_P(Drives, TurnOnTheArcOfTheBicycleModelInBothDirections) {
   const double wheelbase = equivalent_bicycle(machine.drive).wheelbase;
   for (const double angle : {0.3, -0.3}) {
     engine->set_drive(0, command(0.8, angle));
-    run(*engine, flat(), 10, kStep);  // the governors' slowest part dies out by a factor e a second
+    run(*engine, flat(), 10, kStep);  // the governors' slowest mode decays by a factor e per second
     const double radius = forward_speed() / base().w_WL.z(), expected = wheelbase / std::tan(angle);
     print_value("radius of the turn [m]", radius, std::to_string(expected), "v / w of the drive");
     EXPECT_NEAR(radius, expected, GetParam().tolerance * std::abs(expected));
   }
 }
 
-TEST_P(Drives, GoNoFasterThanTheyCan) {
+TEST_P(Drives, RespectTheirTopSpeed) {
   const double most = scene::powertrain(machine.drive).max_speed;
   engine->set_drive(0, command(10 * most));
   run(*engine, flat(), 8, kStep);
   EXPECT_NEAR(forward_speed(), most, 0.04 * most);  // as above
 }
 
-TEST_P(Drives, StandUnderTheBrakeWhateverElseIsAsked) {
+TEST_P(Drives, StandUnderTheBrakeForAnyOtherCommand) {
   engine->set_drive(0, command(1, 0.2));
   run(*engine, flat(), 3, kStep);
   DriveInput stop = command(1, 0.2);
@@ -134,7 +134,7 @@ TEST_P(DifferentialDrives, TurnOnTheSpot) {
   run(*engine, flat(), 10, kStep);
   EXPECT_NEAR(engine->link(0, 0).w_WL.z(), 1.5, 0.03 * 1.5);
   // The middle between the wheels stays; the ball swings round it. 5 cm: at the start the sides,
-  // each with a governor of its own, share the centripetal force unequally until they settle.
+  // each with its own governor, share the centripetal force unequally until they settle.
   EXPECT_LT(engine->link(0, 0).X_WL.translation().head<2>().norm(), 0.05);
   // 5 %: the loaded radius is 4 mm less than 100.
   EXPECT_NEAR(engine->wheel(0, 0).spin, -1.5 * 0.2 / 0.1, 0.05 * 3);  // left, backwards

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipped dumper against its data sheet (vehicles/dumper/SOURCE.md), measured in simulation.
+// The shipped dumper compared with its data sheet (vehicles/dumper/SOURCE.md), measured in
+// simulation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +17,8 @@ using testing::run;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-/// Time the ram takes to lift the bed to its stop with a load [kg] that hangs 1.7 m before the
-/// hinge.
+/// Returns the time in which the ram lifts the bed to its stop with a load [kg] that hangs 1.7 m
+/// ahead of the hinge.
 double lift_time(double load) {
   const scene::Machine m = dumper();
   auto engine = make_bullet_engine(kDown);
@@ -39,18 +40,18 @@ double lift_time(double load) {
 }
 
 TEST(Dumper, LiftsItsBedInTwelveSecondsEmptyAndWithSixTonnes) {
-  // Oil alone sets the pace while the pressure suffices: 0.89 m of stroke at 0.075 m/s, slower near
-  // the stop.
+  // The oil flow alone sets the pace while the pressure suffices: 0.89 m of stroke at 0.075 m/s,
+  // slower near the stop.
   EXPECT_NEAR(lift_time(0), 12, 1.2);
   EXPECT_NEAR(lift_time(6000), 12, 1.2);
 }
 
 TEST(Dumper, StallsUnderFourteenTonnes) {
-  // 220 kN m against 14 t at 1.7 m before the hinge and the bed itself: 246 kN m.
+  // 220 kN m against 14 t at 1.7 m ahead of the hinge and the bed itself: 246 kN m.
   EXPECT_LT(lift_time(14000), 0);
 }
 
-TEST(Dumper, StandsOnItsWheelsWithTheWeightOfItsTable) {
+TEST(Dumper, StandsOnItsWheelsWithTheWeightOfItsDataSheet) {
   const scene::Machine m = dumper();
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(m, Pose::Identity());
@@ -74,7 +75,7 @@ TEST(Dumper, DrivesStraightAndStopsBySpeedAndBrake) {
   engine->set_drive(0, {0, 0, true});
   run(*engine, ground, 4, kStep);
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 1e-3);
-  // v^2 / (2 mu g) at the least, and no more than three times that with the brake's 70 kN.
+  // At least v^2 / (2 mu g), and at most three times that with the brake's 70 kN.
   EXPECT_LT(engine->link(0, 0).X_WL.translation().x() - x, 3 * 9 / (2 * 0.8 * kGravity));
 }
 

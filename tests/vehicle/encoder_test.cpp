@@ -32,15 +32,15 @@ TEST(JointEncoder, OfSixteenBitsAnd128CountsAMillimetreWrapsAfter512Millimetres)
   EXPECT_EQ(counter.counts(), 65523u);  // 65523.2 counts
   roll_to(0.5121);
   EXPECT_EQ(counter.counts(), 12u);
-  // And back: down through 0.
+  // And back: downwards past 0.
   roll_to(-0.0001);
   EXPECT_EQ(counter.counts(), 65536u - 13u);  // -12.8 counts, floor
 }
 
-TEST(JointEncoder, CountsFromWhereTheJointStoodAndKeepsFractions) {
+TEST(JointEncoder, CountsFromTheInitialPositionAndKeepsFractions) {
   JointEncoder counter(encoder(100, 8), 3.0, 1);
   EXPECT_EQ(counter.counts(), 0u);
-  // Steps of 0.3 counts: none is lost between two looks.
+  // Steps of 0.3 counts: none is lost between two readings.
   for (int i = 1; i <= 1000; ++i) counter.advance(3.0 + i * 0.3 / 100 * kTurn + 1e-9);
   EXPECT_EQ(counter.counts(), 300u % 256u);
 }
@@ -49,7 +49,7 @@ TEST(JointEncoder, RegistersOfAnyWidthWrap) {
   for (const int bits : {2, 12, 16, 24, 32}) {
     JointEncoder counter(encoder(1, bits), 0, 1);
     const double range = std::exp2(bits);
-    // Half a count on: no edge within rounding.
+    // Half a count on, away from edges within rounding.
     counter.advance((range + 1.5) * kTurn);
     EXPECT_EQ(counter.counts(), 1u) << bits;
     counter.advance(-0.5 * kTurn);
@@ -66,11 +66,11 @@ TEST(JointEncoder, LosesTheConfiguredShareInEitherDirection) {
   // 100 000 counts, 2000 missed with a standard deviation of 44: six of them.
   EXPECT_NEAR(there, 98000, 270);
   for (int i = 99; i >= 0; --i) counter.advance(i * kTurn + 1e-6);
-  // Back it misses others: a real one does not come home, but nearly.
+  // On the return it misses others: a real one does not return exactly.
   const auto home = static_cast<std::int32_t>(static_cast<std::uint32_t>(counter.counts()));
   EXPECT_NE(home, 0);
   EXPECT_LT(std::abs(home), 400);
-  // All of them, and a jump that no wheel makes in a step.
+  // All of them, and a jump larger than a wheel's step.
   counter.set_missed(1);
   const std::uint64_t before = counter.counts();
   counter.advance(50 * kTurn);
@@ -80,7 +80,7 @@ TEST(JointEncoder, LosesTheConfiguredShareInEitherDirection) {
   EXPECT_NEAR(static_cast<double>(counter.counts() - before), 500e3, 1);
 }
 
-TEST(JointEncoder, TakesFaultsWithinTheirBounds) {
+TEST(JointEncoder, AcceptsFaultsWithinTheirBounds) {
   JointEncoder counter(encoder(100, 16), 0, 1);
   counter.set_slip(7);
   counter.set_missed(-3);

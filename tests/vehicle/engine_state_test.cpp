@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an engine saves between two steps: no more than it hashes, no less than the next step needs.
+// State that an engine saves between two steps: no more than it hashes, and no less than the next
+// step needs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +30,7 @@ std::unique_ptr<PhysicsEngine> engine_of(const std::string& name) {
 
 class CombustionEngineState : public ::testing::TestWithParam<std::string> {
  protected:
-  /// The shipped excavator beside a robot: cylinders, pump, shells and both kinds of drive.
+  /// Builds the shipped excavator beside a robot: cylinders, pump, shells and both kinds of drive.
   std::unique_ptr<PhysicsEngine> build() const {
     auto engine = engine_of(GetParam());
     engine->add_machine(testing::ew180(), Pose::Identity());
@@ -53,7 +54,7 @@ TEST_P(CombustionEngineState, HoldsAForceThatActsInTheNextStepOnly) {
   run(*engine, flat(), 0.1, kStep);
   const std::uint64_t before = digest(*engine);
   engine->add_force(1, 0, Vec3(0, 0, 20), Vec3(0, 6, 0.2));
-  // An engine without forces swallows it.
+  // A kinematic engine ignores forces.
   EXPECT_EQ(digest(*engine) == before, GetParam() == "Kinematic");
   load_saved(saved(*engine), *resumed);
   for (PhysicsEngine* each : {engine.get(), resumed.get()}) each->step(kStep, flat());
@@ -76,7 +77,7 @@ TEST_P(CombustionEngineState, WithoutAFinitePlaceIsRefusedByName) {
   for (const double place : {std::numeric_limits<double>::quiet_NaN(), 1e8}) {
     ByteMap map;
     std::vector<char> bytes = saved(*engine, &map);
-    // The base's place: the first numbers of the one engine, the last of a pose in the other.
+    // Position of the base: the first numbers of one engine, the last of a pose in the other.
     for (const ByteMap::Field& field : map.fields) {
       const bool tree =
           field.path == "bullet[1]/tree/coordinates" && field.size > sizeof(std::uint64_t);
@@ -98,9 +99,9 @@ TEST_P(CombustionEngineState, WithoutAFinitePlaceIsRefusedByName) {
 INSTANTIATE_TEST_SUITE_P(Engines, CombustionEngineState, ::testing::Values("Bullet", "Kinematic"),
                          [](const auto& each) { return each.param; });
 
-/// The drive brakes a wheel whose servo a command had used before: on a slope that servo counts how
-/// long it is stuck, by the limits it had then.
-TEST(BulletState, GoesOnEqualWhereTheDriveTookAWheelBack) {
+/// The drive brakes a wheel whose servo followed a command before: on a slope that servo counts how
+/// long it is stuck, by its former limits.
+TEST(BulletState, ResumesEqualAfterTheDriveOverrodeAWheel) {
   scene::Machine cart = testing::cart();
   const int rear = cart.joint_index(cart.wheels[2].joint);
   cart.joints[static_cast<std::size_t>(rear)].velocity = 0.5;
@@ -129,7 +130,7 @@ TEST(JointServo, HashesEveryByteItSaves) {
   servo.set({JointMode::kVelocity, 0.3});
   servo.open({}, {}, 0, 0, kStep);
   EXPECT_EQ(test::flip_every_byte(servo, target), "");
-  // A mode beyond the last is no command.
+  // A mode beyond the last one is invalid.
   std::vector<char> bytes = saved(servo);
   bytes[0] = 5;
   EXPECT_THROW(load_saved(bytes, target), InputError);

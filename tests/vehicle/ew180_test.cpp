@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipped excavator against its data sheet (vehicles/ew180/SOURCE.md), measured in simulation.
+// The shipped excavator compared with its data sheet (vehicles/ew180/SOURCE.md), measured in
+// simulation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,7 +80,7 @@ TEST(Ew180, SwingTorqueIs48kNm) {
     engine->add_force(0, upper, force, p);
     moment = (p - state.X_WL.translation()).cross(force).z();
   });
-  print_value("swing torque [N m]", std::abs(moment), "48e3 +-5 %, gated at 2 %",
+  print_value("swing torque [N m]", std::abs(moment), "48e3 +-5 %, tolerance 2 %",
               "vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(std::abs(moment), 48e3, 0.02 * 48e3);
   EXPECT_TRUE(engine->joint(0, swing).stalled);
@@ -104,7 +105,7 @@ TEST(Ew180, SwingsAQuarterTurnInThreeToFiveSecondsWithoutOvershoot) {
   EXPECT_LT(furthest, radians(91));
 }
 
-/// Mass moment about the tipping edge, of everything but the load [kg m].
+/// Returns the mass moment about the tipping edge of everything except the load [kg m].
 double righting_moment(const scene::Machine& m, double swing, double boom, double stick,
                        double bucket, double edge) {
   std::vector<double> q;
@@ -154,7 +155,7 @@ TEST(Ew180, TippingLoadAt7mOverTheSideIsTheMomentBalance) {
   ASSERT_GT(tipped_at, 0);
   print_value("tipping load at 7 m over the side [kg]", tipped_at,
               std::to_string(expected) + " +-5 %", "moment balance");
-  // 5 %: the balance is that of rigid tyres, the machine leans on its own by a degree.
+  // 5 %: the balance assumes rigid tyres, while the machine leans on its own by a degree.
   EXPECT_NEAR(tipped_at, expected, 0.05 * expected);
   EXPECT_GT(expected, 1600);  // the class lifts about 2 t there
   EXPECT_LT(expected, 3000);
@@ -176,7 +177,7 @@ TEST(Ew180, Weighs18TonsAndItsCylindersLiftAFullBucketAtFullReach) {
   EXPECT_NEAR(engine->joint(0, boom).position, 0.5, 0.01);
 }
 
-TEST(Ew180, LiftsItselfOnItsBoomWithoutItsCylindersRunningAway) {
+TEST(Ew180, LiftsItselfOnItsBoomWithinItsCylinderSpeeds) {
   // Boom rates are those of the pump: flow / (area x lever).
   const scene::Machine m = ew180(-0.3, -1.6, -1.0);
   auto engine = make_bullet_engine(kDown);
@@ -190,12 +191,12 @@ TEST(Ew180, LiftsItselfOnItsBoomWithoutItsCylindersRunningAway) {
     const CylinderLimits limits = cylinder_limits(m, m.cylinders[0], state.position);
     most = std::max(most, state.velocity / limits.speed_positive);
   });
-  // 1 %: the limit is taken at the step's start.
+  // 1 %: the limit applies to the step's start.
   EXPECT_LE(most, 1.01);
   EXPECT_GT(most, 0.95);
 }
 
-TEST(Ew180, WorkOfTheCylindersIsTheHeightGained) {
+TEST(Ew180, WorkOfTheCylindersEqualsThePotentialEnergyGained) {
   scene::Machine m = ew180(0, -1.2, -1.0);
   m.fixed_base = true;
   auto engine = make_bullet_engine(kDown);
@@ -247,7 +248,7 @@ TEST(Ew180, BucketShellIsWoundInwardAndHoldsItsVolume) {
   EXPECT_NEAR(bucket.cut_direction.norm(), 1, 1e-9);
 }
 
-TEST(Ew180, ReachesToTheDataSheet) {
+TEST(Ew180, ReachMatchesTheDataSheet) {
   const scene::Machine m = ew180();
   double depth = 0, reach = 0;
   const auto joint = [&](const std::string& name) -> const scene::Joint& {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An engine and its gears by themselves, against the closed forms of geared_engine.h.
+// An engine with gears by itself, compared with the closed forms of geared_engine.h.
 #include "vehicle/drive/geared_engine.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 600;
 
-/// 400 N m at idle, 100 rad/s; 500 at 200; 350 at the governed 300.
+/// Returns an engine with 400 N m at idle, 100 rad/s; 500 at 200; 350 at the governed 300.
 scene::CombustionEngine diesel() {
   scene::CombustionEngine engine;
   engine.curve = {{100, 400}, {200, 500}, {300, 350}};
@@ -25,7 +25,7 @@ scene::CombustionEngine diesel() {
 
 int gear_of(const GearedEngine& engine) { return engine.state(0, 0, 0).gear; }
 
-/// In a commanded gear.
+/// Returns an engine in a commanded gear.
 GearedEngine in_gear(int gear, bool drives_pump = false) {
   GearedEngine engine(diesel(), drives_pump);
   engine.shift(gear, 0, 0, kStep);
@@ -47,7 +47,7 @@ TEST(GearedEngine, TurnsTheDifferentialCarrierAtTheGovernedSpeed) {
   EXPECT_DOUBLE_EQ(engine.fastest(0), 30) << "it may choose the last";
 }
 
-TEST(GearedEngine, GivesItsCurveTimesRatioTimesEfficiency) {
+TEST(GearedEngine, TransmitsItsCurveTimesRatioTimesEfficiency) {
   const GearedEngine engine = in_gear(1);
   EXPECT_NEAR(engine.bounds(5, 0).high, 40 * 0.9 * 500, 1e-9);
   EXPECT_NEAR(engine.bounds(3.75, 0).high, 40 * 0.9 * 450, 1e-9) << "halfway between two points";
@@ -75,10 +75,10 @@ TEST(GearedEngine, BrakesByItsDragAndItsLosses) {
   EXPECT_NEAR(engine.state(5, -40 / 0.9 * 60, 0).torque, -60, 1e-9);
 }
 
-TEST(GearedEngine, GivesThePumpItsPowerFirst) {
+TEST(GearedEngine, SuppliesThePumpFirst) {
   const GearedEngine engine = in_gear(1, true);
   const double rated = 800.0 / 3 * 400;
-  // It turns where its power is largest, the clutch slips.
+  // It runs at its largest power while the clutch slips.
   const double high = engine.bounds(0, 50e3).high;
   EXPECT_NEAR(high, 40 * 0.9 * (400 - 50e3 / (800.0 / 3)), 1e-6);
   const CombustionEngineState state = engine.state(0, high, 50e3);
@@ -112,21 +112,21 @@ TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
 
 TEST(GearedEngine, AtItsGovernedSpeedChangesUpIfTheNextGearKeepsIt) {
   GearedEngine engine(diesel(), false);
-  // Much more is asked for than any gear has. On a climb the first gives 8400 N m at 304 rad/s and
-  // the second has 8136.
+  // The demand exceeds every gear. On a climb the first gives 8400 N m at 304 rad/s and the second
+  // 8136.
   engine.shift(0, 7.6, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 1);
-  // On the level the engine comes to 310 rad/s, where it gives 2100.
+  // On the level the engine reaches 310 rad/s, where it gives 2100.
   engine.shift(0, 7.75, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 2);
-  // Then it pulls away; where it does not, the first one is back after a second.
+  // Then it accelerates; otherwise the first gear returns after a second.
   for (int i = 0; i < 700; ++i) engine.shift(0, 7.75, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 2) << "the first would race";
   engine.shift(0, 7.4, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 1);
 }
 
-TEST(GearedEngine, ChoosesAGearThatHoldsBack) {
+TEST(GearedEngine, ChoosesAGearThatBrakes) {
   GearedEngine engine(diesel(), false);
   engine.shift(3, 20, 0, kStep);
   // At 14 rad/s the second holds 20 / 0.9 x 60 = 1333 N m, the third 667.
@@ -135,7 +135,7 @@ TEST(GearedEngine, ChoosesAGearThatHoldsBack) {
   EXPECT_NEAR(engine.bounds(14, 0).low, -20 / 0.9 * 60, 1e-9);
 }
 
-TEST(GearedEngine, TakesTheCommandedGear) {
+TEST(GearedEngine, UsesTheCommandedGear) {
   GearedEngine engine(diesel(), false);
   for (const int gear : {3, 1, 2}) {
     engine.shift(gear, 20, 1e5, kStep);
@@ -145,7 +145,7 @@ TEST(GearedEngine, TakesTheCommandedGear) {
   EXPECT_EQ(gear_of(engine), 3);
 }
 
-TEST(GearedEngine, ThatIsASourceOfSpeedKnowsOnlyItsLimits) {
+TEST(GearedEngine, HasOnlyLimitsAsASpeedSource) {
   scene::CombustionEngine motor;
   motor.kind = scene::CombustionEngine::Kind::kSpeedSource;
   motor.max_speed = 200, motor.max_torque = 5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hitches between machines: what a joint in one machine's file does, and letting go.
+// Hitches between machines act like a joint in one machine's file, and can be released.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,13 +47,13 @@ std::unique_ptr<PhysicsEngine> train() {
   return engine;
 }
 
-TEST(Hitch, DrawsAsAJointInTheMachineDoes) {
+TEST(Hitch, PullsLikeAJointInTheMachine) {
   const auto engine = train(), joined = make_bullet_engine(Vec3(0, 0, -kGravity));
   const scene::Machine robot = shipped("robot"), whole = shipped("robot_with_trailer");
   joined->add_machine(whole, Pose::Identity());
   double apart = 0, way = 0;
-  // By the wheels' joints, as a governor reckons with the mass of its own machine; its brake, which
-  // would hold the trailer's wheels, too, where they are its own, is off.
+  // By the wheels' joints, since a governor uses the mass of its own machine. The brake, which
+  // would also hold the trailer's wheels if they belong to the machine, is off.
   for (PhysicsEngine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
   for (const std::array<double, 2>& spin :
        {std::array{3.0, 6.0}, std::array{6.0, 4.0}, std::array{0.0, 0.0}}) {
@@ -83,8 +83,8 @@ TEST(Hitch, DrawsAsAJointInTheMachineDoes) {
 TEST(Hitch, CarriesVerticalLoadAndDrawsARollingTrailer) {
   const auto engine = train();
   run(*engine, flat(), 2, kStep);
-  // The tub's centre is 0.05 m ahead of the axle: 20 kg lean on the eye by 0.05 / 0.6 of their
-  // weight.
+  // The tub's centre is 0.05 m ahead of the axle: 0.05 / 0.6 of the weight of 20 kg rests on the
+  // eye.
   EXPECT_NEAR(engine->hitches()->hitch(0).force.z(), -20 * kGravity * 0.05 / kDrawbar, 0.3);
   engine->set_drive(0, {0.5, 0, false});
   run(*engine, flat(), 3, kStep);
@@ -97,8 +97,8 @@ TEST(Hitch, CarriesVerticalLoadAndDrawsARollingTrailer) {
   EXPECT_NEAR(-drawn, 0.02 * load, 0.1 * 0.02 * load);
 }
 
-TEST(Hitch, KeepsTheMomentumOfBoth) {
-  // Nothing else around: what one end gets, both have.
+TEST(Hitch, ConservesMomentum) {
+  // No other contacts: an impulse on one end acts on both.
   const auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(testing::box(), make_pose(0, 0, 50));
   engine->add_machine(testing::box(), make_pose(-3, 0, 50));
@@ -119,7 +119,7 @@ TEST(Hitch, KeepsTheMomentumOfBoth) {
   EXPECT_GT(engine->accounts()->momentum(1).norm(), 0.1 * J.norm());
 }
 
-TEST(Hitch, LetsGoAndTakesUpAgain) {
+TEST(Hitch, ReleasesAndHitchesAgain) {
   const auto engine = train();
   engine->set_drive(0, {0.5, 0, false});
   run(*engine, flat(), 4, kStep);
@@ -129,7 +129,7 @@ TEST(Hitch, LetsGoAndTakesUpAgain) {
   const Vec3 left = engine->link(1, 0).X_WL.translation();
   engine->set_drive(0, {0.5, 0, false});
   run(*engine, flat(), 4, kStep);
-  // It stays, its drawbar on the ground, and draws nothing.
+  // It stays with its drawbar on the ground, without any pull.
   EXPECT_LT((engine->link(1, 0).X_WL.translation() - left).head<2>().norm(), 0.1);
   EXPECT_NEAR(-std::asin(engine->link(1, 0).X_WL.linear()(2, 0)),
               std::asin((0.15 - 0.015) / kDrawbar), radians(3));
@@ -137,7 +137,7 @@ TEST(Hitch, LetsGoAndTakesUpAgain) {
   EXPECT_GT(engine->hitches()->hitch(0).apart, 1.5);
   try {
     engine->hitches()->set_hitch(0, true);
-    FAIL() << "an eye out of reach was taken";
+    FAIL() << "an eye out of reach was hitched";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("within 0.1 m of the hook"), std::string::npos)
         << error.what();
@@ -145,7 +145,7 @@ TEST(Hitch, LetsGoAndTakesUpAgain) {
   EXPECT_FALSE(engine->hitches()->hitch(0).closed);
 }
 
-TEST(Hitch, TakesAnEyeWithinReachGently) {
+TEST(Hitch, HitchesAnEyeWithinReachSmoothly) {
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(shipped("robot"), Pose::Identity());
   engine->add_machine(shipped("robot_trailer"), make_pose(-kHook - kDrawbar - 0.06, 0.02, 0));
@@ -161,7 +161,7 @@ TEST(Hitch, TakesAnEyeWithinReachGently) {
   EXPECT_LT(fastest, 0.8);
 }
 
-TEST(Hitch, IsPushedStraightOnlySoFar) {
+TEST(Hitch, JackknifesWhenReversing) {
   const auto engine = train();
   engine->set_drive(0, {-0.3, 0.15, false});
   double most = 0;
@@ -174,7 +174,7 @@ TEST(Hitch, IsPushedStraightOnlySoFar) {
   EXPECT_LT(degrees(most), 75.5);
 }
 
-TEST(Hitch, GoesOnFromASnapshot) {
+TEST(Hitch, ResumesFromASnapshot) {
   const auto first = train(), second = train();
   first->set_drive(0, {0.5, 0.3, false});
   run(*first, flat(), 1, kStep);
@@ -185,7 +185,7 @@ TEST(Hitch, GoesOnFromASnapshot) {
     run(*engine, flat(), 0.5, kStep);
   }
   EXPECT_EQ(testing::digest(*first), testing::digest(*second));
-  // Open is a part of the state, too.
+  // An open hitch is part of the state, too.
   const auto third = train();
   load_saved(saved(*first), *third);
   EXPECT_FALSE(third->hitches()->hitch(0).closed);
@@ -194,7 +194,7 @@ TEST(Hitch, GoesOnFromASnapshot) {
   EXPECT_EQ(testing::digest(*first), testing::digest(*third));
 }
 
-TEST(Hitch, IsRefusedByWhatNoForceMoves) {
+TEST(Hitch, IsRefusedForKinematicMachines) {
   const auto engine = make_kinematic_engine();
   EXPECT_EQ(engine->hitches(), nullptr);
   EXPECT_THROW(require_hitches(*engine), InputError);

@@ -22,7 +22,7 @@ constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 const scene::Pump kPump{0.007, 90e3};
 
-/// Share that the functions get once the swashplate has settled.
+/// Returns the share of the demand that functions receive once the swashplate has settled.
 double settled_share(const std::vector<OilDemand>& demands) {
   HydraulicPump pump;
   double share = 0;
@@ -30,16 +30,16 @@ double settled_share(const std::vector<OilDemand>& demands) {
   return share;
 }
 
-TEST(HydraulicPump, GivesWhatIsAskedWhileThereIsEnough) {
+TEST(HydraulicPump, MeetsTheDemandWhileItsFlowSuffices) {
   EXPECT_EQ(settled_share({}), 1);
   EXPECT_EQ(settled_share({{0.004, 10e6}, {0.002, 0}}), 1);
 }
 
-TEST(HydraulicPump, SlowsAllFunctionsByTheSameShareWhenItsFlowIsShort) {
+TEST(HydraulicPump, SlowsAllFunctionsEquallyWhenItsFlowIsShort) {
   EXPECT_DOUBLE_EQ(settled_share({{0.006, 5e6}, {0.0055, 0}, {0.004, 0}}), 0.007 / 0.0155);
 }
 
-TEST(HydraulicPump, DrivesNoMoreThanItsPowerAtTheHeaviestLoad) {
+TEST(HydraulicPump, StaysWithinItsPowerAtTheHighestLoad) {
   // 90 kW at 30 MPa are 3 l/s.
   EXPECT_NEAR(settled_share({{0.004, 30e6}, {0.002, 1e6}}), 0.5, 1e-6);
 }
@@ -71,9 +71,9 @@ TEST(JointServo, HoldingAndStallingIsNoFlowAtAnyStep) {
   }
 }
 
-TEST(JointServo, AFunctionAtReliefWithHalfTheOilOpensItsValveAllTheSame) {
-  // Its speed is that of its share; were it taken for the valve's, the valve would close step by
-  // step.
+TEST(JointServo, AFunctionAtReliefWithHalfTheOilStillOpensItsValve) {
+  // Its speed follows from its share of the oil; if it were attributed to the valve, the valve
+  // would close step by step.
   const scene::Joint joint;
   JointLimits limits;
   limits.effort_positive = limits.effort_negative = 100;
@@ -84,13 +84,13 @@ TEST(JointServo, AFunctionAtReliefWithHalfTheOilOpensItsValveAllTheSame) {
   for (int i = 0; i < 1000; ++i) {
     servo.open(joint, limits, 0, qd, kStep);
     const JointServo::Demand demand = servo.demand(joint, limits, i * kStep * 0.5, qd, 0.5, kStep);
-    servo.settle(demand, limits, 100, 0, qd, kStep);  // always at its limit, yet it follows
+    servo.settle(demand, limits, 100, 0, qd, kStep);  // always at its limit, but it follows
     qd = std::min(0.5, qd + 0.002);
   }
   EXPECT_NEAR(servo.open(joint, limits, 500 * kStep, qd, kStep), 1, 0.02);
 }
 
-TEST(HydraulicPump, OilThatBecomesFreeReachesTheOthersSmoothly) {
+TEST(HydraulicPump, DistributesFreedOilSmoothly) {
   HydraulicPump pump;
   double share = 0;
   for (int i = 0; i < 600; ++i) share = pump.share(kPump, {{0.007, 0}, {0.007, 0}}, kStep);
@@ -115,7 +115,7 @@ TEST(HydraulicPump, IsTheSameAfterASnapshot) {
   EXPECT_EQ(copy.share(kPump, {{0.006, 30e6}}, 0.1), pump.share(kPump, {{0.006, 30e6}}, 0.1));
 }
 
-/// The excavator on a fixed base, with what its arm's joints are called.
+/// The excavator on a fixed base, with the names of its arm's joints.
 struct Digger {
   explicit Digger(double boom, double stick, double bucket) : machine(ew180(boom, stick, bucket)) {
     machine.fixed_base = true;
@@ -130,7 +130,7 @@ struct Digger {
   std::unique_ptr<PhysicsEngine> engine;
 };
 
-TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
+TEST(BulletPump, ThreeFunctionsAtOnceUseExactlyItsFlow) {
   Digger digger(0.9, -1.0, 0.2);
   for (const std::string& name :
        {digger.machine.arm.boom, digger.machine.arm.stick, digger.machine.arm.bucket})
@@ -139,9 +139,9 @@ TEST(BulletPump, ThreeFunctionsAtOnceTakeItsFlowAndNoMore) {
   run(*digger.engine, flat(), 1, kStep,
       [&](double) { most = std::max(most, digger.engine->power()->pump(0).flow); });
   const double flow = digger.machine.pump.flow;
-  print_value("most oil of three functions at once [l/min]", 6e4 * most, "429, gated at 1 %",
+  print_value("most oil of three functions at once [l/min]", 6e4 * most, "429, tolerance 1 %",
               "vehicles/ew180/SOURCE.md");
-  // 1 %: the share is taken at the step's start.
+  // 1 %: the share applies to the step's start.
   EXPECT_NEAR(most, flow, 0.01 * flow);
 }
 
@@ -163,14 +163,14 @@ TEST(BulletPump, LiftsWithItsPower) {
     most = std::max(most, power);
   });
   const double mean = sum / time;
-  print_value("power of a steady lift [kW]", mean / 1e3, "90, gated at 5 %",
+  print_value("power of a steady lift [kW]", mean / 1e3, "90, tolerance 5 %",
               "vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(mean, digger.machine.pump.power, 0.05 * digger.machine.pump.power);
   // It does not hunt.
   EXPECT_LT(most - least, 0.15 * mean);
 }
 
-TEST(BulletPump, AFunctionAtItsStopLeavesItsOilToTheOthers) {
+TEST(BulletPump, AFunctionAtItsStopReleasesItsOil) {
   Digger digger(radians(59), -1.2, 0.3);
   const int bucket = digger.joint(digger.machine.arm.bucket);
   digger.turn(digger.machine.arm.boom, 3);

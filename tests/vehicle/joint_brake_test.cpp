@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brakes of joints: the excavator's swing brake and the lock of its oscillating axle, as commands
-// of their own.
+// Brakes of joints: the excavator's swing brake and the lock of its oscillating axle, each with its
+// own command.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,8 +37,7 @@ struct Rig {
 };
 
 TEST(JointBrake, OfTheSwingHoldsUpToItsTorqueAndSlipsBeyond) {
-  // A couple on the upper structure, against the brake alone: its own motor turns nothing
-  // meanwhile.
+  // A couple on the upper structure against the brake alone: the motor is idle meanwhile.
   for (const double share : {0.95, 1.05}) {
     Rig rig(ew180());
     rig.machine.fixed_base = true;
@@ -63,7 +62,7 @@ TEST(JointBrake, OfTheSwingHoldsUpToItsTorqueAndSlipsBeyond) {
   }
 }
 
-TEST(JointBrake, HoldsWhateverTheJointCommand) {
+TEST(JointBrake, HoldsAgainstAnyJointCommand) {
   Rig rig(ew180());
   rig.engine->set_brake(0, rig.swing, true);
   rig.engine->set_joint(0, rig.swing, {JointMode::kVelocity, 0.5});
@@ -74,7 +73,7 @@ TEST(JointBrake, HoldsWhateverTheJointCommand) {
   rig.engine->set_brake(0, rig.swing, false);
   run(*rig.engine, flat(), 2, kStep);
   EXPECT_GT(rig.angle(rig.swing), 0.5);
-  // In the swing it is stopped within its torque: w I / T.
+  // While swinging, it stops within its torque: w I / T.
   const double speed = rig.engine->joint(0, rig.swing).velocity, before = rig.angle(rig.swing);
   rig.engine->set_brake(0, rig.swing, true);
   run(*rig.engine, flat(), 2, kStep);
@@ -84,7 +83,7 @@ TEST(JointBrake, HoldsWhateverTheJointCommand) {
 }
 
 TEST(JointBrake, LocksTheOscillatingAxleWhileTheMachineDrives) {
-  // Under the left front pair a bump of 0.12 m that rises over a metre; the drive's brake is off.
+  // A bump of 0.12 m that rises over a metre under the left front pair; the drive's brake is off.
   const auto bump = terramechanics::FunctionGround(
       [](double x, double y) { return y > 0 && x > 3.6 ? std::min(0.12, 0.12 * (x - 3.6)) : 0.0; });
   double roll[2] = {}, turned[2] = {};
@@ -93,8 +92,8 @@ TEST(JointBrake, LocksTheOscillatingAxleWhileTheMachineDrives) {
     run(*rig.engine, bump, 1, kStep);
     rig.engine->set_brake(0, rig.axle, locked);
     rig.engine->set_drive(0, {0.8, 0, false});
-    // It stops with the front pair on the bump and the rear one before it; each command leaves the
-    // lock alone.
+    // It stops with the front pair on the bump and the rear one before it; other commands do not
+    // affect the lock.
     run(*rig.engine, bump, 2.6, kStep);
     rig.engine->set_drive(0, {0, 0, false});
     run(*rig.engine, bump, 1.5, kStep);
@@ -114,7 +113,7 @@ TEST(JointBrake, LocksTheOscillatingAxleWhileTheMachineDrives) {
   EXPECT_LT(turned[1], 0.2);
 }
 
-TEST(JointBrake, IsResumedAndLeavesNoTraceWhileItIsOff) {
+TEST(JointBrake, IsResumedAndHasNoStateWhileReleased) {
   scene::Machine without = ew180();
   for (scene::Joint& joint : without.joints) joint.brake = 0;
   Rig rig(ew180()), plain(without);
@@ -136,12 +135,12 @@ TEST(JointBrake, IsResumedAndLeavesNoTraceWhileItIsOff) {
     run(*one->engine, flat(), 0.3, kStep);
   }
   EXPECT_EQ(digest(*resumed.engine), digest(*rig.engine));
-  // A joint that has none takes no notice.
+  // A joint without a brake ignores the command.
   plain.engine->set_brake(0, plain.swing, true);
   EXPECT_FALSE(plain.engine->joint(0, plain.swing).braked);
 }
 
-TEST(JointBrake, HoldsAKinematicMachineLikewise) {
+TEST(JointBrake, HoldsAKinematicMachineToo) {
   scene::Machine machine = ew180();
   machine.kinematic = true;
   const auto engine = make_kinematic_engine();
@@ -160,7 +159,7 @@ TEST(JointBrake, HoldsAKinematicMachineLikewise) {
   EXPECT_NEAR(engine->joint(0, swing).position, 0.5, 1e-9);
 }
 
-TEST(TravelBrake, HoldsTheExcavatorOnASlopeAndLetsItGo) {
+TEST(TravelBrake, HoldsTheExcavatorOnASlopeUntilReleased) {
   // 12 deg: 36.7 kN of 150 kN.
   const double angle = radians(12);
   const auto hill = testing::slope(angle);
@@ -172,7 +171,7 @@ TEST(TravelBrake, HoldsTheExcavatorOnASlopeAndLetsItGo) {
   run(*engine, hill, 3, kStep);
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - before).norm(), 1e-3);
   engine->set_drive(0, {0, 0, false});
-  // The governor holds it, too, but no longer the place: it creeps within its motor's slip.
+  // The governor resists, too, but does not hold the position: it creeps within its motor's slip.
   run(*engine, hill, 2, kStep);
   engine->set_drive(0, {0, 0, true});
   run(*engine, hill, 2, kStep);

@@ -54,7 +54,7 @@ TEST(KinematicEngine, DrivesTheExactArc) {
   EXPECT_GT(engine->wheel(0, 0).steer, engine->wheel(0, 1).steer);
 }
 
-TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
+TEST(KinematicEngine, MovesToAPlaceAtConstantSpeedAndReportsItsTwist) {
   auto engine = make_kinematic_engine();
   engine->add_machine(arm(), make_pose(1, 2, 0.5));
   EXPECT_EQ(engine->placement()->base(0).p_W, Vec3(1, 2, 0.5));
@@ -63,7 +63,7 @@ TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
   const LinkState half = engine->link(0, 0);
   EXPECT_NEAR(half.X_WL.translation().x(), 1.5, 1e-12);
   EXPECT_NEAR(half.v_WL.x(), 2, 1e-9);
-  // The short way round: 4 rad are 2.28 to the right.
+  // The shorter way round: 4 rad are 2.28 to the right.
   EXPECT_NEAR(half.w_WL.z(), (4 - 2 * kPi) / 0.5, 1e-9);
   EXPECT_NEAR(std::atan2(half.X_WL.linear()(1, 0), half.X_WL.linear()(0, 0)), 0.5 * (4 - 2 * kPi),
               1e-12);
@@ -71,7 +71,7 @@ TEST(KinematicEngine, GoesToAPlaceEvenlyAndItsTwistSaysSo) {
   const LinkState there = engine->link(0, 0);
   EXPECT_EQ(there.X_WL.matrix(), make_pose(2, 2, 0.5, 0, 0, 4).matrix());
   EXPECT_TRUE(there.v_WL.isZero() && there.w_WL.isZero());
-  // At once, in all six, and its links go along.
+  // At once in all six coordinates, including its links.
   engine->placement()->set_base(0, {Vec3(0, 1, 2), Vec3(0.1, -0.2, 0.3), 0});
   engine->step(kStep, flat());
   EXPECT_EQ(engine->link(0, 0).X_WL.matrix(), make_pose(0, 1, 2, 0.1, -0.2, 0.3).matrix());
@@ -94,11 +94,11 @@ TEST(KinematicEngine, PlacesABaseUntilItsDriveIsCommanded) {
   EXPECT_EQ(whole->link(0, 0).X_WL.translation(), Vec3(0, 3, 1));
   whole->set_drive(0, {1, 0, false});
   run(*whole, flat(), 1, kStep);
-  // On the ground again, ahead from where it was put.
+  // On the ground again, continuing from its placed position.
   EXPECT_LT((whole->link(0, 0).X_WL.translation() - Vec3(1, 3, 0)).norm(), 1e-9);
 }
 
-TEST(KinematicEngine, AloneMovesABaseAsCommanded) {
+TEST(KinematicEngine, IsTheOnlyEngineThatPlacesABase) {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(testing::box(), make_pose(0, 0, 1));
   EXPECT_EQ(engine->placement(), nullptr);

@@ -57,7 +57,7 @@ TEST(ForwardKinematics, PositiveAngleOfAPitchJointLiftsTheLink) {
   const scene::Machine m = arm();
   const auto poses = forward_kinematics(m, make_pose(10, 20, 30), {radians(90), radians(-90)});
   ASSERT_EQ(poses.size(), 3u);
-  // Boom straight up from (0, 0, 2), stick forward again from its end.
+  // Boom straight up from (0, 0, 2), stick forward from its end.
   EXPECT_TRUE((poses[2] * Vec3::Zero()).isApprox(Vec3(10, 20, 37), 1e-12));
   EXPECT_TRUE((poses[2] * Vec3(3, 0, 0)).isApprox(Vec3(13, 20, 37), 1e-12));
 }
@@ -82,7 +82,7 @@ TEST(CylinderGeometry, LeverIsTheDerivativeOfTheLength) {
     }
 }
 
-// The linkage found by brute force: of all rocker angles the ones that give the coupler its length.
+// The linkage found by brute force: of all rocker angles those at which the coupler has its length.
 TEST(CylinderGeometry, FourBarAgreesWithASearchOverTheRockersAngle) {
   const scene::Machine m = arm_with_bucket();
   const scene::Cylinder c = linked();
@@ -134,7 +134,7 @@ TEST(CylinderLimits, ExtensionFillsTheHeadSide) {
   EXPECT_LT(curl.speed_negative, curl.speed_positive);
 }
 
-TEST(CylinderMap, RefusesWhatCannotWork) {
+TEST(CylinderMap, RefusesImpossibleGeometry) {
   const scene::Machine m = arm_with_bucket();
   scene::Cylinder c = direct();
   c.joint = "nothing";

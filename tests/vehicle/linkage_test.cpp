@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steering trapezoid: it closes, is its own mirror, and is as wrong as textbooks say.
+// The steering trapezoid closes, is mirror symmetric, and has the error known from textbooks.
 #include "vehicle/drive/linkage.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ scene::LinkageDrive trapezoid(bool ahead = false) {
   return drive;
 }
 
-/// Of the tie rod between the arms' ends [m].
+/// Length of the tie rod between the arms' ends [m].
 double rod(const scene::LinkageDrive& drive, const SteerAngles& angles) {
   const Vec2 arm = scene::steering_arm(drive);
   const Vec2 left = Vec2(0, 0.5 * drive.track) + Eigen::Rotation2Dd(angles.left) * arm;
@@ -52,14 +52,14 @@ TEST(Linkage, ClosesAtEveryPositionOfItsMotor) {
   }
 }
 
-TEST(Linkage, IsItsOwnMirror) {
+TEST(Linkage, IsMirrorSymmetric) {
   const scene::LinkageDrive drive = trapezoid();
   const SteerAngles left = linkage_angles(drive, radians(20));
   const SteerAngles right = linkage_angles(drive, -left.right);
   EXPECT_NEAR(right.right, -left.left, 1e-12);
 }
 
-TEST(Linkage, OfAParallelogramTurnsBothAlike) {
+TEST(Linkage, OfAParallelogramTurnsBothWheelsEqually) {
   scene::LinkageDrive drive;
   drive.tie_rod = drive.track;
   const SteerAngles angles = linkage_angles(drive, radians(25));
@@ -68,9 +68,9 @@ TEST(Linkage, OfAParallelogramTurnsBothAlike) {
   EXPECT_NEAR(ackermann_error(drive, angles), radians(25) - ideal, 1e-12);
 }
 
-// The closed form's series: outer = inner - k inner^2 + ..., of the trapezoid k = tan b W / t, of
-// Ackermann W / L.
-TEST(Linkage, LeansToSecondOrderAsItsSeriesSays) {
+// Series of the closed form: outer = inner - k inner^2 + ..., for the trapezoid k = tan b W / t,
+// for Ackermann W / L.
+TEST(Linkage, MatchesItsSeriesToSecondOrder) {
   const double small = radians(0.5);
   for (const double tie_rod : {1.94, 1.86, 1.77, 1.72}) {
     scene::LinkageDrive drive;
@@ -85,7 +85,7 @@ TEST(Linkage, LeansToSecondOrderAsItsSeriesSays) {
   }
 }
 
-TEST(Linkage, ThatLeansByTieRodOverWheelbaseIsNearlyAckermanns) {
+TEST(Linkage, WithArmsTowardsTheRearAxleIsNearlyAckermann) {
   const scene::LinkageDrive drive = trapezoid();
   const auto error = [&](double inner) {
     return degrees(ackermann_error(drive, linkage_angles(drive, radians(inner))));
@@ -93,11 +93,11 @@ TEST(Linkage, ThatLeansByTieRodOverWheelbaseIsNearlyAckermanns) {
   EXPECT_LT(std::abs(error(5)), 0.02);
   EXPECT_LT(std::abs(error(20)), 1);
   EXPECT_EQ(error(0), 0);
-  // Ackermann's own angles have none.
+  // Ackermann's own angles have no error.
   EXPECT_NEAR(ackermann_error(drive, ackermann(drive, -0.3)), 0, 1e-12);
 }
 
-TEST(Linkage, TheMotorGoesWhereTheBicyclesAngleIs) {
+TEST(Linkage, TheMotorFollowsTheBicycleAngle) {
   scene::LinkageDrive linkage = trapezoid();
   linkage.gear_ratio = 5;
   scene::Machine machine;
@@ -108,18 +108,18 @@ TEST(Linkage, TheMotorGoesWhereTheBicyclesAngleIs) {
     const Roll roll = line->roll({1.5, motor, false});
     EXPECT_NEAR(roll.yaw_rate, 1.5 * std::tan(angle) / linkage.wheelbase, 1e-9) << angle;
   }
-  // No further than its stops.
+  // No farther than its stops.
   EXPECT_NEAR(steer_command(machine.drive, 1.5, 1), motor_range(linkage).left, 1e-9);
 }
 
-TEST(Linkage, ThatLocksOrDoesNotReachIsKnown) {
+TEST(Linkage, DetectsLockingOrUnreachablePositions) {
   EXPECT_TRUE(scene::turns_freely(trapezoid()));
   scene::LinkageDrive drive = trapezoid();
   drive.tie_rod = drive.track - 2.1 * drive.arm;
   EXPECT_FALSE(scene::turns_freely(drive));
-  // A trapezoid turned round, arms that lean in by 30 deg ahead of the axle: by the law of cosines
-  // the right one is in line with the tie rod, together as long as the track, when the left one has
-  // turned by 30 deg - asin(a / 2 W).
+  // An inverted trapezoid, with arms that lean in by 30 deg ahead of the axle: by the law of
+  // cosines the right one is in line with the tie rod, together as long as the track, when the left
+  // one has turned by 30 deg - asin(a / 2 W).
   drive = trapezoid();
   drive.ahead = true;
   drive.tie_rod = drive.track - drive.arm;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines that another engine moves push what they meet, and nothing moves them.
+// Machines moved by another engine push bodies in their path and are not pushed back.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using testing::run;
 
 constexpr double kStep = 1.0 / 600;
 
-/// A kinematic engine with one machine beside a Bullet engine that meets it, stepped as the
+/// A kinematic engine with one machine beside a Bullet engine that collides with it, stepped as the
 /// coupling does.
 struct BothEngines {
   explicit BothEngines(scene::Machine told, const Pose& X_WM) {
@@ -37,7 +37,7 @@ struct BothEngines {
       kinematic->step(kStep, ground);
     }
   }
-  /// To x in so many seconds.
+  /// Moves to x in so many seconds.
   void send(const Vec3& p_W, double seconds) {
     kinematic->placement()->set_base(0, {p_W, Vec3::Zero(), seconds});
   }
@@ -50,12 +50,12 @@ struct BothEngines {
   int mover = 0;
 };
 
-TEST(Mover, PushesAsFastAsItGoesAndLetsGoWhenItStops) {
+TEST(Mover, PushesAtItsSpeedAndReleasesWhenItStops) {
   BothEngines both(box(), make_pose(0, 0, 0.5));
   both.bullet->add_machine(box(), make_pose(1.2, 0, 0.5));
   both.send(Vec3(2, 0, 0.5), 4);
   both.go(1);
-  // 0.5 m/s, of which 0.4 s are the gap's.
+  // 0.5 m/s, 0.4 s of which are needed for the gap.
   EXPECT_NEAR(both.speed(0).x(), 0.5, 0.01);
   EXPECT_NEAR(both.place(0).x(), 1.5, 0.005);
   both.go(3.5);
@@ -64,11 +64,11 @@ TEST(Mover, PushesAsFastAsItGoesAndLetsGoWhenItStops) {
   EXPECT_GT(both.place(0).x(), 2.995);
   EXPECT_LT(both.place(0).x(), 3.04);
   EXPECT_NEAR(both.place(0).y(), 0, 0.002);
-  // It reached its target, whatever was in its way.
+  // It reached its target despite the obstacle.
   EXPECT_NEAR(both.kinematic->link(0, 0).X_WL.translation().x(), 2, 1e-9);
 }
 
-TEST(Mover, CarriesWhatStandsOnIt) {
+TEST(Mover, CarriesBodiesOnTopOfIt) {
   BothEngines lift(box(), make_pose(0, 0, 0.5));
   lift.bullet->add_machine(box(), make_pose(0.1, 0.05, 1.5));
   lift.go(0.5);
@@ -94,7 +94,7 @@ TEST(Mover, WakesSleepingBodiesOnlyWhenItMoves) {
 }
 
 TEST(Mover, PushesByTheSteelOfItsShells) {
-  // A blade that stands across its way: no collision shape, one plate.
+  // A blade across its path: no collision shape, one plate.
   scene::Machine blade;
   blade.links.push_back(
       testing::box_link("blade", Pose::Identity(), 1, Vec3::Zero(), Vec3(0.1, 2, 1)));
@@ -111,7 +111,7 @@ TEST(Mover, PushesByTheSteelOfItsShells) {
   EXPECT_NEAR(both.place(0).x(), 1.5, 0.03);
 }
 
-TEST(Mover, StopsAWheelThatComesAgainstIt) {
+TEST(Mover, StopsAWheelThatHitsIt) {
   scene::Machine wall = box();
   wall.links[0].collisions.at(0).geometry.size.y() = 4;
   // Its face is 0.9 m ahead of the front tyres.
@@ -125,7 +125,7 @@ TEST(Mover, StopsAWheelThatComesAgainstIt) {
   EXPECT_NEAR(both.place(0).x(), 0.9, 0.1);
 }
 
-TEST(Mover, IsMetAgainAfterALoad) {
+TEST(Mover, CollidesAfterALoad) {
   const auto make = [] {
     auto both = std::make_unique<BothEngines>(box(), make_pose(0, 0, 0.5));
     both->bullet->add_machine(box(), make_pose(1.2, 0.1, 0.5));

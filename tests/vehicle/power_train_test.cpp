@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine, gears and differentials on a cart of 2 t in the Bullet engine, against the closed forms
-// of docs/machines.md.
+// Engine, gears and differentials on a cart of 2 t in the Bullet engine, compared with the closed
+// forms of docs/machines.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ scene::Machine cart_with(const scene::CombustionEngine& engine,
   drive.max_speed = 20;
   drive.engine = engine;
   drive.axles = axles;
-  for (scene::Wheel& wheel : cart.wheels) wheel.rolling_resistance = 0;  // a torque of its own
+  for (scene::Wheel& wheel : cart.wheels) wheel.rolling_resistance = 0;  // a separate torque
   return cart;
 }
 
@@ -66,7 +66,7 @@ struct Rig {
   double torque() const {
     return engine->wheel(0, 2).shaft_torque + engine->wheel(0, 3).shaft_torque;
   }
-  /// Holds the chassis back by a spring and a damper; answers their force [N].
+  /// Holds the chassis back by a spring and a damper; returns their force [N].
   double tie() {
     const LinkState at = engine->link(0, 0);
     const double force = -5e4 * at.X_WL.translation().x() - 2e4 * at.v_WL.x();
@@ -77,7 +77,7 @@ struct Rig {
   std::unique_ptr<PhysicsEngine> engine;
 };
 
-TEST(PowerTrain, GoesInEachGearAsFastAsTheEngineIsGoverned) {
+TEST(PowerTrain, DrivesInEachGearAtTheGovernedSpeed) {
   for (const int gear : {1, 2}) {
     Rig rig(cart_with(diesel()));
     rig.engine->set_drive(0, {50, 0, false, gear});
@@ -108,7 +108,7 @@ TEST(PowerTrain, PullsWithTorqueTimesRatioTimesEfficiencyByRadius) {
   EXPECT_NEAR(rig.engine->power()->drive_engine(0).torque, 150, 1e-9);
 }
 
-TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
+TEST(PowerTrain, StaysBelowTheEngineCurve) {
   Rig rig(cart_with(diesel()));
   rig.engine->set_drive(0, {50, 0, false});
   const double rated = scene::rated_point(diesel()).speed * scene::rated_point(diesel()).torque;
@@ -125,7 +125,7 @@ TEST(PowerTrain, NeverTakesMoreThanTheCurveGives) {
   EXPECT_GT(most, 0.5 * rated);
 }
 
-TEST(PowerTrain, HoldsBackByItsGear) {
+TEST(PowerTrain, BrakesByItsGear) {
   // 6 deg draw with 2050 N; the first gear holds 40 / 0.9 x 40 / 0.51 = 3.5 kN, the second 1.7 kN.
   const double angle = radians(-6);
   for (const int gear : {1, 2}) {
@@ -139,7 +139,7 @@ TEST(PowerTrain, HoldsBackByItsGear) {
 }
 
 TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
-  // 18 deg take 6.1 kN; the second gear has 6.2 at most, the first twice that.
+  // 18 deg require 6.1 kN; the second gear has 6.2 at most, the first twice that.
   const double angle = radians(18);
   Rig rig(cart_with(diesel()), angle);
   rig.engine->set_drive(0, {3, 0, false});
@@ -152,7 +152,7 @@ TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
   EXPECT_EQ(last, 1);
   EXPECT_EQ(changes, 0);
   EXPECT_NEAR(rig.speed(), 3, 0.15);
-  // On the level it goes on in the second.
+  // On the level it continues in the second gear.
   Rig level(cart_with(diesel()));
   level.engine->set_drive(0, {3, 0, false});
   run(*level.engine, flat(), 8, kStep);
@@ -160,7 +160,7 @@ TEST(PowerTrain, ClimbsInAGearThatPullsWithoutHunting) {
   EXPECT_NEAR(level.speed(), 3, 0.1);
 }
 
-TEST(PowerTrain, TurnsRoundToGoBack) {
+TEST(PowerTrain, ReversesItsDirection) {
   Rig rig(cart_with(diesel()));
   rig.engine->set_drive(0, {2, 0, false});
   run(*rig.engine, flat(), 4, kStep);
@@ -188,8 +188,8 @@ TEST(PowerTrain, ShaftsOfAnOpenDifferentialShareTorqueAndAddSpeeds) {
   }
 }
 
-TEST(PowerTrain, ShaftsOfOneWithLimitedSlipDifferByTwiceItsTorque) {
-  // The left wheels on ice: the right one gets what the left one loses, half of 300 N m.
+TEST(PowerTrain, ShaftsOfALimitedSlipDifferentialDifferByTwiceItsTorque) {
+  // The left wheels on ice: the right one receives what the left one loses, half of 300 N m.
   scene::Machine cart = cart_with(diesel(), {Kind::kLimitedSlip, 300, 0});
   for (std::size_t w = 0; w < cart.wheels.size(); w += 2) cart.wheels[w].friction = 0.05;
   Rig rig(cart, radians(4));
@@ -207,7 +207,7 @@ TEST(PowerTrain, ASpeedSourceTurnsTheDifferentialCarrierAsCommanded) {
   EXPECT_NEAR(rig.carrier() * 0.525, 1.5, 1e-3 * 1.5) << "by the unloaded radius";
   EXPECT_NEAR(rig.engine->power()->drive_engine(0).speed, 20 * rig.carrier(),
               1e-3 * 20 * rig.carrier());
-  // Held, it gives its largest torque and turns no further.
+  // Blocked, it gives its largest torque and stops.
   Rig tied(cart_with(source()));
   tied.engine->set_drive(0, {1.5, 0, false});
   run(*tied.engine, flat(), 6, kStep, [&](double) { tied.tie(); });
@@ -235,8 +235,8 @@ TEST(PowerTrain, ResumesEqual) {
   }
 }
 
-/// Radius of the turn of a cart whose rear wheels are turned and whose front wheels are steered one
-/// by one; the largest change of the chassis' velocity within a step goes to `jump`.
+/// Returns the turning radius of a cart whose rear wheels are turned and whose front wheels are
+/// steered individually; the largest change of the chassis' velocity within a step goes to `jump`.
 double radius_of(double left_speed, double right_speed, double left_angle, double right_angle,
                  double& jump) {
   scene::Machine cart = testing::cart();
@@ -269,12 +269,12 @@ TEST(Ackermann, InputsThatDoNotFitUnderAndOversteerWithoutAJump) {
   double jump = 0;
   const double fits = radius_of(w * (1 - half / R), w * (1 + half / R), inner, outer, jump);
   EXPECT_NEAR(fits, R, 0.05 * R);
-  // The inner wheel drives too fast: it pushes out of the turn; the outer one pushes in.
+  // If the inner wheel drives too fast it pushes out of the turn; the outer one pushes inwards.
   const double under = radius_of(w * (1 + half / R), w * (1 - half / R), inner, outer, jump);
   const double over = radius_of(w * (1 - 3 * half / R), w * (1 + 3 * half / R), inner, outer, jump);
   EXPECT_GT(under, 1.05 * fits);
   EXPECT_LT(over, 0.97 * fits);
-  // One front wheel straight: about the mean of both.
+  // One front wheel straight: roughly the mean of both.
   const double straight = radius_of(w, w, inner, 0, jump);
   EXPECT_GT(straight, 1.3 * fits);
   print_value("radius with inputs that fit, under-, oversteer, one wheel straight [m]", fits,

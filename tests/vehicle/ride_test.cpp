@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How evenly the shipped excavator rides on flat firm ground.
+// Evenness of the shipped excavator's wheel loads on flat firm ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>

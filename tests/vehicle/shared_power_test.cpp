@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drive and pump on one engine: copies of the shipped excavator that lift and climb at once.
+// Drive and pump on one engine: variants of the shipped excavator that lift and climb at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,15 +42,20 @@ scene::Machine excavator(double engine_power,
 }
 
 struct Powers {
-  double most = 0;    // of pump and drive together [W]
-  double pump = 0;    // the largest
-  double drive = 0;   // likewise
-  double speed = 0;   // at the end [m/s]
-  double shared = 0;  // largest power that the engine itself reports
+  // Largest power of pump and drive together [W].
+  double most = 0;
+  // Largest power of the pump [W].
+  double pump = 0;
+  // Largest power of the drive [W].
+  double drive = 0;
+  // Final speed [m/s].
+  double speed = 0;
+  // Largest power reported by the engine itself [W].
+  double shared = 0;
   std::uint64_t digest = 0;
 };
 
-/// Climbs, and from 3 s on lifts its boom.
+/// Climbs, and lifts its boom from 3 s on.
 Powers climb_and_lift(const scene::Machine& machine) {
   const double angle = radians(8);
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
@@ -74,31 +79,31 @@ Powers climb_and_lift(const scene::Machine& machine) {
   return out;
 }
 
-TEST(SharedPower, OfAHydrostaticDriveAndThePumpIsTheEnginesAtMost) {
+TEST(SharedPower, OfAHydrostaticDriveAndThePumpStaysWithinTheEngine) {
   const Powers own = climb_and_lift(excavator(0)), shared = climb_and_lift(excavator(kEngine));
   print_value("pump and drive at once, each with its own power [kW]", own.most / 1e3, "180 at most",
               "90 + 90, vehicles/ew180/SOURCE.md");
   print_value("pump and drive at once on one engine of 100 kW [kW]", shared.most / 1e3,
-              "100, gated at 2.5 %", "docs/machines.md, drive");
+              "100, tolerance 2.5 %", "docs/machines.md, drive");
   EXPECT_GT(own.most, 1.3 * kEngine);
   EXPECT_EQ(own.shared, 0);
-  // 2.5 %: the drive hears of the pump's power one step later, and while valves open that rises by
-  // 1.4 kW in a step.
+  // 2.5 %: the drive receives the pump's power one step later, and while valves open that rises by
+  // 1.4 kW per step.
   EXPECT_LE(shared.most, 1.025 * kEngine);
   EXPECT_GT(shared.most, 0.9 * kEngine) << "it is made use of";
   EXPECT_NEAR(shared.shared, shared.most, 0.025 * kEngine);
-  EXPECT_LT(shared.speed, own.speed - 0.2) << "the pump goes first";
+  EXPECT_LT(shared.speed, own.speed - 0.2) << "the pump has priority";
   EXPECT_NEAR(shared.pump, own.pump, 0.1 * own.pump);
 }
 
-TEST(SharedPower, OfAnEngineWithGearsIsItsLargestAtMost) {
+TEST(SharedPower, OfAnEngineWithGearsStaysWithinItsMaximum) {
   const scene::CombustionEngine engine = diesel();
   const scene::CombustionEngine::Point rated = scene::rated_point(engine);
   EXPECT_NEAR(rated.speed * rated.torque, kEngine, 1);
   const Powers shared = climb_and_lift(excavator(kEngine, engine)),
                own = climb_and_lift(excavator(0, engine));
   print_value("pump and drive at once on a torque curve of 100 kW [kW]", shared.shared / 1e3,
-              "100, gated at 2.5 %", "docs/machines.md, engine and gears");
+              "100, tolerance 2.5 %", "docs/machines.md, engine and gears");
   // As above.
   EXPECT_LE(shared.shared, 1.025 * kEngine);
   EXPECT_LE(shared.most, 1.025 * kEngine);
@@ -106,14 +111,14 @@ TEST(SharedPower, OfAnEngineWithGearsIsItsLargestAtMost) {
   EXPECT_GT(own.most, 1.1 * shared.most);
 }
 
-TEST(SharedPower, OfAnEngineThatIsNeverShortChangesNothing) {
+TEST(SharedPower, HasNoEffectWithALargeEngine) {
   const Powers own = climb_and_lift(excavator(0)), plenty = climb_and_lift(excavator(1e7));
   EXPECT_EQ(plenty.digest, own.digest);
   EXPECT_EQ(plenty.speed, own.speed);
 }
 
-TEST(SharedPower, DoesNotBoundWhatHoldsTheMachineBack) {
-  // Down 8 deg the drive holds 25 kN at 2 m/s; its engine is at the pump's disposal alone.
+TEST(SharedPower, DoesNotLimitBraking) {
+  // Down 8 deg the drive holds 25 kN at 2 m/s; the engine's power is available to the pump only.
   const double angle = radians(-8);
   scene::Machine machine = excavator(100);
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every shipped vehicle is loaded, driven, steered and braked: a new one is a file, and this test
-// finds it.
+// Loads, drives, steers and brakes every shipped vehicle; a new vehicle file is found by this test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +47,7 @@ class ShippedVehicles : public ::testing::TestWithParam<std::string> {
     const Vec3 ahead = engine->link(0, 0).X_WL.linear().col(0);
     return std::atan2(ahead.y(), ahead.x());
   }
-  /// To the left: half as far as it steers, or half a radian a second.
+  /// To the left: half of its steering range, or half a radian per second.
   double steering() const {
     if (const auto* steered = std::get_if<scene::AckermannDrive>(&machine.drive))
       return 0.5 * steered->max_steer;
@@ -68,7 +67,7 @@ class ShippedVehicles : public ::testing::TestWithParam<std::string> {
 TEST_P(ShippedVehicles, DriveSteerAndBrake) {
   run(*engine, flat(), 2, kStep);
   if (!drives()) {
-    // What is drawn, or a tool on a rig: it stands, or hangs, where it was put.
+    // A towed machine, or a tool on a rig: it stays where it was placed.
     EXPECT_LT(engine->link(0, 0).v_WL.norm(), 1e-2);
     return;
   }
@@ -97,7 +96,7 @@ TEST_P(ShippedVehicles, DriveSteerAndBrake) {
   const Vec3 stopped = engine->link(0, 0).X_WL.translation();
   run(*engine, flat(), 2, kStep);
   EXPECT_LT((engine->link(0, 0).X_WL.translation() - stopped).norm(), 1e-3);
-  // It stands on its wheels.
+  // It is still upright.
   EXPECT_GT(engine->link(0, 0).X_WL.linear().col(2).z(), std::cos(radians(3)));
 }
 

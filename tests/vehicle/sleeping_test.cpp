@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose bodies that lie still sleep, and wake when something pushes them, comes near, or digs under
-// them.
+// Loose bodies at rest sleep, and wake when they are pushed, approached, or undermined.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +32,7 @@ bool sleeps(const PhysicsEngine& engine, int machine) {
   return link.v_WL.isZero(0) && link.w_WL.isZero(0);
 }
 
-TEST(Rest, AStillBodyStaysBitIdenticalAndIsCarried) {
+TEST(Rest, ASleepingBodyStaysBitIdenticalAndIsSupported) {
   const auto engine = boxes({make_pose(0.3, 0.4, 0.6)});
   run(*engine, flat(), 2, kStep);
   ASSERT_TRUE(sleeps(*engine, 0));
@@ -47,7 +46,7 @@ TEST(Rest, AStillBodyStaysBitIdenticalAndIsCarried) {
 }
 
 TEST(Rest, ABodyThatSlidesSlowlyDoesNotSleep) {
-  // 26.565 deg are its friction of 0.5.
+  // 26.565 deg correspond to their friction of 0.5.
   const double angle = radians(27);
   const auto engine =
       boxes({make_pose(2, 0, 2 * std::tan(angle) + 0.5 / std::cos(angle) + 0.001, 0, -angle)});
@@ -56,7 +55,7 @@ TEST(Rest, ABodyThatSlidesSlowlyDoesNotSleep) {
   EXPECT_GT((pose(*engine, 0).translation() - Vec3(2, 0, 2 * std::tan(angle))).norm(), 0.1);
 }
 
-TEST(Rest, APushWakes) {
+TEST(Rest, APushWakesABody) {
   const auto engine = boxes({make_pose(0, 0, 0.5)});
   run(*engine, flat(), 2, kStep);
   ASSERT_TRUE(sleeps(*engine, 0));
@@ -66,13 +65,13 @@ TEST(Rest, APushWakes) {
   EXPECT_GT(pose(*engine, 0).translation().x(), 0.1);
   run(*engine, flat(), 3, kStep);
   EXPECT_TRUE(sleeps(*engine, 0));
-  // A force as well, and one that its friction holds moves nothing.
+  // A force wakes as well, even if friction holds it without motion.
   engine->add_force(0, 0, Vec3(3e4, 0, 0), Vec3(0, 0, 0.5));
   engine->step(kStep, flat());
   EXPECT_NEAR(engine->accounts()->momentum(0).x(), (3e4 - 0.5 * 1000 * kGravity) * kStep, 5);
 }
 
-TEST(Rest, GroundThatIsDugAwayWakes) {
+TEST(Rest, DiggingUnderABodyWakesIt) {
   const auto engine = boxes({make_pose(0, 0, 0.5), make_pose(3, 0, 0.5)});
   run(*engine, flat(), 2, kStep);
   ASSERT_TRUE(sleeps(*engine, 0) && sleeps(*engine, 1));
@@ -84,7 +83,7 @@ TEST(Rest, GroundThatIsDugAwayWakes) {
   EXPECT_TRUE(pose(*engine, 1).isApprox(other, 0)) << "the ground under it has not changed";
 }
 
-TEST(Rest, ABodyNearbyWakesOthersAndAStackSleepsTogether) {
+TEST(Rest, AnApproachingBodyWakesOthersAndAStackSleepsTogether) {
   const auto engine = boxes({make_pose(0, 0, 0.5), make_pose(1.5, 0, 0.5)});
   run(*engine, flat(), 2, kStep);
   ASSERT_TRUE(sleeps(*engine, 0));
@@ -96,13 +95,13 @@ TEST(Rest, ABodyNearbyWakesOthersAndAStackSleepsTogether) {
   EXPECT_GT(lowest, 1.45) << "it fell through a body that slept";
   run(*engine, flat(), 4, kStep);
   for (int m = 0; m < 3; ++m) EXPECT_TRUE(sleeps(*engine, m)) << m;
-  // One pulled away from below: the upper one comes down.
+  // The lower one is pulled away: the upper one falls.
   engine->apply_impulse(0, 0, Vec3(-2e4, 0, 0), Vec3::Zero(), pose(*engine, 0).translation());
   run(*engine, flat(), 3, kStep);
   EXPECT_LT(pose(*engine, 2).translation().z(), 1.4);
 }
 
-TEST(Rest, AMachineDrivesIntoASleeper) {
+TEST(Rest, AMachineDrivesIntoASleepingBody) {
   auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   scene::Machine light = box();
   light.links[0].mass = 100;
@@ -116,13 +115,13 @@ TEST(Rest, AMachineDrivesIntoASleeper) {
   EXPECT_GT(pose(*engine, body).translation().x(), 6.5);
 }
 
-TEST(Rest, ASavedSleeperSleepsOnAndWakesAlike) {
+TEST(Rest, ASavedSleepingBodyResumesAndWakesEqually) {
   const auto build = [] { return boxes({make_pose(0, 0, 0.5), make_pose(8, 0, 0.5)}); };
   const auto whole = build();
   run(*whole, flat(), 2, kStep);
   ASSERT_TRUE(sleeps(*whole, 0));
   const auto resumed = build();
-  // Elsewhere by then: its box must come along with its place.
+  // It has moved: its box must have moved with it.
   resumed->apply_impulse(0, 0, Vec3(9000, 0, 0), Vec3::Zero(), Vec3(0, 0, 0.5));
   run(*resumed, flat(), 1, kStep);
   load_saved(saved(*whole), *resumed);
@@ -131,7 +130,7 @@ TEST(Rest, ASavedSleeperSleepsOnAndWakesAlike) {
     engine->apply_impulse(1, 0, Vec3(-12000, 0, 0), Vec3::Zero(), Vec3(8, 0, 0.6));
     run(*engine, flat(), 3, kStep);
   }
-  EXPECT_LT(pose(*whole, 0).translation().x(), -0.01) << "nothing came near the sleeper";
+  EXPECT_LT(pose(*whole, 0).translation().x(), -0.01) << "nothing approached the sleeping body";
   EXPECT_EQ(testing::digest(*whole), testing::digest(*resumed));
 }
 

@@ -16,7 +16,7 @@
 namespace navvy::vehicle {
 namespace {
 
-// A foot in the middle is no corner
+// A support in the middle is no corner.
 const std::vector<Vec2> kSquare = {{0, 0}, {2, 2}, {2, 0}, {0, 2}, {1, 1}};
 
 TEST(SupportMargin, IsTheDistanceToTheNearestEdgePositiveWithin) {
@@ -26,7 +26,7 @@ TEST(SupportMargin, IsTheDistanceToTheNearestEdgePositiveWithin) {
   EXPECT_DOUBLE_EQ(support_margin(kSquare, {5, 6}), -5);
 }
 
-TEST(SupportMargin, OfFeetInARowOrNoneIsNothing) {
+TEST(SupportMargin, IsUndefinedForCollinearOrMissingSupports) {
   EXPECT_EQ(support_margin({{0, 0}, {1, 0}, {2, 0}}, {1, 0.5}), 0);
   EXPECT_EQ(support_margin({{0, 0}, {1, 0}}, {1, 0}), 0);
   EXPECT_EQ(support_margin({}, {0, 0}), 0);
@@ -45,13 +45,13 @@ TEST(TippingLoad, IsTheMomentBalanceOverTheWeakestEdge) {
   // Over a corner it tips over the weaker edge.
   EXPECT_NEAR(tipping_load(feet, centre, 18000, Vec2(6, 4)).load,
               std::min(18000 * 1.5 / 3, 18000 * 0.6 / 3), 1e-9);
-  // Inside the feet no load tips it; a machine that tips by itself carries none.
+  // Inside the supports no load tips it; a machine that tips by itself carries none.
   EXPECT_EQ(tipping_load(feet, centre, 18000, Vec2(2, 0)).load, kNoTippingLoad);
   EXPECT_EQ(tipping_load(feet, Vec2(1, 1.2), 18000, Vec2(2, 0)).load, 0);
   EXPECT_EQ(tipping_load({{0, 0}, {1, 0}}, Vec2(0.5, 0), 18000, Vec2(2, 0)).load, 0);
 }
 
-/// Level ground far below: nothing touches it.
+/// Level ground far below, without contact.
 class Below final : public GroundQuery {
  public:
   double height(double, double) const override { return -100; }
@@ -71,14 +71,14 @@ TEST(Stability, OfTheExcavatorFollowsItsTilt) {
     EXPECT_NEAR(degrees(stands.tilt), roll, 0.1);  // it falls for 0.1 ms
     EXPECT_LT(stands.margin, before);
     before = stands.margin;
-    // Half a track of 1.1 m and a centre of mass a metre over the ground: upright it stands, at 45
-    // deg it does not.
+    // Half a track width of 1.1 m and a centre of mass a metre above the ground: upright it stands,
+    // at 45 deg it does not.
     if (roll == 0) EXPECT_GT(stands.margin, 0.4);
     if (roll == 45) EXPECT_LT(stands.margin, 0);
   }
 }
 
-/// Two wheels of 0.1 m on a track of 0.4 m under a box of 40 kg, whose middle is 0.1 m ahead of
+/// Two wheels of 0.1 m, track width 0.4 m, under a box of 40 kg whose middle is 0.1 m ahead of
 /// their axle.
 scene::Machine two_wheels() {
   scene::Machine robot;
@@ -101,7 +101,7 @@ scene::Machine two_wheels() {
   return robot;
 }
 
-/// A ball of this radius on a link of its own [m].
+/// Adds a ball of this radius on a separate link [m].
 void add_castor(scene::Machine& robot, double radius, double x) {
   robot.links.push_back(
       testing::box_link("castor", make_pose(x, 0, radius), 1, Vec3::Zero(), Vec3::Constant(0.05)));
@@ -116,14 +116,14 @@ void add_castor(scene::Machine& robot, double radius, double x) {
   robot.joints.push_back(joint);
 }
 
-TEST(Stability, CountsABallAsAFootAndMakesNoneUp) {
+TEST(Stability, CountsABallAsASupportAndInventsNone) {
   const auto standing = [](const scene::Machine& robot, double pitch) {
     const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
     engine->add_machine(robot, make_pose(0, 0, 0.1, 0, pitch, 0));
     engine->step(1e-4, Below());
     return stability(robot, *engine, 0);
   };
-  // Two wheels span no area: it may balance, only its tilt counts.
+  // Two wheels span no area: it may balance, so only its tilt counts.
   const Stability balances = standing(two_wheels(), 0);
   EXPECT_TRUE(balances.free);
   EXPECT_EQ(balances.margin, 0);
@@ -139,15 +139,15 @@ TEST(Stability, CountsABallAsAFootAndMakesNoneUp) {
   scene::Machine wrong = two_wheels();
   add_castor(wrong, 0.05, -0.3);
   EXPECT_LT(standing(wrong, 0).margin, -0.05);
-  // One that is high above the ground is no foot.
+  // A ball high above the ground is no support.
   scene::Machine high = two_wheels();
   add_castor(high, 0.05, 0.3);
   high.links.back().collisions[0].X_LC = make_pose(0, 0, 0.2);
   EXPECT_EQ(standing(high, 0).margin, 0);
 }
 
-/// The shipped excavator with its arm over the side, on a plane that falls that way by `angle`
-/// [rad].
+/// The shipped excavator with its arm over the side, on a plane that falls in that direction by
+/// `angle` [rad].
 struct Lifting {
   explicit Lifting(double angle)
       : hill([t = std::tan(angle)](double, double y) { return -t * y; }),
@@ -170,7 +170,7 @@ TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
     const Stability before = rig.now();
     EXPECT_NEAR(before.tipping_heading, radians(90), radians(2));
     // Closed form: sum of m (edge - y) over all links, over the load's lever; on the slope all
-    // turned with it. The edge is the line of the left wheels' feet.
+    // rotated with it. The edge is the line of the left wheels' contacts.
     Vec3 centre = Vec3::Zero();
     double mass = 0;
     for (std::size_t i = 0; i < rig.machine.links.size(); ++i) {
@@ -196,12 +196,13 @@ TEST(Stability, ReportsTheLoadThatTipsItOnTheFlatAndOnASlope) {
     });
     print_value("tipping load [kg]", tipped, std::to_string(before.tipping_load) + " +-6 %",
                 "reported before");
-    // 6 %: it leans on its tyres by a degree before it goes, which is told as it leans, not before.
+    // 6 %: it leans on its tyres by a degree before it tips; the reported load is that of the
+    // present lean.
     EXPECT_NEAR(tipped, before.tipping_load, 0.06 * before.tipping_load);
   }
 }
 
-TEST(Stability, LoadedMarginCountsWhatHangsOnTheArm) {
+TEST(Stability, LoadedMarginIncludesTheLoadOnTheArm) {
   for (const double angle : {0.0, radians(6)}) {
     Lifting rig(angle);
     // Unloaded, the centre of pressure is below the centre of mass.
@@ -223,7 +224,7 @@ TEST(Stability, LoadedMarginCountsWhatHangsOnTheArm) {
   }
 }
 
-TEST(Stability, OfAMachineThatCannotTipSaysNothing) {
+TEST(Stability, IsUndefinedForAMachineThatCannotTip) {
   scene::Machine machine =
       scene_io::load_machine(navvy::source_dir() + "/vehicles/ew180/model.sdf");
   machine.kinematic = true;

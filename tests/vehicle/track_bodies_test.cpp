@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Crawlers that meet bodies: kerbs, walls, decks, loose stones.
+// Crawlers in contact with bodies: kerbs, walls, decks, loose stones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,12 +88,12 @@ TEST_P(TrackBodies, ACrawlerClimbsAKerb) {
   EXPECT_GT(x(*engine), 2.3 * reach());
   EXPECT_NEAR(height(*engine) - before, kerb, excavator ? 0.02 : 0.004);
   EXPECT_LT(tilt(*engine), radians(1));
-  // Over its edge it leans as its rollers stand on it, and is not thrown.
+  // Over the edge it leans with its rollers, and is not thrown.
   EXPECT_LT(most, radians(15));
 }
 
-TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndOnAcrossOne) {
-  // A beam that is shorter than the track: for a while both ends hang over it.
+TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndAcrossABeam) {
+  // A beam shorter than the track: for a while both ends overhang it.
   const double kerb = excavator ? 0.15 : 0.03, length = 0.4 * reach();
   auto engine = put(Pose::Identity());
   engine->add_machine(block(Vec3(length, 8, kerb)), make_pose(1.5 * reach(), 0, 0.5 * kerb));
@@ -109,8 +109,7 @@ TEST_P(TrackBodies, ACrawlerDrivesOffAKerbAndOnAcrossOne) {
 }
 
 TEST_P(TrackBodies, ACrawlerStopsAtAWall) {
-  // Tracks alone meet it: no link has a shape of its own. They grip less than lets the robot rear
-  // up.
+  // Only the tracks collide: no link has a shape. Their grip is too low for the robot to rear up.
   for (scene::Link& link : machine.links) link.collisions.clear();
   for (scene::Wheel& wheel : machine.wheels) wheel.friction = 0.4;
   auto engine = put(Pose::Identity());
@@ -129,9 +128,9 @@ TEST_P(TrackBodies, ACrawlerStopsAtAWall) {
   EXPECT_LT(most, radians(15));
 }
 
-TEST_P(TrackBodies, ACrawlerThatGripsMoreDoesNotPassAWallEither) {
-  // With friction m it pushes m / (1 + m^2) of its weight at the wall and lifts its nose by m times
-  // that: it rears up.
+TEST_P(TrackBodies, ACrawlerWithMoreGripDoesNotPassAWallEither) {
+  // With friction m it pushes m / (1 + m^2) of its weight at the wall and lifts its front by m
+  // times that: it rears up.
   for (scene::Link& link : machine.links) link.collisions.clear();
   for (scene::Wheel& wheel : machine.wheels) wheel.friction = 0.9;
   auto engine = put(Pose::Identity());
@@ -162,7 +161,7 @@ TEST_P(TrackBodies, ACrawlerStandsOnADeckAndDrivesOnIt) {
   EXPECT_NEAR(height(*engine), 0.5, excavator ? 0.02 : 0.006);
   EXPECT_LT(tilt(*engine), radians(1));
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 1e-3);
-  // The deck carries it as the ground does.
+  // The deck carries it like the ground.
   const auto on_ground = put(Pose::Identity());
   run(*on_ground, flat(), 3, kStep);
   EXPECT_NEAR(stability(machine, *engine, 0).loaded_margin,
@@ -181,7 +180,7 @@ TEST_P(TrackBodies, ACrawlerStandsOnADeckAndDrivesOnIt) {
   EXPECT_NEAR(height(*engine), 0.5, excavator ? 0.02 : 0.006);
 }
 
-TEST_P(TrackBodies, ACrawlerTurnsOnADeckAsOnAFloor) {
+TEST_P(TrackBodies, ACrawlerTurnsOnADeckLikeOnAFloor) {
   const auto turned = [&](bool deck) {
     auto engine = put(make_pose(0, 0, deck ? 0.5 : 0));
     if (deck) engine->add_machine(block(Vec3(40, 40, 0.5)), make_pose(0, 0, 0.25));
@@ -197,8 +196,8 @@ TEST_P(TrackBodies, ACrawlerTurnsOnADeckAsOnAFloor) {
   EXPECT_NEAR(deck, floor, 0.15 * floor);
 }
 
-TEST_P(TrackBodies, ATrackFeelsWhatLiesBetweenTwoRollers) {
-  // A bar across, narrower than the gap between two rollers, under the middle of one.
+TEST_P(TrackBodies, ATrackTouchesABodyBetweenTwoRollers) {
+  // A transverse bar narrower than the gap between two rollers, in the middle between them.
   const scene::Track& track = *machine.wheels[0].track;
   const double gap = track.rollers[0].x() - track.rollers[1].x(), bar = 0.3 * gap;
   auto engine = put(make_pose(0, 0, 2 * bar));
@@ -216,7 +215,7 @@ TEST_P(TrackBodies, ATrackFeelsWhatLiesBetweenTwoRollers) {
 }
 
 TEST_P(TrackBodies, TrackAndBodyConserveMomentum) {
-  // Without weight and ground: a crawler flies against a crate that flies free, its tracks running.
+  // Without weight and ground: a crawler flies against a free crate with its tracks running.
   for (scene::Link& link : machine.links) link.collisions.clear();
   const double size = 1.2 * reach(), mass = weight / kGravity;
   auto engine = put(make_pose(0, 0, 50), Vec3::Zero());
@@ -253,7 +252,7 @@ TEST_P(TrackBodies, ALightBodyThatATrackDrivesOntoIsNotThrown) {
   EXPECT_LT(highest, radians(10));
 }
 
-TEST_P(TrackBodies, ARunAcrossAKerbIsBitIdenticalResumedAndBesideAnother) {
+TEST_P(TrackBodies, ARunAcrossAKerbIsBitIdenticalResumedAndInParallel) {
   const auto build = [&] {
     auto engine = put(make_pose(0, 0, 0.1 * reach()));
     engine->add_machine(block(Vec3(6, 8, 0.1 * reach())), make_pose(0, 0, 0.05 * reach()));
@@ -269,7 +268,7 @@ TEST_P(TrackBodies, ARunAcrossAKerbIsBitIdenticalResumedAndBesideAnother) {
   load_saved(bytes, *resumed);
   EXPECT_EQ(digest(*resumed), digest(*whole));
   EXPECT_EQ(resumed->wheel(0, 0).force_W, whole->wheel(0, 0).force_W);
-  // One in a thread of its own, while the other goes on here.
+  // One in a separate thread, while the other continues here.
   auto other = std::async(std::launch::async, [&] {
     run(*resumed, flat(), 1, kStep);
     return digest(*resumed);

@@ -18,14 +18,14 @@ using testing::flat;
 using testing::run;
 
 constexpr double kStep = 1.0 / 600;
-// [m] behind the robot's axle, ahead of the trailer's
+// Distances behind the robot's axle and ahead of the trailer's [m].
 constexpr double kHitch = 0.4, kDrawbar = 0.6;
 
 scene::Machine train() {
   return scene_io::load_machine(navvy::source_dir() + "/vehicles/robot_with_trailer/model.sdf");
 }
 
-/// Middle of the trailer's axle on the ground.
+/// Returns the middle of the trailer's axle on the ground.
 Vec3 trailer(const PhysicsEngine& engine, const scene::Machine& machine) {
   return engine.link(0, machine.link_index("robot_trailer::chassis")).X_WL.translation();
 }
@@ -42,8 +42,8 @@ TEST(Trailer, StandsOnItsWheelsAndItsHitch) {
   EXPECT_LT((trailer(*engine, machine) - Vec3(-kHitch - kDrawbar, 0, 0)).norm(), 0.005);
 }
 
-TEST(Trailer, RunsOnTheCircleThatGeometrySays) {
-  // In a steady circle the trailer's axle points at the robot's centre of turning: R^2 + h^2 = r^2
+TEST(Trailer, FollowsTheCircleOfItsGeometry) {
+  // In a steady circle the trailer's axle points at the robot's centre of rotation: R^2 + h^2 = r^2
   // + l^2.
   const scene::Machine machine = train();
   for (const double yaw_rate : {0.4, -0.25}) {
@@ -56,7 +56,7 @@ TEST(Trailer, RunsOnTheCircleThatGeometrySays) {
     int samples = 0;
     run(*engine, flat(), circle, kStep, [&](double) {
       const LinkState base = engine->link(0, 0);
-      // By its own motion: centre of the circle on its left, at v / yaw rate.
+      // From its own motion: centre of the circle on its left, at v / yaw rate.
       const Vec3 centre =
           base.X_WL * Vec3(0, base.X_WL.linear().col(0).dot(base.v_WL) / base.w_WL.z(), 0);
       robots += (base.X_WL.translation() - centre).head<2>().norm();
@@ -71,8 +71,8 @@ TEST(Trailer, RunsOnTheCircleThatGeometrySays) {
   }
 }
 
-TEST(Trailer, IsPushedStraightOnlySoFar) {
-  // Backwards it jackknifes, and the hitch stops it: 75 deg.
+TEST(Trailer, JackknifesWhenReversing) {
+  // In reverse it jackknifes until the hitch stops it: 75 deg.
   const scene::Machine machine = train();
   const auto engine = make_bullet_engine(Vec3(0, 0, -kGravity));
   engine->add_machine(machine, Pose::Identity());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wheels that meet bodies: pipes, kerbs, walls, plates.
+// Wheels in contact with bodies: pipes, kerbs, walls, plates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ scene::Machine block(const Vec3& size, bool stands = true, double mass = 1000) {
   return body(geometry, mass, stands);
 }
 
-/// A pipe along its own z.
+/// Returns a pipe along its own z.
 scene::Machine pipe(double radius, double length, bool stands) {
   scene::Geometry geometry;
   geometry.kind = scene::Geometry::Kind::kCylinder;
@@ -52,7 +52,7 @@ double wheel_height(const PhysicsEngine& engine, int machine, int wheel) {
 }
 
 TEST(TyreBodies, APipeLiftsTheAxleByItsHeight) {
-  // The excavator is let down with its front axle on a pipe of 0.4 m, brakes held.
+  // The excavator is lowered with its front axle on a pipe of 0.4 m, with brakes held.
   const auto axle = [](bool on_pipe) {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(
@@ -62,12 +62,12 @@ TEST(TyreBodies, APipeLiftsTheAxleByItsHeight) {
     run(*engine, flat(), 4, kStep);
     return 0.5 * (wheel_height(*engine, 0, 0) + wheel_height(*engine, 0, 1));
   };
-  // 20 mm: half of what the tyres give way; a round top presses them in no deeper than ground, as
-  // the law knows depth and no area, and a raised nose shifts load to the rear.
+  // 20 mm: half of the tyres' deflection; a round top deflects them no more than ground, as the law
+  // uses depth and no area, and a raised front shifts load to the rear.
   EXPECT_NEAR(axle(true) - axle(false), 0.4, 0.02);
 }
 
-TEST(TyreBodies, DrivesOverAPipeAndIsNotLaunched) {
+TEST(TyreBodies, DrivesOverAPipeWithoutBeingLaunched) {
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(ew180(), Pose::Identity());
   engine->add_machine(pipe(0.06, 4, true), make_pose(4.5, 0, 0.06, kPi / 2));
@@ -78,7 +78,7 @@ TEST(TyreBodies, DrivesOverAPipeAndIsNotLaunched) {
     rear = std::max(rear, wheel_height(*engine, 0, 2));
     for (int w = 0; w < 4; ++w) fastest = std::max(fastest, std::abs(engine->wheel(0, w).v_W.z()));
   });
-  EXPECT_NEAR(front, 0.12 + 0.525, 0.06);  // a tyre gives way by some centimetres
+  EXPECT_NEAR(front, 0.12 + 0.525, 0.06);  // a tyre deflects by some centimetres
   EXPECT_NEAR(rear, 0.12 + 0.525, 0.06);
   EXPECT_LT(fastest, 1.0);
   EXPECT_GT(engine->link(0, 0).X_WL.translation().x(), 4.6);
@@ -97,7 +97,7 @@ TEST(TyreBodies, AWheelClimbsAKerb) {
 }
 
 TEST(TyreBodies, AWheelStopsAtAWall) {
-  // The cart has no shape of its own: its tyres alone meet the wall of 0.8 m.
+  // The cart has no shape of its own: only its tyres touch the wall of 0.8 m.
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(cart(), Pose::Identity());
   engine->add_machine(block(Vec3(2, 6, 0.8)), make_pose(5.5, 0, 0.4));
@@ -107,13 +107,13 @@ TEST(TyreBodies, AWheelStopsAtAWall) {
     farthest = std::max(farthest, engine->wheel(0, 0).X_WWheel.translation().x());
     highest = std::max(highest, wheel_height(*engine, 0, 0));
   });
-  // A radius before the wall, less what the tyre gives way under the blow and the thrust; the tread
-  // rubs up a little.
+  // A radius before the wall, minus the deflection of the tyre under impact and thrust; the tread
+  // climbs a little.
   EXPECT_NEAR(farthest, 4.5 - 0.525, 0.1);
   EXPECT_LT(highest, 0.525 + 0.3);
 }
 
-TEST(TyreBodies, AWheelOnAPlatePressesItAndNotTheGround) {
+TEST(TyreBodies, AWheelOnAPlateLoadsThePlateAndNotTheGround) {
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(cart(), make_pose(0, 0, 0.1));
   engine->add_machine(block(Vec3(8, 6, 0.1)), make_pose(1.4, 0, 0.05));
@@ -128,8 +128,8 @@ TEST(TyreBodies, AWheelOnAPlatePressesItAndNotTheGround) {
   EXPECT_TRUE(engine->accounts()->ground_impulse(0).isZero());
 }
 
-TEST(TyreBodies, TyreAndBodyKeepTheirMomentum) {
-  // Without weight and ground: a cart rolls against a crate that flies free.
+TEST(TyreBodies, TyreAndBodyConserveMomentum) {
+  // Without weight and ground: a cart rolls against a free crate.
   auto engine = make_bullet_engine(Vec3::Zero());
   engine->add_machine(cart(), make_pose(0, 0, 50));
   engine->add_machine(block(Vec3(1, 3, 1), false, 600), make_pose(4.2, 0, 50.5));
@@ -149,11 +149,11 @@ TEST(TyreBodies, ALightBodyIsPushedAsideAndNotThrown) {
   double fastest = 0;
   run(*engine, flat(), 4, kStep,
       [&](double) { fastest = std::max(fastest, engine->link(1, 0).v_WL.norm()); });
-  // Squeezed out at some times the machine's speed at most.
+  // Expelled at most at a few times the machine's speed.
   EXPECT_LT(fastest, 8.0);
 }
 
-TEST(TyreBodies, AResumedRunOnAPlateIsEqualBitIdentical) {
+TEST(TyreBodies, AResumedRunOnAPlateIsBitIdentical) {
   const auto build = [] {
     auto engine = make_bullet_engine(kDown);
     engine->add_machine(cart(), make_pose(0, 0, 0.1));

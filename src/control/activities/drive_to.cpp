@@ -18,14 +18,15 @@ struct Memory {
   double speed = 0;     // commanded [m/s], without its sign
   double heading = 0;   // of the line that is followed [rad]
   double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
-  double way = 0;       // to the target at the start [m]
+  /// Distance to the target at the start [m].
+  double start_distance = 0;
   ProgressMonitor progress;
 
   void visit(Archive& a) {
     a("speed", speed);
     a("heading", heading);
     a("standing", standing);
-    a("way", way);
+    a("start_distance", start_distance);
     progress.visit(a);
   }
 };
@@ -39,7 +40,7 @@ class Driving final : public ActivityWith<Memory> {
     const PlanePose at = plane_pose(seen.X_WB);
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
     // The time limit depends on the whole distance, not on what is left.
-    m.way = (step_.target - at.p).norm();
+    m.start_distance = (step_.target - at.p).norm();
     m.progress.begin(at);
   }
 
@@ -49,7 +50,7 @@ class Driving final : public ActivityWith<Memory> {
     Pursuit pursuit = Pursuit::of(step_, place_.machine.drive, at);
     // Without a heading, the line is the one seen at the start, not from here.
     pursuit.heading = m.heading;
-    const double limit = 30 + 3 * m.way / std::max(0.05, std::abs(step_.speed));
+    const double limit = 30 + 3 * m.start_distance / std::max(0.05, std::abs(step_.speed));
     const bool late = phase_time() > limit;
     if (pursuit.left(at) < kStopShort || m.standing > 0 || late) {
       // Brake, and stand for a moment before the next step; `standing` stays positive once it
@@ -58,20 +59,21 @@ class Driving final : public ActivityWith<Memory> {
       m.standing =
           seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
       if (m.standing < kStandTime && phase_time() < limit + 10) return false;
-      const double miss = (step_.target - at.p).norm();
+      const double distance = (step_.target - at.p).norm();
       if (late)
         return fall_short(StepState::kOutOfTime, "not there after " +
                                                      number_text(phase_time(), "s") + ", " +
-                                                     metres(miss) + " from the target");
-      if (miss > step_.tolerance)
-        return fall_short(StepState::kOutOfReach, "it stands " + metres(miss) +
+                                                     metres(distance) + " from the target");
+      if (distance > step_.tolerance)
+        return fall_short(StepState::kOutOfReach, "it stands " + metres(distance) +
                                                       " from the target; allowed are " +
                                                       metres(step_.tolerance));
       return true;
     }
     std::string held;
-    const double way = (step_.target - at.p).norm();
-    const StepState progress = m.progress.look(seen, place_.machine, step_.speed, way, dt, held);
+    const double distance = (step_.target - at.p).norm();
+    const StepState progress =
+        m.progress.look(seen, place_.machine, step_.speed, distance, dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
     // Accelerate along the ramp, decelerate along the curve that stops at the target.
     m.speed = std::min(
@@ -108,12 +110,12 @@ void DriveTo::check_reach(ReachCheck& check) const {
   // reach.
   const PlanePose end = Pursuit::of(*this, drive, start)
                             .end_from(start, vehicle::equivalent_bicycle(drive).steer_rate);
-  const double miss = (end.p - target).norm();
-  if (miss > tolerance)
+  const double distance = (end.p - target).norm();
+  if (distance > tolerance)
     check.fault("drive_to", place_text(target),
                 "steering as far as it can the machine ends at " + place_text(end.p) + ", " +
-                    metres(miss) + " from the target; allowed are " + metres(tolerance),
-                "give it a longer way to turn in, or approach in two drives");
+                    metres(distance) + " from the target; allowed are " + metres(tolerance),
+                "give it a longer distance to turn in, or approach in two drives");
 }
 
 std::optional<Pose> DriveTo::station(const scene::Machine& machine, const Pose& X_WB,

@@ -105,7 +105,7 @@ class Going final : public ActivityWith<Memory> {
     const double aside = (at.p - from.p).norm(),
                  turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
     if (!path_is_clear(0))
-      place_.note("the ground on its way has changed since its program began: it plans anew");
+      place_.note("the ground on its path has changed since its program began: planning again");
     else if (aside > kElsewhere || turned > kElsewhereTurn)
       place_.note("it stands " + metres(aside) + " from where it was to begin: it plans anew");
     else
@@ -118,7 +118,7 @@ class Going final : public ActivityWith<Memory> {
             {"cusps", static_cast<double>(m.cusps)},
             {"driven_m", m.driven + m.s},
             {"path_m", m.path.length()},
-            {"goal_error_m", miss(at)},
+            {"goal_error_m", goal_distance(at)},
             {"goal_error_deg", degrees(turn_error(at))},
             {"least_clearance_m", m.clearance}};
   }
@@ -146,12 +146,12 @@ class Going final : public ActivityWith<Memory> {
   }
 
   // Goal.
-  double miss(const PlanePose& at) const { return (at.p - step_.target).norm(); }
+  double goal_distance(const PlanePose& at) const { return (at.p - step_.target).norm(); }
   double turn_error(const PlanePose& at) const {
     return std::abs(std::remainder(at.yaw - step_.heading, 2 * kPi));
   }
   bool arrived(const PlanePose& at) const {
-    return miss(at) <= step_.tolerance && turn_error(at) <= step_.turn_tolerance;
+    return goal_distance(at) <= step_.tolerance && turn_error(at) <= step_.turn_tolerance;
   }
 
   // Ground.
@@ -170,7 +170,7 @@ class Going final : public ActivityWith<Memory> {
     look(seen);
     if (m.plans >= kMostPlans)
       return fall_short(StepState::kOutOfTime, "not there after " + std::to_string(kMostPlans) +
-                                                   " plans, " + metres(miss(at)) +
+                                                   " plans, " + metres(goal_distance(at)) +
                                                    " from the target");
     const std::optional<Path> path =
         place_.planner->plan(step_.query(at, static_cast<int>(m.plans + m.failed)));
@@ -244,7 +244,7 @@ class Going final : public ActivityWith<Memory> {
     if (m.unseen >= kLook) {
       look(seen);
       if (!path_is_clear(m.s)) {
-        place_.note("the ground on its way has changed: it plans anew");
+        place_.note("the ground on its path has changed: planning again");
         stop(Then::kPlanAnew);
         return false;
       }
@@ -256,7 +256,7 @@ class Going final : public ActivityWith<Memory> {
     }
     std::string held;
     const StepState progress =
-        m.progress.look(seen, place_.machine, step_.speed, miss(at), dt, held);
+        m.progress.look(seen, place_.machine, step_.speed, goal_distance(at), dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
     if (phase_time() > 30 + 3 * (leg().end - leg().begin) / step_.speed)
       return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) +
@@ -291,11 +291,11 @@ class Going final : public ActivityWith<Memory> {
     enter(kPlan);
     if (anew || arrived(at)) return !anew;
     if (++m.corrections > kMostCorrections)
-      return fall_short(StepState::kOutOfReach, "it stands " + metres(miss(at)) + " and " +
+      return fall_short(StepState::kOutOfReach, "it stands " + metres(goal_distance(at)) + " and " +
                                                     number_text(degrees(turn_error(at)), "deg") +
                                                     " from the goal after " +
                                                     std::to_string(m.plans) + " plans");
-    place_.note("it stands " + metres(miss(at)) + " and " +
+    place_.note("it stands " + metres(goal_distance(at)) + " and " +
                 number_text(degrees(turn_error(at)), "deg") + " from the goal: it plans anew");
     return false;
   }

@@ -18,11 +18,12 @@ constexpr double kSlowRate = radians(1);  // [rad/s] slowest bed that is still w
 
 struct Memory {
   double standing = 0;  // [s] since the bed has arrived; 0 before
-  double way = 0;       // to turn at the start [rad]
+  /// Rotation to perform, at the start [rad].
+  double start_rotation = 0;
 
   void visit(Archive& a) {
     a("standing", standing);
-    a("way", way);
+    a("start_rotation", start_rotation);
   }
 };
 
@@ -37,7 +38,7 @@ class Tipping final : public ActivityWith<Memory> {
 
   void begin(const Observation& seen) override {
     // The time limit grows with the angle: a ram is slow, and slower under load.
-    m.way = std::abs(step_.angle - seen.joints[joint_].position);
+    m.start_rotation = std::abs(step_.angle - seen.joints[joint_].position);
     tell(CycleEvent::kTipStart);
   }
 
@@ -46,7 +47,7 @@ class Tipping final : public ActivityWith<Memory> {
     const vehicle::JointState& bed = seen.joints[joint_];
     // Commanded in every step, because an input may have moved the bed in between.
     out.joints[joint_] = vehicle::JointInput{vehicle::JointMode::kPosition, step_.angle};
-    const bool late = phase_time() > std::min(kTipPatience, 10 + m.way / kSlowRate);
+    const bool late = phase_time() > std::min(kTipPatience, 10 + m.start_rotation / kSlowRate);
     const double rest = std::abs(step_.angle - bed.position);
     // `standing` stays positive once the bed has arrived.
     if (m.standing > 0 || rest < kArrived) m.standing += dt;

@@ -73,10 +73,10 @@ TerrainReport import_terrain(const scene::Scene& world, Ground::Setup& setup, do
   float least = 0, most = 0;
   if (static_cast<double>(cells_under(map, corner, size)) > held) {
     const auto raster = read_windows(map, corner, size, side);
-    const WindowedRaster::Summary told = raster->summary(report.repose);
-    least = told.least, most = told.most;
-    report.slope = told.slope;
-    setup.map_hash = told.hash;
+    const WindowedRaster::Summary summary = raster->summary(report.repose);
+    least = summary.least, most = summary.most;
+    report.slope = summary.slope;
+    setup.map_hash = summary.hash;
     setup.surface = surface_of(raster);
   } else {
     const auto raster = std::make_shared<HeightRaster>(read_heights(map, corner, size));

@@ -122,8 +122,8 @@ void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
   const int blocks_x = x1 / map.block_x - x0 / map.block_x + 1,
             blocks_y = y1 / map.block_y - y0 / map.block_y + 2;
   const double across = blocks_x, down = blocks_y;
-  const bool kept = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
-  const double decoded = across * (kept ? down : y1 - y0 + 1.0) * map.block_bytes;
+  const bool cached = across * map.block_bytes <= static_cast<double>(GDALGetCacheMax64());
+  const double decoded = across * (cached ? down : y1 - y0 + 1.0) * map.block_bytes;
   if (decoded > limits::kMapDecodedBytes)
     map.fail("", number_text(decoded) + " bytes",
              "more than " + number_text(limits::kMapDecodedBytes) +
@@ -133,8 +133,10 @@ void check_blocks(const MapFile& map, int x0, int x1, int y0, int y1) {
 
 /// The cells of a file that are read, and their conversion to our order.
 struct Cut {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< of the map's cells in our order, the last ones inclusive
-  int columns = 0, rows = 0;           ///< of the whole file
+  /// Cells of the map in Navvy's order, the last ones inclusive.
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  /// Size of the whole file.
+  int columns = 0, rows = 0;
   bool columns_fall = false, rows_fall = true;
 };
 

@@ -29,10 +29,9 @@ using Space = ob::ReedsSheppStateSpace;
 
 // Distance between checked poses [m].
 constexpr double kStep = 0.15;
-// The next four are tuned: PathPlanner.GoesRoundATrenchAndTurnsInANarrowPlace. A pair of trees that
-// has not met within its iterations is replaced by a new one, because growth costs more the larger
-// the trees are.
-// Largest growth of a tree at a time [m].
+// The next four are tuned: PathPlanner.GoesAroundATrenchAndTurnsInANarrowPlace. A pair of trees
+// that has not met within its iterations is replaced by a new one, because growth costs more the
+// larger the trees are. Largest growth of a tree at a time [m].
 constexpr double kRange = 6;
 // Largest number of pairs of trees.
 constexpr int kTrees = 16;
@@ -125,15 +124,15 @@ class Search {
         trees.solve(static_cast<ob::PlannerTerminationCondition>(enough));
     left -= std::max(1, static_cast<int>(enough.getTimesCalled()));
     if (status != ob::PlannerStatus::EXACT_SOLUTION) return std::nullopt;
-    og::PathGeometric way = *definition->getSolutionPath()->as<og::PathGeometric>();
+    og::PathGeometric solution = *definition->getSolutionPath()->as<og::PathGeometric>();
     og::PathSimplifier shorter(info_);
-    shorter.reduceVertices(way, kShortenings, kShortenings);
-    shorter.shortcutPath(way, kShortenings, kShortenings);
-    shorter.reduceVertices(way, kShortenings, kShortenings);
+    shorter.reduceVertices(solution, kShortenings, kShortenings);
+    shorter.shortcutPath(solution, kShortenings, kShortenings);
+    shorter.reduceVertices(solution, kShortenings, kShortenings);
     std::vector<PathPiece> pieces;
-    for (std::size_t i = 0; i + 1 < way.getStateCount(); ++i)
-      append(*space_, problem_.radius, way.getState(static_cast<unsigned>(i)),
-             way.getState(static_cast<unsigned>(i + 1)), pieces);
+    for (std::size_t i = 0; i + 1 < solution.getStateCount(); ++i)
+      append(*space_, problem_.radius, solution.getState(static_cast<unsigned>(i)),
+             solution.getState(static_cast<unsigned>(i + 1)), pieces);
     return Path(problem_.start, std::move(pieces));
   }
 

@@ -29,7 +29,7 @@ namespace {
 // Moving bodies collide with the ground, with fixed bodies and with each other; fixed bodies with
 // nothing else.
 constexpr int kGroundGroup = 1, kMachineGroup = 2, kStandingGroup = 4;
-constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueIsTheAnalyticOne
+constexpr int kIterations = 60;     // tuned: BulletEngine.HoldTorqueMatchesTheClosedForm
 constexpr double kResidual = 1e-8;  // [(N s)^2] the solver may stop early below
 // Links with shapes of all machines together; 130 bytes each.
 constexpr int kMostShapes = 16384;

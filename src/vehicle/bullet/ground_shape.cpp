@@ -83,19 +83,19 @@ Vec3 GroundShape::outward(const Vec3& p_W, const Vec3& normal_W) const {
   // The neighbour across the nearest side, and its direction, seen from the lower triangle.
   const double across = (1 - u - v) / std::sqrt(2.0);
   Vec3 neighbour;
-  Vec2 way;
+  Vec2 away;
   if (across <= u && across <= v) {
-    neighbour = steepness(ix, iy, !lower), way = Vec2(1, 1);
+    neighbour = steepness(ix, iy, !lower), away = Vec2(1, 1);
   } else if (u < v) {
-    neighbour = steepness(ix + (lower ? -1 : 1), iy, !lower), way = Vec2(-1, 0);
+    neighbour = steepness(ix + (lower ? -1 : 1), iy, !lower), away = Vec2(-1, 0);
   } else {
-    neighbour = steepness(ix, iy + (lower ? -1 : 1), !lower), way = Vec2(0, -1);
+    neighbour = steepness(ix, iy + (lower ? -1 : 1), !lower), away = Vec2(0, -1);
   }
-  if (!lower) way = -way;
+  if (!lower) away = -away;
   const Vec3 here = steepness(ix, iy, lower);
   const Vec3 n = here.normalized();
   // A neighbour that slopes away makes a ridge; one that rises leaves no other direction.
-  if (!((neighbour - here).head<2>().dot(way) > 1e-9)) return n;
+  if (!((neighbour - here).head<2>().dot(away) > 1e-9)) return n;
   const Vec3 ridge = n.cross(neighbour.normalized()).normalized();
   const double most = std::acos(std::clamp(n.dot(neighbour.normalized()), -1.0, 1.0));
   const double angle =

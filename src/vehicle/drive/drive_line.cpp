@@ -116,19 +116,19 @@ double DriveLine::engine_torque(Group& group, const DriveInput& input, const Dri
   const double most = std::min(powertrain_.max_speed, engine_->fastest(input.gear) * wheels.radius);
   const double goal = std::clamp(input.speed, -most, most);
   // The reverser follows the command, or the present rolling direction at a commanded speed of 0.
-  const double way = std::copysign(1.0, goal != 0 ? goal : wheels.spin),
-               carrier = way * wheels.spin;
+  const double sense = std::copysign(1.0, goal != 0 ? goal : wheels.spin),
+               carrier = sense * wheels.spin;
   const double asked = group.governor.ask(goal, wheels, dt);
-  engine_->shift(input.gear, carrier, way * asked * wheels.radius, dt);
+  engine_->shift(input.gear, carrier, sense * asked * wheels.radius, dt);
   const GearedEngine::Bounds most_torque = engine_->bounds(carrier, pump_power);
   if (engine_->about().kind == scene::CombustionEngine::Kind::kSpeedSource) {
     held_ = HeldCarrier{group.governor.asked() / wheels.radius, most_torque.high};
     return 0;
   }
   double low = most_torque.low / wheels.radius, high = most_torque.high / wheels.radius;
-  if (way < 0) low = -std::exchange(high, -low);
+  if (sense < 0) low = -std::exchange(high, -low);
   const double torque = group.governor.give(asked, low, high, wheels, dt) * wheels.radius;
-  state_ = engine_->state(carrier, way * torque, pump_power);
+  state_ = engine_->state(carrier, sense * torque, pump_power);
   return torque / wheels.count;
 }
 

@@ -8,7 +8,7 @@ namespace navvy::vehicle {
 namespace {
 
 constexpr double kRamp = 1.5;          // [m/s2] travel pedal to speed (U)
-constexpr double kSpeedTime = 0.3;     // [s] for wheels. tuned: BulletDrive.KeepsTheAskedSpeed
+constexpr double kSpeedTime = 0.3;     // [s] for wheels. tuned: BulletDrive.KeepsTheCommandedSpeed
 constexpr double kIntegralTime = 1.0;  // [s] for wheels, and proportional for others. tuned: same
 
 /// Returns the gain [N] per [m/s] of error. It suits the whole machine and is stable for wheels

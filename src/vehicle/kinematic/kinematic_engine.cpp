@@ -242,7 +242,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
   /// Returns the motion of this step: by the drive, or by the spin and steering of its wheels where
   /// joint commands have taken any over. Turns the wheels that the drive moves.
   static Roll move_wheels(Body& body, double dt) {
-    const Roll told = body.line->roll(body.drive);
+    const Roll commanded = body.line->roll(body.drive);
     std::vector<WheelMotion> motion(body.machine.wheels.size());
     bool any_taken = false;
     for (std::size_t w = 0; w < motion.size(); ++w) {
@@ -251,7 +251,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
                 turn = body.machine.joint_index(wheel.steer_joint);
       if (spin >= 0) {
         if (body.taken[index(spin)] == 0 && body.wheels[w].driven)
-          turn_wheel(body, w, spin, told, dt);
+          turn_wheel(body, w, spin, commanded, dt);
         any_taken |= body.taken[index(spin)] != 0 && body.wheels[w].driven;
         motion[w].spin = body.qd[index(spin)];
       }
@@ -263,7 +263,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
       any_taken |= body.taken[index(turn)] != 0;
       motion[w].steer = body.q[index(turn)];
     }
-    const Roll roll = any_taken ? body.line->rolled(motion) : told;
+    const Roll roll = any_taken ? body.line->rolled(motion) : commanded;
     // The other wheels roll along.
     for (std::size_t w = 0; w < motion.size(); ++w) {
       const int spin = body.machine.joint_index(body.machine.wheels[w].joint);

@@ -19,10 +19,10 @@ constexpr double kFriction = 0.5;
 
 struct Body {
   double mass = 1;       // [kg]
-  double clearance = 0;  // of the base's origin above its lowest point [m]
+  double clearance = 0;  // height of the base's origin above its lowest point [m]
   Pose X_WB = Pose::Identity();
   Vec3 v_W = Vec3::Zero();
-  Vec3 force_W = Vec3::Zero();  // of the next step [N]
+  Vec3 force_W = Vec3::Zero();  // force in the next step [N]
   DriveInput drive;
 
   void visit(Archive& a) {
@@ -55,7 +55,7 @@ class ParticleEngine final : public vehicle::PhysicsEngine {
   }
   int machine_count() const override { return static_cast<int>(bodies_.size()); }
 
-  // There is nothing to command but a drive, which moves no body of one link.
+  // Only a drive can be commanded, which does not move a body of one link.
   void set_joint(int, int, const vehicle::JointInput&) override {}
   void set_drive(int machine, const DriveInput& input) override { at(machine).drive = input; }
   void set_brake(int, int, bool) override {}

@@ -29,7 +29,7 @@ scene::Scene falling_cube() {
   return scene;
 }
 
-TEST(WorldWithAnEngineOfItsOwn, LetsTheCubeFallOntoTheGround) {
+TEST(WorldWithCustomEngine, LetsTheCubeFallOntoTheGround) {
   device::Device device;
   sim::World world(falling_cube(), device, example::make_particle_engine);
   const sim::LinkHandle cube = world.machines().at("cube").link(0);

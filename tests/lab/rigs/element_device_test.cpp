@@ -24,7 +24,7 @@ TEST(LabTriaxial, CompressionAndExtensionMobiliseAnAngleBelowOrAboveThePlaneOne)
   // The mean over the middle of a cube of 8 cells is 0.3 to 0.4 deg above the law itself, which
   // tests of the law check to a hundredth; for 6 cells 0.8. A circular cone matched at phi 35 in
   // plane strain has 25.2 and 36.5 deg; the surface of Matsuoka and Nakai 31.2 in both. Any law
-  // between them mobilises no less and no more.
+  // between them mobilises an angle between these.
   EXPECT_GT(compression, 24.5);
   EXPECT_LT(compression, 31.8);
   EXPECT_GT(extension, 30.6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The soil's energy account [docs/soil.md, energy]: it balances, and it changes no bit of the run.
+// The soil's energy account [docs/soil.md, energy] balances and does not affect results.
 #include <gtest/gtest.h>
 
 #include "lab/run_rig.h"
@@ -11,7 +11,7 @@ Report with_energy(const std::string& rig, const std::map<std::string, double>& 
   return run_rig(rig, geometry, [](Setup& setup) { setup.energy = true; });
 }
 
-TEST(LabEnergy, OfABladeIsWhatWasSuppliedAndChangesNoBit) {
+TEST(LabEnergy, OfABladeBalancesAndResultsAreBitIdentical) {
   const Report report = with_energy("blade", {});
   ASSERT_TRUE(report.energy);
   const soil::EnergyAccount& energy = *report.energy;
@@ -31,13 +31,13 @@ TEST(LabEnergy, OfABladeIsWhatWasSuppliedAndChangesNoBit) {
   EXPECT_FALSE(run_rig("blade", {}).energy);
 }
 
-TEST(LabEnergy, OfAFallingBodyIsTakenUpByTheSoilThatItStrikes) {
+TEST(LabEnergy, OfAFallingBodyIsAbsorbedByTheSoil) {
   const Report report = with_energy("light-tool", {});
   ASSERT_TRUE(report.energy);
   const soil::EnergyAccount& energy = *report.energy;
   EXPECT_NEAR(energy.residual(), 0, 0.02 * energy.supplied());
   EXPECT_LT(energy.kinetic, 0.001 * energy.supplied()) << "at rest at the end";
-  EXPECT_GT(energy.tools, 0) << "it gave, and soil gave it nothing back";
+  EXPECT_GT(energy.tools, 0) << "the body only loses energy to the soil";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small versions of the granular rigs, seconds each. The tolerances are the rigs' own. Where a
-// small version is outside its tolerance the test says so, checks what holds, and
-// docs/validation.md lists the deviation.
+// Short versions of the granular rigs, seconds each. The tolerances are the rigs' own. If a short
+// version is outside its tolerance, the test says so and checks what holds, and docs/validation.md
+// lists the deviation.
 #include "core/error.h"
 #include "core/math.h"
 #include "lab/run_rig.h"
@@ -10,7 +10,7 @@
 namespace navvy::lab {
 namespace {
 
-TEST(LabColumn, PlaneRunOutIsInTheBandAndAHardFloorOutsideIt) {
+TEST(LabColumn, PlaneRunOutIsWithinToleranceAndThatOfRigidSandIsNot) {
   // 30 cells, as the tolerance requires.
   const Report report = run_rig("column", {});
   EXPECT_EQ(misses(report), "");
@@ -20,7 +20,7 @@ TEST(LabColumn, PlaneRunOutIsInTheBandAndAHardFloorOutsideIt) {
   const Report control =
       run_rig("column", {{"l0", 0.5}}, [](lab::Setup& s) { s.soil.friction_angle = radians(59); });
   EXPECT_LT(measured(control, "run-out over L0"), 1.2);
-  // The tolerance does not apply to it, as it is for other sand and more cells.
+  // The tolerance does not apply to the control, which has other sand and fewer cells.
   EXPECT_EQ(misses(control), "");
   EXPECT_FALSE(control.find("run-out over L0")->judged());
 }
@@ -39,7 +39,7 @@ TEST(LabCone, GentleHeapStandsAndSteepOneSlides) {
   EXPECT_EQ(misses(report), "");
 }
 
-TEST(LabPour, GentleHeapTakesItsAngleOfRepose) {
+TEST(LabPour, GentleHeapAssumesItsAngleOfRepose) {
   // Half the base and little rest: outside the validity of the tolerance, inside its range for the
   // angle.
   const Report report = run_rig("pour", {{"base", 0.8}, {"rest", 1}});
@@ -81,13 +81,13 @@ TEST(LabSwell, TippedLoadLeavesTheBucketAndRests) {
   EXPECT_EQ(report.ledger_error, 0);
 }
 
-TEST(LabRigs, RepeatBitForBit) {
+TEST(LabRigs, RepeatBitIdentically) {
   const auto change = [](lab::Setup& s) { s.soil.friction_angle = radians(34); };
   const std::map<std::string, double> small = {{"width", 1.2}, {"depth", 0.4}, {"time", 0.1}};
   EXPECT_EQ(run_rig("rest", small, change).state_hash, run_rig("rest", small, change).state_hash);
 }
 
-TEST(LabRigs, SayWhatTheyMeasureAndRefuseNonsense) {
+TEST(LabRigs, DescribeTheirMeasurementsAndRefuseInvalidSetups) {
   for (const Rig& rig : rigs()) {
     EXPECT_FALSE(rig.summary.empty()) << rig.name;
     EXPECT_FALSE(rig.drawing.empty()) << rig.name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures of a pile, on piles of known volume and slope.
+// Measurements of a pile, on piles of known volume and slope.
 #include "lab/rigs/heap.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(HeapSurface, OfABlockIsAQuarterCellAboveItsGrains) {
   std::printf("[ VALUE    ] bias of the surface over shaken grains: %.3f cells\n",
               (shaken - 0.6) / kCell);
   EXPECT_NEAR(shaken, 0.6, 0.05 * kCell);
-  // Particles anywhere, without order.
+  // Randomly placed particles.
   Random random(5);
   std::vector<Vec3> strewn;
   strewn.reserve(8 * 600);
@@ -85,7 +85,7 @@ TEST(HeapSurface, FlankOfAHeapHasItsAngle) {
   EXPECT_NEAR(round.volume(), exact, 0.05 * exact);
 }
 
-TEST(Percentile, IsTheValueBelowWhichTheShareLies) {
+TEST(Percentile, IsTheValueWithTheGivenShareBelow) {
   EXPECT_EQ(percentile({5, 1, 3, 2, 4}, 0.5), 3);
   EXPECT_EQ(percentile({5, 1, 3, 2, 4}, 1), 5);
   EXPECT_TRUE(std::isnan(percentile({}, 0.5)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small versions of the tool rigs; the full sizes and half cells run in
+// Short versions of the tool rigs; the full sizes and half cells run in
 // tests/validation/lab_tools_test.cpp.
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace navvy::lab {
 namespace {
 
-TEST(LabBlade, SmoothWideBladeFeelsThePassivePressure) {
+TEST(LabBlade, SmoothWideBladeMeetsThePassivePressure) {
   const Report report = run_rig("blade", {});
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(measured(report, "particles through the blade"), 0);
@@ -17,7 +17,7 @@ TEST(LabBlade, SmoothWideBladeFeelsThePassivePressure) {
   EXPECT_EQ(report.ledger_error, 0);
 }
 
-TEST(LabBlade, FeelsTheSameAtHalfTheStep) {
+TEST(LabBlade, ForceDoesNotDependOnTheStep) {
   // Transfers last a fixed time [docs/soil.md, transfer]; with one in every step it is 7.7 %.
   const auto force = [](double courant) {
     return measured(run_rig("blade", {{"courant", courant}, {"tolerance-percent", 0}}),
@@ -27,8 +27,8 @@ TEST(LabBlade, FeelsTheSameAtHalfTheStep) {
 }
 
 TEST(LabBlade, CohesionAddsItsPart) {
-  // Farther than sand needs: at 500 times the cohesion E is soft, and the force still rises at 0.07
-  // m.
+  // A longer travel than sand needs: at 500 times the cohesion E is soft, and the force still rises
+  // at 0.07 m.
   const Report report = run_rig("blade", {{"from", 0.05}, {"travel", 0.12}}, [](lab::Setup& s) {
     s.soil.cohesion = s.soil.residual_cohesion = 2000;
   });
@@ -44,7 +44,7 @@ TEST(LabBlade, FlatterBladeNeedsLessForce) {
   EXPECT_LT(measured(run_rig("blade", flat), "horizontal force"), 0.9 * upright);
 }
 
-TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
+TEST(LabBlade, RoughBladeMeetsTheWedgeUnderItsPile) {
   const Report report = run_rig("blade",
                                 {{"rake-deg", 60},
                                  {"depth", 0.15},
@@ -68,7 +68,7 @@ TEST(LabBlade, RoughBladeFeelsTheWedgeUnderItsPile) {
   EXPECT_EQ(report.ledger_error, 0);
 }
 
-TEST(LabBlade, RoughUprightBladeIsHeldAgainstItsBoundsNotAgainstTheWedge) {
+TEST(LabBlade, RoughUprightBladeIsComparedWithItsBoundsNotWithTheWedge) {
   const Report report = run_rig("blade", {}, [](lab::Setup& s) {
     s.soil.tool_friction_angle = radians(20);
     s.soil.young_modulus = 4e6;
@@ -86,7 +86,7 @@ TEST(LabBlade, RoughUprightBladeIsHeldAgainstItsBoundsNotAgainstTheWedge) {
   EXPECT_NEAR(force->measured / force->expected, 1, 0.2);
 }
 
-TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
+TEST(LabBlade, SofteningSoilIsNotComparedWithIntactCohesion) {
   const Report report = run_rig("blade", {{"travel", 0.04}}, [](lab::Setup& s) {
     s.soil.cohesion = 4000;
     s.soil.residual_cohesion = 500;
@@ -102,14 +102,14 @@ TEST(LabBlade, SoilThatSoftensIsHeldAgainstNoIntactCohesion) {
   EXPECT_FALSE(report.find("horizontal force, were the soil intact")->has_tolerance());
 }
 
-/// Returns the series of travel; empty when there is none.
+/// Returns the series of travel; empty if there is none.
 std::vector<double> travel_of(const Report& report) {
   for (const Series& series : report.series)
     if (series.name == "travel") return series.values;
   return {};
 }
 
-TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
+TEST(LabBlade, ReachesItsSpeedOverTheRampAndItsEnd) {
   const auto travel = [](double ramp) {
     return travel_of(run_rig("blade", {{"ramp", ramp}, {"travel", 0.04}}));
   };
@@ -125,8 +125,8 @@ TEST(LabBlade, ComesUpToSpeedOverItsRampAndEndsWhereItShould) {
   EXPECT_NEAR(ramped[half] / ramped[half / 2], 4, 0.5);
 }
 
-TEST(LabWall, ActiveWallIsSlowAndNotJudgedWhenItIsNot) {
-  // A small wall, for the report's statements and not for its force.
+TEST(LabWall, ActiveWallIsSlowAndOtherwiseNotJudged) {
+  // A small wall, to check the report's statements and not its force.
   const std::map<std::string, double> small = {
       {"height", 0.4}, {"travel", -0.03}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
@@ -149,31 +149,32 @@ TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
   small["hold"] = 0.3;
   const Report report = run_rig("wall", small, coarse);
   ASSERT_NE(report.find(kept), nullptr);
-  // It stands; the soil loses some, but not all, of the force that moved it.
-  const std::vector<double> way = travel_of(report);
-  ASSERT_FALSE(way.empty());
-  EXPECT_NEAR(way.back(), 0.04, 1e-6);
+  // It stops; the soil loses some, but not all, of the force that moved it.
+  const std::vector<double> travel = travel_of(report);
+  ASSERT_FALSE(travel.empty());
+  EXPECT_NEAR(travel.back(), 0.04, 1e-6);
   EXPECT_GT(report.find(kept)->measured, 0.3);
   EXPECT_LT(report.find(kept)->measured, 0.97);
   EXPECT_GT(report.simulated_time, 0.05 + 0.04 / 0.1 + 0.3);
 }
 
 TEST(LabFooting, CarriesFourTimesTheCohesionAtHalfTheCellsOfTheTolerance) {
-  // Ten cells of breadth give 0.85 of Prandtl's 5.14, twenty 0.96, which the tolerance requires.
-  // With a transfer in every step ten gave more: the viscosity of transfers carried the rest.
+  // Ten cells of breadth give 0.85 of Prandtl's 5.14, and twenty give 0.96, which the tolerance
+  // requires. With a transfer in every step ten cells gave more: the viscosity of transfers carried
+  // the rest.
   const Report report = run_rig("footing", {}, [](lab::Setup& s) { s.cell = 0.1; });
   EXPECT_NEAR(measured(report, "Nc = pressure / c"), 4.36, 0.05 * 4.36);
   EXPECT_EQ(measured(report, "particles through the shell"), 0);
   EXPECT_EQ(report.ledger_error, 0);
 }
 
-TEST(LabHold, WeightOfTheLoadIsFeltWithinOnePercent) {
+TEST(LabHold, WeightOfTheLoadIsMeasuredWithinOnePercent) {
   const Report report = run_rig("hold", {{"time", 2}});
   EXPECT_EQ(misses(report), "");
   EXPECT_EQ(measured(report, "particles through the shell"), 0);
 }
 
-TEST(LabHold, ShellOfHalfTheLoadHangsStill) {
+TEST(LabHold, ShellOfHalfTheLoadHangsAtRest) {
   for (const double share : {1.0, 0.5}) {
     const Report report =
         run_rig("hold", {{"time", 2}, {"mass", 1400}, {"shell-mass", 700}, {"step-share", share}});
@@ -187,7 +188,7 @@ TEST(LabLightTool, GainsNoEnergy) {
   EXPECT_LT(measured(report, "momentum residual"), 1e-5);
 }
 
-TEST(LabScrape, NeitherJamsNorThrows) {
+TEST(LabScrape, NeitherJamsNorThrowsSoil) {
   // The whole travel: after half of it the pressed floor has separated.
   const Report report = run_rig("scrape", {});
   EXPECT_EQ(misses(report), "");

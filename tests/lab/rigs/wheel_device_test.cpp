@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wheel on particles, four cells of radius; the measured wheel runs in
+// A wheel on particles, four cells of radius; the wheel of the experiment runs in
 // tests/validation/wheel_test.cpp.
 #include "core/error.h"
 #include "core/math.h"
@@ -25,9 +25,9 @@ Report roll(double slip, double delta_degrees) {
                  });
 }
 
-TEST(LabWheel, CarriesItsLoadAndPullsMoreTheMoreItSlips) {
+TEST(LabWheel, CarriesItsLoadAndPullsMoreWithSlip) {
   double before = -1e9;
-  // A locked one would continue to sink.
+  // A locked wheel would continue to sink.
   for (const double slip : {-0.5, 0.0, 0.5}) {
     const Report report = roll(slip, 20);
     EXPECT_EQ(misses(report), "") << slip;
@@ -40,7 +40,7 @@ TEST(LabWheel, CarriesItsLoadAndPullsMoreTheMoreItSlips) {
   }
 }
 
-TEST(LabWheel, SmoothWheelFeelsNoTorque) {
+TEST(LabWheel, SmoothWheelHasNoTorque) {
   const Report report = roll(0.5, 0);
   // Facets of 7.5 degrees, no shear
   EXPECT_NEAR(measured(report, "torque over radius x load"), 0, 0.02);
@@ -52,7 +52,7 @@ TEST(LabWheel, LockedWheelDragsAtLeastItsFriction) {
   EXPECT_LT(measured(report, "drawbar pull"), -std::tan(radians(20)) * 600);
 }
 
-TEST(LabWheel, RefusesWhatItCannotRoll) {
+TEST(LabWheel, RefusesImpossibleWheels) {
   EXPECT_THROW(roll(0.99, 20), InputError);
   EXPECT_THROW(run_rig("wheel", {{"radius", 0.02}}), InputError);
 }

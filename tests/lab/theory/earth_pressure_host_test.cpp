@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passive pressure of rough walls compared with published values, or values computed elsewhere.
+// Passive pressure of rough walls compared with published values, or with independently computed
+// values.
 #include "lab/theory/earth_pressure.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ TEST(SlipLine, CohesionCoefficientsMatchTheirTable) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(kc(30, deltas[i]), coefficients[i], 6e-3) << deltas[i];
 }
 
-TEST(SlipLine, OfClayIsPrandtlsFan) {
+TEST(SlipLine, OfClayMatchesPrandtlsFan) {
   // phi = 0: sigma_n = c (1 + 2 t + cos 2t) with sin 2t = a / c: 2 c smooth, (1 + pi / 2) c rough.
   EXPECT_NEAR(kc(0, 0), 2, 1e-3);
   EXPECT_NEAR(passive_slip_line(0, 0, 1, 1, 0).normal, 1 + kPi / 2, 1e-3);
@@ -30,17 +31,17 @@ TEST(SlipLine, OfClayIsPrandtlsFan) {
   EXPECT_NEAR(passive_slip_line(0, 0, 1, 0.5, 0).normal, 1 + kPi / 6 + std::cos(kPi / 6), 1e-3);
 }
 
-TEST(SlipLine, KeepsToTheWallsFriction) {
+TEST(SlipLine, ObeysTheWallFriction) {
   for (const double delta : {0.0, 5.0, 12.0, 19.0}) {
     const WallStress s = passive_slip_line(radians(28), radians(delta), 4000, 900, 2500);
     EXPECT_NEAR(s.shear, 900 + s.normal * std::tan(radians(delta)), 1e-3) << delta;
   }
-  // Rougher than the soil: the soil slips internally, and more roughness changes nothing.
+  // Rougher than the soil: the soil slips internally, and further roughness has no effect.
   EXPECT_EQ(kc(30, 45), kc(30, 60));
 }
 
-TEST(SlipLine, OfASurchargeIsLancellottasCoefficient) {
-  // His lower bound for the weight is the weightless field under a surcharge.
+TEST(SlipLine, OfASurchargeMatchesLancellotta) {
+  // His lower bound for the weight equals the weightless field under a surcharge.
   for (const double delta : {0.0, 10.0, 20.0, 30.0})
     EXPECT_NEAR(passive_slip_line(radians(30), radians(delta), 0, 0, 1).normal,
                 passive_lancellotta(radians(30), radians(delta)), 1e-4)
@@ -52,8 +53,8 @@ TEST(Lancellotta, MatchesItsValueAndRankine) {
   EXPECT_NEAR(passive_lancellotta(radians(35), 0), rankine_passive(radians(35)), 1e-9);
 }
 
-TEST(LogSpiral, ReachesTheTablesOfCaquotAndKerisel) {
-  // The whole force, along delta [Caquot 1948]; chart values, to two digits.
+TEST(LogSpiral, MatchesTheTablesOfCaquotAndKerisel) {
+  // The total force, along delta [Caquot 1948]; chart values, to two digits.
   const auto whole = [](double phi, double delta) {
     return passive_log_spiral(radians(phi), radians(delta)) / std::cos(radians(delta));
   };
@@ -64,7 +65,7 @@ TEST(LogSpiral, ReachesTheTablesOfCaquotAndKerisel) {
   EXPECT_NEAR(whole(40, 40.0 / 3), 7.5, 0.02 * 7.5);
 }
 
-TEST(LogSpiral, OfASmoothWallIsRankine) {
+TEST(LogSpiral, OfASmoothWallMatchesRankine) {
   for (const double phi : {20.0, 30.0, 40.0})
     EXPECT_NEAR(passive_log_spiral(radians(phi), 0) / rankine_passive(radians(phi)), 1, 2e-3)
         << phi;
@@ -82,7 +83,7 @@ TEST(LogSpiral, LiesBetweenTheLowerBoundAndThePlanarWedge) {
     }
 }
 
-TEST(RoughPassive, OfASmoothBladeIsRankineWithCohesionAndAdhesionOnItsSlipLines) {
+TEST(RoughPassive, OfASmoothBladeMatchesRankineWithCohesionAndAdhesion) {
   BladeCase blade;
   blade.phi = radians(35), blade.rake = kPi / 2;
   blade.depth = 0.3, blade.width = 2, blade.unit_weight = 16000, blade.cohesion = 2000;
@@ -97,7 +98,7 @@ TEST(RoughPassive, OfASmoothBladeIsRankineWithCohesionAndAdhesionOnItsSlipLines)
   EXPECT_NEAR(rough.vertical, rough.low * std::tan(radians(20)) + 1000 * 0.3 * 2, 1);
 }
 
-TEST(MatsuokaNakai, TriaxialAngleOfAPlaneStrainAngle) {
+TEST(MatsuokaNakai, ConvertsAPlaneStrainAngleToATriaxialAngle) {
   EXPECT_NEAR(degrees(matsuoka_nakai_triaxial(radians(35))), 31.2, 0.05);
   // The two stress states lie on one surface: I1 I2 / I3 of both.
   const double phi = radians(27), s = std::sin(phi), t = std::sin(matsuoka_nakai_triaxial(phi));

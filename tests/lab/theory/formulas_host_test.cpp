@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed forms compared with values computed elsewhere.
+// Closed forms compared with independently computed values.
 #include "lab/theory/formulas.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ TEST(Formulas, WedgeReproducesItsCheckValue) {
   EXPECT_NEAR(got.force, 8032.7, 0.05);
 }
 
-TEST(Formulas, SmoothUprightWedgeIsRankine) {
+TEST(Formulas, SmoothUprightWedgeMatchesRankine) {
   BladeCase blade;
   blade.phi = radians(35);
   blade.rake = radians(90);
@@ -95,7 +95,7 @@ TEST(Formulas, RidingLayerReproducesTheNineValuesOfItsTable) {
                   0.8);
 }
 
-TEST(Formulas, WedgeUnderLevelGroundIsReeceAndGrowsWithThePile) {
+TEST(Formulas, WedgeUnderLevelGroundMatchesReeceAndGrowsWithThePile) {
   const BladeCase blade = dry_sand_cut(60, 0.1);
   const double level = reece_wedge(blade).horizontal;
   // Strips 0.25 mm wide.

@@ -97,7 +97,7 @@ TEST(SoilCorner, OfABoxOfPlatesKeepsTheVolumeOfItsSoil) {
                 "1.4 without treatment [docs/validation.md, Swell, pouring and heaps]");
     print_value("same, beside a wall / middle", wall, "1 +-10 %",
                 "[docs/validation.md, Swell, pouring and heaps]");
-    print_value("same, middle", middle, "8 in the bank", "not gated");
+    print_value("same, middle", middle, "8 in the bank", "no tolerance");
     // No place may hold more than the bank: that is crowding. Particles are counted in columns of 4
     // cells: about 200 in the four corners.
     EXPECT_LT(corner * middle, 1.05 * 8);
