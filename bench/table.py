@@ -50,7 +50,7 @@ def per_processor_second(row):
 
 
 def soil(rows):
-    yield "bench", "particles", "M particle-steps/s", "slowest run", "kernels alone", "a processor second", \
+    yield "bench", "particles", "M particle-steps/s", "slowest run", "kernels only", "a processor second", \
         "of copy bandwidth", "of FMA peak", "real-time factor"
     for row in rows:
         slowest = float(row["particle_steps_per_s"]) / (1 + float(row["spread"])) / 1e6
@@ -134,7 +134,7 @@ def table(kind, path):
 
 
 def rewritten(page):
-    """The page with its tables made anew."""
+    """The page with regenerated tables."""
     out, inside = [], False
     with open(page, encoding="utf-8") as file:
         for line in file.read().splitlines():

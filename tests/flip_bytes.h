@@ -42,7 +42,7 @@ std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1,
       continue;
     }
     if (!field) {
-      tell("byte " + std::to_string(i), "lies in no field and loads when it is flipped");
+      tell("byte " + std::to_string(i), "is in no field and loads when flipped");
     } else if (!field->hashed) {
       if (field->reason.empty()) tell(field->path, "differs from the scene and loads");
     } else if (hash_of(target).digest() == hash) {

@@ -137,7 +137,7 @@ void measure_updates(const std::string& size, int columns) {
   bench::print_host(full);
   bench::print_host(update);
   std::fprintf(stderr,
-               "%s: an update takes %.3g ms (%.3g of processor), all anew %.3g ms (%.3g): %.0f "
+               "%s: an update takes %.3g ms (%.3g of processor), a full map %.3g ms (%.3g): %.0f "
                "times (%.0f)\n",
                size.c_str(), 1e3 * update.timing.median, 1e3 * update.timing.processor,
                1e3 * full.timing.best, 1e3 * full.timing.processor,

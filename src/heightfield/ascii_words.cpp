@@ -82,7 +82,7 @@ class Words {
     if (!file_) throw FileError("cannot read '" + path + "': " + std::strerror(errno));
   }
   /// Reads the next word; returns false at the end. A word that is too long for a number is
-  /// truncated. The word lies in the buffer and is valid until the next call.
+  /// truncated. The word is a view of the buffer and valid until the next call.
   bool next(std::string_view& word, std::int64_t& line) {
     word = {};
     do {

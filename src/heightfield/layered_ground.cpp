@@ -255,7 +255,7 @@ void Ground::visit(Archive& a) {
     a.require(state_->changes.lies_in(site_rect()), "changes", "an edit is outside the site");
   });
   if (!a.loading()) return;
-  // Views taken so far keep their tiles; the table starts anew.
+  // Existing views keep their tiles; the table is rebuilt.
   table_.clear();
   state_->tiles.update_surfaces(table_, *start_);
   sequence_ = state_->changes.sequence();

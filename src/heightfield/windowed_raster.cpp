@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Windows overlap by one row and one column, so that the four cells of a bilinear height lie in one
+// Windows overlap by one row and one column, so that the four cells of a bilinear height are in one
 // window. Each thread remembers its last few windows and takes the lock only for another one.
 #include "heightfield/windowed_raster.h"
 

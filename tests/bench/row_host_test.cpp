@@ -78,7 +78,7 @@ TEST(BenchRow, JsonKeepsNumbersAsNumbersAndTextAsText) {
   EXPECT_NE(text.find("\"particles\": 1000,"), std::string::npos) << text;
   EXPECT_NE(text.find("\"state_hash\": \"0123456789abcdef\""), std::string::npos) << text;
   EXPECT_NE(text.find("\"device\": \"A 'fast', new device\""), std::string::npos) << text;
-  EXPECT_EQ(text.find("site_m"), std::string::npos) << "what was not measured is left out";
+  EXPECT_EQ(text.find("site_m"), std::string::npos) << "unmeasured values are omitted";
 }
 
 TEST(BenchCompare, PrintsTheRatioAndMarksAnotherHash) {

@@ -55,7 +55,7 @@ TEST(SoilRows, FillsEveryColumnOfItsRows) {
                   500);
     EXPECT_GT(row.particles, 1000u);
     EXPECT_EQ(row.hash.size(), 16u);
-    EXPECT_TRUE(hashes.insert(row.hash).second) << "two cases end in one state";
+    EXPECT_TRUE(hashes.insert(row.hash).second) << "two cases have the same final state";
   }
 }
 

@@ -239,7 +239,7 @@ TEST_F(Control, AFailedRequestDoesNotAffectTheRun) {
         << bad[i].first << ": " << lines[i + 2];
   }
   ASSERT_EQ(drive("{}\n{}\n{\"end\": true}\n", plain), 0) << complained();
-  EXPECT_EQ(lines.back(), plain.back()) << "no request leaves a trace";
+  EXPECT_EQ(lines.back(), plain.back()) << "requests have no side effects";
 }
 
 TEST_F(Control, IncludesAWatchedLinkInTheNextOutputs) {
@@ -284,7 +284,7 @@ TEST_F(Control, RefusesLinesOfAnySizeAndDepthInOnePass) {
               std::string::npos)
         << lines[static_cast<std::size_t>(i) + 1].dump().substr(0, 300);
   EXPECT_TRUE(lines[4].contains("error"))
-      << "brackets within a text are no nesting, the name is unknown";
+      << "brackets inside a string do not nest; the name is unknown";
   std::printf("100 MB of one line and 100 000 brackets: %.1f s with the start of the program\n",
               spent.count());
 }

@@ -37,7 +37,7 @@ TEST_F(Energy, OfADigIsInTheSummaryAndResultsAreBitIdentical) {
   EXPECT_LE(spent, supplied);
   EXPECT_NEAR(energy.at("residual").get<double>(), supplied - kept - spent, 1e-6 * supplied);
   EXPECT_LT(std::abs(energy.at("residual").get<double>()), 0.05 * supplied);
-  EXPECT_TRUE(with.contains("energy_j")) << "the machine's own stays";
+  EXPECT_TRUE(with.contains("energy_j")) << "the machine's own account remains";
   const nlohmann::json without = dig({});
   EXPECT_FALSE(without.contains("soil_energy_j"));
   EXPECT_EQ(with.at("state_hash"), without.at("state_hash"));

@@ -145,7 +145,7 @@ TEST_F(Map, OfARunShowsItsFinalGroundAndOfASnapshotAlsoActiveSoil) {
   EXPECT_EQ(test_text(path("again.npz")), test_text(path("half.npz")));
 }
 
-TEST_F(Map, SuggestsWhatWasMeantAndWritesNothing) {
+TEST_F(Map, SuggestsTheNearestNameAndWritesNothing) {
   const std::string to = path("none.tif");
   EXPECT_EQ(run({"map", scene_, "--layers", "elevation,slop", "--format", "geotiff", "--out", to}),
             2);

@@ -421,7 +421,7 @@ TEST_F(Program, IsDrivenOverStandardInputInLockStep) {
     time = state.at("time").get<double>();
     EXPECT_NEAR(state.at("outputs").at("bucket/slide_x/position").get<double>(), -1.6 + 0.5 * time,
                 1e-6)
-        << "inputs drive it, not its program";
+        << "driven by inputs, not by its program";
     ++count;
   }
   EXPECT_EQ(count, 11);  // ten answered, one ended
@@ -518,7 +518,7 @@ TEST_F(Program, StopsOnAFullDeviceAndLeavesASnapshotThatResumes) {
   EXPECT_NE(complained().find("bytes are in use"), std::string::npos) << complained();
   const auto failed = nlohmann::json::parse(text_of(out() + "/summary.json"));
   EXPECT_EQ(failed.at("status"), "failed");
-  EXPECT_GT(failed.at("simulated_time_s").get<double>(), 0.5) << "it dug before the memory ended";
+  EXPECT_GT(failed.at("simulated_time_s").get<double>(), 0.5) << "it dug before memory ran out";
   EXPECT_EQ(failed.at("mass_ledger").at("error_units"), 0);
   environment_.clear();
   const double time = failed.at("simulated_time_s").get<double>() + 0.1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Options of `navvy run` that cannot be fulfilled are refused before the run, or end it with a
-// status of their own.
+// distinct status.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -40,7 +40,7 @@ TEST_F(RunOptions, RefusesASnapshotTimeBeyondTheDurationAndAcceptsThatOfTheEnd) 
   EXPECT_FALSE(std::filesystem::exists(snapshot()));
   EXPECT_EQ(short_run({"--snapshot", snapshot(), "--snapshot-at", "0.05"}), 0) << complained();
   EXPECT_TRUE(std::filesystem::exists(snapshot()));
-  // Nothing is left to run after it.
+  // No time is left to run after it.
   EXPECT_EQ(short_run({"--resume", snapshot()}), 2);
   expect_reported("nothing is left to run");
 }

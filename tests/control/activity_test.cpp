@@ -197,7 +197,7 @@ TEST(Activity, HashesEveryByteItSaves) {
   }
 }
 
-TEST(Activity, SwingTurnsTheUpperStructureAlone) {
+TEST(Activity, SwingMovesOnlyTheUpperStructure) {
   Alone alone(Swing(0.8));
   const Axes before = alone.place.handover.q;
   alone.run(20);
@@ -302,7 +302,7 @@ TEST(Operator, RefusesASnapshotOfAnotherStep) {
   Operator swinging(machine, {{Swing(1)}, {}});
   try {
     load_saved(bytes, swinging);
-    FAIL() << "a swing took over the state of a wait";
+    FAIL() << "a swing loaded the state of a wait";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("'swing'"), std::string::npos) << error.what();
   }

@@ -174,7 +174,7 @@ TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
   trial.run(5);
   ASSERT_TRUE(trial.op.done());
   for (int i = 0; i < 100; ++i) trial.step();
-  ASSERT_TRUE(trial.op.done()) << "standing there is no fault";
+  ASSERT_TRUE(trial.op.done()) << "an idle machine there is no fault";
   trial.seen.stability = {true, radians(50), 0, 0.3};
   const Command last = trial.step();
   EXPECT_FALSE(trial.op.done());
@@ -200,11 +200,11 @@ TEST(Watch, ReportsAMachineThatTipsOverAfterItsProgram) {
 
 TEST(Watch, IgnoresAMachineThatRecoversOrCannotTip) {
   EXPECT_EQ(standing({true, radians(44), 1, 0.01}, 1).state, StepState::kRunning)
-      << "steep, within its feet";
+      << "steep, but within its supports";
   EXPECT_EQ(standing({true, radians(31), -0.3, -0.1}, 1).state, StepState::kRunning)
       << "it falls back";
   EXPECT_EQ(standing({true, radians(31), 0.3, -0.1}, 0.1).state, StepState::kRunning)
-      << "a moment on a stone";
+      << "briefly on a stone";
   EXPECT_EQ(standing({false, radians(90), 1, -1}, 1).state, StepState::kRunning)
       << "kinematic or held";
 }

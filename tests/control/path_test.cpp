@@ -113,7 +113,7 @@ TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
           << speed;
     }
   print_value("largest distance from the path [m]", most, "<= 0.03", "a bicycle");
-  print_value("largest miss at the end [m]", miss, "<= 0.12", "a bicycle");
+  print_value("largest distance from the goal [m]", miss, "<= 0.12", "a bicycle");
   EXPECT_LT(most, 0.03);  // a plan keeps 0.2 m more than the required clearance
   EXPECT_LT(miss, 0.12);
 }

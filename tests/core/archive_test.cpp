@@ -167,7 +167,7 @@ TEST(Archive, LoadsSavedFieldsAndRebuildsDerivedOnes) {
   EXPECT_EQ(to.share, 0.25);
   EXPECT_EQ(to.name, "");
   EXPECT_EQ(to.p_WB, from.p_WB);
-  EXPECT_TRUE(std::signbit(to.p_WB.y())) << "bits, not values";
+  EXPECT_TRUE(std::signbit(to.p_WB.y())) << "compared by bits, not by values";
   EXPECT_EQ(to.turn.coeffs(), from.turn.coeffs());
   EXPECT_EQ(to.X_WB.matrix(), from.X_WB.matrix());
   EXPECT_EQ(to.grains, from.grains);
@@ -326,7 +326,7 @@ TEST(Archive, LoadsTheFrontOfALongerState) {
   EXPECT_EQ(front.value, 1);
   EXPECT_THROW(load_saved(bytes, front), InputError);
   EXPECT_THROW(load_front({bytes.begin(), bytes.begin() + 30}, front), InputError)
-      << "the front itself is cut";
+      << "the front itself is truncated";
 }
 
 TEST(Archive, RefusesASectionThatIsShorterOrLongerThanItsVisit) {

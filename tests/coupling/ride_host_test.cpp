@@ -121,7 +121,7 @@ TEST_P(RideSoil, LoadsStayEvenInItsOwnRutForAnyCell) {
   // One pair would push as much ahead in a single pass; the rear wheels meet only what they press
   // deeper.
   const double ahead = 4 * terramechanics::bulldozing({&soil_, 1}, kWidth, 0.525, depth[1], 1);
-  print_value("four tyres push ahead of them at that depth [N]", ahead, "", "[Bekker 1969]");
+  print_value("four tyres push soil ahead at that depth [N]", ahead, "", "[Bekker 1969]");
 }
 
 TEST_P(RideSoil, SecondPassSinksLessThanThreeFifthsOfTheFirst) {

@@ -160,7 +160,7 @@ TEST(Ruts, PressingOverTimeGivesTheDepthOfOnePress) {
   EXPECT_NEAR(deepest(slowly), deepest(once), 5e-5);
 }
 
-TEST(Ruts, ReportTheWorkAndTheSinkageWhereATyreStands) {
+TEST(Ruts, ReportTheWorkAndTheSinkageOfATyre) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
   EXPECT_EQ(ruts.sinking(3.2, 3.36).work, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The excavator on columns: into a trench of its own size, onto spoil, and two machines on one
-// ground.
+// The excavator on columns: into a trench of its size, onto spoil, and two machines on one ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>

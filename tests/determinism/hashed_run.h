@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy run --hash-every` in a process of its own, with an environment of its own, and two such
-// runs side by side.
+// Runs `navvy run --hash-every` in a separate process with its own environment, and compares two
+// such runs.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@ TEST(Surroundings, PicturesDoNotAffectResults) {
   EXPECT_EQ(without.summary.at("frames").get<int>(), 0);
   EXPECT_EQ(first_difference(without, with), "");
   EXPECT_EQ(without.summary.at("state_hash"), with.summary.at("state_hash"));
-  EXPECT_GT(with.summary.at("activated_columns").get<int>(), 0) << "soil was in play";
+  EXPECT_GT(with.summary.at("activated_columns").get<int>(), 0) << "soil was involved";
 }
 
 TEST(Surroundings, TheFolderDoesNotAffectResults) {

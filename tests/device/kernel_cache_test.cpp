@@ -101,7 +101,7 @@ TEST(KernelCache, KeepsAProgramThatANeighbourRecompiles) {
   write(code, "cut");
   const KernelCache first(folder.path());
   EXPECT_EQ(first.removed(), 2u);
-  // A neighbour compiles anew and has not finished when the next process comes.
+  // A neighbour recompiles and has not finished when the next process starts.
   write(code, "machine co");
   const KernelCache second(folder.path());
   EXPECT_EQ(second.removed(), 0u);
@@ -174,7 +174,7 @@ TEST(KernelCacheOfTheDriver, TruncatedMachineCodeIsCompiledAgainInsteadOfCrashin
   std::vector<fs::path> code;
   for (const auto& entry : fs::recursive_directory_iterator(cache))
     if (entry.path().extension() == ".so") code.push_back(entry.path());
-  if (code.empty()) GTEST_SKIP() << "this device keeps no machine code as files";
+  if (code.empty()) GTEST_SKIP() << "this device stores no machine code in files";
   for (const fs::path& file : code) fs::resize_file(file, fs::file_size(file) / 2);
   EXPECT_EQ(run_one_kernel(cache, folder / "second"), 0);
   for (const fs::path& file : code) write(file, "");

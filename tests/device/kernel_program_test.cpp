@@ -188,7 +188,7 @@ TEST(Kernel, RefusesWrongArgumentsByName) {
   Kernel add(program, "add");
   try {
     add.args(1);
-    FAIL() << "one argument was taken for four";
+    FAIL() << "one argument was accepted for four";
   } catch (const DeviceError& error) {
     EXPECT_STREQ(error.what(), "kernel add takes 4 arguments, 1 were given");
   }

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# `navvy` in a bare root: bare_root.sh NAVVY DATA [CASE]. NAVVY is the program, DATA the folder with scenarios/, vehicles/
-# and terrain/. The root holds this machine's libraries, bound read-only, and nothing else that can be written but what a
-# case adds. Each case says which exit status and which words it expects (docs/reference/results.md, "Faults and exit status").
+# `navvy` in a bare root: bare_root.sh NAVVY DATA [CASE]. NAVVY is the program, DATA the folder with
+# scenarios/, vehicles/ and terrain/. The root contains this machine's libraries, bound read-only,
+# and only the writable folders that a case adds. Each case gives the expected exit status and texts
+# (docs/reference/results.md, "Faults and exit status").
 #
-# Needs root and leave to mount, and ends with status 77 (a skipped test) where it may not. It mounts in a mount namespace
-# of its own, so nothing is left behind whatever becomes of it.
+# Requires root and permission to mount, and ends with status 77 (a skipped test) without it. It
+# mounts in a separate mount namespace, so nothing remains after any kind of end.
 set -euo pipefail
 
 skip() {
@@ -100,9 +101,9 @@ expect() { # STATUS GOT [WORDS...]
   [[ $got == "$wanted" ]] || fail "ended with $got, not $wanted"
   for words in "$@"; do
     if [[ $words == !* ]]; then
-      if grep -qF -- "${words#!}" "$say"; then fail "it said '${words#!}'"; fi
+      if grep -qF -- "${words#!}" "$say"; then fail "its output has '${words#!}'"; fi
     else
-      grep -qF -- "$words" "$say" || fail "it did not say '$words'"
+      grep -qF -- "$words" "$say" || fail "its output lacks '$words'"
     fi
   done
 }
@@ -192,7 +193,7 @@ if begin "a poisoned cache: every compiled file cut short, another one flipped, 
   # Repaired permanently.
   run_case 0 "!damaged" ++ POCL_CACHE_DIR=/cache -- "${SMALL[@]}" --out /out/run
 fi
-if begin "a cache that belongs to somebody else"; then
+if begin "a cache of another user"; then
   mount_folder /out && mount_folder /tmp && mount_folder /cache
   chown -R 0:0 "$root/cache" && chmod -R go-w "$root/cache"
   run_case 0 "kernel cache '/cache/navvy/kernels': the folder cannot be created: Permission denied" "/tmp/navvy-kernels-" ++ \

@@ -187,7 +187,7 @@ Outcome attack(const std::string& folder, const std::vector<std::string>& argume
   else if (kTable.count(got.status) == 0)
     got.broken = "ended with " + std::to_string(got.status);
   else if (got.status != 0 && got.said.empty())
-    got.broken = "said nothing";
+    got.broken = "printed nothing";
   else if (got.said.find("internal error") != std::string::npos)
     got.broken = "an internal error";
   else if (with.fault.rfind("buffer", 0) == 0)

@@ -34,7 +34,7 @@
 #include <ctime>
 #include <new>
 
-// Where assertions are disabled, its header does not declare it.
+// If assertions are disabled, its header does not declare it.
 extern "C" [[noreturn]] void __assert_fail(const char* what, const char* file,
                                            unsigned line,  // NOLINT: its name
                                            const char* function) noexcept;

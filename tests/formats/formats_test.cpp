@@ -287,7 +287,7 @@ TEST(Nav2, TrinaryLoadsAsFreeOccupiedAndUnknownWithCommonThresholds) {
         ASSERT_EQ(loaded("trinary", pixel / 255.0, true, free, keys["occupied_thresh"]), expected)
             << ix << " " << iy;
       }
-  EXPECT_EQ(loaded("trinary", 205 / 255.0, true, 0.25, 0.65), 0) << "the trap is none";
+  EXPECT_EQ(loaded("trinary", 205 / 255.0, true, 0.25, 0.65), 0) << "the file has no trap";
   if (has_tool("gdalinfo"))
     EXPECT_NE(output_of("gdalinfo '" + folder / "map.pgm" + "'").find("Size is 52, 36"),
               std::string::npos);
@@ -360,7 +360,7 @@ TEST(Pictures, UseTheWholeRangeOfColours) {
     return png[3][static_cast<std::size_t>(4 * ((kNy - 1 - iy) * kNx + ix) + c)].get<int>();
   };
   EXPECT_GT(pixel(kNx - 1, 0, 0), 3 * pixel(kNx - 1, 0, 1) / 2) << "the marked corner is red";
-  EXPECT_GT(pixel(kNx - 4, 30, 1), pixel(kNx - 4, 30, 0)) << "good ground is green";
+  EXPECT_GT(pixel(kNx - 4, 30, 1), pixel(kNx - 4, 30, 0)) << "drivable ground is green";
   EXPECT_EQ(pixel(11, 21, 3), 0);
   EXPECT_THROW(write_map("relief", example(), kTwo, folder / "two.png"), InputError);
   EXPECT_THROW(

@@ -44,10 +44,10 @@ TEST(RayTree, FindsTheWallOfABoxFromOutsideAndFromInside) {
   const auto inside = tree.first_hit(Vec3(0, 0.2, 0.3), Vec3(0, 0, -1));
   ASSERT_TRUE(inside);
   EXPECT_DOUBLE_EQ(inside->distance, 1.3);
-  EXPECT_EQ(inside->normal, Vec3(0, 0, -1)) << "the front stays outside";
+  EXPECT_EQ(inside->normal, Vec3(0, 0, -1)) << "the front faces outwards";
   EXPECT_FALSE(tree.first_hit(Vec3(5, 0.2, 0.3), Vec3(1, 0, 0)));
   EXPECT_FALSE(tree.first_hit(Vec3(5, 0.2, 0.3), Vec3(-1, 0, 0), 3.9));
-  EXPECT_TRUE(tree.first_hit(Vec3(5, 0.2, 0.3), Vec3(-1, 0, 0), 4.0)) << "the reach counts";
+  EXPECT_TRUE(tree.first_hit(Vec3(5, 0.2, 0.3), Vec3(-1, 0, 0), 4.0)) << "the reach limits hits";
 }
 
 TEST(RayTree, AgreesBitForBitWithATestOfEveryTriangle) {

@@ -36,7 +36,7 @@ TEST(SolidMesh, IsClosedAndFacesOutwardsInEveryPiece) {
   TriangleMesh inward = make_box(Vec3(5, 0, 0), Vec3::Ones());
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   EXPECT_FALSE(is_solid(inward));
-  EXPECT_FALSE(is_solid(together(large, inward))) << "a large piece hides no small one";
+  EXPECT_FALSE(is_solid(together(large, inward))) << "a small piece is found beside a large one";
   TriangleMesh open = large;
   open.triangles.pop_back();
   EXPECT_FALSE(is_solid(open));

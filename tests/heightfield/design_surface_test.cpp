@@ -346,7 +346,7 @@ TEST(DesignRaster, OfAnotherCrsOrUnitIsRefused) {
   };
   EXPECT_EQ(message("ground32632.tif", "cone32632.tif"), "");
   EXPECT_EQ(message("ground32632.tif", "cone.asc"), "")
-      << "without a CRS it is taken to be in the site's";
+      << "without a CRS that of the site is assumed";
   std::string refused = message("ground32632.tif", "cone32633.tif");
   EXPECT_NE(refused.find("UTM zone 33N"), std::string::npos) << refused;
   EXPECT_NE(refused.find("UTM zone 32N"), std::string::npos) << refused;

@@ -296,7 +296,7 @@ TEST(Ground, RefusesImpossibleColumns) {
   EXPECT_TRUE(refused("specific_volume", nan));
   EXPECT_TRUE(refused("plastic_shear", nan));
   EXPECT_TRUE(refused("edits", CellRect{1, 1, 1 << 30, 2}))
-      << "the soil would look at tiles for ever";
+      << "the soil would search tiles endlessly";
   EXPECT_NO_THROW(load_saved(state, target));
 }
 

@@ -79,7 +79,7 @@ TEST(Site, TrenchRunsAlongItsYawWithLeaningSides) {
   EXPECT_NEAR(ground.datum(), -4.8, 1e-12);
 }
 
-TEST(Site, StockpileStandsAtTheSoilsFrictionAngle) {
+TEST(Site, StockpileHasTheFrictionAngleOfItsSoil) {
   const Ground ground =
       make_ground(world_with({feature(Kind::kStockpile, 1, 1, 1.2, 0, 0, Vec2(1, -1))}));
   EXPECT_NEAR(ground.sample(2.05, -0.95), 1.2 - std::hypot(1.05, 0.05) * std::tan(radians(30)),

@@ -211,7 +211,7 @@ TEST(Import, ByWindowsNamesTheRowsItCannotRead) {
   setup.nx = setup.ny = 12;
   try {
     import_terrain(world, setup, 0, 4);
-    FAIL() << "a map without heights was taken";
+    FAIL() << "a map without heights was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("all is nodata"), std::string::npos) << error.what();
   }

@@ -279,7 +279,7 @@ TEST(MapPublisher, CanBeFollowedWhileItWritesAFolder) {
   python.join();
   EXPECT_EQ(publisher.fault(), "");
   EXPECT_TRUE(std::filesystem::exists(folder / "maps/end"));
-  EXPECT_EQ(said, "5 5\n") << "the last number, and how many patches";
+  EXPECT_EQ(said, "5 5\n") << "the last number, and the number of patches";
 }
 
 TEST(MapPublisher, ReportsAtItsEndThatTheLastPatchCouldNotBeWritten) {

@@ -71,7 +71,7 @@ TEST(LayerTiles, CopiesItsSourceWithoutCachingTiles) {
     const std::vector<float> values = copied(f.tiles, rect);
     EXPECT_EQ(f.source->columns, rect.area()) << "only the requested columns";
     copied(f.tiles, rect);
-    EXPECT_EQ(f.source->columns, 2 * rect.area()) << "not kept";
+    EXPECT_EQ(f.source->columns, 2 * rect.area()) << "not cached";
     expect_formula(f.tiles, rect, values, -1, -1, 0);
   }
 }
@@ -85,7 +85,7 @@ TEST(LayerTiles, CachesTheTileOfAColumnForAllCopies) {
   int count = 0;
   EXPECT_EQ(other.row(64, 64, count), f.tiles.view(1, 1).data());
   EXPECT_EQ(count, 64);
-  EXPECT_EQ(f.source->columns, 64 * 64) << "asked once";
+  EXPECT_EQ(f.source->columns, 64 * 64) << "requested once";
   LayerTiles::Values buffer;
   EXPECT_EQ(other.passing(1, 1, buffer), f.tiles.view(1, 1).data());
   EXPECT_EQ(other.passing(4, 2, buffer), buffer.data());
@@ -95,10 +95,10 @@ TEST(LayerTiles, CachesTheTileOfAColumnForAllCopies) {
 
 TEST(LayerTiles, OverridesItsSourceWithoutAffectingCopies) {
   Fixture f;
-  f.tiles.at(20, 20);  // a tile that was asked for, one that was not
+  f.tiles.at(20, 20);  // a requested tile and another one
   for (const Vec2i& p : {Vec2i(10, 12), Vec2i(140, 77)}) {
     const LayerTiles before = f.tiles;
-    EXPECT_FALSE(f.tiles.set(p.x(), p.y(), formula(p.x(), p.y()), 2)) << "has it already";
+    EXPECT_FALSE(f.tiles.set(p.x(), p.y(), formula(p.x(), p.y()), 2)) << "already cached";
     EXPECT_TRUE(f.tiles.set(p.x(), p.y(), 1000.0f, 2));
     EXPECT_FALSE(f.tiles.set(p.x(), p.y(), 1000.0f, 3));
     for (const CellRect& rect : kRects) {

@@ -361,7 +361,7 @@ TEST(TerrainMap, ExposesItsTilesWithoutACopy) {
   // Column (64 + 5, 64 + 7): rows run along y.
   EXPECT_EQ(view(7, 5), map.at(MapLayer::kElevation, 69, 71));
   int count = 0;
-  EXPECT_EQ(view.data(), tiles.row(64, 64, count)) << "the very numbers";
+  EXPECT_EQ(view.data(), tiles.row(64, 64, count)) << "identical numbers";
   // 148 x 84 columns: the rest of the last tile is off the site.
   EXPECT_TRUE(std::isnan(tiles.view(2, 1)(0, 63)));
   EXPECT_TRUE(std::isnan(map.tiles(MapLayer::kTarget).view(0, 0)(3, 3)));

@@ -85,7 +85,7 @@ TEST(MapOfRun, HasTheHeightsOfTheFileAndOfTheStart) {
   EXPECT_FALSE(std::isnan(map.at(MapLayer::kTraversability, 3, 3)));
 }
 
-TEST(MapOfRun, KnowsWhichSoilWasLooseAndActive) {
+TEST(MapOfRun, ReportsLooseAndActiveSoil) {
   const test::Folder folder;
   const scene::Scene scene = pit();
   const heightfield::Ground start = heightfield::make_ground(scene);

@@ -105,7 +105,7 @@ TEST(UpdateFeed, RestartsItsCountWhenTimeGoesBackOrOnRequest) {
   EXPECT_EQ(feed.publish(ground.view(4))->sequence, 5u);
   EXPECT_GT(disturbed(), 0);
   const auto expect_anew = [&](const UpdateFeed::Update& update, std::uint64_t sequence) {
-    EXPECT_EQ(update->sequence, sequence) << "numbers go on";
+    EXPECT_EQ(update->sequence, sequence) << "numbering continues";
     EXPECT_EQ(update->since, 0u);
     EXPECT_EQ(update->changed, 70 * 66);
     EXPECT_EQ(disturbed(), 0) << "the earlier history is unknown";
@@ -275,7 +275,7 @@ TEST(UpdateFeed, TenThousandUpdatesReachSlowAndDyingReadersDuringQueries) {
   anew.update(ground.view(100));
   EXPECT_TRUE(same(anew.map(), last));
   EXPECT_EQ(std::set<std::uint64_t>(prints.begin(), prints.end()).size(), prints.size())
-      << "maps that look alike";
+      << "indistinguishable maps";
 }
 
 TEST(UpdateFeed, CallsSubscribersWithEveryUpdate) {

@@ -106,7 +106,7 @@ void expect_arrived(const Trip& trip, const GoTo& goal) {
   EXPECT_LT((trip.bicycle.at.p - goal.target).norm(), 0.5);
   EXPECT_LT(std::abs(std::remainder(trip.bicycle.at.yaw - goal.heading, 2 * kPi)), radians(5));
   EXPECT_TRUE(trip.bicycle.braked);
-  print_value("miss of the goal [m]", trip.figure("goal_error_m"), "< 0.5", "tolerance");
+  print_value("distance from the goal [m]", trip.figure("goal_error_m"), "< 0.5", "tolerance");
   print_value("least clearance [m]", trip.least_clearance(), ">= 0.3", "asked for");
   EXPECT_GE(trip.least_clearance(), 0.3);
 }

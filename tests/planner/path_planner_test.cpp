@@ -132,7 +132,7 @@ TEST_F(PathPlanner, GoesAroundATrenchAndTurnsInANarrowPlace) {
     ASSERT_TRUE(path) << yaw;
     expect_drivable(*path, asked);
     const double least = least_clearance(ground, *path);
-    print_value("least clearance of a path round a trench [m]", least, ">= 0.3", "asked for");
+    print_value("least clearance of a path around a trench [m]", least, ">= 0.3", "required");
     print_value("its length [m], cusps", path->length(), std::to_string(path->cusps()),
                 "17 m straight");
     EXPECT_GE(least, kClearance);

@@ -250,7 +250,7 @@ TEST(CrashSummary, PutStatusAndMessageIntoTheLastSummary) {
   CrashSummary again(folder / "reserve2", folder / "summary.json");
   nlohmann::json summary{{"status", "running"}, {"steps", 7}, {"cycles", nlohmann::json::array()}};
   for (int i = 0; i < 5000; ++i)
-    summary["cycles"].push_back("a line a cycle: it grows beyond what was taken at first");
+    summary["cycles"].push_back("a line per cycle: it outgrows the initial allocation");
   again.keep(summary.dump(2));
   summary["steps"] = 8;
   again.keep(summary.dump(2));

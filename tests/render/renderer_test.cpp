@@ -187,7 +187,7 @@ TEST_F(RendererTest, NoParticleReachesThroughAPlate) {
   // Soil against the plate's other face.
   add_soil(frame_.particles, {0.03, -0.6, 1.0}, {0.3, 0.6, 2.0}, 0.1);
   EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20)
-      << "lumps of full size would show";
+      << "particles of full size would be visible";
   for (std::size_t i = 0; i < frame_.particles.position.size(); i += 3)
     frame_.particles.clearance.push_back(std::max(0.0f, frame_.particles.position[i] - 0.01f));
   EXPECT_EQ(changed_pixels(bare, renderer.render(frame_, from_behind)), 0);

@@ -307,7 +307,7 @@ TEST(Loader, AShellFromAnObjFileEqualsAnInlineShell) {
       "<triangles>0 1 2 0 2 3 4 5 1 4 1 0</triangles>");
   ASSERT_EQ(mesh.triangles.size(), inline_shell.triangles.size());
   ASSERT_EQ(mesh.vertices.size(), inline_shell.vertices.size())
-      << "corners that triangles share stay one";
+      << "shared corners are not duplicated";
   // The diagonal of a quad is the reader's choice, so directed areas are compared, above each level
   // and in total.
   const auto area = [](const scene::Shell& shell, double above) {
@@ -360,7 +360,7 @@ TEST(Overrides, APoseWithAQuaternionKeepsItsRotation) {
   const Pose before = load(body).machines[0].X_WM;
   const Pose moved = load(body, set("machine[first].x_m=-3.25")).machines[0].X_WM;
   EXPECT_EQ(Vec3(moved.translation()), Vec3(-3.25, 2, 0.5));
-  EXPECT_EQ(Mat3(moved.linear()), Mat3(before.linear())) << "not even rounded";
+  EXPECT_EQ(Mat3(moved.linear()), Mat3(before.linear())) << "exactly equal";
   const Pose turned = load(body, set("machine[first].yaw_deg=180")).machines[0].X_WM;
   EXPECT_EQ(Vec3(turned.translation()), Vec3(1, 2, 0.5));
   // 1e-12: rounding of the rotation by 180 degrees.
@@ -446,7 +446,7 @@ TEST(Overrides, WithoutEffectGiveWarnings) {
   EXPECT_NE(logged_by(twice).find("a later setting overrides the value"), std::string::npos);
   Overrides seed;
   seed.seed = 7;
-  EXPECT_EQ(logged_by(seed), "") << "the second hills have no seed of their own";
+  EXPECT_EQ(logged_by(seed), "") << "the second hills have no seed";
   seed.set.emplace_back("ground.hills.seed", "3");
   EXPECT_NE(logged_by(seed).find("--seed"), std::string::npos);
 }
@@ -495,7 +495,7 @@ TEST(Loader, ReadsPairsOfMaterialsFromTheirFileAndFromTheScene) {
   const scene::MaterialPair* own = world.materials.pair("earth", "ice");
   ASSERT_NE(own, nullptr);
   EXPECT_EQ(own->static_friction, 0.1);
-  EXPECT_EQ(own->kinetic_friction, 0.1) << "one number serves for both";
+  EXPECT_EQ(own->kinetic_friction, 0.1) << "one number applies to both";
   EXPECT_EQ(own->restitution, 0.2);
   EXPECT_EQ(own->softness, 1e-7);
   EXPECT_EQ(world.materials.pair("ice", "stone"), nullptr);

@@ -96,11 +96,11 @@ TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
     const scene::Scene resolved =
         load_scene_from_string(text, kElsewhere, control::step_kinds(), {}, &again);
     expect_equal(world, resolved);
-    EXPECT_EQ(text, again) << "written out once more it is the same text";
+    EXPECT_EQ(text, again) << "resolving it again gives the same text";
     EXPECT_EQ(text.find("<include>"), std::string::npos);
     EXPECT_EQ(text.find(" ref=\""), std::string::npos);
     EXPECT_EQ(text.find(navvy::source_dir() + "/vehicles"), std::string::npos)
-        << "shipped files go by model://";
+        << "shipped files are referenced by model://";
     ++scenes;
   }
   EXPECT_GT(scenes, 5);

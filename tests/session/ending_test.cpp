@@ -66,8 +66,8 @@ TEST(SessionEnd, OfATruckThatRunsIntoAParkedMachineIsBlocked) {
   EXPECT_TRUE(session.world().machines().at("truck").drive().brake);
 }
 
-TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileItsNeighbourGoesOn) {
-  // Across a slope of 30 deg the tyres' compliance tips it; straight up it stands.
+TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileAnotherContinues) {
+  // Across a slope of 30 deg the tyres' compliance tips it; straight up it remains upright.
   device::Device device;
   const auto make = [&] {
     return std::make_unique<Session>(
@@ -169,7 +169,7 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   session.set("truck/drive/speed", 2);
   const auto x = [&] { return session.world().machines().at(0).link(0).pose().translation().x(); };
   session.step();
-  EXPECT_TRUE(logged().empty()) << "both stand on it";
+  EXPECT_TRUE(logged().empty()) << "both are on the site";
   while (x() < 9 && session.world().time() < 10) session.step();
   ASSERT_GE(x(), 9);
   ASSERT_EQ(logged().size(), 1u);

@@ -143,9 +143,10 @@ TEST(MapVolume, OfADigStoppedAtTenTimesAgreesWithTheLedger) {
         volume_of(sim::terrain_view(world, heightfield::SurfaceKind::kColumns));
     deepest_columns = std::max(deepest_columns, columns.cut - shown.cut);
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "map %.4f, columns alone %.4f, dug %.4f; lies %.1f, held %.1f, elsewhere %.1f kg",
-                  shown.cut, columns.cut, earth.bank_volume, lies, held, elsewhere);
+    std::snprintf(
+        text, sizeof text,
+        "map %.4f, columns alone %.4f, dug %.4f; resting %.1f, held %.1f, elsewhere %.1f kg",
+        shown.cut, columns.cut, earth.bank_volume, lies, held, elsewhere);
     std::printf("[ VALUE    ] cut [m3] at %.1f s: %s\n", stop, text);
   }
   // Otherwise the test would prove nothing.

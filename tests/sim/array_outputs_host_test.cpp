@@ -57,7 +57,7 @@ TEST(ArrayOutputs, HashAndSaveEverythingVisibleToReaders) {
   load_saved(saved(outputs), copy);
   EXPECT_EQ(hash_of(copy).digest(), hash_of(outputs).digest());
   EXPECT_EQ(copy.view(0).time(), 0.5);
-  EXPECT_EQ(copy.view(0).bytes().data(), storage) << "an array keeps its address for life";
+  EXPECT_EQ(copy.view(0).bytes().data(), storage) << "an array never changes its address";
   EXPECT_EQ(test::flip_every_byte(outputs, copy), "");
 }
 

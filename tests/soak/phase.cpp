@@ -81,7 +81,7 @@ std::vector<Phase> read_phases(const std::string& path) {
         p.bytes.device >> p.particles >> p.ledger >> p.hash;
     if (!cells)
       throw InputError(Fault{Fault::Severity::kError, path, number, "row", line,
-                             "must be a row of a soak's table", "remove the folder to begin anew"});
+                             "must be a row of a soak's table", "remove the folder to start over"});
     out.push_back(p);
   }
   return out;

@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   const double hours = argc == 3 ? std::atof(argv[2]) : 0;
   if (!(hours > 0 && hours <= 250)) {  // the scene's longest time is 1e6 s
     std::printf(
-        "usage: navvy_soak FOLDER HOURS: simulated, up to 250; goes on with what is in the "
+        "usage: navvy_soak FOLDER HOURS: simulated, up to 250; continues the "
         "folder\n");
     return 2;
   }

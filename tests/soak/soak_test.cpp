@@ -129,8 +129,7 @@ TEST(Soak, ResumesFromAnyPartAndReportsALeakPerCycle) {
   Result pieces;
   for (int i = 0; i < 40 && pieces.compared < 4; ++i) pieces = soak(device, plan);
   EXPECT_EQ(pieces.reached, 4);
-  EXPECT_EQ(pieces.compared, 4)
-      << "as the run that went on from snapshots came to, four fresh ones do";
+  EXPECT_EQ(pieces.compared, 4) << "four fresh sessions reach the hash of the resumed run";
   EXPECT_EQ(pieces.processes, 4);
   EXPECT_TRUE(pieces.broken.empty()) << pieces.broken.front();
 

@@ -108,7 +108,7 @@ std::vector<std::string> wrong_references(const std::string& line, const Targets
     if (at == targets.headings.end())
       found.push_back("no page " + name);
     else if ((*it)[3].length() == 0)
-      found.push_back("a reference stands on one line: " + it->str());
+      found.push_back("a reference must be on one line: " + it->str());
     else if ((*it)[2].matched && at->second.count(heading) == 0)
       found.push_back(name + " has no heading '" + heading + "'");
   }

@@ -38,7 +38,7 @@ TEST(Judge, AWorseResultAndNotANumberFail) {
   EXPECT_EQ(judge(&kAbove, std::nan(""), {0, 0.10}), Verdict::kWorse);
 }
 
-TEST(Judge, AToleranceNewlyMetAsksToUpdateTheTable) {
+TEST(Judge, AToleranceNewlyMetFailsUntilTheTableIsUpdated) {
   EXPECT_EQ(judge(&kAbove, 0.09, {0, 0.10}), Verdict::kNewlyMet);
   EXPECT_EQ(judge(&kBelow, 28.3, {28.3, 36}), Verdict::kNewlyMet);
 }
@@ -87,8 +87,8 @@ TEST(KnownDeviations, TheTableOfThisTreeIsValid) {
 }
 
 TEST(ExpectBetween, FailsTheTestOutsideItsTolerance) {
-  EXPECT_NONFATAL_FAILURE(expect_between("figure", 2, 0, 1, "here"), "is outside 0 .. 1");
-  expect_between("figure", 0.5, 0, 1, "here");
+  EXPECT_NONFATAL_FAILURE(expect_between("quantity", 2, 0, 1, "here"), "is outside 0 .. 1");
+  expect_between("quantity", 0.5, 0, 1, "here");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Digs in difficult ground, in scenes of their own (digs/), end by themselves at the requested
-// depth.
+// Digs in difficult ground, in separate scenes (digs/), end by themselves at the requested depth.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -107,7 +107,7 @@ TEST(StrongSoil, FillsNoMoreAndTakesLonger) {
         "four scoops, c " + std::to_string(static_cast<int>(kilopascals)) + " kPa, ";
     // A dig that ends earlier reports why (session::ProgramReport); it has no four scoops to
     // compare.
-    print_value(name + "scoops", clay.count, "4, or the dig says why not", kSource);
+    print_value(name + "scoops", clay.count, "4, or the dig reports why not", kSource);
     expect_between(name + "payload / payload in loam", clay.payload / loam.payload, 0, 1.03,
                    kSource);
     expect_between(name + "largest draft / that of the weaker soil", clay.draft / before.draft, 1,

@@ -82,7 +82,7 @@ def rows_of(text, case=None):
 
 
 def collect(rows, found, seconds, date, device, state):
-    """`rows` with those of the cases in `found` renewed in their place; what was entered as half the cell stays."""
+    """`rows` with those of the cases in `found` renewed in their place; values entered for half the cell are kept."""
     half = {(row["case"], row["quantity"]): row["half"] for row in rows}
     fresh = collections.defaultdict(list)
     for row in found:

@@ -87,7 +87,7 @@ TEST(SupportedBody, ASingleBodyReceivesExactlyTheAppliedImpulses) {
     engine->step(dt, ground);
     momentum.z() -= dt * kLower * kGravity;
     EXPECT_LT((engine->accounts()->momentum(0) - momentum).norm(), 1e-9)
-        << "what the soil reads, step " << i;
+        << "input of the soil, step " << i;
     // Intermittent pushes, so that the expected support is nearly always wrong.
     if (i % 7 < 4) {
       const Vec3 J(3 * std::sin(i), 2 * std::cos(2 * i), 8 + 5 * std::sin(3 * i)),

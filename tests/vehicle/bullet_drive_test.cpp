@@ -26,7 +26,7 @@ double circle_radius(const Vec3& a, const Vec3& b, const Vec3& c) {
          (2 * area2);
 }
 
-TEST(BulletDrive, StandsStillOnItsTyres) {
+TEST(BulletDrive, StaysAtRestOnItsTyres) {
   const scene::Machine m = ew180();
   auto engine = make_bullet_engine(kDown);
   engine->add_machine(m, Pose::Identity());

@@ -63,7 +63,7 @@ TEST(BulletRock, ABoomStallsWithTheForceOfItsCylinder) {
               "coupling of the rock");
   EXPECT_GT(lowest, kRock - 1e-3);
   EXPECT_LT(dig.lowest(), kRock + 1e-3) << "it does not hover";
-  print_value("highest it came off again [mm]", 1e3 * bounce, "<= 5", "test");
+  print_value("highest rebound [mm]", 1e3 * bounce, "<= 5", "test");
   EXPECT_LT(bounce, 5e-3);
   const JointState state = dig.engine->joint(0, boom);
   EXPECT_TRUE(state.stalled);
@@ -131,7 +131,7 @@ TEST(BulletRock, SteelSlidesOnItWithFriction) {
     lowest = std::min(lowest, dig.lowest());
   });
   EXPECT_LT(dig.engine->link(0, dig.bucket).X_WL.translation().x(), before - 0.02)
-      << "the stick draws it along";
+      << "the stick pulls it along";
   EXPECT_GT(lowest, kRock - 2e-3);
   EXPECT_NEAR(along / up, 0.5, 0.02) << "against the motion";
 }

@@ -189,7 +189,7 @@ TEST(BulletSteel, ABucketPicksUpCarriesAndSetsDownAStone) {
   crane.go({0, 2.3, 0.5, radians(-20)}, 2);
   crane.go({0, 2.2, 1.6, radians(0)}, 2);
   const Vec3 lifted = stone(), held = in_bucket();
-  EXPECT_GT(lifted.z(), 1.0) << "taken up";
+  EXPECT_GT(lifted.z(), 1.0) << "picked up";
   crane.go({radians(90), 2.2, 1.6, radians(0)}, 4);
   const auto bearing = [](const Vec3& p) { return std::atan2(p.y(), p.x()); };
   EXPECT_LT((in_bucket() - held).norm(), 0.1) << "carried in the bucket";

@@ -54,7 +54,7 @@ class ControllerContract : public ::testing::TestWithParam<std::string> {
   void go(double duration) {
     run(*engine, flat(), duration, kStep, [this](double) { encoders->advance(*engine, 0); });
   }
-  /// Commands wheel speeds [rad/s], as for motors of their own.
+  /// Commands wheel speeds [rad/s], as for individual motors.
   void turn_wheels(double left, double right) {
     engine->set_joint(0, machine.joint_index(machine.wheels[0].joint),
                       {JointMode::kVelocity, left});

@@ -199,7 +199,7 @@ TEST_P(Crawlers, StandOnASlopeUpToTheirFriction) {
     const Vec3 before = built->link(0, 0).X_WL.translation();
     run(*built, hill, 2, kStep);
     const double slid = (built->link(0, 0).X_WL.translation() - before).norm();
-    print_value("slid in 2 s [m]", slid, beside < 0 ? "below 1 mm" : "more than 0.1 m",
+    print_value("slip distance in 2 s [m]", slid, beside < 0 ? "below 1 mm" : "more than 0.1 m",
                 "atan of its friction");
     if (beside < 0)
       EXPECT_LT(slid, 1e-3);

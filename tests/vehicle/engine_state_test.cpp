@@ -90,8 +90,7 @@ TEST_P(CombustionEngineState, WithoutAFinitePlaceIsRefusedByName) {
       FAIL() << "a machine was loaded at " << place;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("[1]"), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("finite"), std::string::npos)
-          << error.what();
+      EXPECT_NE(std::string(error.what()).find("finite"), std::string::npos) << error.what();
     }
   }
 }
@@ -113,8 +112,7 @@ TEST(BulletState, ResumesEqualAfterTheDriveOverrodeAWheel) {
   for (const double direction : {1.0, -1.0}) {
     const auto whole = build(), resumed = build();
     const auto ground = testing::slope(radians(6));
-    // Less than 0.02 rad/s, so that it depends on the joint's fastest whether this is asking at
-    // all.
+    // Below 0.02 rad/s, so that the joint's top speed decides whether this counts as a command.
     whole->set_joint(0, rear, {JointMode::kVelocity, 0.015 * direction});
     run(*whole, ground, 0.5, kStep);
     whole->set_drive(0, {0, 0, true});

@@ -44,7 +44,7 @@ TEST(GearedEngine, TurnsTheDifferentialCarrierAtTheGovernedSpeed) {
   EXPECT_DOUBLE_EQ(engine.fastest(1), 300.0 / 40);
   EXPECT_DOUBLE_EQ(engine.fastest(2), 300.0 / 20);
   EXPECT_DOUBLE_EQ(engine.fastest(3), 30);
-  EXPECT_DOUBLE_EQ(engine.fastest(0), 30) << "it may choose the last";
+  EXPECT_DOUBLE_EQ(engine.fastest(0), 30) << "the last one is available";
 }
 
 TEST(GearedEngine, TransmitsItsCurveTimesRatioTimesEfficiency) {
@@ -97,7 +97,7 @@ TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
   EXPECT_EQ(gear_of(engine), 1) << "the others would slip";
   // The second one has 20 x 0.9 x 420 = 7560 N m at 6 rad/s, the third would be below idle.
   engine.shift(0, 6, 7000, kStep);
-  EXPECT_EQ(gear_of(engine), 1) << "a quarter to spare";
+  EXPECT_EQ(gear_of(engine), 1) << "a quarter in reserve";
   engine.shift(0, 6, 5000, kStep);
   EXPECT_EQ(gear_of(engine), 2);
   for (int i = 0; i < 599; ++i) engine.shift(0, 6, 9000, kStep);
@@ -105,7 +105,7 @@ TEST(GearedEngine, ChoosesTheHighestGearThatPullsAndDoesNotHunt) {
   for (int i = 0; i < 2; ++i) engine.shift(0, 6, 9000, kStep);
   EXPECT_EQ(gear_of(engine), 1);
   engine.shift(0, 8, 9000, kStep);
-  EXPECT_EQ(gear_of(engine), 2) << "at once, before it races";
+  EXPECT_EQ(gear_of(engine), 2) << "at once, before it overspeeds";
   engine.shift(0, 4, 100, kStep);
   EXPECT_EQ(gear_of(engine), 1) << "at once, before it slips";
 }
@@ -121,7 +121,7 @@ TEST(GearedEngine, AtItsGovernedSpeedChangesUpIfTheNextGearKeepsIt) {
   EXPECT_EQ(gear_of(engine), 2);
   // Then it accelerates; otherwise the first gear returns after a second.
   for (int i = 0; i < 700; ++i) engine.shift(0, 7.75, 3e4, kStep);
-  EXPECT_EQ(gear_of(engine), 2) << "the first would race";
+  EXPECT_EQ(gear_of(engine), 2) << "the first would overspeed";
   engine.shift(0, 7.4, 3e4, kStep);
   EXPECT_EQ(gear_of(engine), 1);
 }

@@ -52,8 +52,8 @@ TEST(Hitch, PullsLikeAJointInTheMachine) {
   const scene::Machine robot = shipped("robot"), whole = shipped("robot_with_trailer");
   joined->add_machine(whole, Pose::Identity());
   double apart = 0, way = 0;
-  // By the wheels' joints, since a governor uses the mass of its own machine. The brake, which
-  // would also hold the trailer's wheels if they belong to the machine, is off.
+  // Driven by the wheels' joints, since a governor uses the mass of its own machine. The brake,
+  // which would also hold the trailer's wheels if they belong to the machine, is off.
   for (PhysicsEngine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
   for (const std::array<double, 2>& spin :
        {std::array{3.0, 6.0}, std::array{6.0, 4.0}, std::array{0.0, 0.0}}) {

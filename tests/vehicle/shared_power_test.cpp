@@ -90,7 +90,7 @@ TEST(SharedPower, OfAHydrostaticDriveAndThePumpStaysWithinTheEngine) {
   // 2.5 %: the drive receives the pump's power one step later, and while valves open that rises by
   // 1.4 kW per step.
   EXPECT_LE(shared.most, 1.025 * kEngine);
-  EXPECT_GT(shared.most, 0.9 * kEngine) << "it is made use of";
+  EXPECT_GT(shared.most, 0.9 * kEngine) << "it is used";
   EXPECT_NEAR(shared.shared, shared.most, 0.025 * kEngine);
   EXPECT_LT(shared.speed, own.speed - 0.2) << "the pump has priority";
   EXPECT_NEAR(shared.pump, own.pump, 0.1 * own.pump);

@@ -74,7 +74,7 @@ TEST_P(ShippedVehicles, DriveSteerAndBrake) {
   const double speed = 0.4 * scene::powertrain(machine.drive).max_speed;
   engine->set_drive(0, {speed, 0, false});
   run(*engine, flat(), 5, kStep);
-  print_value("speed over that asked for", forward() / speed, "0.9 .. 1.05", "a governed drive");
+  print_value("speed / commanded speed", forward() / speed, "0.9 .. 1.05", "a governed drive");
   EXPECT_GT(forward(), 0.9 * speed);
   EXPECT_LT(forward(), 1.05 * speed);
   const double straight = heading();

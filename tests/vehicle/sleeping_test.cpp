@@ -92,7 +92,7 @@ TEST(Rest, AnApproachingBodyWakesOthersAndAStackSleepsTogether) {
   double lowest = 10;
   run(*engine, flat(), 1, kStep,
       [&](double) { lowest = std::min(lowest, pose(*engine, 2).translation().z()); });
-  EXPECT_GT(lowest, 1.45) << "it fell through a body that slept";
+  EXPECT_GT(lowest, 1.45) << "it fell through a sleeping body";
   run(*engine, flat(), 4, kStep);
   for (int m = 0; m < 3; ++m) EXPECT_TRUE(sleeps(*engine, m)) << m;
   // The lower one is pulled away: the upper one falls.

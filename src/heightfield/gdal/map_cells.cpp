@@ -44,7 +44,7 @@ class Staircase {
   bool whole_ = true;
 };
 
-// A wheel would roll over these steps; the note says how to smooth them.
+// A wheel would roll over these steps; the note describes how to smooth them.
 void note_staircase(MapFile& map, const std::string& unit, double metres) {
   TerrainReport& report = map.report;
   // Means of several cells lie between two steps, and bilinear heights between them have the slopes

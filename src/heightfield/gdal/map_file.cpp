@@ -182,7 +182,7 @@ void read_transform(MapFile& map) {
   map.report.point_registered = registration != nullptr && EQUAL(registration, GDALMD_AOP_POINT);
 }
 
-// Degrees are not lengths: the message says how to get metres.
+// Degrees are not lengths: the message describes how to get metres.
 void refuse_degrees(MapFile& map) {
   const Vec2 middle = 0.5 * (map.report.file_min + map.report.file_max);
   const int zone = std::clamp(static_cast<int>(std::floor((middle.x() + 180) / 6)) + 1, 1, 60);

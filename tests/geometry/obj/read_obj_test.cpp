@@ -47,10 +47,10 @@ const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST_F(ReadObj, KeepsVerticesInOrderAndCutsFacesIntoTriangles) {
   const TriangleMesh mesh = read("# a square\n" + kSquare + "v 9 9 9\nf 1 2 3 4\n");
-  ASSERT_EQ(mesh.vertices.size(), 5u) << "loose vertices stay";
+  ASSERT_EQ(mesh.vertices.size(), 5u) << "unused vertices remain";
   EXPECT_EQ(mesh.vertices[2], Vec3(1, 1, 0));
   ASSERT_EQ(mesh.triangles.size(), 2u);
-  EXPECT_EQ(mesh.area_vector(0) + mesh.area_vector(1), Vec3(0, 0, 2)) << "the front stays";
+  EXPECT_EQ(mesh.area_vector(0) + mesh.area_vector(1), Vec3(0, 0, 2)) << "the orientation remains";
   EXPECT_TRUE(mesh.material_of.empty());
 }
 

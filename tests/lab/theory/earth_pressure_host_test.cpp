@@ -71,7 +71,7 @@ TEST(LogSpiral, OfASmoothWallMatchesRankine) {
         << phi;
 }
 
-TEST(LogSpiral, LiesBetweenTheLowerBoundAndThePlanarWedge) {
+TEST(LogSpiral, IsBetweenTheLowerBoundAndThePlanarWedge) {
   BladeCase blade;
   blade.rake = kPi / 2, blade.depth = 1, blade.unit_weight = 2;
   for (const double phi : {25.0, 30.0, 35.0, 40.0})
