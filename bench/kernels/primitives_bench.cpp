@@ -40,7 +40,7 @@ void device_copy(benchmark::State& state) {
   }
   state.SetBytesProcessed(2 * state.range(0) * static_cast<std::int64_t>(state.iterations()));
 }
-BENCHMARK(device_copy)->RangeMultiplier(16)->WorkSize(1 << 16, 1 << 28)->UseRealTime();
+BENCHMARK(device_copy)->RangeMultiplier(16)->Range(1 << 16, 1 << 28)->UseRealTime();
 
 void kernel_launch(benchmark::State& state) {
   device::Device& device = shared_device();

@@ -361,8 +361,7 @@ RunProgress Simulation::progress() const {
   // The time before a resumed snapshot does not count for the speed of this process.
   const double spent = s.total.seconds();
   out.real_time_factor = spent > 0 ? (out.time - s.status.start_time) / spent : 0;
-  if (out.real_time_factor > 0)
-    out.remaining = std::max(0.0, (out.duration - out.time) / out.real_time_factor);
+  out.remaining = record::wall_time_left(out.duration - out.time, out.real_time_factor);
   out.particles = s.world().soil().counts().particles;
   out.cycles = static_cast<int>(s.session->cycles().size());
   out.pictures = s.recorder ? s.recorder->status().frames : 0;

@@ -484,7 +484,8 @@ struct Machine {
 
   void describe(Fields& f) {
     f("navvy:physics", kinematic, {{"dynamic", false}, {"kinematic", true}},
-      "Physics of the machine: masses, forces and hydraulics, or motion exactly as commanded.");
+      "Physics: masses and forces, or motion exactly as commanded; an engine is a part of "
+      "navvy:drive.");
     f("navvy:derive_collisions", derive_collisions,
       "Visuals collide in a model without any collision, except planes and links with a shell or "
       "tyre.",

@@ -174,6 +174,11 @@ void ElementReader::field(const Field& field) {
   if (field.mark.has(Mark::kAttribute)) return read_attribute(field);
   Element* child = take(field.mark, field.name);
   if (child == nullptr) return;
+  if (mixed_ && child->FirstChildElement() != nullptr) {
+    faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements",
+                  field.text);
+    return;
+  }
   const double factor = scene::unit_of(field.name).factor;
   const bool repeats = std::holds_alternative<std::vector<Vec3>*>(field.value);
   if (repeats) repeatable_.push_back(field.name);

@@ -251,7 +251,12 @@ class Settings {
     if (const auto [at, is_new] = written_.try_emplace({&target, name}, key); !is_new)
       warn(at->second, "", "has no effect: a later setting gives the value", "remove one of them");
     if (child != nullptr && child->attribute) {
-      const bool changed = attribute(target, name.c_str()) != value;
+      const std::string before = attribute(target, name.c_str());
+      const bool changed = before != value;
+      // A soil keeps the name by which layers and loads refer to it.
+      const bool shipped = before.find(".sdf") == std::string::npos;
+      if (name == "ref" && shipped && attribute(target, "name").empty())
+        target.SetAttribute("name", before.c_str());
       target.SetAttribute(name.c_str(), value.c_str());
       return changed;
     }

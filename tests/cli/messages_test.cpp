@@ -227,7 +227,7 @@ TEST_F(Messages, WarnOfAnglesThatLookLikeTheOtherUnit) {
       "(write <pose "
       "degrees=\"true\">");
   EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.2618</angle_deg></slope>", "")}), 0);
-  expect_said("is 15 deg in radians; were radians meant? (this element counts in degrees");
+  expect_said("is 15 deg in radians; were radians meant? (this element is in degrees");
   // No false alarm for one and a half turns in radians, or for small angles in degrees.
   EXPECT_EQ(run({"check", scene("<slope><angle_deg>0.25</angle_deg></slope>",
                                 machine("digger", "0 0 0 0 0 -4.7124"))}),

@@ -321,7 +321,7 @@ TEST_F(Record, AWrongAddressOrLayerToPublishKeepsEarlierResults) {
       {{"--publish", "tcp:" + std::to_string(ntohs(address.sin_port))}, "cannot listen there"},
       {{"--publish", "tcp:99999999"}, "is not a port from 0 to 65535"},
       {{"--publish", folder_ / "out"}, "already: patches are numbered from 1"},
-      {{"--publish", folder_ / "s.sdf"}, "is there and no folder"},
+      {{"--publish", folder_ / "s.sdf"}, "exists and is not a folder"},
       {{"--publish", folder_ / "maps", "--publish-layers", "elevtion"}, "elevation"}};
   for (const auto& [options, part] : slips) {
     SCOPED_TRACE(options[1]);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene_io/fields.h"
+#include "scene_io/element_reader.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/sdf_model.h"
 

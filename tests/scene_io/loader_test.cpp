@@ -269,7 +269,7 @@ TEST(Loader, AnEngineIsAParameterThatMayBeAbsent) {
   geared.engine->curve = {{100, 200}, {200, 300}};
   geared.engine->gears = {2, 1};
   for (const auto& [path, value] : of(plain))
-    EXPECT_EQ(path.find("engine"), std::string::npos) << path;
+    EXPECT_EQ(path.find("/engine/"), std::string::npos) << path;
   scene::AckermannDrive other = geared;
   EXPECT_EQ(of(other), of(geared));
   other.engine->gears[1] = 1.1;
@@ -409,11 +409,12 @@ TEST(Overrides, SetSeedDurationRenderTerrainAndSize) {
   EXPECT_TRUE(world.ground.features.empty());
 }
 
-TEST(Overrides, ChangeReferencesFilesAndPoses) {
-  const scene::Scene sand = load(kBody, set("soil[loam].ref=sand"));
-  EXPECT_EQ(sand.soils[0].source,
-            load("<navvy:soil ref=\"sand\"/><navvy:ground/>").soils[0].source);
-  EXPECT_EQ(sand.soils[0].cohesion, 7000) << "the scene's own values remain";
+TEST(Overrides, ReachReferencesFilesAndPoses) {
+  const scene::Scene sand = load(kBody, set("soil[loam].ref=sand_dry"));
+  const scene::Scene shipped = load("<navvy:soil ref=\"sand_dry\"/><navvy:ground/>");
+  EXPECT_EQ(sand.soils[0].source, shipped.soils[0].source);
+  EXPECT_EQ(sand.soils[0].name, "loam") << "layers refer to it";
+  EXPECT_EQ(sand.soils[0].cohesion, 7000) << "the scene's own values stay";
   const scene::Scene moved = load(kBody, set("machine.first.pose=3 1 0 0 0 0"));
   EXPECT_EQ(Vec3(moved.machines[0].X_WM.translation()), Vec3(3, 1, 0));
   EXPECT_EQ(Vec3(moved.machines[1].X_WM.translation()), Vec3(0, 0, 0));
