@@ -272,7 +272,7 @@ struct NamedNumber {
 /// Returns the numbers that `describe` lists directly, without those of child elements. They refer
 /// to the described object.
 std::vector<NamedNumber> numbers_of(const std::function<void(Fields&)>& describe);
-/// Returns the name by which `describe` tells its object from others: the attribute `name`, else
+/// Returns the name by which `describe` identifies its object: the attribute `name`, else
 /// the first name of another object; empty without either.
 std::string name_of(const std::function<void(Fields&)>& describe);
 
