@@ -14,11 +14,12 @@
 namespace navvy::session {
 
 /// Returns an error for every target of a program that is out of reach, and a warning for every dig
-/// that dumps too low over the bed of another machine. Each states file and line.
+/// that dumps too low over the bed of another machine. Each states file and line. Errors are
+/// returned, not thrown.
 ///
 /// `X_WB` contains the pose of each machine's base link in W, in the order of the machines in the
 /// scene. `surface` gives the ground heights in W [m] to which digs and drives refer. `planners`
-/// makes path planners for steps that plan paths. The function itself throws no exceptions.
+/// makes path planners for steps that plan paths.
 std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
                                   const std::vector<Pose>& X_WB,
                                   const control::MakePathPlanner& planners = {});

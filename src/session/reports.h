@@ -26,7 +26,7 @@ struct Cycle {
   double payload_lift_out = 0, payload_dump = 0;
   /// Maximum magnitude of the low-pass filtered soil force on the bucket during the cycle [N].
   double force_peak = 0;
-  /// Maximum of its component against the motion of the cutting edge, the digging resistance [N].
+  /// Maximum digging resistance during the cycle (BucketLoad::draft) [N].
   double draft_peak = 0;
   /// Maximum upward soil force after the start of the curl (BucketLoad::uplift) [N]. It occurs when
   /// the heel or the floor of the bucket presses on the ground.
