@@ -170,14 +170,20 @@ class Activity {
   OperatorContext& place_;
 
  private:
-  // Part of every activity's state, so that derived classes need not save it.
+  // Phase clock. The base class saves it, so that derived classes need not.
   struct Clock {
+    // Value last passed to `enter`.
     std::int64_t phase = 0;
-    double time = 0;  // [s]
+    // Time since then [s].
+    double time = 0;
   };
+  // Current phase and the time spent in it.
   Clock clock_;
+  // Event that has been reported but not yet taken; kNone if there is none.
   CycleEvent event_ = CycleEvent::kNone;
+  // See state().
   StepState state_ = StepState::kRunning;
+  // See reason().
   std::string reason_;
 };
 

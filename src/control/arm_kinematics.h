@@ -87,9 +87,13 @@ class ArmKinematics {
   int swing_ = -1;
   // Indices of the boom, stick and bucket joints in scene::Machine::joints.
   std::array<int, 3> joints_{};
+  // Joint limits of boom, stick and bucket [rad].
   std::array<double, 3> lower_{}, upper_{};
+  // See swing_limited().
   bool swing_limited_ = false;
+  // Limits of the swing joint [rad]; meaningless without limits.
   double swing_lower_ = 0, swing_upper_ = 0;
+  // See X_BS().
   Pose X_BS_ = Pose::Identity();
   // Position of the boom's pin in S: distance from the swing axis and height [m].
   double pin_reach_ = 0, pin_height_ = 0;
@@ -97,10 +101,12 @@ class ArmKinematics {
   double boom_ = 0, stick_ = 0, bucket_ = 0;
   // See cut_angle(); angle of the line from pin to tip with all joints at zero [rad].
   double cut_angle_ = 0, tip_angle_ = 0;
+  // See bucket().
   scene::Bucket bucket_data_;
-  // Shell of the bucket projected onto the swing plane at bucket angle 0: vertices relative to the
-  // tip [m], and edges as pairs of vertex indices.
+  // Vertices of the bucket's shell, projected onto the swing plane with the line from pin to tip
+  // horizontal, relative to the tip [m].
   std::vector<Vec2> profile_;
+  // Edges of the shell as pairs of indices into `profile_`.
   std::vector<std::array<int, 2>> profile_edges_;
 };
 

@@ -48,10 +48,15 @@ class DifferentialOdometry {
   double distance() const { return distance_; }
 
  private:
+  // Distance between the left and the right wheels [m].
   double track_;
+  // Encoder data of the left and the right wheel.
   CountedWheel left_, right_;
+  // Register values at the last reading.
   std::uint64_t left_before_ = 0, right_before_ = 0;
+  // See pose().
   PlanePose pose_;
+  // See distance().
   double distance_ = 0;
 };
 

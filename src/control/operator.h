@@ -79,6 +79,7 @@ class Operator {
 
  private:
   struct State;
+  // Complete state of the operator.
   std::unique_ptr<State> state_;
 };
 

@@ -71,9 +71,11 @@ class Path {
   /// Computes `legs_` from `pieces_`.
   void find_legs();
 
+  // Pose at s = 0.
   PlanePose start_;
+  // Segments in the order in which they are driven.
   std::vector<PathPiece> pieces_;
-  // Derived from the pieces.
+  // Legs in driving order, computed from the segments.
   std::vector<PathLeg> legs_;
 };
 
@@ -84,8 +86,10 @@ struct PlannedPath {
   std::int64_t step = 0;
   /// Simulated time at which the path was planned [s].
   double time = 0;
+  /// The planned path.
   Path path;
 
+  /// Saves or loads all fields.
   void visit(Archive& a) {
     a("step", step);
     a("time", time);

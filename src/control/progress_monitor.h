@@ -37,9 +37,9 @@ class ProgressMonitor {
  private:
   // Pose of the machine when it last made progress: x, y [m] and yaw [rad].
   Vec3 anchor_ = Vec3::Zero();
-  // Values since then: elapsed time [s], distance that the fastest driven wheel has rolled [m], and
-  // the time integral of the force of the ground on the wheels in W [N s].
+  // Since then: elapsed time [s], and distance that the fastest driven wheel has rolled [m].
   double stuck_ = 0, rolled_ = 0;
+  // Time integral of the force of the ground on the wheels in W since then [N s].
   Vec3 push_ = Vec3::Zero();
 };
 

@@ -65,10 +65,13 @@ class ReachCheck {
   void add(Fault::Severity severity, const std::string& element, const std::string& value,
            const std::string& rule, const std::string& remedy);
 
-  // The checked program; `index_` below is the 0-based position of the step being checked.
+  // The checked program.
   const scene::Program& program_;
+  // File and machine name for messages.
   std::string file_, name_;
+  // Position of the step being checked in the program, counted from 0.
   std::size_t index_ = 0;
+  // Errors and warnings found so far.
   std::vector<Fault> faults_;
 };
 

@@ -28,10 +28,13 @@ class GroundSurfaceView final : public SurfaceView {
  public:
   /// Stores a reference to `ground`, which must outlive this view.
   explicit GroundSurfaceView(const heightfield::Ground& ground) : ground_(ground) {}
+  /// Returns the ground itself.
   const heightfield::Terrain& terrain() const override { return ground_; }
+  /// Returns an immutable copy of the ground.
   heightfield::TerrainView mapped() const override { return ground_.view(); }
 
  private:
+  // The ground that is shown.
   const heightfield::Ground& ground_;
 };
 

@@ -111,16 +111,21 @@ class Coupling {
   // the pose of each tool's link in W at the start of the step.
   void exchange_with_soil(double dt, const std::vector<Pose>& poses_before);
 
-  // References given to the constructor; `dynamic_` is the engine of all machines that are not
-  // kinematic.
+  // The simulated scene.
   const scene::Scene& world_;
+  // Engine of all machines that are not kinematic.
   vehicle::PhysicsEngine& dynamic_;
+  // Engine of all kinematic machines.
   vehicle::PhysicsEngine& kinematic_;
+  // Soil solver, in which every shell is a tool.
   soil::Solver& solver_;
+  // Ground into which ruts are pressed.
   heightfield::Ground& ground_;
-  // Ruts of tyres and of tracks, and whether the scene has tracks.
+  // Ruts of tyres.
   Ruts ruts_;
+  // Ruts of tracks; they share the load history in `ruts_`.
   TrackRuts track_ruts_;
+  // True if any machine of the scene has a track.
   bool has_tracks_ = false;
   // The ground as machines read it.
   GroundView view_;

@@ -56,9 +56,11 @@ class GroundView final : public terramechanics::GroundQuery {
   }
 
  private:
-  // Terrain, soils and ruts given to the constructor; `ruts_` may be null.
+  // Terrain that is read.
   const heightfield::Terrain& terrain_;
+  // Soils to which the terrain's soil indices refer.
   const std::vector<scene::Soil>& soils_;
+  // Source of the compaction under tyres; may be null.
   const Ruts* ruts_;
 };
 

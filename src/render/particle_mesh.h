@@ -68,6 +68,7 @@ class ParticleMesh {
   float pitch_ = 0.06f;
   // Visible lumps of the picture being built.
   std::vector<Lump> lumps_;
+  // See drawn().
   int drawn_ = 0;
 };
 

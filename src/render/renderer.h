@@ -67,6 +67,7 @@ class Renderer {
  private:
   // Hides the headers of Coin and OpenGL from users of this class.
   class Impl;
+  // Implementation and all cached data.
   std::unique_ptr<Impl> impl_;
 };
 

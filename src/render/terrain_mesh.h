@@ -107,6 +107,7 @@ class TerrainMesh {
   Mesh surroundings_;
   // True if `surroundings_` must be built again.
   bool surroundings_stale_ = true;
+  // See rebuilt().
   int rebuilt_ = 0;
 };
 

@@ -36,8 +36,9 @@ class BucketGauge {
   BucketLoad load() const { return load_of(tool_.smooth_force(), link_.state(), p_tip_); }
 
  private:
-  // The bucket's shell and link.
+  // The bucket's shell.
   sim::ToolHandle tool_;
+  // The link that carries the shell.
   sim::LinkHandle link_;
   // Position of the cutting edge in the frame of the link [m].
   Vec3 p_tip_;

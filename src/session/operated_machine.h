@@ -91,20 +91,25 @@ class OperatedMachine {
   /// Updates the current bed tip, and appends it to `tips` when it ends.
   void note_tip(std::vector<BedTip>& tips);
 
-  // The world, and the machine in it.
+  // World that the machine is in.
   sim::World& world_;
+  // The operated machine.
   sim::MachineHandle machine_;
-  // Handles to the observed parts: all joints, all wheels, the first bucket and the first bed of
-  // the machine.
+  // All joints of the machine, in the order of its description.
   std::vector<sim::JointHandle> joints_;
+  // All wheels of the machine, in the order of its description.
   std::vector<sim::WheelHandle> wheels_;
+  // Gauge of the machine's first bucket; empty if it has none.
   std::optional<BucketGauge> bucket_;
+  // The machine's first bed; empty if it has none.
   std::optional<sim::ToolHandle> bed_;
-  // The operator, and what it observed in the last step.
+  // The operator, with the state of the program.
   control::Operator op_;
+  // What the operator observed in the last step.
   control::Observation seen_;
-  // Digging cycle and bed tip in progress; empty if there is none.
+  // Digging cycle in progress; empty if there is none.
   std::optional<Cycle> open_;
+  // Bed tip in progress; empty if there is none.
   std::optional<BedTip> open_tip_;
   // True after `take` has been called.
   bool taken_ = false;

@@ -138,6 +138,7 @@ class Session {
   bool time_is_over() const;
 
   struct State;
+  // World, operators and results.
   std::unique_ptr<State> state_;
 };
 

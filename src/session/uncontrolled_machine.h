@@ -43,9 +43,11 @@ class UncontrolledMachine {
   void visit(Archive& a);
 
  private:
-  // The world, the machine in it, and the machine's wheels.
+  // World that the machine is in.
   const sim::World& world_;
+  // The monitored machine.
   sim::MachineHandle machine_;
+  // All wheels of the machine, in the order of its description.
   std::vector<sim::WheelHandle> wheels_;
   // Observation of the machine in the last step.
   control::Observation seen_;

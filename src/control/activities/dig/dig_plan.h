@@ -126,6 +126,7 @@ class DigPlan {
 
   // Commanded trench; `thin` reduces its pass depth.
   Dig dig_;
+  // Centre line of the trench as seen when the plan was made.
   TrenchLine line_;
   // Volume that a full bucket takes from undisturbed ground [m3].
   double scoop_volume_ = 0;

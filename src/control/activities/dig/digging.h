@@ -144,8 +144,11 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Returns true and logs a warning if the current phase has lasted longer than `limit` [s].
   bool overdue(double limit) const;
 
+  // The step that is carried out.
   const Dig& dig_;
+  // Kinematics of the machine's arm.
   const ArmKinematics& arm_;
+  // Plan of the trench, made in `begin`.
   DigPlan plan_;
 };
 
