@@ -77,7 +77,7 @@ enum class CycleEvent {
   kCycleEnd,
   /// The bed starts to move to its target angle.
   kTipStart,
-  /// The tip step ends.
+  /// The bed has arrived at its target angle, and its holding time is over.
   kTipEnd
 };
 

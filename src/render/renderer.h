@@ -63,7 +63,6 @@ class Renderer {
   /// Returns the statistics of the last picture; all zero before the first one.
   const RenderStats& stats() const;
 
-  // Coin's and GL's headers stay in the source.
  private:
   // Hides the headers of Coin and OpenGL from users of this class.
   class Impl;

@@ -15,7 +15,7 @@ namespace navvy::render {
 struct Mesh {
   /// Vertices of all triangles.
   std::vector<Vertex> vertices;
-  /// Triangles that are not steep.
+  /// All triangles except those in `walls` and `skirts`.
   std::vector<std::uint32_t> indices;
   /// Steep triangles, on which the grain texture is projected from the side.
   std::vector<std::uint32_t> walls;
@@ -77,12 +77,12 @@ class TerrainMesh {
     // Corners of the bounding box in W [m].
     Vec3f low, high;
   };
-  // Returns the number of cells between columns along a tile in x direction: kTile, or fewer at the
-  // edge of the site.
+  // Returns the number of cells of a tile in x direction: kTile, or fewer at the edge of the site.
+  // A cell is the square between the centres of four neighbouring columns.
   int nodes_x(int tile) const {
     return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile;
   }
-  // Returns the number of cells between columns along a tile in y direction.
+  // Returns the number of cells of a tile in y direction.
   int nodes_y(int tile) const {
     return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile;
   }

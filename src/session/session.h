@@ -46,9 +46,11 @@ class Session {
   /// step, and samplers that are due take a sample. @throws SimulationError with step, time and
   /// cause.
   void step();
-  /// Returns true if the run is over: either the scene's duration has elapsed, or every program has
-  /// ended, successfully or not, and the settling time has passed. A program that inputs have taken
-  /// over never counts as ended.
+  /// Returns true if the run is over. This is the case if the scene's duration has elapsed, or if
+  /// every program has ended (successfully or not), the settling time has passed since, and no
+  /// loose soil is active; active soil delays the end by six settling times at most. A program that
+  /// inputs have taken over never counts as ended, and without programs only the duration ends the
+  /// run.
   bool done() const;
   /// Returns true if every program is done or has been taken over by inputs, and no machine has
   /// fallen without a program.

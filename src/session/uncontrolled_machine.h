@@ -19,7 +19,7 @@ namespace navvy::session {
 void observe_stance(const sim::World& world, const sim::MachineHandle& machine,
                     const std::vector<sim::WheelHandle>& wheels, control::Observation& seen);
 
-/// Monitors one machine while inputs control it, or nothing does.
+/// Monitors one machine while no program controls it.
 ///
 /// If the machine falls, that is, tips over or is buried, this is reported once: in the log at that
 /// moment, and as a step report for the summary.
