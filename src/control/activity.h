@@ -99,7 +99,8 @@ struct OperatorContext {
 /// bit-identically.
 class Activity {
  public:
-  /// Stores a reference to `place`, which must outlive the activity.
+  /// Makes an activity for the machine in `place`. Stores a reference to `place`, which must
+  /// outlive the activity.
   explicit Activity(OperatorContext& place) : place_(place) {}
   virtual ~Activity() = default;
   Activity(const Activity&) = delete;
@@ -172,18 +173,18 @@ class Activity {
  private:
   // Phase clock. The base class saves it, so that derived classes need not.
   struct Clock {
-    // Value last passed to `enter`.
+    // Current phase: the value last passed to `enter`.
     std::int64_t phase = 0;
-    // Time since then [s].
+    // Time since the phase was entered [s].
     double time = 0;
   };
   // Current phase and the time spent in it.
   Clock clock_;
   // Event that has been reported but not yet taken; kNone if there is none.
   CycleEvent event_ = CycleEvent::kNone;
-  // See state().
+  // kRunning while the step runs; afterwards kDone, or the state in which it failed.
   StepState state_ = StepState::kRunning;
-  // See reason().
+  // Explanation of the state as a sentence; empty if there is nothing to explain.
   std::string reason_;
 };
 

@@ -89,19 +89,20 @@ class ArmKinematics {
   std::array<int, 3> joints_{};
   // Joint limits of boom, stick and bucket [rad].
   std::array<double, 3> lower_{}, upper_{};
-  // See swing_limited().
+  // True if the swing joint has limits.
   bool swing_limited_ = false;
   // Limits of the swing joint [rad]; meaningless without limits.
   double swing_lower_ = 0, swing_upper_ = 0;
-  // See X_BS().
+  // Pose of the swing axis frame S in the frame of the base link, at a swing angle of zero.
   Pose X_BS_ = Pose::Identity();
   // Position of the boom's pin in S: distance from the swing axis and height [m].
   double pin_reach_ = 0, pin_height_ = 0;
   // Distances between successive pins [m]; the last one is from the bucket's pin to its tip.
   double boom_ = 0, stick_ = 0, bucket_ = 0;
-  // See cut_angle(); angle of the line from pin to tip with all joints at zero [rad].
+  // Angle from the line between pin and tip to the direction of the cutting edge, and angle of that
+  // line above the horizontal with all joints at zero [rad].
   double cut_angle_ = 0, tip_angle_ = 0;
-  // See bucket().
+  // The machine's first bucket, which this arm digs with.
   scene::Bucket bucket_data_;
   // Vertices of the bucket's shell, projected onto the swing plane with the line from pin to tip
   // horizontal, relative to the tip [m].

@@ -54,9 +54,9 @@ class DifferentialOdometry {
   CountedWheel left_, right_;
   // Register values at the last reading.
   std::uint64_t left_before_ = 0, right_before_ = 0;
-  // See pose().
+  // Estimated pose of the point midway between the left and right wheels.
   PlanePose pose_;
-  // See distance().
+  // Distance rolled since the last `reset` [m]; driving backwards decreases it.
   double distance_ = 0;
 };
 

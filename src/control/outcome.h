@@ -43,7 +43,7 @@ inline bool fell_short(StepState state) { return state > StepState::kDone; }
 /// A named measurement that a step reports.
 struct Measurement {
   /// Name as in summary.json, with the unit as its suffix: "depth_reached_m".
-  std::string name;  ///< ends in its unit, as keys of summary.json do: "depth_reached_m"
+  std::string name;
   /// Value in the unit that the name ends in.
   double value = 0;
 
@@ -56,7 +56,7 @@ struct StepReport {
   /// Position of the step in the program, counted from 1; 0 if the report belongs to no step.
   std::int64_t step = 0;
   /// Name of the step's element in scene files, such as "drive_to".
-  std::string element;  ///< as scene files call it: "drive_to"
+  std::string element;
   /// State in which the step ended, or kRunning.
   StepState state = StepState::kRunning;
   /// Explanation of the state as a sentence. Empty if there is nothing to explain.

@@ -68,7 +68,7 @@ class ParticleMesh {
   float pitch_ = 0.06f;
   // Visible lumps of the picture being built.
   std::vector<Lump> lumps_;
-  // See drawn().
+  // Number of lumps in the last mesh.
   int drawn_ = 0;
 };
 

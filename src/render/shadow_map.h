@@ -59,15 +59,15 @@ class ShadowMap {
 
   // True if a caster has been added since `begin`.
   bool used_ = false;
-  // See version().
+  // Number that changes whenever a new map is started.
   std::uint64_t version_ = 0;
   // Unit vector towards the sun in W.
   Vec3f to_sun_ = Vec3f::UnitZ();
-  // See plane_s() and plane_t().
+  // Planes that convert a point in W to the texture coordinates s and t.
   Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
   // For each texel, the height of the caster nearest to the sun, in the direction of the sun [m].
   std::vector<float> nearest_;
-  // See mask(); temporary memory for the soft edges.
+  // The mask (255 is fully lit), and temporary memory for its soft edges; one byte per texel.
   std::vector<std::uint8_t> mask_, blur_;
 };
 

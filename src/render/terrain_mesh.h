@@ -107,7 +107,7 @@ class TerrainMesh {
   Mesh surroundings_;
   // True if `surroundings_` must be built again.
   bool surroundings_stale_ = true;
-  // See rebuilt().
+  // Number of tiles built since the last `update`.
   int rebuilt_ = 0;
 };
 

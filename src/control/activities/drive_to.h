@@ -15,7 +15,7 @@ namespace navvy::control {
 struct DriveTo final : ActivityStep, DriveGoal {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "drive_to";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Drives along a straight line or curve to a place.";
   /// Maximum distance of the base link's origin from the target at the end [m]; if it is exceeded,
   /// the step fails as out of reach.
@@ -34,7 +34,7 @@ struct DriveTo final : ActivityStep, DriveGoal {
   /// Reports an error if the speed is zero, the machine has no drive, or the target is not on the
   /// site.
   void check(const scene::StepSource& source) const;
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns an activity with one phase, "drive". It commands only the drive.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;

@@ -9,7 +9,7 @@ namespace navvy::control {
 struct Dump final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "dump";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Opens the bucket where it is, then closes it.";
   /// Makes a step that waits `hold_in` [s] between opening and closing the bucket.
   explicit Dump(double hold_in = 1.0) : hold(hold_in) {}
@@ -22,7 +22,7 @@ struct Dump final : ActivityStep {
   }
   /// Reports an error if the machine has no bucket joint.
   void check(const scene::StepSource& source) const;
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns true: the bucket is part of the arm.
   bool needs_arm() const override { return true; }

@@ -20,7 +20,7 @@ namespace navvy::control {
 struct GoTo final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "go_to";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Drives to a pose along a planned path, around ground that is not traversable.";
   /// Target position (x, y) of the base link's origin in W [m].
@@ -60,7 +60,7 @@ struct GoTo final : ActivityStep {
   }
   /// Reports an error if the machine has no drive, or the target is not on the site.
   void check(const scene::StepSource& source) const;
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns true: the step plans paths.
   bool needs_planner() const override { return true; }

@@ -10,7 +10,7 @@ namespace navvy::control {
 struct Swing final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "swing";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Turns the upper structure, with the bucket held.";
   /// Makes a step with the target angle `angle_in` [rad].
   explicit Swing(double angle_in = 0) : angle(angle_in) {}
@@ -23,7 +23,7 @@ struct Swing final : ActivityStep {
   }
   /// Reports an error if the machine has no swing joint.
   void check(const scene::StepSource& source) const;
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns true: the arm is held while the upper structure turns.
   bool needs_arm() const override { return true; }

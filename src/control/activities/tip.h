@@ -11,7 +11,7 @@ namespace navvy::control {
 struct Tip final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "tip";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Tips the bed at the pace of its cylinder; it stays there until the next tip.";
   /// Makes a step with the target angle `angle_in` [rad] and the holding time `hold_in` [s].
@@ -29,7 +29,7 @@ struct Tip final : ActivityStep {
   /// Reports an error if the machine has no bed, or the angle is outside the limits of the bed's
   /// joint.
   void check(const scene::StepSource& source) const;
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Checks that the machine's first bed has a joint of its own. @throws InputError otherwise.
   void check_machine(const scene::Machine& machine) const override;

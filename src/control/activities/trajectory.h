@@ -37,7 +37,7 @@ struct Trajectory final : ActivityStep {
 
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "trajectory";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Moves joints through positions over time, linear between them.";
   /// Names of the moved joints.
@@ -57,7 +57,7 @@ struct Trajectory final : ActivityStep {
   }
   /// Reports errors in times and joints, and fills `joints` and `positions` from `columns`.
   void check(const scene::StepSource& source);
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Checks that the machine has the joints, and that the positions are within the joint limits.
   /// @throws InputError if not, or if the step violates any rule that the scene reader checks.

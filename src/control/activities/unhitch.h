@@ -12,7 +12,7 @@ namespace navvy::control {
 struct Unhitch final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "unhitch";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Opens a hitch of the machine.";
   /// Makes a step that opens the hitch named `hitch_in`.
   explicit Unhitch(std::string hitch_in = "") : hitch(std::move(hitch_in)) {}
@@ -26,7 +26,7 @@ struct Unhitch final : ActivityStep {
   }
   /// Checks nothing: the scene reader checks the hitch when it has read all machines.
   void check(const scene::StepSource&) {}
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns the name of the hitch that the step opens.
   std::optional<std::string> opens() const override { return hitch; }

@@ -9,7 +9,7 @@ namespace navvy::control {
 struct Wait final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "wait";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Waits.";
   /// Makes a step that waits for `duration_in` [s].
   explicit Wait(double duration_in = 1) : duration(duration_in) {}
@@ -22,7 +22,7 @@ struct Wait final : ActivityStep {
   }
   /// Checks nothing: there are no rules beyond the range of the duration.
   void check(const scene::StepSource&) {}
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns an activity with one phase, "wait", which issues no new commands.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;

@@ -14,7 +14,7 @@ namespace navvy::control {
 struct WaitFor final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "wait_for";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Waits until another machine has done some or all steps of its program.";
   /// Makes a step that waits for the machine named `machine_in` to complete `steps_in` steps (0:
@@ -39,7 +39,7 @@ struct WaitFor final : ActivityStep {
   /// Checks nothing: the scene reader checks machine and number of steps when it has read all
   /// programs.
   void check(const scene::StepSource&) {}
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns the machine and the number of steps that this step waits for.
   std::optional<scene::Waiting> waits_for() const override {

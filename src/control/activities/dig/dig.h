@@ -17,7 +17,7 @@ namespace navvy::control {
 struct Dig final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "dig";
-  /// Sentence about the step in the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Digs a straight trench by whole cycles, until floor and length are reached.";
   /// Ends of the trench's centre line in W (x, y) [m]. Either one may be farther from the machine.
@@ -51,7 +51,7 @@ struct Dig final : ActivityStep {
   /// Reports an error if the machine cannot dig, if the trench or the dump point is not on the
   /// site, or if the trench is deeper than the ground. Also sets the default of `width`.
   void check(const scene::StepSource& source);
-  /// Returns kElement.
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
   /// Returns true: digging uses the arm.
   bool needs_arm() const override { return true; }
