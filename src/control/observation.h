@@ -77,7 +77,7 @@ enum class CycleEvent {
   kCycleEnd,
   /// The bed starts to move to its target angle.
   kTipStart,
-  /// The bed has arrived at its target angle, and its holding time is over.
+  /// Tipping has ended: the bed has arrived and its holding time is over, or the bed is stuck.
   kTipEnd
 };
 

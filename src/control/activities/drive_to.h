@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `drive_to`: drives along a straight line or a curve to a target.
 #pragma once
 
 #include "control/activity_step.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `dump`: opens the bucket and closes it again.
 #pragma once
 
 #include "control/activity_step.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `go_to`: drives to a target pose along a planned path.
 #pragma once
 
 #include "control/activity_step.h"

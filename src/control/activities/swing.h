@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `swing`: turns the upper structure of an excavator.
 #pragma once
 
 #include "control/activity_step.h"
@@ -6,7 +7,7 @@
 namespace navvy::control {
 
 /// Turns the upper structure of an excavator to a given angle of the swing joint. Boom, stick and
-/// bucket keep their angles.
+/// bucket keep their angles. The step fails if an obstacle stops the swing.
 struct Swing final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "swing";

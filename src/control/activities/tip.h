@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `tip`: tips the bed of a truck or trailer.
 #pragma once
 
 #include "control/activity_step.h"
@@ -7,7 +8,7 @@ namespace navvy::control {
 
 /// Tips the bed to a given angle, as fast as its cylinder allows, and holds it there for a given
 /// time. After the step, the bed keeps its angle until the next tip step, even while the machine
-/// drives.
+/// drives. The step fails if the bed does not reach its angle in time.
 struct Tip final : ActivityStep {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "tip";

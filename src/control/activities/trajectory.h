@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `trajectory`: moves joints through given positions over time.
 #pragma once
 
 #include <string>
@@ -59,8 +60,8 @@ struct Trajectory final : ActivityStep {
   void check(const scene::StepSource& source);
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
-  /// Checks that the machine has the joints, and that the positions are within the joint limits.
-  /// @throws InputError if not, or if the step violates any rule that the scene reader checks.
+  /// Checks that the machine has the joints, and that there is one position per knot and joint.
+  /// Unlike `check`, this also runs for programs built in C++. @throws InputError if not.
   void check_machine(const scene::Machine& machine) const override;
   /// Returns an activity with one phase, "trajectory". It commands only the joints of the
   /// trajectory.

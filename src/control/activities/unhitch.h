@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `unhitch`: opens a hitch.
 #pragma once
 
 #include <string>

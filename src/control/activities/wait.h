@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `wait`: waits for a given time.
 #pragma once
 
 #include "control/activity_step.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `wait_for`: waits for the program of another machine.
 #pragma once
 
 #include <string>

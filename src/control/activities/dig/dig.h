@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `dig`: digs a straight trench.
 #pragma once
 
 #include <optional>

@@ -79,10 +79,12 @@ class DigPlan {
   double slice() const { return dig_.depth / slices(); }
   /// Returns a scoop along the whole floor of the trench.
   Scoop clean_up() const { return {length_, 0, length_, dig_.depth, true}; }
-  /// Returns the volume of soil in the trench above the depth `level` [m], which is measured from
-  /// the original surface [m3].
+  /// Returns the volume of soil [m3] that is inside the width of the trench and above a given
+  /// depth. `level` is that depth below the original surface [m]. Soil that cannot be dug does not
+  /// count.
   double volume_above(const SurfaceView& surface, double level) const;
-  /// Returns the progress relative to the commanded trench. Soil that cannot be dug counts as left.
+  /// Returns the progress relative to the commanded trench on the current `surface`. Unlike in
+  /// `volume_above`, soil that cannot be dug counts as left.
   TrenchState state(const SurfaceView& surface) const;
   /// Returns the height of the original surface at `s` [m] in W [m].
   double start_height(double s) const;
