@@ -40,7 +40,7 @@ std::string short_text(double value, int digits = 9);
 std::string exact_text(double in_si, double factor = 1);
 
 /// Kind of object that the text of a field names.
-enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kMachine, kHitch };
+enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kHitch };
 
 /// Options of a field, joined by `|`.
 struct Mark {
