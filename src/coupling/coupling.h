@@ -21,8 +21,9 @@ namespace navvy::coupling {
 /// Force of the soil on one shell (a body such as a bucket or blade that moves soil) of one
 /// machine.
 struct ToolLoad {
-  /// Index of the machine in the scene, indices of the shell and of its link in the machine, and
-  /// index of the shell as a tool in the soil solver; -1 if not set.
+  /// `machine` is the index of the machine in the scene, `shell` and `link` are the indices of the
+  /// shell and of its link in the machine, and `tool` is the index of the shell in the soil solver;
+  /// -1 if not set.
   int machine = -1, shell = -1, link = -1, tool = -1;
   /// Mean soil force over the last completed transfer of momentum, in W [N].
   Vec3 force_W = Vec3::Zero();
@@ -41,7 +42,8 @@ struct ToolLoad {
 
 /// Wall time spent so far in each module [s].
 struct TimeShare {
-  /// Time in the physics engines, in the soil solver, and for pressing ruts [s].
+  /// Time in the physics engines (`vehicle`), in the soil solver (`soil`), and for pressing ruts
+  /// (`ground`) [s].
   double vehicle = 0, soil = 0, ground = 0;
 };
 

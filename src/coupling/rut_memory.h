@@ -33,8 +33,8 @@ struct RutMemory {
 
   /// Result of `press`.
   struct Press {
-    /// Sinkage of the plate under the previous maximum pressure, and the distance by which the
-    /// column must be lowered [m].
+    /// `before` is the sinkage of the plate under the previous maximum pressure [m], and `drop` the
+    /// distance by which the caller must lower the column [m].
     double before = 0, drop = 0;
   };
   /// Computes the effect of a plate that presses on the column, and updates the pressures in the

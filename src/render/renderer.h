@@ -32,7 +32,8 @@ struct RenderStats {
   int particles_drawn = 0, particle_triangles = 0;
   /// Number of tiles whose mesh had to be built for this picture.
   int tiles_rebuilt = 0;
-  /// Wall time to prepare ground, shadows and particles, and wall time to draw [ms].
+  /// Wall time to prepare ground, shadows and particles (`prepare_ms`), and wall time to draw
+  /// (`draw_ms`) [ms].
   double prepare_ms = 0, draw_ms = 0;
 };
 

@@ -19,8 +19,9 @@ struct Shape {
   /// Node with the geometry and colour, shared by all visuals of the same appearance. A parent node
   /// in the scene graph sets the pose of each visual.
   SoNode* node = nullptr;
-  /// Corners of the triangles that cast shadows, three per triangle [m]: those of solid parts,
-  /// which cast a shadow only if they face the sun, and those of all other parts.
+  /// Corners of the triangles that cast shadows [m], three per triangle. `solid_triangles` belong
+  /// to solid parts and cast a shadow only if they face the sun; `open_triangles` belong to all
+  /// other parts.
   std::vector<Vec3f> solid_triangles, open_triangles;
   /// Corners of the bounding box in the frame of the visual [m].
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();

@@ -35,16 +35,18 @@ struct DiggingMemory {
   double s = 0;
   /// Progress of the curl, from 0 to 1 [-].
   double progress = 0;
-  /// Angle [rad] and height in W [m] of the tip path when the curl began.
+  /// `curl_angle` [rad] and `curl_z` [m] are the angle and the height in W of the tip path when the
+  /// curl began.
   double curl_angle = 0, curl_z = 0;
-  /// Bank volume [m3] and mass [kg] of the soil in a bucket that counts as full.
+  /// Bank volume (`scoop_volume` [m3]) and mass (`full_mass` [kg]) of the soil in a bucket that
+  /// counts as full.
   double scoop_volume = 0, full_mass = 0;
   /// TipPath::lift when the drag began [m].
   double lift_before = 0;
   /// Integral of the additional lift since then over the distance dragged [m2].
   double held_up = 0;
-  /// Payload when it last decreased during the lift phase [kg], and the phase time at that moment
-  /// [s].
+  /// `held` is the payload when it last decreased during the lift phase [kg], and `held_since` the
+  /// phase time at that moment [s]. They show whether soil still falls from the bucket.
   double held = 0, held_since = 0;
 
   /// Saves or loads all fields.
