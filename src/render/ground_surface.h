@@ -14,8 +14,7 @@ namespace navvy::render {
 
 /// A rectangle of columns, x0 <= ix < x1 and y0 <= iy < y1.
 struct ColumnRect {
-  /// First column (x0, y0), which is inside the rectangle, and last column (x1, y1), which is
-  /// outside.
+  /// The rectangle begins with column x0 and ends before column x1; the same holds for y0 and y1.
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   /// Returns true if the rectangle contains no column.
   bool empty() const { return x0 >= x1 || y0 >= y1; }
