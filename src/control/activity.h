@@ -21,20 +21,22 @@
 
 namespace navvy::control {
 
-/// Angles of swing, boom, stick and bucket [rad].
+/// Angles of the arm's four joints: swing, boom, stick and bucket, in this order [rad].
 using Axes = std::array<double, 4>;
-/// Returns a swing angle together with the angles of boom, stick and bucket [rad].
+/// Returns the axes made of a swing angle and the angles of boom, stick and bucket [rad].
 inline Axes with_arm(double swing, const ArmAngles& q) { return {swing, q[0], q[1], q[2]}; }
 
-/// Values that one step passes on to the next.
+/// Values that one step of a program passes on to the next.
 struct Handover {
-  /// Digging cycles of the program so far.
+  /// Number of digging cycles that the program has completed so far.
   std::int64_t cycles = 0;
-  /// 1 once `q` has been read from the machine.
+  /// 1 if `q` has been initialised from the machine's joint angles, else 0.
   std::int64_t known = 0;
-  /// Commanded angles of the arm [rad]; moves start here, not at the machine's measured angles.
+  /// Commanded angles of the arm [rad]. A move of the arm starts from these, not from the measured
+  /// angles, so that the arm does not drift under load.
   Axes q{};
 
+  /// Saves or loads all fields.
   void visit(Archive& a) {
     a("cycles", cycles);
     a("known", known);
@@ -42,33 +44,36 @@ struct Handover {
   }
 };
 
-/// One operator's machine and the data that its steps share. Activities keep a reference to it.
+/// The machine of one operator, and the data that the steps of its program share. Activities keep a
+/// reference to it.
 struct OperatorContext {
-  /// Copies the machine. The owner adds the arm and the planner where the program needs them.
+  /// Copies the machine. The operator sets `arm` and `planner` afterwards if the program needs
+  /// them.
   explicit OperatorContext(const scene::Machine& machine_in) : machine(machine_in) {}
 
-  /// The machine; its joints are in the order of Observation and Command.
+  /// Description of the machine. Observation and Command list the joints in the same order.
   const scene::Machine machine;
-  /// Planner of paths; set in every program with a step that needs one.
+  /// Path planner; null if no step of the program plans paths.
   std::unique_ptr<PathPlanner> planner;
   /// Paths of all steps, in the order in which they were planned.
   std::vector<PlannedPath> paths;
-  /// Kinematics of the arm; set in every program with a step that needs it.
+  /// Kinematics of the arm; empty if no step of the program uses the arm.
   std::optional<ArmKinematics> arm;
+  /// Values passed on from step to step, such as the commanded angles of the arm.
   Handover handover;
-  /// Name of the operator in messages, such as "'truck', step 2 (tip)". Derived, not part of the
-  /// state.
+  /// Prefix of messages: machine and step, such as "'truck', step 2 (tip)". Set for each step and
+  /// not saved in snapshots.
   std::string label = "operator";
-  /// Number of the running step, 1-based. Derived, not part of the state.
+  /// Position of the running step in the program, counted from 1. Not saved in snapshots.
   std::int64_t step = 1;
-  /// Simulated time of this control step [s]. Derived, not part of the state.
+  /// Simulated time of the current control step [s]. Not saved in snapshots.
   double now = 0;
 
-  /// Warns the user that something did not go as commanded; the step continues.
+  /// Logs a warning: something did not go as commanded, but the step continues.
   void warn(const std::string& text) const { log_warning(label + ": " + text); }
-  /// Logs an event that is as expected.
+  /// Logs an expected event for information.
   void note(const std::string& text) const { log_info(label + ": " + text); }
-  /// Gives the planner the ground as it is seen now.
+  /// Updates the planner's map from the currently visible ground. Requires `planner`.
   void look(const Observation& seen) const {
     if (seen.surface != nullptr)
       planner->look(*seen.surface);
@@ -76,7 +81,8 @@ struct OperatorContext {
       planner->look(GroundSurfaceView(*seen.ground));
   }
 
-  /// Returns the index in Machine::joints of axis 0 to 3: swing, boom, stick, bucket.
+  /// Returns the index in Machine::joints of axis 0 to 3: swing, boom, stick, bucket. Requires
+  /// `arm`.
   std::size_t joint(std::size_t axis) const {
     return static_cast<std::size_t>(axis == 0 ? arm->swing_joint() : arm->joints()[axis - 1]);
   }
@@ -84,46 +90,50 @@ struct OperatorContext {
   ArmAngles arm_angles() const { return {handover.q[1], handover.q[2], handover.q[3]}; }
 };
 
-/// Carries out one step: `begin` is called once, then `advance` every control step until it returns
-/// true, then the activity is destroyed.
+/// Carries out one step of a program. The operator calls `begin` once and then `advance` in every
+/// control step until that returns true; then it destroys the activity.
 ///
-/// Deterministic: a function of its state, the context and the observations. Every phase has a time
-/// limit, after which the step continues or falls short and says so, so an activity never hangs. A
-/// snapshot taken at any moment resumes bit-identically.
+/// The commands depend only on the activity's state, the context and the observations, so runs
+/// repeat exactly. Every phase has a time limit, after which the step continues or fails with a
+/// reason, so an activity never waits forever. A run resumed from a snapshot continues
+/// bit-identically.
 class Activity {
  public:
+  /// Makes an activity for the machine in `place`. Stores a reference to `place`, which must
+  /// outlive the activity.
   explicit Activity(OperatorContext& place) : place_(place) {}
   virtual ~Activity() = default;
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
 
-  /// Sets the activity up right before its first `advance`. Not called after a snapshot was loaded.
+  /// Initialises the activity. Called once, right before the first `advance`; not called after a
+  /// snapshot has been loaded.
   virtual void begin(const Observation& seen) = 0;
-  /// Advances by one control step of `dt` [s]. Returns true when the step is over; this call was
-  /// then the last.
+  /// Advances the activity by one control step of `dt` [s] and adds its commands to `out`. Returns
+  /// true when the step is over; `advance` must not be called again then.
   bool advance(const Observation& seen, double dt, Command& out) {
     const bool over = update(seen, dt, out);
     clock_.time += dt;
     if (over && state_ == StepState::kRunning) state_ = StepState::kDone;
     return over;
   }
-  /// Returns the name of the current phase for telemetry and messages: one word.
+  /// Returns the name of the current phase, one word, for telemetry and messages.
   virtual const char* phase() const = 0;
-  /// Returns the event reported since the last call of this function, and clears it.
+  /// Returns the event reported since the last call of this function, or kNone, and clears it.
   CycleEvent take_event() { return std::exchange(event_, CycleEvent::kNone); }
 
-  /// Returns kRunning while the step runs; then kDone, or how it fell short.
+  /// Returns kRunning while the step runs; afterwards kDone, or the state in which it failed.
   StepState state() const { return state_; }
-  /// Returns the reason as a sentence without time and place, which the operator adds. Empty when
-  /// there is nothing to say.
+  /// Returns the explanation of the state as a sentence, to which the operator adds time and
+  /// position. Empty if there is nothing to explain.
   const std::string& reason() const { return reason_; }
-  /// Returns the step's own measurements so far. They are asked for when the step ends, however it
-  /// ends, and whenever a summary is written, so they must not depend on how often they are asked
-  /// for.
+  /// Returns the step's own measurements so far. This function is called when the step ends for any
+  /// reason, and whenever a summary is written. The measurements must not depend on the number of
+  /// calls.
   virtual std::vector<Measurement> account(const Observation&) const { return {}; }
 
-  /// Visits the state from `begin` on; events are not part of it. Snapshots are taken between calls
-  /// of `advance`. An override calls this function first.
+  /// Saves or loads the state after `begin`. Snapshots are taken between calls of `advance`;
+  /// pending events are not saved. An override must call this function first.
   virtual void visit(Archive& a) {
     a("phase", clock_.phase);
     a("phase_time", clock_.time);
@@ -131,58 +141,67 @@ class Activity {
     a("remark", reason_);
   }
 
-  // For derived classes: what they do, and what they have to do it with.
+  // Interface for derived classes.
  protected:
-  /// Advances by one control step: reads `seen`, commands through `out` and
-  /// OperatorContext::handover. Returns true when the step is over.
+  /// Advances the activity by one control step of `dt` [s]: reads `seen`, and writes commands to
+  /// `out` and to OperatorContext::handover. Returns true when the step is over.
   virtual bool update(const Observation& seen, double dt, Command& out) = 0;
 
-  /// Enters a phase and restarts its clock. Activities with several phases pass a value of their
-  /// own enum.
+  /// Enters a phase and restarts the phase clock. `phase` is a value of the derived class's own
+  /// enum.
   void enter(std::int64_t phase) { clock_ = {phase, 0}; }
-  /// Returns the phase last entered; 0 at first.
+  /// Returns the value last passed to `enter`; 0 before the first call.
   std::int64_t phase_index() const { return clock_.phase; }
-  /// Returns the time since the phase was entered, at the start of this control step [s].
+  /// Returns the time from the entry into the current phase to the start of this control step [s].
   double phase_time() const { return clock_.time; }
-  /// Reports an event once with the result of this control step. A later event in the same step
-  /// replaces it.
+  /// Reports an event to the operator in this control step. A second event in the same control step
+  /// replaces the first.
   void tell(CycleEvent event) { event_ = event; }
-  /// Ends the step, and the program with it, short of its aim: `return
-  /// fall_short(StepState::kBlocked, "...")`. Always returns true.
+  /// Marks the step as failed with a state and a reason, which ends the program. Always returns
+  /// true, so that an activity can end with `return fall_short(StepState::kBlocked, "...")`.
   bool fall_short(StepState state, std::string reason) {
     state_ = state;
     reason_ = std::move(reason);
     return true;
   }
-  /// Attaches a remark to a step that is done all the same. A later remark replaces it.
+  /// Sets the remark that is reported with a step that succeeds. A later remark replaces it.
   void remark(std::string text) { reason_ = std::move(text); }
 
+  /// Machine and shared data of the operator.
   OperatorContext& place_;
 
  private:
-  // Part of every activity's state, so that derived classes need not save it.
+  // Phase clock. The base class saves it, so that derived classes need not.
   struct Clock {
+    // Current phase: the value last passed to `enter`.
     std::int64_t phase = 0;
-    double time = 0;  // [s]
+    // Time since the phase was entered [s].
+    double time = 0;
   };
+  // Current phase and the time spent in it.
   Clock clock_;
+  // Event that has been reported but not yet taken; kNone if there is none.
   CycleEvent event_ = CycleEvent::kNone;
+  // kRunning while the step runs; afterwards kDone, or the state in which it failed.
   StepState state_ = StepState::kRunning;
+  // Explanation of the state as a sentence; empty if there is nothing to explain.
   std::string reason_;
 };
 
-/// An activity whose state is one struct `m`, which lists its fields in a `visit(Archive&)`. An
-/// activity with state besides (the plan of a dig) overrides visit and calls this one first.
+/// Base class of activities whose state is one struct `m` with a function `visit(Archive&)`. A
+/// derived class with further state overrides `visit` and calls this version first.
 template <class Memory>
 class ActivityWith : public Activity {
  public:
   using Activity::Activity;
+  /// Saves or loads the state of the base class and `m`.
   void visit(Archive& a) override {
     Activity::visit(a);
     m.visit(a);
   }
 
  protected:
+  /// State of the derived activity.
   Memory m;
 };
 

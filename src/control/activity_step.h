@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program step as the operator knows it: the values a scene may set, and the activity that
-// carries it out.
+// Program steps as an operator uses them: the values that a scene sets, and the activity that
+// carries out the step.
 #pragma once
 
 #include <memory>
@@ -15,57 +15,62 @@
 
 namespace navvy::control {
 
-// Needed only by code that implements steps.
+// The following types are needed only by code that implements steps.
 class Activity;
 class ReachCheck;
 struct OperatorContext;
 
-/// Position at which a step opens the bucket.
+/// Target at which a step empties the bucket.
 struct DumpPoint {
-  /// Position [m] in W.
+  /// Horizontal position (x, y) in W [m].
   Vec2 at = Vec2::Zero();
-  /// Height of the tip over the ground there [m].
+  /// Height of the bucket's tip above the ground at `at` [m].
   double height = 0;
 };
 
-/// Description of one step: its values, and everything known about it before it runs.
+/// One step of a program: the values that the scene sets, and everything that can be said about the
+/// step before it runs.
 ///
-/// A kind of step is a class derived from this one in `activities/`, with `kElement`,
-/// `kText`, `describe` and `check` (scene::step_kind), and one row of `step_kinds()`. No other code
-/// knows it.
+/// Each type of step is a class in `activities/` that derives from this one and defines `kElement`,
+/// `kText`, `describe` and `check` (see scene::step_kind). The table that `step_kinds()` returns
+/// has one row for it. No other code depends on the class.
 class ActivityStep : public scene::Step {
  public:
-  /// Returns true when the machine must have an arm (swing, boom, stick, bucket). The operator of a
-  /// program with such a step holds the arm during all its steps.
+  /// Returns true if the step needs a machine with an arm (swing, boom, stick and bucket joints).
+  /// If any step of a program returns true, the operator holds the arm in position during all
+  /// steps.
   virtual bool needs_arm() const { return false; }
-  /// Checks the machine; programs built in C++ have passed no reader. @throws InputError when the
-  /// machine lacks what the step needs.
+  /// Checks that the machine can carry out the step. Unlike `check`, this also runs for programs
+  /// built in C++, which no scene reader has checked. @throws InputError if the machine lacks a
+  /// part that the step needs.
   virtual void check_machine(const scene::Machine&) const {}
-  /// Returns true when the step asks for paths; the operator then provides a planner.
+  /// Returns true if the step plans paths. The operator then provides a path planner.
   virtual bool needs_planner() const { return false; }
-  /// Returns the path to plan before the program begins, for a machine that will stand at `from`
-  /// when the step starts.
+  /// Returns the path to plan before the program begins. `from` is the pose that the machine will
+  /// have when the step starts. Empty if the step needs no path.
   virtual std::optional<PathQuery> path_ahead(const PlanePose& /*from*/) const {
     return std::nullopt;
   }
-  /// Returns a new activity that carries the step out. Step and context must outlive it.
+  /// Returns a new activity that carries out the step. The step and `place` must outlive the
+  /// activity.
   virtual std::unique_ptr<Activity> activity(OperatorContext& place) const = 0;
 
-  /// Reports every target of the step that cannot be reached from where the machine will then
-  /// stand.
+  /// Reports every target of the step that the machine cannot reach from the pose in
+  /// `ReachCheck::X_WB`. The default reports nothing.
   virtual void check_reach(ReachCheck&) const {}
-  /// Predicts the pose of the base link after a step that moves the machine, from its pose before.
+  /// Predicts the pose of the base link in W after the step. `X_WB` is the pose before the step.
+  /// Empty if the step does not move the base.
   virtual std::optional<Pose> station(const scene::Machine&, const Pose& /*X_WB*/,
                                       const SurfaceView&) const {
     return std::nullopt;
   }
-  /// Returns where the step empties the bucket, if the scene states it. Its element then has a
-  /// child <dump_height_m>.
+  /// Returns the point at which the step empties the bucket. Empty if the step does not dump at a
+  /// given point. The XML element of a step with a dump point has a child <dump_height_m>.
   virtual std::optional<DumpPoint> dump_point() const { return std::nullopt; }
 };
 
-/// Returns the operator's view of a step. @throws InputError for a description that this module did
-/// not make.
+/// Returns the ActivityStep stored in a step of a program. @throws InputError if the stored step
+/// does not derive from ActivityStep.
 const ActivityStep& step_of(const scene::ProgramStep& step);
 
 }  // namespace navvy::control

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geometry of an excavator's arm in its swing plane.
+// Kinematics of an excavator's arm in its swing plane: the plane that contains the swing axis,
+// boom, stick and bucket.
 #pragma once
 
 #include <array>
@@ -11,79 +12,102 @@
 
 namespace navvy::control {
 
-/// Pose of the bucket in the swing plane, in the frame S of the swing axis (origin on the axis, z
-/// along it).
+/// Pose of the bucket in the swing plane, in the frame S. The origin of S is on the swing axis, and
+/// its z axis points along the swing axis.
 struct BucketPose {
-  /// Distance of the tip from the swing axis [m].
+  /// Distance of the bucket's tip from the swing axis [m].
   double reach = 0;
-  /// Height of the tip above S's origin [m].
+  /// Height of the tip above the origin of S [m].
   double height = 0;
-  /// Angle of the line from pin to tip above the horizontal, positive outward [rad]; -pi/2 points
-  /// down.
+  /// Angle of the line from the bucket's pin to its tip [rad]: 0 points horizontally outward, -pi/2
+  /// straight down.
   double angle = 0;
 };
 
-/// Joint angles of boom, stick and bucket [rad].
+/// Joint angles of boom, stick and bucket, in this order [rad].
 using ArmAngles = std::array<double, 3>;
 
-/// Forward and inverse kinematics of boom, stick and bucket, elbow up. Pitch joints turn about -y.
+/// Forward and inverse kinematics of boom, stick and bucket. The inverse uses the solution with the
+/// elbow (the joint between boom and stick) up. Positive joint angles turn about -y of S, which
+/// lifts the arm.
 class ArmKinematics {
  public:
-  /// Reads lengths and limits from the machine. @throws InputError naming the missing joint role.
+  /// Reads the lengths of the arm and the joint limits from the machine. @throws InputError if the
+  /// machine has no swing, boom, stick or bucket joint, or no bucket.
   explicit ArmKinematics(const scene::Machine& machine);
 
-  /// Returns the bucket's pose at these joint angles, whether or not they are within the limits.
+  /// Returns the pose of the bucket at the joint angles `q`, whether or not these are within the
+  /// joint limits.
   BucketPose forward(const ArmAngles& q) const;
-  /// Computes the joint angles of a pose. Returns false when it is out of reach or beyond the
-  /// limits; `q` is undefined then.
+  /// Computes the joint angles `q` that give the bucket the pose `pose`. Returns false if the pose
+  /// is out of reach or violates a joint limit; the contents of `q` are undefined then.
   bool inverse(const BucketPose& pose, ArmAngles& q) const;
-  /// Does the same with the possible bucket angle nearest to the wanted one, within 120 deg, and
-  /// changes `pose.angle` to it. Continuous where a limit acts: the angle is found to 1e-6 rad.
+  /// Does the same as `inverse`, but if the angle of `pose` is not possible, replaces it with the
+  /// nearest possible one, to 1e-6 rad. Returns false if none is possible within 120 deg; `pose` is
+  /// unchanged then, and the contents of `q` are undefined.
   bool inverse_nearest(BucketPose& pose, ArmAngles& q) const;
-  /// Returns how far the shell's lowest point hangs below the tip when the bucket is at `angle`
-  /// [m], >= 0.
+  /// Returns the distance by which the lowest point of the bucket's shell is below the tip
+  /// [m, >= 0], when the bucket is at `angle` [rad] (BucketPose::angle).
   double below_tip(double angle) const;
-  /// Returns how far the part of the shell less than `height` [m] above the tip reaches outward of
-  /// it [m], >= 0.
+  /// Returns the horizontal distance by which the shell extends outward beyond the tip [m, >= 0],
+  /// when the bucket is at `angle` [rad]. Only the part of the shell that is less than `height` [m]
+  /// above the tip counts.
   double beyond_tip(double angle, double height) const;
-  /// Distance from pin to tip [m].
+  /// Returns the distance between the bucket's pin and its tip [m].
   double bucket_length() const { return bucket_; }
-  /// Largest possible distance of the tip from the boom's pin [m].
+  /// Returns the maximum distance of the tip from the boom's pin, with the arm stretched [m].
   double longest() const { return boom_ + stick_ + bucket_; }
 
-  // Indices and limits as in scene::Machine, for code that commands the joints.
+  /// Returns the index of the swing joint in scene::Machine::joints.
   int swing_joint() const { return swing_; }
-  /// Joint indices of boom, stick and bucket.
+  /// Returns the indices of the boom, stick and bucket joints in scene::Machine::joints.
   const std::array<int, 3>& joints() const { return joints_; }
-  /// Pose of S in the base link (links[0]) at zero swing.
+  /// Returns the pose of S in the frame of the base link (links[0]) at a swing angle of zero.
   const Pose& X_BS() const { return X_BS_; }
-  /// Direction of the cutting edge relative to the line from pin to tip [rad].
+  /// Returns the angle from the line between pin and tip to the direction in which the cutting edge
+  /// points [rad].
   double cut_angle() const { return cut_angle_; }
+  /// Returns the machine's first bucket, which this arm digs with.
   const scene::Bucket& bucket() const { return bucket_data_; }
-  /// Limits of boom (0), stick (1) and bucket (2) [rad]; half a turn either way where a joint has
-  /// none.
+  /// Returns the lower limit of boom (i = 0), stick (1) or bucket (2) [rad]; -pi if the joint has
+  /// no limits.
   double lower(int i) const { return lower_[static_cast<std::size_t>(i)]; }
+  /// Returns the upper limit of boom (i = 0), stick (1) or bucket (2) [rad]; pi if the joint has no
+  /// limits.
   double upper(int i) const { return upper_[static_cast<std::size_t>(i)]; }
-  /// Returns false when the upper structure turns endlessly; the swing bounds mean nothing then.
+  /// Returns true if the swing joint has limits; otherwise the upper structure can turn endlessly.
   bool swing_limited() const { return swing_limited_; }
+  /// Returns the lower limit of the swing joint [rad]; meaningless without limits.
   double swing_lower() const { return swing_lower_; }
+  /// Returns the upper limit of the swing joint [rad]; meaningless without limits.
   double swing_upper() const { return swing_upper_; }
 
  private:
-  // Indices into scene::Machine::joints and links.
+  // Index of the swing joint in scene::Machine::joints.
   int swing_ = -1;
+  // Indices of the boom, stick and bucket joints in scene::Machine::joints.
   std::array<int, 3> joints_{};
+  // Joint limits of boom, stick and bucket [rad].
   std::array<double, 3> lower_{}, upper_{};
+  // True if the swing joint has limits.
   bool swing_limited_ = false;
+  // Limits of the swing joint [rad]; meaningless without limits.
   double swing_lower_ = 0, swing_upper_ = 0;
+  // Pose of the swing axis frame S in the frame of the base link, at a swing angle of zero.
   Pose X_BS_ = Pose::Identity();
-  // Lengths [m] of the bars between the pins, the last one to the bucket's tip.
-  double pin_reach_ = 0, pin_height_ = 0;  // boom foot in S
+  // Position of the boom's pin in S: distance from the swing axis and height [m].
+  double pin_reach_ = 0, pin_height_ = 0;
+  // Distances between successive pins [m]; the last one is from the bucket's pin to its tip.
   double boom_ = 0, stick_ = 0, bucket_ = 0;
+  // Angle from the line between pin and tip to the direction of the cutting edge, and angle of that
+  // line above the horizontal with all joints at zero [rad].
   double cut_angle_ = 0, tip_angle_ = 0;
+  // The machine's first bucket, which this arm digs with.
   scene::Bucket bucket_data_;
-  // The shell in the swing plane, bucket at angle 0: vertices from the tip [m], edges between them.
+  // Vertices of the bucket's shell, projected onto the swing plane with the line from pin to tip
+  // horizontal, relative to the tip [m].
   std::vector<Vec2> profile_;
+  // Edges of the shell as pairs of indices into `profile_`.
   std::vector<std::array<int, 2>> profile_edges_;
 };
 

@@ -1,48 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poses of the bucket in a digging cycle, for the operator and for the check before the run.
+// Poses of the bucket in a digging cycle. The operator and the check before a run share them.
 #pragma once
 
 #include "control/arm_kinematics.h"
 
 namespace navvy::control {
 
-// Angles of the line from pin to tip, or of the cutting edge where stated, above the horizontal and
-// positive outward [rad].
-// Carrying: mouth up.
+/// Angle of the line from the bucket's pin to its tip while the bucket carries soil, with its
+/// opening upwards [rad]. Angles in this file are measured from the horizontal pointing outward;
+/// positive angles point upwards.
 inline constexpr double kCarry = -radians(178);
-/// Emptied: floor plate near vertical, mouth down and towards the cab.
+/// Angle of the line from pin to tip when the bucket is emptied [rad]: the opening points down and
+/// towards the cab, with the floor plate nearly vertical.
 inline constexpr double kOpen = -radians(55);
-/// Cutting edge below the horizontal at the end of its rotation into the soil.
+/// Angle of the cutting edge below the horizontal while the bucket is dragged through the soil
+/// [rad].
 inline constexpr double kAttack = radians(18);
-/// Cutting edge on the way down, so that walls at the far end stay upright.
+/// Angle of the cutting edge while the bucket moves down into the soil [rad]. It is nearly
+/// vertical, so that the wall at the far end of the trench stays upright.
 inline constexpr double kPlunge = -radians(93);
-/// Height of the tip over the ground before it goes down [m].
+/// Height of the tip above the ground before the bucket moves down [m].
 inline constexpr double kClear = 0.3;
 
-/// A point of W in the frame S of the swing axis.
+/// A point in the frame S of the swing axis, in cylindrical coordinates about that axis.
 struct SwingPoint {
-  /// Swing angle of the point [rad].
+  /// Swing angle at which the arm points to the point [rad].
   double swing = 0;
-  /// Distance from the swing axis [m].
+  /// Distance of the point from the swing axis [m].
   double reach = 0;
-  /// Height above S's origin [m].
+  /// Height of the point above the origin of S, along the swing axis [m].
   double height = 0;
-  /// Slope of S's plane in that direction, positive when it rises outward [rad].
+  /// Angle by which the xy plane of S rises outward towards the point, relative to the horizontal
+  /// plane of W [rad].
   double pitch = 0;
-  /// Converts an angle over W's horizontal to one in S [rad].
+  /// Converts an angle above the horizontal of W to an angle above the xy plane of S [rad].
   double level(double angle) const { return angle - pitch; }
 };
-/// Returns a point of W [m] in the frame S of the swing axis.
+/// Returns the point `p_W` (position in W [m]) in the swing axis frame S, whose pose in W is X_WS.
 SwingPoint swing_point(const Pose& X_WS, const Vec3& p_W);
 
-/// Computes the joint angles that hold a level bucket so that, once opened, it drops its soil at
-/// `dump_at` with the tip `clearance` [m] over `ground`. Where the arm is too short, the clearance
-/// is reduced to 0.3 m at least; `possible` receives it. Returns false when even that is out of
-/// reach.
+/// Computes the joint angles `q` at which a level bucket is ready to dump: when only the bucket
+/// joint opens, the soil falls on `dump_at` (x, y in W [m]). X_WS is the pose of the swing axis
+/// frame. The tip of the opened bucket is `clearance` [m] above the height `ground` [m]. If the arm
+/// is too short for that, the clearance is reduced, but not below 0.3 m. `possible` receives the
+/// clearance used. Returns false if even the smallest clearance is out of reach.
 bool dump_pose(const ArmKinematics& arm, const Pose& X_WS, const Vec2& dump_at, double ground,
                double clearance, ArmAngles& q, double& possible);
 
-/// Returns the angle of the line from pin to tip that gives the cutting edge the angle `cut` [rad].
+/// Returns the angle of the line from pin to tip at which the cutting edge has the angle `cut`
+/// [rad].
 inline double with_cut(const ArmKinematics& arm, double cut) { return cut - arm.cut_angle(); }
 
 }  // namespace navvy::control

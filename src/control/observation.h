@@ -14,58 +14,70 @@
 
 namespace navvy::control {
 
-/// Progress of a machine's program.
+/// Progress of the program of one machine.
 struct ProgramProgress {
-  /// Steps that are over, and all steps.
+  /// Number of completed steps, and number of all steps.
   int done = 0, steps = 0;
-  /// True when a step fell short: no further step will run.
+  /// True if a step has failed, so that no further step will run.
   bool failed = false;
 };
 
-/// Everything that the operator knows in one control step: what can be seen and felt from a cab.
+/// Everything that an operator knows in one control step: what it can see and feel in the cab.
 struct Observation {
   /// States of the joints, in the order of scene::Machine::joints.
   std::vector<vehicle::JointState> joints;
-  /// Pose of the base link.
+  /// Pose of the base link in W.
   Pose X_WB = Pose::Identity();
-  /// Velocity of the base link [m/s].
+  /// Velocity of the base link in W [m/s].
   Vec3 v_WB = Vec3::Zero();
+  /// Resting ground, without loose soil.
   const heightfield::Ground* ground = nullptr;
-  /// The ground with loose soil on it; null: only the resting ground is known.
+  /// Surface of the ground with the loose soil on it; null if only the resting ground is known.
   const SurfaceView* surface = nullptr;
   /// Mass of the soil in the bucket [kg].
   double payload = 0;
-  /// Magnitude of the low-pass filtered soil force on the bucket [N].
+  /// Magnitude of the low-pass filtered force of the soil on the bucket [N].
   double force = 0;
-  /// Stability of the machine.
+  /// Static stability of the machine; see vehicle::Stability.
   vehicle::Stability stability;
-  /// Force of the ground on all wheels together [N] in W.
+  /// Total force of the ground on all wheels, in W [N].
   Vec3 tyre_force = Vec3::Zero();
-  /// Share of the wheels whose tops are below the resting ground.
+  /// Fraction of the wheels whose tops are below the resting ground [-].
   double wheels_under = 0;
-  /// Progress of all machines of the world, by name.
+  /// Progress of the programs in the world, keyed by machine name; null if it is unknown.
   const std::map<std::string, ProgramProgress>* programs = nullptr;
 };
 
-/// Commands to the machine. Joints without an entry keep their last command.
+/// Commands of an operator to the machine. A joint or drive without a new command continues with
+/// the last one.
 struct Command {
-  /// Joint inputs in the order of scene::Machine::joints.
+  /// Commands to the joints, in the order of scene::Machine::joints. Empty entries are joints
+  /// without a new command.
   std::vector<std::optional<vehicle::JointInput>> joints;
-  /// Drive input; without one the last command stays.
+  /// Command to the drive, or nothing if there is no new command.
   std::optional<vehicle::DriveInput> drive;
-  /// Name of the hitch to open.
+  /// Name of the hitch to open, or nothing.
   std::optional<std::string> unhitch;
 };
 
-/// Moments of a digging cycle and of tipping a bed, each reported once.
+/// Event of a digging cycle or of tipping a bed. Each is reported once, in the control step in
+/// which it occurs.
 enum class CycleEvent {
+  /// No event.
   kNone,
+  /// The bucket starts to move down into the ground.
   kScoopStart,
+  /// The bucket starts to curl.
   kCurlStart,
+  /// The bucket has been lifted out of the ground.
   kLiftOut,
+  /// The bucket starts to open over the dump point.
   kDumpStart,
+  /// The bucket is empty, and the digging cycle ends.
   kCycleEnd,
+  /// The bed starts to move to its target angle.
   kTipStart,
+  /// Tipping has ended: the bed has arrived and its holding time is over, or the bed is stuck.
   kTipEnd
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Odometry: the pose of a robot estimated from the registers of its encoders alone.
+// Odometry: estimates the pose of a robot from the registers of its wheel encoders only.
 #pragma once
 
 #include <cstdint>
@@ -9,47 +9,54 @@
 
 namespace navvy::control {
 
-/// Returns the counts from `before` to `now` of a register of `bits` (2 to 32) that wraps, along
-/// the shorter arc: -2^(bits-1) to 2^(bits-1) - 1. Correct as long as the wheel turned by less than
-/// half of the register's range in between.
+/// Returns the signed number of counts between two readings of an encoder register that has `bits`
+/// bits (2 to 32) and wraps around. The result is in [-2^(bits-1), 2^(bits-1) - 1]. It is correct
+/// if the wheel turned by less than half the register's range between the readings.
 std::int64_t counts_between(std::uint64_t before, std::uint64_t now, int bits);
 
-/// A wheel with its encoder, as odometry knows it.
+/// Encoder data of one wheel.
 struct CountedWheel {
-  /// Counts per metre at the wheel's rim: counts per turn / (2 pi r).
+  /// Counts per metre rolled: counts per turn / (2 pi r), with the wheel's radius r [m].
   double counts_per_metre = 0;
+  /// Number of bits of the encoder's register.
   int bits = 16;
 };
 
-/// Dead reckoning of a differential drive [docs/machines.md, odometry]: between two readings of the
-/// registers the robot has rolled an arc given by the mean and the difference of both sides. Slip,
-/// missed counts and a rolling radius that differs from the nominal one go unnoticed, as on a real
-/// robot.
+/// Dead reckoning of a robot with a differential drive [docs/machines.md, odometry]. Between two
+/// readings, the robot is assumed to roll along an arc; the mean of both sides gives its length and
+/// their difference its angle. As on a real robot, the estimate does not account for slip, missed
+/// counts, or a rolling radius that differs from the nominal one.
 class DifferentialOdometry {
  public:
-  /// Takes the track width `track` [m] and both encoders.
+  /// Makes odometry for a track width `track` [m] (distance between left and right wheels) and one
+  /// encoder per side. Call `reset` before the first `update`.
   DifferentialOdometry(double track, const CountedWheel& left, const CountedWheel& right);
-  /// Returns the odometry of the first driven wheel of each side, with the unloaded radii of the
-  /// machine's file. @throws InputError for a machine without a differential drive, or without
-  /// encoders on both sides.
+  /// Returns the odometry of `machine`, from the first driven wheel with an encoder on each side.
+  /// Wheel radii are the unloaded radii of the model file. @throws InputError if the machine has no
+  /// differential drive, or no encoder on a driven wheel of one side.
   static DifferentialOdometry of(const scene::Machine& machine);
 
-  /// Sets the present pose and the registers' present counts.
+  /// Sets the current pose and the current register values, and sets the distance to 0.
   void reset(const PlanePose& pose, std::uint64_t left, std::uint64_t right);
-  /// Reads the registers again. Call it often enough that neither turns by half its range in
-  /// between.
+  /// Updates the pose from the current register values. Call it often enough that no register
+  /// advances by half its range between two calls.
   void update(std::uint64_t left, std::uint64_t right);
 
-  /// Pose of the point midway between the wheels.
+  /// Returns the estimated pose of the point midway between the left and right wheels.
   const PlanePose& pose() const { return pose_; }
-  /// Distance along the path since the reset, negative backwards [m].
+  /// Returns the distance rolled since the last `reset` [m]; driving backwards decreases it.
   double distance() const { return distance_; }
 
  private:
+  // Distance between the left and the right wheels [m].
   double track_;
+  // Encoder data of the left and the right wheel.
   CountedWheel left_, right_;
+  // Register values at the last reading.
   std::uint64_t left_before_ = 0, right_before_ = 0;
+  // Estimated pose of the point midway between the left and right wheels.
   PlanePose pose_;
+  // Distance rolled since the last `reset` [m]; driving backwards decreases it.
   double distance_ = 0;
 };
 

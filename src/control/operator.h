@@ -17,60 +17,69 @@
 
 namespace navvy::control {
 
-/// Runs one machine's program: one activity after the other, each of which knows its own step.
+/// Runs the program of one machine. The operator carries out the program's steps one after the
+/// other, and each step supplies the activity that carries it out.
 ///
-/// Deterministic: a function of its state and the observations. Every phase has a time limit, so it
-/// never hangs. A step that falls short ends the program there: its joints stop and the drive
-/// brakes. A program with a step that uses the arm holds the arm at all times, also while the
-/// machine drives or waits.
+/// The commands depend only on the operator's state and on the observations, so runs repeat
+/// exactly. Every phase of a step has a time limit, so an operator never waits forever. A step that
+/// fails (see fell_short) ends the program: the joints stop and the drive brakes. If any step of
+/// the program uses the arm, the operator holds the arm in position during all steps, including
+/// driving and waiting.
 class Operator {
  public:
-  /// Prepares a program. Messages call the machine `name`, its instance in the scene; empty: the
-  /// model's name. `planners` makes the planner for steps that need paths. @throws InputError when
-  /// the machine lacks what the program needs, or when no planner is given for the paths it asks
-  /// for.
+  /// Prepares `program` for `machine`. `name` is the machine's name in the scene, which messages
+  /// use; if it is empty, messages use the model's name. `planners` makes the path planner; it is
+  /// needed only if a step plans paths. @throws InputError if the machine lacks a part that the
+  /// program needs, or if a step plans paths and `planners` is empty.
   Operator(const scene::Machine& machine, const scene::Program& program, std::string name = "",
            const MakePathPlanner& planners = {});
   ~Operator();
   Operator(Operator&&) noexcept;
 
-  /// Advances by one control step: returns the commands until the next one. `time` is the simulated
-  /// time [s], `dt` the time since the last call [s].
+  /// Advances the program by one control step. Returns the commands that are valid until the next
+  /// call. `seen` is the machine's current observation, `time` the simulated time [s], and `dt` the
+  /// time since the previous call [s].
   Command update(const Observation& seen, double time, double dt);
-  /// Returns commands that stop what the program has set in motion: its joints hold, the drive
-  /// brakes and keeps its steering.
+  /// Returns commands that stop the machine: zero velocity for each joint that the program has
+  /// commanded so far; for the drive, the brake with the last steering angle. Other joints get no
+  /// command.
   Command stop() const;
-  /// Returns true when every step is done and the machine has not tipped over since; `update` then
-  /// only holds the arm.
+  /// Returns true if every step is done and the machine has not tipped over or been buried since.
+  /// From then on `update` only holds the arm.
   bool done() const;
-  /// Returns true when the program goes no further: it is done, or a step fell short. `update` then
-  /// commands nothing new.
+  /// Returns true if the program will not run any further step, either because it is done or
+  /// because a step failed. From then on `update` issues no new commands.
   bool ended() const;
-  /// Returns the phase of the running step: "drive", "wait", "tip", in a dig "return", "approach",
-  /// "penetrate", "drag", "curl", "lift", "swing", "dump", "look"; "idle" between steps and after
-  /// the last; after a step that fell short its state, such as "blocked".
+  /// Returns the name of the current phase of the running step, such as "drive", "wait" or "tip".
+  /// The phases of a dig are "return", "approach", "penetrate", "drag", "curl", "lift", "swing",
+  /// "dump" and "look". Returns "idle" between two steps and after the last one. After a failed
+  /// step, returns the state of that step, such as "blocked".
   std::string phase() const;
-  /// Returns every path planned so far. When the program begins, one is planned for each step that
-  /// will need one, from where the machine will then stand; a warning names a step for which none
-  /// exists on the present ground.
+  /// Returns all paths planned so far, in the order in which they were planned. When the program
+  /// begins, the operator plans one path for each step that needs one, starting at the pose that
+  /// the previous steps will lead to. It logs a warning for each step without a feasible path on
+  /// the initial ground.
   const std::vector<PlannedPath>& paths() const;
-  /// Returns the reports of the steps that are over, in order; the last one may have fallen short.
-  /// A machine that tips over or is buried after its last step has a second report of that step.
+  /// Returns the reports of the completed steps, in order. If a step failed, its report is the last
+  /// one. If the machine tips over or is buried after the last step, a second report of that step
+  /// is appended.
   const std::vector<StepReport>& reports() const;
-  /// Returns the report of the running step as if it ended now at `time` [s]; of the last completed
-  /// step when none runs, and of no step (number 0) before the first.
+  /// Returns a report of the running step as if the step ended now, at the simulated time `time`
+  /// [s]. Between two steps, the report is that of the step about to begin. After the program has
+  /// ended, returns the last report, or a report with step number 0 if the program has no steps.
   StepReport present(const Observation& seen, double time) const;
-  /// Returns how many steps the program has and how many are done.
+  /// Returns the number of completed steps, the number of all steps, and whether a step failed.
   ProgramProgress progress() const;
-  /// Returns the event of the last update.
+  /// Returns the event that the last call of `update` reported; kNone if there was none.
   CycleEvent event() const;
 
-  /// Visits the whole state: step number, handover, the running activity. @throws InputError for a
-  /// snapshot taken in a step that the program does not have there.
+  /// Saves or loads the operator's complete state, including the running activity. @throws
+  /// InputError if the program to load into has a different step at the saved position.
   void visit(Archive& a);
 
  private:
   struct State;
+  // Complete state of the operator.
   std::unique_ptr<State> state_;
 };
 

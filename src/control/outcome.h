@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How steps and programs end: states, reasons, measurements. A run's summary reports them.
+// Results of steps and programs: states, reasons and measurements. The summary of a run reports
+// them.
 #pragma once
 
 #include <cstdint>
@@ -11,56 +12,64 @@
 
 namespace navvy::control {
 
-/// State of a step. All values after kDone fell short of their aim and end their program.
+/// State of a program step. All values after kDone are failures: the step did not reach its aim,
+/// and the program ends.
 enum class StepState : std::uint8_t {
+  /// The step is in progress.
   kRunning,
+  /// The step has reached its aim.
   kDone,
-  /// Something holds the machine, or what it waits for cannot happen any more.
+  /// An obstacle holds the machine, or the event that the step waits for can no longer occur.
   kBlocked,
-  /// It works without progress: wheels spin, scoops bring nothing.
+  /// The machine works without making progress: wheels spin, or scoops come up empty.
   kStalled,
-  /// The machine rolled or pitched over.
+  /// The machine has rolled or pitched over.
   kTipped,
-  /// The target cannot be reached from where the machine stands.
+  /// The target cannot be reached from the machine's position.
   kOutOfReach,
-  /// The step's time limit or the run's duration was over first.
+  /// The time limit of the step, or the duration of the run, was reached first.
   kOutOfTime,
   /// The machine has sunk into the ground, or soil covers it.
   kBuried,
-  /// No path leads to the target.
+  /// The planner found no path to the target.
   kNoPath,
 };
 
-/// Returns the name in files and messages, such as "out_of_reach".
+/// Returns the name of a state as used in files and messages, such as "out_of_reach".
 const char* name_of(StepState state);
-/// Returns true when the step ended without reaching its aim.
+/// Returns true if the step has failed, that is, it ended without reaching its aim.
 inline bool fell_short(StepState state) { return state > StepState::kDone; }
 
-/// A named measurement of a step's account.
+/// A named measurement that a step reports.
 struct Measurement {
-  /// Name that ends in its unit, as keys of summary.json do: "depth_reached_m".
-  std::string name;  ///< ends in its unit, as keys of summary.json do: "depth_reached_m"
+  /// Name as in summary.json, with the unit as its suffix: "depth_reached_m".
+  std::string name;
+  /// Value in the unit that the name ends in.
   double value = 0;
 
+  /// Saves or loads name and value.
   void visit(Archive& a);
 };
 
 /// Result of one step of a program.
 struct StepReport {
-  /// Number in the program, 1-based.
+  /// Position of the step in the program, counted from 1; 0 if the report belongs to no step.
   std::int64_t step = 0;
-  /// Element in scene files: "drive_to".
-  std::string element;  ///< as scene files call it: "drive_to"
+  /// Name of the step's element in scene files, such as "drive_to".
+  std::string element;
+  /// State in which the step ended, or kRunning.
   StepState state = StepState::kRunning;
-  /// A sentence; empty when the step is done and there is nothing to say.
+  /// Explanation of the state as a sentence. Empty if there is nothing to explain.
   std::string reason;
-  /// Simulated start and end [s]; the end is the present time while the step runs.
+  /// Simulated times at which the step started and ended [s]. While the step runs, `end` is the
+  /// current time.
   double start = 0, end = 0;
-  /// Position of the base link at the end [m] in W.
+  /// Position of the base link's origin in W [m] at the time `end`.
   Vec3 place = Vec3::Zero();
-  /// The step's own measurements (Activity::account).
+  /// Measurements that the step itself reports (Activity::account).
   std::vector<Measurement> figures;
 
+  /// Saves or loads all fields.
   void visit(Archive& a);
 };
 

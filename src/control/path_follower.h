@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steering and speed along a path: a memoryless law of the machine's pose.
+// Steering and speed along a path. The commands depend only on the current pose of the machine.
 #pragma once
 
 #include "control/path.h"
@@ -7,46 +7,55 @@
 
 namespace navvy::control {
 
-/// Position of a machine relative to its path.
+/// Position and heading of a machine relative to its path.
 struct PathPlace {
-  /// Nearest point on the path [m].
+  /// Driven distance at the point of the path that is nearest to the machine [m].
   double s = 0;
-  /// Distance from the path, positive to its left [m].
+  /// Lateral distance of the machine from the path [m], positive to the left of the path's heading.
   double aside = 0;
-  /// Heading relative to the path's [rad].
+  /// Heading of the machine minus heading of the path [rad], in -pi..pi.
   double turned = 0;
 };
 
-/// Follows one leg of a path with the middle of the rear axle, forwards and backwards alike
-/// [Paden 2016, feedback of the rear wheel's position]. The path's own curvature is fed forward as
-/// its mean over a metre, so that the wheels turn ahead of each bend; the machine slows down until
-/// they can.
+/// Computes the steering angle and the speed limit of a machine that follows one leg of a path with
+/// the middle of its rear axle, forwards or backwards
+/// [Paden 2016, feedback of the rear wheel's position].
+///
+/// The path's curvature is fed forward as its mean over one metre, so that the wheels start to turn
+/// before each bend. The speed limit slows the machine down enough for the wheels to follow.
+/// Steering angles refer to the equivalent bicycle model and are positive to the left.
 class PathFollower {
  public:
-  /// Takes wheelbase, steering limits and rates from the drive.
+  /// Reads wheelbase, steering limits and steering rate from the drive.
   explicit PathFollower(const scene::Drive& drive);
 
-  /// Returns the position relative to the path of a machine at `at`, searched near s on this leg.
+  /// Returns the position of a machine at the pose `at` relative to `path`. The nearest point is
+  /// searched on `leg`, starting from the driven distance `s` [m].
   PathPlace place(const Path& path, const PathLeg& leg, const PlanePose& at, double s) const;
-  /// Returns the steering angle of the bicycle model [rad].
+  /// Returns the steering angle of the equivalent bicycle [rad] for a machine at `place`.
   double steer(const Path& path, const PathLeg& leg, const PathPlace& place) const;
-  /// Returns the largest speed [m/s, > 0] at which the wheels are turned in time for this bend and
-  /// those ahead, and at which the machine still stops at the leg's end.
+  /// Returns the maximum speed [m/s, > 0] at the driven distance `s` [m]. At this speed the wheels
+  /// can turn fast enough for the bends within the next 2 m, and the machine can stop at the end of
+  /// the leg.
   double speed_limit(const Path& path, const PathLeg& leg, double s) const;
-  /// Returns the bicycle steering angle to set before the leg begins [rad].
+  /// Returns the steering angle of the equivalent bicycle [rad] to set while the machine stands at
+  /// the start of the leg.
   double steer_at_start(const Path& path, const PathLeg& leg) const;
 
-  /// Largest rate of the bicycle steering angle [rad/s].
+  /// Returns the maximum rate of the bicycle's steering angle [rad/s].
   double steer_rate() const { return bicycle_.steer_rate; }
-  /// Radius of the tightest turn [m].
+  /// Returns the minimum turning radius [m].
   double least_radius() const { return least_radius_; }
 
  private:
+  // Drive with the geometry of the equivalent bicycle.
   scene::AckermannDrive bicycle_;
+  // Maximum steering angle of the bicycle [rad], and the turning radius at that angle [m].
   double most_steer_ = 0, least_radius_ = 0;
 };
 
-/// Ratio of a path's smallest radius to the machine's, so that steering can still correct.
+/// Ratio of the smallest radius in a planned path to the machine's minimum turning radius [-]. It
+/// is greater than 1, so that steering corrections remain possible in the tightest bend.
 inline constexpr double kRadiusReserve = 1.2;
 
 }  // namespace navvy::control

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface through which an operator asks for paths. A module above implements it; the program
-// passes it in.
+// Interface through which an operator requests paths. A higher-level module implements it, and the
+// application passes it in.
 #pragma once
 
 #include <cstdint>
@@ -16,39 +16,44 @@ namespace navvy::control {
 
 /// A request for a path.
 struct PathQuery {
+  /// Poses of the machine at the start and at the end of the path.
   PlanePose start, goal;
-  /// Clearance that the footprint keeps from ground the machine cannot drive on, along the whole
-  /// path [m].
+  /// Minimum distance [m] between the machine's footprint and ground that the machine cannot drive
+  /// on, along the whole path.
   double clearance = 0.3;
-  /// Iterations after which the search ends; it never ends by time.
+  /// Maximum number of search iterations. The search has no time limit, so that results repeat.
   int iterations = 1000;
-  /// Seed of the search; not 0.
+  /// Random seed of the search; must not be 0.
   std::uint32_t seed = 1;
 };
 
-/// Plans paths for one machine on ground that changes.
+/// Plans paths for one machine on changing ground.
 ///
-/// Answers depend on the surface that was shown last and on the query alone, bit for bit, whatever
-/// was asked before: a run resumed from a snapshot gets the paths of the uninterrupted run. Not
-/// thread-safe.
+/// A result depends only on the query and on the surface last passed to `look`, and is
+/// bit-identical whatever was requested before. A run resumed from a snapshot therefore gets the
+/// same paths as the uninterrupted run. Not thread-safe.
 class PathPlanner {
  public:
   virtual ~PathPlanner() = default;
-  /// Takes the present ground; all answers refer to it until the next call. Costs what changed
-  /// since the last call, and a pass over the active soil.
+  /// Updates the planner's map from `surface`. All results refer to this map until the next call.
+  /// The cost is proportional to the area changed since the last call, plus one pass over the
+  /// active soil.
   virtual void look(const SurfaceView& surface) = 0;
-  /// Returns the distance from the machine's footprint at `at` to the nearest ground that it cannot
-  /// drive on, unknown ground or the site's edge [m]; `range` when nothing is nearer.
+  /// Returns the distance [m] from the footprint of a machine at the pose `at` to the nearest
+  /// obstacle: ground it cannot drive on, unknown ground, or the site's edge. Returns `range` [m]
+  /// if there is no obstacle within that distance.
   virtual double clearance(const PlanePose& at, double range) const = 0;
-  /// Returns a path, or nothing when the search ends without one.
+  /// Returns a path for the query, or nothing if the search found none.
   virtual std::optional<Path> plan(const PathQuery& query) const = 0;
 };
 
-/// Makes the planner of a machine; empty where paths are not planned.
+/// Function that makes a path planner for a machine. An empty function means that path planning is
+/// not available.
 using MakePathPlanner = std::function<std::unique_ptr<PathPlanner>(const scene::Machine&)>;
 
-/// Returns the least clearance of the path from s to its end [m], at most `range`. Samples every
-/// 0.1 m, and stops once it is below `enough`.
+/// Returns the minimum clearance [m] along `path` from the driven distance `s` [m] to the end of
+/// the path, at most `range` [m]. The path is sampled every 0.1 m. Sampling stops at the first
+/// clearance below `enough` [m], which is then returned.
 double clearance_along(const PathPlanner& planner, const Path& path, double s, double range,
                        double enough = 0);
 

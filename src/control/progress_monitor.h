@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Detects whether a driving machine makes progress, and what holds it when it does not.
+// Detects whether a driving machine makes progress, and the cause if it does not.
 #pragma once
 
 #include <string>
@@ -12,18 +12,21 @@
 
 namespace navvy::control {
 
-/// Compares the machine's pose with the pose at which it last made progress. Part of the state of
-/// every step that drives.
+/// Compares the pose of a driving machine with its pose when it last made progress. The monitor is
+/// part of the state of every step that drives.
 class ProgressMonitor {
  public:
-  /// Starts to monitor from this pose.
+  /// Starts monitoring a machine at the pose `at`.
   void begin(const PlanePose& at);
-  /// Checks one control step of driving at `speed` [m/s] with `left` [m] to the target. Returns
-  /// kRunning while there is progress. Otherwise the machine has stood for the whole patience, 5 s
-  /// or what a slower drive needs, and `reason` says what holds it.
+  /// Updates the monitor after one control step of `dt` [s]. `speed` is the commanded speed [m/s],
+  /// and `left` the distance to the target [m], for messages. Returns kRunning while the machine
+  /// makes progress. If it has not moved for 5 s, or longer for a slow drive, returns kBlocked (an
+  /// obstacle holds it) or kStalled (its wheels spin or do not turn) and stores an explanation in
+  /// `reason`.
   StepState look(const Observation& seen, const scene::Machine& machine, double speed, double left,
                  double dt, std::string& reason);
 
+  /// Saves or loads the state of the monitor.
   void visit(Archive& a) {
     a("anchor", anchor_);
     a("stuck", stuck_);
@@ -32,16 +35,17 @@ class ProgressMonitor {
   }
 
  private:
-  // Since the machine last made progress: its pose then (x, y [m], yaw [rad]), the time since [s],
-  // the distance its wheels have rolled since [m], and the integral of the tyres' force [N s].
+  // Pose of the machine when it last made progress: x, y [m] and yaw [rad].
   Vec3 anchor_ = Vec3::Zero();
+  // Since then: elapsed time [s], and distance that the fastest driven wheel has rolled [m].
   double stuck_ = 0, rolled_ = 0;
+  // Time integral of the force of the ground on the wheels in W since then [N s].
   Vec3 push_ = Vec3::Zero();
 };
 
-/// Time at rest with the brake on after which a machine counts as standing [s].
+/// Minimum time at rest, with the brake on, after which a machine counts as standing [s].
 inline constexpr double kStandTime = 0.5;
-/// Speed below which a machine counts as standing [m/s].
+/// Speed below which a machine counts as being at rest [m/s].
 inline constexpr double kStandSpeed = 0.02;
 
 }  // namespace navvy::control

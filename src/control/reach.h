@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks a program before the run and reports every target that cannot be reached.
+// Checks a program before a run and reports every target that the machine cannot reach.
 #pragma once
 
 #include <memory>
@@ -17,74 +17,90 @@
 
 namespace navvy::control {
 
-/// One check of a program, step by step, before anything moves. Each step looks at the machine, the
-/// surface and the pose at which it will begin, and reports the targets that it cannot reach.
+/// Checks the reachability of all targets of one program before the run. The check visits the steps
+/// in order. Each step reads the machine, the surface and the predicted pose from this object, and
+/// reports the targets that it cannot reach.
 class ReachCheck {
  public:
-  /// Prepares the check of `program` for a machine that starts at `X_WB_at_start`. `file` and the
-  /// machine's `name` in the scene appear in messages.
+  /// Prepares the check of `program` for a machine whose base link starts at the pose
+  /// `X_WB_at_start` in W. Messages contain `file` (the scene file) and `name` (the machine's name
+  /// in the scene; if empty, the model's name). The machine, the program and the surface must
+  /// outlive this object. `planners` makes the path planner if a step plans paths.
   ReachCheck(const scene::Machine& machine_in, const scene::Program& program,
              const Pose& X_WB_at_start, const SurfaceView& surface_in, std::string file,
              const std::string& name, const MakePathPlanner& planners);
 
-  /// The machine that runs the program.
+  /// Machine that runs the program.
   const scene::Machine& machine;
-  /// The surface that digs and drives look at.
+  /// Ground surface to which the targets of digs and drives refer.
   const SurfaceView& surface;
-  /// A planner that has looked at the surface; null where no step needs one.
+  /// Path planner with an up-to-date map of the surface. Null if no step plans paths or no planner
+  /// is available.
   std::unique_ptr<const PathPlanner> planner;
-  /// Pose of the base link when the present step begins.
+  /// Predicted pose of the base link in W at the beginning of the step being checked.
   Pose X_WB;
 
-  /// Checks every step in turn, moving X_WB from station to station, and returns the faults.
+  /// Checks all steps in order, updates X_WB after each step that moves the machine, and returns
+  /// the errors and warnings found.
   std::vector<Fault> run();
 
-  /// Adds an error of the present step. `element` is the step's, or a part of it: "dig/far end".
+  /// Adds an error about the step being checked. `element` is the step's element or a part of it,
+  /// such as "dig/far end"; `value` is the offending value, `rule` the violated requirement, and
+  /// `remedy` a suggestion to the user.
   void fault(const std::string& element, const std::string& value, const std::string& rule,
              const std::string& remedy);
-  /// Adds a warning: a condition that may have changed by then.
+  /// Adds a warning; parameters as for `fault`. Use it for a condition that earlier steps of the
+  /// program may still change.
   void warn(const std::string& element, const std::string& value, const std::string& rule,
             const std::string& remedy);
-  /// Returns true when a step before the present one changes the ground.
+  /// Returns true if a step before the one being checked changes the ground.
   bool after_digging() const;
-  /// Adds an error when an angle [rad] is beyond the swing joint's limits.
+  /// Adds an error about `element` if the swing angle `swing` [rad] is outside the limits of the
+  /// swing joint. `remedy` is a suggestion to the user.
   void require_swing(const ArmKinematics& arm, const char* element, double swing,
                      const char* remedy);
 
  private:
+  /// Adds an error or a warning about the step being checked.
   void add(Fault::Severity severity, const std::string& element, const std::string& value,
            const std::string& rule, const std::string& remedy);
 
-  // The program; `index_` is the present step, for messages.
+  // The checked program.
   const scene::Program& program_;
+  // File and machine name for messages.
   std::string file_, name_;
+  // Position of the step being checked in the program, counted from 0.
   std::size_t index_ = 0;
+  // Errors and warnings found so far.
   std::vector<Fault> faults_;
 };
 
-/// Formats a value with two digits and its unit.
+/// Returns the value with two decimals, followed by a space and the unit.
 std::string number_text(double value, const char* unit);
-/// Formats a length in metres.
+/// Returns a length [m] as text with two decimals, such as "1.50 m".
 std::string metres(double value);
-/// Formats a position as "(x , y )".
+/// Returns a position [m] as text with two decimals: "(x , y )".
 std::string place_text(const Vec2& p);
-/// Explains why a step ended whose joint does not reach its target: "joint 'boom_joint' stopped
-/// 12.00 deg short of <target>, at its effort limit: something holds it". `rest` is the remaining
-/// distance [rad|m].
+/// Returns the explanation for a step that ended because a joint did not reach its target: "joint
+/// 'boom_joint' stopped 12.00 deg short of <target>, at its effort limit: something holds it".
+/// `rest` is the remaining distance to the target [rad|m].
 std::string held_text(const scene::Joint& joint, const vehicle::JointState& state, double rest,
                       const std::string& target);
 
-/// Returns a fault for every target of the program that cannot be reached from where the machine
-/// will then stand, with needed and possible distances. `X_WB` is the base link's pose at the
-/// start, `surface` the ground that digs and drives look at. Messages call the machine `name`;
-/// empty: by its model. `planners` makes the planner where a step needs paths.
+/// Checks a program and returns an error or warning for every target that is out of reach from the
+/// predicted pose of the machine. Each states the required and the possible distance.
+///
+/// `X_WB` is the pose of the base link in W at the start, and `surface` the ground that the targets
+/// of digs and drives refer to. Messages contain `file` (the scene file) and `name` (the machine's
+/// name in the scene; if empty, the model's name). `planners` makes the path planner if a step
+/// plans paths.
 std::vector<Fault> check_reach(const scene::Machine& machine, const scene::Program& program,
                                const Pose& X_WB, const SurfaceView& surface,
                                const std::string& file, const std::string& name = "",
                                const MakePathPlanner& planners = {});
 
-/// Returns the poses of the base link at which a program makes the machine stand: `X_WB` at the
-/// start, then the end of every drive.
+/// Returns the predicted poses of the base link in W: `X_WB` at the start, followed by the pose
+/// after each step of the program that moves the machine.
 std::vector<Pose> stations(const scene::Machine& machine, const scene::Program& program,
                            const Pose& X_WB, const SurfaceView& surface);
 

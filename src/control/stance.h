@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machine's stance while its arm works.
+// Filtered pose of a machine while its arm works.
 #pragma once
 
 #include <array>
@@ -10,35 +10,43 @@
 
 namespace navvy::control {
 
-/// Low-pass filtered pose of the chassis, and its inclination when the bucket last went down. Tip
-/// paths in W are computed from this pose, so that the arm does not respond to every oscillation on
-/// the tyres. Part of an activity's state.
+/// Low-pass filtered pose of the chassis, and a reference inclination.
+///
+/// Paths of the bucket's tip are given in W and converted to joint angles with the filtered pose,
+/// so that the arm does not respond to every oscillation of the chassis on its tyres. The reference
+/// inclination is set by `begin` and `settle`. A stance is part of an activity's state.
 class Stance {
  public:
-  /// Starts from the present pose of the base link.
+  /// Sets the filtered pose and the reference inclination from `X_WB`, the current pose of the base
+  /// link.
   void begin(const Pose& X_WB);
-  /// Filters the pose with a time constant of 0.25 s; `dt` [s].
+  /// Updates the filtered pose from the current pose `X_WB`. The filter's time constant is 0.25 s;
+  /// `dt` [s] is the length of the control step.
   void follow(const Pose& X_WB, double dt);
-  /// Returns the filtered pose of the swing axis' frame S in W at zero swing.
+  /// Returns the filtered pose X_WS of the swing axis frame S in W, for a swing angle of zero.
   Pose swing_frame(const ArmKinematics& arm) const;
-  /// Takes the present inclination as the reference: ground that yields under the wheels tilts the
-  /// machine permanently, which is no reason to stop.
+  /// Sets the reference inclination to the current filtered one. Call it when the bucket is about
+  /// to enter the ground: yielding ground has tilted the machine permanently by then, and that tilt
+  /// must not count as caused by the bucket.
   void settle();
-  /// Returns 1 while the machine stands as it did when it last settled, falling to 0 when the
-  /// bucket tilts it by 3 deg.
+  /// Returns 1 while the inclination differs by at most 1.5 deg from the reference. Beyond that,
+  /// the value falls linearly to 0 at 3 deg.
   double footing(const Pose& X_WB) const;
-  /// Returns by how much the side to which the arm points has risen since then [rad]; negative when
-  /// it sank. `swing` [rad].
+  /// Returns the angle [rad] by which the machine has pitched since the reference was set, in the
+  /// direction of the arm: positive if the side towards the bucket has risen, negative if it has
+  /// sunk. `swing` is the current swing angle [rad].
   double rise(const Pose& X_WB, const ArmKinematics& arm, double swing) const;
 
+  /// Saves or loads the filtered pose and the reference inclination.
   void visit(Archive& a) {
     a("base", base_);
     a("up", up_);
   }
 
  private:
-  std::array<double, 7> base_ = {0, 0, 0, 1, 0, 0, 0};  // x y z [m], quaternion w x y z
-  // The base's z axis in W when it last settled.
+  // Filtered pose of the base link: x y z [m], then the quaternion w x y z.
+  std::array<double, 7> base_ = {0, 0, 0, 1, 0, 0, 0};
+  // Unit vector along the base link's z axis in W when the reference was set.
   std::array<double, 3> up_ = {0, 0, 1};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface that an operator sees.
+// Access to the ground surface that an operator sees.
 #pragma once
 
 #include "heightfield/layered_ground.h"
@@ -7,29 +7,34 @@
 
 namespace navvy::control {
 
-/// The operator's view of the terrain. The implementation decides which surface that is, and may
-/// build the view when it is first asked for in a step, since most steps ask for nothing.
+/// Gives an operator access to the terrain surface. The implementation decides which surface that
+/// is (with or without loose soil). It may compute the surface on the first request in a step,
+/// since in most steps nobody requests it.
 class SurfaceView {
  public:
   virtual ~SurfaceView() = default;
-  /// Returns the surface seen from the cab now; valid until the world steps on.
+  /// Returns the surface as seen from the cab in this step. The reference is valid until the world
+  /// takes its next step.
   virtual const heightfield::Terrain& terrain() const = 0;
-  /// Returns the same instant as maps show it, without the contents of buckets and beds. The view
-  /// is immutable. For planners.
+  /// Returns an immutable copy of the surface for path planners. It shows the same instant as
+  /// `terrain`, but without the soil in buckets and beds, as maps do.
   virtual heightfield::TerrainView mapped() const = 0;
-  /// Returns the height at (x, y) [m] in W.
+  /// Returns the surface height in W [m] at the point (x, y) [m] in W.
   double height(double x, double y) const { return terrain().sample(x, y); }
 };
 
-/// A view of the resting columns of a ground.
+/// Shows the resting ground only, without loose soil particles.
 class GroundSurfaceView final : public SurfaceView {
  public:
-  /// Keeps a reference to `ground`, which must outlive the view.
+  /// Stores a reference to `ground`, which must outlive this view.
   explicit GroundSurfaceView(const heightfield::Ground& ground) : ground_(ground) {}
+  /// Returns the ground itself.
   const heightfield::Terrain& terrain() const override { return ground_; }
+  /// Returns an immutable copy of the ground.
   heightfield::TerrainView mapped() const override { return ground_.view(); }
 
  private:
+  // The ground that is shown.
   const heightfield::Ground& ground_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The path of the bucket's tip through soil, and the reaction when the arm stalls.
+// Path of the bucket's tip through the soil, and the reaction when the soil holds the tip.
 #pragma once
 
 #include "control/activity.h"
@@ -7,51 +7,61 @@
 
 namespace navvy::control {
 
-/// The wanted pose of the bucket's tip in the vertical plane of a point, converted to joint angles
-/// every control step.
+/// Converts the commanded position and angle of the bucket to joint angles in every control step.
+/// The tip moves in the vertical plane of the trench.
 ///
-/// The caller moves `z` and `angle` at speeds scaled by `slow`. When soil or rock holds the tip,
-/// the path waits, then rises. A bucket that presses on the ground and lifts the machine's nose is
-/// relieved at once. Part of an activity's state.
+/// The caller changes `z` and `angle` at speeds that it multiplies by `slow`. If soil or rock holds
+/// the tip, the path first pauses and then rises. If the bucket presses on the ground so hard that
+/// it lifts the machine on that side, the path rises immediately. A path is part of an activity's
+/// state.
 class TipPath {
  public:
-  /// Wanted height of the tip [m] in W, without `lift`.
+  /// Commanded height of the tip in W [m], not including `lift`.
   double z = 0;
-  /// Wanted angle of the line from pin to tip over the horizontal [rad].
+  /// Commanded angle of the line from the bucket's pin to its tip above the horizontal [rad].
   double angle = 0;
-  /// Angle that the arm can reach there [rad].
+  /// Angle nearest to `angle` that the arm can reach at the commanded position [rad].
   double reached = 0;
-  /// Amount by which the path is raised because the arm stalled or the machine's nose rose [m].
+  /// Height by which the path is currently raised, because the tip is held or the machine has been
+  /// lifted [m].
   double lift = 0;
-  /// Share of the path's speed that the machine can follow.
+  /// Factor on the speed of the path, from 1 (the machine follows) to 0 (the path pauses) [-].
   double slow = 1;
 
-  /// Starts at W (p, height) without a stall. Returns the joint angles of that pose, along the
-  /// shorter arc.
+  /// Starts a path at the point `p` (x, y) and the height `height` in W [m], with the bucket at the
+  /// angle `tip_angle` [rad]. Returns the joint angles of that pose; the swing takes the shorter
+  /// way from its commanded angle.
   Axes start(const OperatorContext& place, const Stance& stance, const Vec2& p, double height,
              double tip_angle);
-  /// Commands the tip to W (p, z + lift) and monitors how it follows; `dt` [s]. While `curling`, a
-  /// machine that the bucket pulls over is not relieved by rising, which would pull it further.
+  /// Commands the tip to the point `p` (x, y) in W [m] at the height `z + lift`, then updates
+  /// `reached`, `lift` and `slow` from the machine's response. `dt` [s] is the length of the
+  /// control step. While `curling` is true and the machine tilts, a held tip does not raise the
+  /// path, because that would pull the machine over.
   void follow(OperatorContext& place, const Stance& stance, const Vec2& p, const Observation& seen,
               double dt, bool curling);
 
+  /// Saves or loads the path.
   void visit(Archive& a);
 
  private:
-  // The arm's solution for one wanted pose.
+  // Result of the inverse kinematics for a commanded pose of the bucket.
   struct Solution {
+    // Joint angles [rad]; those of boom, stick and bucket are unchanged if the pose is out of
+    // reach.
     Axes q;
-    // Angle of the tip over the horizontal, the possible one nearest to the wanted [rad].
+    // Possible angle nearest to the commanded one, above the horizontal [rad].
     double angle = 0;
-    // False: out of reach.
+    // False if the pose is out of reach.
     bool found = false;
   };
+  // Computes the joint angles for the tip at `p` (x, y) and `height` in W [m].
   Solution solve(const OperatorContext& place, const Stance& stance, const Vec2& p,
                  double height) const;
+  // Updates `slow` and `lift` from the lag of the tip and the tilt of the machine.
   void feel_stall(const OperatorContext& place, const Stance& stance, const Observation& seen,
                   double dt, bool curling);
 
-  // Time for which the tip has been held [s].
+  // Time for which the tip has been held [s]; decreases while it is free.
   double stall_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Detects conditions that end a program during any step: the machine tips over or is buried.
+// Detects, during any step, that the machine has tipped over or is buried; both end its program.
 #pragma once
 
 #include <string>
@@ -10,20 +10,23 @@
 
 namespace navvy::control {
 
-/// Checks the machine's stability once per control step.
+/// Checks once per control step whether the machine has tipped over or is buried.
 class Watch {
  public:
-  /// Returns kRunning while the machine stands; otherwise the state, with the cause in `reason`.
+  /// Returns kRunning while neither has happened; otherwise returns kTipped or kBuried, and stores
+  /// an explanation in `reason`. `dt` [s] is the length of the control step.
   ///
-  /// A machine has tipped when it is inclined by more than 45 deg, or when its centre of mass has
-  /// been outside its support polygon for a while and it keeps turning over. It is buried when the
-  /// ground is above the tops of half of its wheels.
+  /// A machine has tipped if it is inclined by more than 45 deg, or if its centre of mass has been
+  /// outside its support polygon for more than 0.2 s while the inclination keeps growing. It is
+  /// buried if at least half of its wheels have their tops below the ground.
   StepState look(const Observation& seen, double dt, std::string& reason);
 
+  /// Saves or loads the time that the centre of mass has been outside the support polygon.
   void visit(Archive& a) { a("outside", outside_); }
 
  private:
-  // Time for which the centre of mass has been outside while the tilt grew [s].
+  // Time for which the centre of mass has been outside the support polygon while the inclination
+  // grew [s].
   double outside_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sparse table of values by column of a site.
+// A sparse table with one value per ground column.
 #pragma once
 
 #include <bit>
@@ -12,21 +12,21 @@
 
 namespace navvy::coupling {
 
-/// Stores a value for each column that `at` was called for. Iterates and saves by iy * nx + ix, as
-/// a map of that key would.
+/// Stores one value of type T for each column for which `at` has been called. Columns are visited
+/// row by row, in ascending order of iy * nx + ix.
 ///
-/// A row is divided into strips of 32 columns, and a strip stores the values of its columns side by
-/// side. This takes 3 bytes per column beside the value where a rut follows the rows, and 24 where
-/// a rut of four columns crosses them; a node of a map takes 56. A look-up searches the strips,
-/// which are fewer than the columns.
+/// Each row of columns is divided into strips of 32 columns, and the values of a strip are stored
+/// contiguously. In addition to the values, this takes about 3 bytes per column if a rut runs along
+/// the rows, and 24 bytes if a rut four columns wide runs across them; a std::map with one node per
+/// column would take 56 bytes. Access requires a search among the strips.
 template <class T>
 class ColumnTable {
  public:
   /// Makes an empty table for a site of nx x ny columns.
   ColumnTable(int nx, int ny) : nx_(nx), ny_(ny) {}
 
-  /// Returns the value of a column of the site and creates it if it is new. The reference is valid
-  /// until the next call.
+  /// Returns the value of the column (ix, iy), which must be on the site. A new column gets a
+  /// default value. The reference is valid until the next call of `at`.
   T& at(int ix, int iy) {
     Strip& strip = strips_[key_of(ix, iy)];
     const std::uint32_t bit = bit_of(ix);
@@ -42,7 +42,7 @@ class ColumnTable {
     return strip.values[static_cast<std::size_t>(place)];
   }
 
-  /// Returns the value of a column, null if it has none.
+  /// Returns a pointer to the value of the column (ix, iy); null if the column has no value.
   const T* find(int ix, int iy) const {
     const auto found = strips_.find(key_of(ix, iy));
     const std::uint32_t bit = bit_of(ix);
@@ -50,10 +50,11 @@ class ColumnTable {
     return &found->second.values[found->second.before(bit)];
   }
 
-  /// Returns the number of columns with a value.
+  /// Returns the number of columns that have a value.
   std::size_t size() const { return size_; }
 
-  /// Visits all values. @throws InputError for a column outside the site.
+  /// Saves or loads all columns with their values. @throws InputError when loading a column that is
+  /// not on the site.
   void visit(Archive& a) {
     const std::uint64_t count = a.size("columns", size_);
     if (a.loading()) {
@@ -75,28 +76,32 @@ class ColumnTable {
   }
 
  private:
-  static constexpr int kStrip = 32;  // columns, one bit each
+  // Number of columns in a strip, one bit of Strip::mask each.
+  static constexpr int kStrip = 32;
+  // Number of values by which the memory of a strip grows.
   static constexpr std::size_t kMoreClearance = 4;
 
-  /// Values of up to 32 neighbouring columns of a row.
+  // Values of up to 32 neighbouring columns of a row.
   struct Strip {
-    std::uint32_t mask = 0;  // columns that have a value
-    std::vector<T> values;   // their values, in the same order
+    // One bit per column of the strip, 1 if the column has a value.
+    std::uint32_t mask = 0;
+    // Values of the columns whose bit is 1, in ascending order of columns.
+    std::vector<T> values;
 
-    /// Returns the number of columns with a value before the one of `bit`.
+    // Returns the number of columns with a value before the column whose bit is `bit`.
     std::size_t before(std::uint32_t bit) const {
       return static_cast<std::size_t>(std::popcount(mask & (bit - 1)));
     }
   };
 
-  /// Returns the number of strips per row.
+  // Returns the number of strips in a row.
   std::int64_t strips_x() const { return (static_cast<std::int64_t>(nx_) + kStrip - 1) / kStrip; }
-  /// Returns the key of the strip that contains a column.
+  // Returns the key in `strips_` of the strip that contains a column.
   std::int64_t key_of(int ix, int iy) const { return iy * strips_x() + ix / kStrip; }
-  /// Returns the bit of a column in its strip.
+  // Returns the bit of a column within the mask of its strip.
   static std::uint32_t bit_of(int ix) { return std::uint32_t{1} << (ix % kStrip); }
 
-  /// Loads `count` columns, which must be in ascending order.
+  // Loads `count` columns, which must be in ascending order.
   void load(Archive& a, std::uint64_t count) {
     strips_.clear();
     size_ = 0;
@@ -111,9 +116,11 @@ class ColumnTable {
       });
   }
 
+  // Number of columns of the site in x and y direction.
   int nx_, ny_;
+  // Number of columns that have a value.
   std::size_t size_ = 0;
-  // Strips by row, then along the row: in the order of columns.
+  // Strips that contain a value, keyed by their row and position: in the order of the columns.
   std::map<std::int64_t, Strip> strips_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hitches of a scene, added after its machines stand on the ground.
+// Adds the hitches of a scene to the physics engine, after its machines have been placed on the
+// ground.
 #pragma once
 
 #include <functional>
@@ -9,10 +10,10 @@
 
 namespace navvy::coupling {
 
-/// Adds the scene's hitches to the engine in the order of the scene, so that both use the same
-/// indices. `index` maps a machine of the scene to its index in the engine.
-/// @throws InputError with file and line for a closed hitch whose eye is out of the hook's reach,
-/// and for an engine that cannot couple machines.
+/// Adds all hitches of the scene to the engine, in the order of the scene, so that both use the
+/// same indices. `index` returns the index in the engine for the index of a machine in the scene.
+/// @throws InputError with file and line if a closed hitch has its eye too far from its hook, or if
+/// the engine cannot couple machines.
 void add_hitches(const scene::Scene& scene, vehicle::PhysicsEngine& engine,
                  const std::function<int(int)>& index);
 

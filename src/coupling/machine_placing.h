@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Initial pose of a machine on the ground.
+// Initial poses of machines on the ground.
 #pragma once
 
 #include "core/math.h"
@@ -8,17 +8,17 @@
 
 namespace navvy::coupling {
 
-/// Returns X_WM, the pose of the model frame at the start. The base link is placed in M by the
-/// model's file.
+/// Returns X_WM, the initial pose of a machine's model frame M in W.
 ///
-/// With `on_ground` false this is the scene's pose. Otherwise z counts from the ground below the
-/// frame's origin, and a machine on three or more wheels is tilted with the plane through the
-/// ground under its tyres and raised until no tyre is in the ground: a level machine would press
-/// its uphill wheels into it. On a plane its x and y axes are then parallel to the plane. Height,
-/// roll and pitch of the scene are added on top.
+/// If `MachineInWorld::on_ground` is false, this is the pose given in the scene. Otherwise the
+/// height given in the scene counts from the ground below the origin of M. A machine with three or
+/// more wheels is also tilted to the plane fitted to the ground under its wheels, and raised until
+/// no wheel is in the ground; otherwise wheels on the uphill side would be pressed into it. The
+/// height, roll and pitch given in the scene are then added.
 Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& ground);
 
-/// Returns X_WB of the base link of a machine whose model frame is at X_WM, at any joint positions.
+/// Returns the pose X_WB of the base link in W for a machine whose model frame M has the pose X_WM.
+/// It does not depend on the joint positions.
 Pose base_pose(const scene::Machine& machine, const Pose& X_WM);
 
 }  // namespace navvy::coupling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Load history of a column under wheels and tracks.
+// Load history of a ground column under wheels and tracks.
 #pragma once
 
 #include <limits>
@@ -9,35 +9,45 @@
 
 namespace navvy::coupling {
 
-/// Records the largest pressure on a column and the surface height at that time. A load
-/// that stands still, or passes again, adds nothing; a heavier one presses further.
+/// The maximum pressure that a column has carried, and the height of its surface after that. A load
+/// that stands still or passes again does not press the column any further; only a greater pressure
+/// does.
 ///
-/// Soil that was added since is fresh and is compacted from its own surface on, but the ground
-/// below keeps its history: a rut whose walls slide in is pressed to its old floor and not as deep
-/// again. The history is cleared where ground was removed below that floor.
+/// Fresh soil that has been added since is compacted from its own surface, but the ground below it
+/// keeps its history. When the walls of a rut slide in, a wheel therefore presses down to the old
+/// floor of the rut, not twice as deep. The history is cleared if ground is removed below that
+/// floor.
 struct RutMemory {
-  /// Largest pressure on the surface [Pa].
+  /// Maximum pressure on the soil at the surface so far [Pa].
   double pressure = 0;
-  /// Height of that surface [m].
+  /// Height of the surface in W after it was pressed last [m].
   double height = 0;
-  /// Largest pressure on the ground below fresh soil, 0 if there is none [Pa].
+  /// Maximum pressure on the ground below fresh soil [Pa]; 0 if there is no fresh soil.
   double floor_pressure = 0;
-  /// Height of the ground below fresh soil [m].
+  /// Height in W of the ground below fresh soil [m].
   double floor_height = 0;
 
-  /// Compares the record with the present height `surface` [m] of the column.
+  /// Detects from the current height `surface` of the column in W [m] whether soil has been added
+  /// or removed since the last press, and updates the history. Call it before `press`.
   void find(double surface);
 
-  /// Result of `press`: the plate's sinkage before, and how far the column is pressed down [m].
+  /// Result of `press`.
   struct Press {
+    /// `before` is the sinkage of the plate under the previous maximum pressure [m], and `drop` the
+    /// distance by which the caller must lower the column [m].
     double before = 0, drop = 0;
   };
-  /// Presses the column by at most `at_most` [m] under a plate of `width` [m] with the pressure
-  /// `applied` [Pa]. Records the load; the caller stores the new surface in `height`.
+  /// Computes the effect of a plate that presses on the column, and updates the pressures in the
+  /// history. The caller must lower the column by the returned distance and then store the new
+  /// height in `height`.
+  ///
+  /// `soil` is the soil at the surface, `width` the width of the plate [m], `surface` the current
+  /// height of the column in W [m], `applied` the pressure [Pa], and `at_most` the maximum distance
+  /// by which the column is lowered [m].
   Press press(const scene::Soil& soil, double width, double surface, double applied,
               double at_most = std::numeric_limits<double>::infinity());
 
-  /// Visits pressures and heights.
+  /// Saves or loads pressures and heights.
   void visit(Archive& a);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settles machines on the ground without moving soil, for checks before a run.
+// Lets machines settle on the ground without moving soil. Used by checks before a run.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,21 @@
 
 namespace navvy::coupling {
 
-/// State of a machine after settling.
+/// State of one machine after settling.
 struct Settled {
+  /// Stability of the machine (see vehicle::Stability).
   vehicle::Stability stability;
-  /// Speed of the base link, positive downwards [m/s].
+  /// Downward speed of the base link [m/s]; negative if it moves up.
   double fall_speed = 0;
 };
 
-/// Places the scene's machines on `ground` as a run does, steps physics engine, tyres and ruts for
-/// `time` [s], and returns the state of each machine of the scene. Joints hold and drives brake, as
-/// they do without a command. Presses ruts into `ground`. No particle becomes active, so no device
-/// is needed. A kinematic machine keeps its initial state and is not free. Costs about 0.2 s per
-/// machine and simulated second.
+/// Simulates machines, tyres and ruts for `time` [s], and returns the state of each machine of the
+/// scene at the end, in the order of the scene.
+///
+/// The machines are placed on `ground` as in a run. Joints hold their positions and drives brake.
+/// Ruts are pressed into `ground`, which therefore changes. No soil particles are created, so no
+/// OpenCL device is needed. The entry of a kinematic machine has default values, with
+/// `Stability::free` false. The cost is about 0.2 s per machine and simulated second.
 std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& ground, double time);
 
 }  // namespace navvy::coupling

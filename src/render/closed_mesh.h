@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Detects closed bodies, whose inner sides are never visible.
+// Detects closed meshes. The inner sides of their faces are never visible and need not be drawn.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace navvy::render {
 
-/// Returns true when the faces enclose space piece by piece, each piece oriented outwards: every
-/// edge is used equally often in both directions, and every connected piece has positive volume.
-/// Coincident points count as one. `indices` are in Coin's form: point numbers, -1 after each face.
-/// Costs O(n log n) in the number of edges; called once per body.
+/// Returns true if the faces form closed bodies whose outer sides are the front sides: every edge
+/// is traversed equally often in both directions, and every connected part of the mesh has a
+/// positive volume. Coincident points count as one point. `indices` has Coin's format: the point
+/// indices of each face, followed by -1. The cost is O(n log n) for n edges.
 bool is_solid(const std::vector<Vec3f>& points, const std::vector<std::int32_t>& indices);
 
 }  // namespace navvy::render

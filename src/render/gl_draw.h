@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws sky, ground and soil with plain OpenGL: large meshes that change often, with colours
-// already lit.
+// Draws sky, ground and soil with plain OpenGL. Their meshes are large, change often, and already
+// contain lit colours.
 #pragma once
 
 #include <vector>
@@ -11,37 +11,44 @@
 
 namespace navvy::render {
 
-/// Textures and state of the parts that Coin does not draw. Its context must be current in every
-/// call. Coin draws the machines; large meshes that change from picture to picture are drawn here
-/// as vertex arrays, without nodes.
+/// Draws the parts of a picture that Coin does not draw, as vertex arrays without scene graph
+/// nodes. (Coin draws the machines.) The object owns two textures. Its OpenGL context must be
+/// current in every call.
 class GlDraw {
  public:
-  /// Distances at which haze starts and is complete [m].
+  /// Distances from the camera at which haze begins and at which it hides everything [m].
   static constexpr float kFogStart = 40, kFogEnd = 700;
 
-  /// Clears the picture and sets the camera. Coin's state is saved until `end`.
+  /// Clears the picture, sets the camera, and saves Coin's OpenGL state until `end`.
   void begin(const View& view, const Lighting& lighting);
-  /// Draws the ground with a fine grain texture and the machines' shadow. Haze and shadow cost time
-  /// for every pixel, so a part has them only where they reach.
+  /// Draws the ground with a texture of fine grains and the shadows of the machines. Haze and
+  /// shadows are enabled only for those parts of the ground that they reach, because they cost time
+  /// for every pixel.
   void ground(const std::vector<GroundPart>& parts, const View& view, const ShadowMap& shadows,
               const Lighting& lighting);
-  /// Draws the sky where nothing is in front of it; call it after the ground.
+  /// Draws the sky wherever nothing has been drawn yet. Call it after `ground` and `lumps`.
   void sky(const View& view, const Lighting& lighting);
-  /// Draws closed bodies with haze; call it after the ground and before the sky.
+  /// Draws the closed bodies in `mesh` (the loose soil) with haze. Call it after `ground` and
+  /// before `sky`.
   void lumps(const Mesh& mesh);
-  /// Restores Coin's state. Every `begin` needs one, also when drawing is cut short.
+  /// Restores Coin's OpenGL state. Every `begin` needs a call of `end`, even if drawing fails in
+  /// between.
   void end();
 
  private:
-  // The grain texture is created at its first use and stays in GL's memory.
+  /// Creates the grain texture. It remains in the memory of the OpenGL context.
   void make_grain();
+  /// Sets the projection of the grain texture: from the side for walls, else from above.
   void place_grain(bool on_walls);
+  /// Binds the grain texture, and creates it at the first call.
   void bind_grain();
-  // Uploads the mask again when its version differs from the one in the texture.
+  /// Binds the shadow mask as a texture, and uploads the mask if it has changed since the last
+  /// upload.
   void bind_shadow(const ShadowMap& shadows, const Lighting& lighting);
 
+  // OpenGL names of the two textures; 0 before they are created.
   unsigned grain_ = 0, shadow_ = 0;
-  // Version of the mask in the texture.
+  // ShadowMap::version of the mask last uploaded.
   std::uint64_t shadow_version_ = 0;
 };
 

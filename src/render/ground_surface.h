@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground's heights with a lit colour per column, updated by rectangles.
+// A copy of the ground's heights with one lit colour per column. Only changed rectangles are
+// updated.
 #pragma once
 
 #include <array>
@@ -11,93 +12,116 @@
 
 namespace navvy::render {
 
-/// Half-open rectangle of columns.
+/// A rectangle of columns, x0 <= ix < x1 and y0 <= iy < y1.
 struct ColumnRect {
+  /// The rectangle begins with column x0 and ends before column x1; the same holds for y0 and y1.
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  /// Returns true when it holds no column.
+  /// Returns true if the rectangle contains no column.
   bool empty() const { return x0 >= x1 || y0 >= y1; }
-  /// Number of columns in it.
+  /// Returns the number of columns in the rectangle.
   std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(x1 - x0) * (y1 - y0); }
-  /// Returns the smallest rectangle that holds both.
+  /// Returns the smallest rectangle that contains this one and `other`.
   ColumnRect with(const ColumnRect& other) const {
     return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1),
             std::max(y1, other.y1)};
   }
-  /// Returns it enlarged by `cells` on every side, clamped to a ground of nx x ny columns.
+  /// Returns this rectangle enlarged by `cells` columns on every side and clamped to a ground of nx
+  /// x ny columns.
   ColumnRect grown(int cells, int nx, int ny) const {
     return {std::max(0, x0 - cells), std::max(0, y0 - cells), std::min(nx, x1 + cells),
             std::min(ny, y1 + cells)};
   }
 };
 
-/// A copy of the ground's heights with, per column, albedo, visible shares of sun and sky, and the
-/// lit colour.
+/// A copy of the ground's heights. For each column it also stores the visible fractions of sun and
+/// sky, and the lit colour.
 ///
-/// Soil gives the base colour; the original surface is weathered, dug ground darker and moist,
-/// dumped ground lighter and uneven; a faint tint follows height. The sun is traced over the
-/// heights up to kShadowReach columns away.
+/// The type of soil gives the base colour. The original surface looks weathered, dug ground is
+/// darker and moist, and dumped ground is lighter and uneven; a faint tint depends on the height.
+/// Rays to the sun are traced over the heights for up to kShadowReach columns.
 class GroundSurface {
  public:
-  /// Length of the ground's own shadows [columns].
+  /// Maximum length of the shadows that the ground casts on itself [columns].
   static constexpr int kShadowReach = 28;
-  /// Radius of the neighbourhood that hides the sky [columns].
+  /// Distance up to which surrounding ground hides the sky [columns].
   static constexpr int kOpenReach = 5;
 
-  /// Copies what changed in `ground`. Returns rectangles of the columns whose vertices or colours
-  /// are new; none when nothing changed.
+  /// Copies the changed columns of `ground` and lights them and their surroundings. Returns
+  /// rectangles that contain all columns with a new height or colour; empty if nothing has changed.
+  /// @throws Error if the sizes of the frame's arrays do not match.
   std::vector<ColumnRect> update(const scene::FrameGround& ground, const Lighting& lighting);
 
-  // The copied ground; columns and origin as in scene::FrameGround.
+  /// Returns the number of columns in x direction.
   int nx() const { return nx_; }
+  /// Returns the number of columns in y direction.
   int ny() const { return ny_; }
+  /// Returns the edge length of a column [m].
   float cell() const { return cell_; }
+  /// Returns the height of a column in W [m].
   float height(int ix, int iy) const { return height_[index(ix, iy)]; }
-  /// Returns a column's centre in W [m].
+  /// Returns the centre of a column's surface in W [m].
   Vec3f point(int ix, int iy) const {
     return {x0_ + (static_cast<float>(ix) + 0.5f) * cell_,
             y0_ + (static_cast<float>(iy) + 0.5f) * cell_, height_[index(ix, iy)]};
   }
-  /// Returns a column's lit colour, RGBA.
+  /// Returns the lit colour of a column as four bytes, RGBA.
   const std::array<std::uint8_t, 4>& lit(int ix, int iy) const { return lit_[index(ix, iy)]; }
-  /// Returns the lit colour of a wall at this column: freshly cut soil facing `normal`.
+  /// Returns the lit colour (RGB, 0 to 1) of a wall at a column. A wall looks like freshly cut
+  /// soil; `normal` is its unit normal in W.
   Vec3f wall_color(int ix, int iy, const Vec3f& normal) const;
-  /// Interpolates height [m] and share of the sun at a point of W. Returns false outside the
-  /// ground.
+  /// Finds the column at the point (x, y) in W [m], and returns its height in W [m] and the visible
+  /// fraction of the sun (0 to 1) in the last two parameters. Returns false, without setting them,
+  /// if the point is outside the ground.
   bool sample(float x, float y, float& height, float& sun) const;
 
  private:
+  /// Returns the index of a column in the arrays below; ix varies fastest.
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) +
            static_cast<std::size_t>(ix);
   }
-  /// Returns the frame's changed rectangles, or compares heights where a frame was missed.
+  /// Returns the changed rectangles that the frame reports. If an earlier frame was not copied,
+  /// compares all columns instead.
   std::vector<ColumnRect> changed_cells(const scene::FrameGround& ground) const;
-  /// Returns the bounding rectangle of all columns that differ from the frame's.
+  /// Returns the bounding rectangle of all columns that differ from those of the frame.
   ColumnRect compared(const scene::FrameGround& ground) const;
-  /// Starts with a ground of another size, position, light or set of soils.
+  /// Resets the copy for a ground with another size, position, lighting or set of soils. `columns`
+  /// is the number of columns.
   void start(const scene::FrameGround& ground, const Lighting& lighting, std::size_t columns);
-  /// Computes mean height and range, which the tint of the original surface follows.
+  /// Computes mean height and height range of the original surface, which determine the tint.
   void measure_relief();
+  /// Copies the frame's data of the columns in `rect`.
   void copy(const scene::FrameGround& ground, const ColumnRect& rect);
-  // Each of these updates one field of the columns in `rect` from the heights around them.
+  /// Computes the visible fraction of the sky for the columns in `rect`.
   void find_openness(const ColumnRect& rect);
+  /// Computes the visible fraction of the sun for the columns in `rect`.
   void find_sun(const ColumnRect& rect);
+  /// Computes the lit colours of the columns in `rect`.
   void paint(const ColumnRect& rect);
-  /// Returns the colour of the soil before light: weathered, dug or dumped.
+  /// Returns the unlit colour of a column: weathered, dug or dumped soil.
   Vec3f albedo(int ix, int iy) const;
+  /// Returns the unit normal of the surface at a column in W.
   Vec3f normal(int ix, int iy) const;
 
+  // Number of columns in x and y direction.
   int nx_ = 0, ny_ = 0;
+  // Edge length of a column, and position of the ground's lower left corner in W [m].
   float cell_ = 0.1f, x0_ = 0, y0_ = 0;
-  // Revision of the frame copied last.
+  // Revision of the frame that was copied last.
   std::uint64_t revision_ = 0;
+  // Lighting for which the colours were computed.
   Lighting lighting_;
+  // Mean height in W and height range of the original surface [m].
   float mean_height_ = 0, relief_ = 1;
+  // Base colours, by the index of the soil.
   std::vector<scene::Color> soil_color_;
-  // Per column, x fastest: height [m], change [m], scratch memory for sums.
+  // Arrays with one entry per column: height in W [m] and change of height since the start [m].
+  // `scratch_` is temporary memory for sums.
   std::vector<float> height_, change_, scratch_;
-  // Index of the soil; visible share of sky and sun, 255 = all.
+  // Arrays with one entry per column: index of the soil, and visible fractions of sky and sun (0 to
+  // 255).
   std::vector<std::uint8_t> soil_, open_, sun_;
+  // Lit colour of each column, RGBA.
   std::vector<std::array<std::uint8_t, 4>> lit_;
 };
 

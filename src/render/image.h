@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in memory and on disk.
+// Colour and depth pictures, in memory and as PNG files.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,15 @@
 
 namespace navvy::render {
 
-/// 8-bit sRGB picture, three bytes per pixel, top row first, rows without padding, as in a PNG.
+/// A picture in 8-bit sRGB. As in a PNG file, rows are stored from top to bottom.
 struct Image {
+  /// Size [pixels].
   int width = 0, height = 0;
+  /// Colours, three bytes (red, green, blue) per pixel, rows without padding.
   std::vector<std::uint8_t> rgb;
 
-  /// Returns the three bytes of a pixel; (0, 0) is the upper left. Does not check bounds.
+  /// Returns a pointer to the three bytes of a pixel. Pixel (0, 0) is the upper left one. Bounds
+  /// are not checked.
   const std::uint8_t* pixel(int x, int y) const {
     // Multiplied as std::size_t, as large pictures leave the range of an int.
     return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -21,28 +24,31 @@ struct Image {
   }
 };
 
-/// Distance along the camera's axis [m], top row first; infinity where nothing was drawn. The
-/// distance is along the axis and not along the ray, so a wall parallel to the picture has one
-/// depth.
+/// Depth picture of a camera.
+///
+/// The depth of a pixel is the distance measured along the camera's axis, not along the ray through
+/// the pixel, so a wall parallel to the picture has the same depth everywhere.
 struct DepthImage {
+  /// Size [pixels].
   int width = 0, height = 0;
+  /// Depths [m], one per pixel, rows from top to bottom; infinity where nothing was drawn.
   std::vector<float> depth;
 
-  /// Returns the distance at a pixel, counted as in Image.
+  /// Returns the depth of a pixel [m]. Pixel (0, 0) is the upper left one. Bounds are not checked.
   float at(int x, int y) const {
     return depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                  static_cast<std::size_t>(x)];
   }
 };
 
-/// Encodes `image` as PNG, optimised for speed rather than size. @throws Error when the image is
-/// empty or inconsistent.
+/// Returns the content of a PNG file with the picture, compressed for speed rather than size.
+/// @throws Error if the picture is empty, or if its size does not match its data.
 std::vector<char> encode_png(const Image& image);
-/// Writes `path` atomically: the old or the new file, never a part. @throws FileError naming path
-/// and cause (disk full).
+/// Writes a picture to the PNG file `path`. The file is replaced as a whole: a reader sees either
+/// the old or the new content. @throws FileError with path and cause if writing fails.
 void write_png(const std::string& path, const Image& image);
-/// Reads any kind of PNG and converts it to three bytes per pixel. @throws FileError when missing,
-/// Error when it is not a readable PNG.
+/// Reads a PNG file of any colour type and converts it to three bytes per pixel. @throws FileError
+/// if the file cannot be opened, Error if its content is not a valid PNG.
 Image read_png(const std::string& path);
 
 }  // namespace navvy::render

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose soil as lit, irregular lumps of a few triangles; lumps buried in others are left out.
+// Draws loose soil as irregular, lit lumps of a few triangles each. Particles inside a heap are
+// omitted.
 #pragma once
 
 #include <vector>
@@ -11,54 +12,63 @@
 
 namespace navvy::render {
 
-/// Builds one mesh of all visible particles. Its cost grows with the particles on the outside of
-/// the soil: it skips particles enclosed by others and those outside the picture.
+/// Builds one mesh of all visible soil particles. Particles that others enclose, and particles
+/// outside the picture, get no triangles.
 class ParticleMesh {
  public:
-  /// Number of triangles above which lumps have eight faces instead of twenty, whatever their size.
+  /// Number of triangles in a picture above which every lump is drawn with 8 instead of 20 faces.
   static constexpr int kTriangleBudget = 100000;
 
-  /// Builds the mesh, which is valid until the next call. Position, size and colour of a lump
-  /// follow from the particle's number (or id), so that a lump keeps its appearance. @throws Error
-  /// when the frame's arrays do not match each other.
+  /// Returns the mesh of the frame's particles, valid until the next call. The id of a particle
+  /// (its index if the frame has no ids) determines the shape, size and colour of its lump, so that
+  /// a particle always looks the same. @throws Error if the sizes of the frame's particle arrays do
+  /// not match.
   const Mesh& build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
                     const GroundSurface& surface, const View& view);
-  /// Number of lumps in the last mesh.
+  /// Returns the number of lumps in the last mesh.
   int drawn() const { return drawn_; }
 
  private:
-  // A lump to draw: its position, the direction out of the heap, and how much of the sky it sees.
+  // A particle to draw.
   struct Lump {
-    // In W [m]; `outward` is a unit vector.
+    // Centre in W [m], and unit vector in W that points out of the heap.
     Vec3f center, outward;
-    // Share of the sky, 0 to 1, and distance from the eye [m].
+    // Visible fraction of the sky (0 to 1), and distance from the camera [m].
     float open, distance;
-    // Largest radius that does not reach through a plate [m].
+    // Maximum radius at which the lump does not protrude through a plate of a machine [m].
     float most;
+    // Random number that determines the appearance of the lump.
     std::uint32_t seed;
-    // Index of the soil, for its colour.
+    // Index of the soil, which determines the colour.
     std::uint8_t soil;
   };
-  // A set of the cells that hold particles. Only occupancy is ever asked for, so particles are not
-  // sorted.
+  // Builds the set of grid cells that contain particles. Only this set is needed, so the particles
+  // need not be sorted.
   void fill_table(const scene::FrameParticles& particles);
+  // Returns true if the grid cell (x, y, z) contains a particle.
   bool occupied(std::int32_t x, std::int32_t y, std::int32_t z) const;
-  // Returns true when all cells towards the eye are occupied.
+  // Returns true if the seven neighbouring cells towards the camera all contain particles. `local`
+  // is the position relative to the frame's origin [m].
   bool hidden(const Vec3f& local, const Vec3f& to_eye) const;
+  // Computes Lump::outward and Lump::open of a particle from the occupied cells around it.
   void look_around(const Vec3f& local, Vec3f& outward, float& open) const;
-  // Adds the lump's lit corners and its faces.
+  // Adds the triangles of a lump to the mesh. `detail` is 1 for 20 faces and 0 for 8 faces, `sun`
+  // the visible fraction of the sun (0 to 1).
   void add_lump(const Lump& lump, float radius, int detail, const Vec3f& albedo,
                 const Lighting& lighting, float sun);
 
-  // Kept from picture to picture to reuse its memory.
+  // The last mesh; reused in order to reuse its memory.
   Mesh mesh_;
-  // Open addressing; 0 = free.
+  // Hash table (open addressing) of the keys of occupied cells; 0 marks a free slot.
   std::vector<std::uint64_t> table_;
-  // The table's size is a power of two, so that a mask gives the index.
+  // Size of the table minus 1. The size is a power of two, so this mask converts a hash to an
+  // index.
   std::size_t table_mask_ = 0;
-  // Edge length of a cell of the set: a particle's width [m].
+  // Edge length of a grid cell: the diameter of a particle [m].
   float pitch_ = 0.06f;
+  // Visible lumps of the picture being built.
   std::vector<Lump> lumps_;
+  // Number of lumps in the last mesh.
   int drawn_ = 0;
 };
 

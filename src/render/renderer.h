@@ -9,55 +9,65 @@
 
 namespace navvy::render {
 
-/// Options that hold for all pictures of a Renderer.
+/// Options that apply to all pictures of a Renderer.
 struct RenderOptions {
-  /// Samples per pixel, 1 or 4; 4 smooths edges and takes two to three times as long.
+  /// Number of samples per pixel, 1 or 4. Four samples smooth edges and take two to three times as
+  /// long.
   int samples = 1;
-  /// Draws ground beyond the site's edge, fading into haze; false: the site stands free.
+  /// True to draw ground beyond the edge of the site, which fades into haze; false to draw only the
+  /// site.
   bool surroundings = true;
-  /// Draws the shadows of machines and falling soil on the ground.
+  /// True to draw the shadows of machines and falling soil on the ground.
   bool shadows = true;
-  /// Largest number of ground triangles per picture; the level of detail gets coarser to respect
-  /// it.
+  /// Maximum number of ground triangles per picture (approximate). The level of detail is reduced
+  /// to respect it.
   int triangle_budget = 40000;
 };
 
-/// Cost of the last picture: counts of what was drawn, and wall time of the host [ms].
+/// Numbers of drawn objects in one picture, and the wall time it took.
 struct RenderStats {
+  /// Number of triangles and of tiles drawn for the ground.
   int ground_triangles = 0, ground_tiles = 0;
+  /// Number of soil particles drawn, and of their triangles.
   int particles_drawn = 0, particle_triangles = 0;
+  /// Number of tiles whose mesh had to be built for this picture.
   int tiles_rebuilt = 0;
-  /// Time to prepare ground, shadows and particles, and time to draw [ms].
+  /// Wall time to prepare ground, shadows and particles (`prepare_ms`), and wall time to draw
+  /// (`draw_ms`) [ms].
   double prepare_ms = 0, draw_ms = 0;
 };
 
 /// Draws ground, soil particles, machines, sky and shadows with Coin3D and OSMesa.
 ///
-/// The same frame gives the same bytes on one Mesa version. One Renderer at a time per process,
-/// used from the thread that created it (Coin is not thread-safe). The ground is cached: a picture
-/// costs what changed and what the camera sees.
+/// The same frame gives bit-identical pictures with the same version of Mesa. Only one Renderer may
+/// exist in a process at a time, and all its calls must come from one thread, because Coin is not
+/// thread-safe. The mesh of the ground is cached, so the cost of a picture depends on the area that
+/// has changed and on what the camera sees.
 class Renderer {
  public:
-  /// Creates the drawing context. @throws Error when no context can be created.
+  /// Creates the OpenGL context. @throws Error if that fails.
   explicit Renderer(const RenderOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws `frame` as `camera` sees it; `depth`, when given, receives the depth picture of the same
-  /// size. The ground's changed rectangles are trusted when its revision follows the last one
-  /// drawn; otherwise heights are compared. @throws FileError or InputError naming a mesh file that
-  /// cannot be read, Error for an impossible picture size.
+  /// Returns a picture of `frame` as seen by `camera`. If `depth` is not null, it receives the
+  /// depth picture of the same size.
+  ///
+  /// If the revision of the ground directly follows the one drawn last, only the rectangles that
+  /// the frame marks as changed are updated; otherwise all heights are compared. @throws FileError
+  /// or InputError with the name of a mesh file that cannot be read, Error if the picture size is
+  /// not supported.
   Image render(const scene::Frame& frame, const scene::FrameCamera& camera,
                DepthImage* depth = nullptr);
 
-  /// Returns the cost of the last picture; zeros before the first.
+  /// Returns the statistics of the last picture; all zero before the first one.
   const RenderStats& stats() const;
 
-  // Coin's and GL's headers stay in the source.
  private:
-  // Keeps the headers of Coin and GL in the source.
+  // Hides the headers of Coin and OpenGL from users of this class.
   class Impl;
+  // Implementation and all cached data.
   std::unique_ptr<Impl> impl_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The view of the sun: which light rays machines and falling soil intercept, and at what depth.
+// Shadow map: a depth picture as seen from the sun, which shows where machines and falling soil
+// block the light.
 #pragma once
 
 #include <vector>
@@ -8,48 +9,65 @@
 
 namespace navvy::render {
 
-/// A square of texels across the sun's rays. `mask` (255 = lit) is projected on the ground as a
-/// texture; points in the air ask `sun_at`, which compares depths. One map per picture: casters
-/// share its texels, so a machine far from the others makes them coarse.
+/// A square grid of texels in a plane perpendicular to the sun's rays. Objects that cast shadows
+/// are added to it (casters).
+///
+/// The mask is projected on the ground as a texture. For points in the air, `sun_at` compares
+/// depths. One map covers all casters of a picture, so distant casters make its texels coarse.
 class ShadowMap {
  public:
-  /// Texels along an edge.
+  /// Number of texels along an edge of the map.
   static constexpr int kSize = 512;
 
-  /// Starts a new map for casters inside the box `low`..`high` of W. Shadows of casters outside it
-  /// are cut off.
+  /// Starts a new map. It covers the box from `low` to `high` in W [m], which should contain all
+  /// casters: parts outside the box cast no shadow.
   void begin(const Lighting& lighting, const Vec3f& low, const Vec3f& high);
-  /// Adds a triangle. Of a solid body only triangles that face the sun count.
+  /// Adds a triangle with the corners a, b and c in W [m]. If it belongs to a solid body (`solid`),
+  /// it is ignored unless it faces the sun.
   void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool solid);
-  /// Adds a round particle as a square of its width.
+  /// Adds a particle at `p` in W [m] as a square as wide as the particle. `radius` is the
+  /// particle's radius [m].
   void add_point(const Vec3f& p, float radius);
-  /// Computes the mask with a soft edge. Until then the mask is that of the previous map.
+  /// Computes the mask, with soft edges. Before this call, `mask` still returns that of the
+  /// previous map.
   void finish();
 
-  /// Returns true when nothing was added since `begin`; everything is lit then.
+  /// Returns true if nothing has been added since `begin`, so that there are no shadows.
   bool empty() const { return !used_; }
-  /// Number that changes with every new mask.
+  /// Returns a number that changes whenever a new map is started. It shows whether a copy of the
+  /// mask is outdated.
   std::uint64_t version() const { return version_; }
-  /// Returns false only when the shadow cannot fall on anything inside a box.
+  /// Returns false if no shadow can fall on anything inside the box from `low` to `high` in W [m].
+  /// May return true without need.
   bool reaches(const Vec3f& low, const Vec3f& high) const;
+  /// Returns the mask, one byte per texel: 255 is fully lit, 0 in full shadow.
   const std::vector<std::uint8_t>& mask() const { return mask_; }
-  /// Texture coordinates = dot(plane.head<3>(), p) + plane.w, 0 to 1 over the map.
+  /// Returns the plane for the texture coordinate s of a point p in W: s = dot(plane.head<3>(), p)
+  /// + plane.w. The coordinate is 0 to 1 within the map.
   const Eigen::Vector4f& plane_s() const { return plane_s_; }
+  /// Returns the plane for the texture coordinate t, defined as for `plane_s`.
   const Eigen::Vector4f& plane_t() const { return plane_t_; }
-  /// Returns the share of the sun (0..1) at p, ignoring casters less than `bias` [m] nearer the
-  /// sun. 1 beyond the map.
+  /// Returns the visible fraction of the sun (0 to 1) at the point `p` in W [m]; 1 outside the map.
+  /// Casters that are less than `bias` [m] nearer to the sun than `p` are ignored, so that a body
+  /// does not shadow itself.
   float sun_at(const Vec3f& p, float bias) const;
 
  private:
-  // Returns p's position on the map in texels, and its height along the sun's direction [m].
+  // Returns the position of `p` on the map [texels] (x, y), and its height in the direction of the
+  // sun [m] (z).
   Vec3f project(const Vec3f& p) const;
 
+  // True if a caster has been added since `begin`.
   bool used_ = false;
+  // Number that changes whenever a new map is started.
   std::uint64_t version_ = 0;
+  // Unit vector towards the sun in W.
   Vec3f to_sun_ = Vec3f::UnitZ();
+  // Planes that convert a point in W to the texture coordinates s and t.
   Eigen::Vector4f plane_s_ = Eigen::Vector4f::Zero(), plane_t_ = Eigen::Vector4f::Zero();
-  // Largest height along the sun's direction, per texel [m].
+  // For each texel, the height of the caster nearest to the sun, in the direction of the sun [m].
   std::vector<float> nearest_;
+  // The mask (255 is fully lit), and temporary memory for its soft edges; one byte per texel.
   std::vector<std::uint8_t> mask_, blur_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawable bodies of visuals, each built once.
+// Bodies for the visuals of links, ready to draw. Each body is built only once.
 #pragma once
 
 #include <map>
@@ -13,19 +13,23 @@ class SoNode;
 
 namespace navvy::render {
 
-/// A body in its visual's frame: Coin nodes to draw, and triangles (three points each) that cast
-/// shadows; triangles of solid parts cast them only where they face the sun. The cache holds a Coin
-/// reference to the node until it is destroyed.
+/// A body that can be drawn, in the frame of its visual: a Coin node for drawing, and triangles
+/// that cast shadows. The cache holds a Coin reference to the node for its whole lifetime.
 struct Shape {
-  // One node for all visuals that look alike; a parent of each visual sets its pose.
+  /// Node with the geometry and colour, shared by all visuals of the same appearance. A parent node
+  /// in the scene graph sets the pose of each visual.
   SoNode* node = nullptr;
+  /// Corners of the triangles that cast shadows [m], three per triangle. `solid_triangles` belong
+  /// to solid parts and cast a shadow only if they face the sun; `open_triangles` belong to all
+  /// other parts.
   std::vector<Vec3f> solid_triangles, open_triangles;
-  // Bounding box in the visual's frame [m].
+  /// Corners of the bounding box in the frame of the visual [m].
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
 };
 
-/// Bodies by appearance (geometry, file, scale, colour), so that equal wheels share one. Nothing is
-/// ever dropped, as a scene has some tens of shapes. References stay valid while the cache lives.
+/// Caches bodies, keyed by appearance (geometry, mesh file, scale and colour), so that for example
+/// equal wheels share one body. Bodies are never removed, because a scene has only some tens of
+/// them. References stay valid for the lifetime of the cache.
 class ShapeCache {
  public:
   ShapeCache() = default;
@@ -33,16 +37,18 @@ class ShapeCache {
   ShapeCache(const ShapeCache&) = delete;
   ShapeCache& operator=(const ShapeCache&) = delete;
 
-  /// Returns the body of a visual, built at its first use. @throws FileError for a mesh file that
-  /// cannot be read, InputError for one that holds no mesh.
+  /// Returns the body of a visual, and builds it at the first request. @throws FileError if a mesh
+  /// file cannot be read, InputError if it contains no mesh.
   const Shape& get(const scene::Visual& visual);
-  /// Returns a barrel (radius 1) or rod along +x from 0 to 1, to be scaled between two pins; both
-  /// are built at their first use.
+  /// Returns a cylinder of radius 1 m along the x axis from 0 to 1 m, to be scaled to the distance
+  /// between two pins of a hydraulic cylinder: the rod if `rod` is true, else the barrel. Both
+  /// differ in colour.
   const Shape& cylinder_along_x(bool rod);
-  /// Number of bodies built so far.
+  /// Returns the number of bodies built so far.
   std::size_t size() const { return shapes_.size(); }
 
  private:
+  // Bodies, keyed by a text that describes the appearance.
   std::map<std::string, Shape> shapes_;
 };
 

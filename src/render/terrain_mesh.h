@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground as triangles: tiles of 64 x 64 columns, each at the level of detail that the camera
-// needs.
+// Triangle mesh of the ground. It consists of tiles of 64 x 64 columns, each with the level of
+// detail that the camera needs.
 #pragma once
 
 #include <array>
@@ -11,79 +11,103 @@
 
 namespace navvy::render {
 
-/// Triangles over shared vertices.
+/// Triangles with shared vertices. Every index list holds three vertex indices per triangle.
 struct Mesh {
+  /// Vertices of all triangles.
   std::vector<Vertex> vertices;
+  /// All triangles except those in `walls` and `skirts`.
   std::vector<std::uint32_t> indices;
   /// Steep triangles, on which the grain texture is projected from the side.
   std::vector<std::uint32_t> walls;
-  /// Strips hanging from the south, east, north and west edge, one colour per triangle (shaded
-  /// slivers would smear colours).
+  /// Vertical strips of triangles that hang down from the south, east, north and west edge, and
+  /// hide gaps to neighbouring meshes. Each triangle has one colour, because colours interpolated
+  /// over such narrow triangles would be smeared.
   std::array<std::vector<std::uint32_t>, 4> skirts;
 };
 
-/// One piece of ground to draw: its mesh, the skirts it needs, and its bounding box [m].
+/// A piece of the ground to draw.
 struct GroundPart {
+  /// Mesh of the piece.
   const Mesh* mesh = nullptr;
+  /// True for each skirt that must be drawn: south, east, north, west.
   std::array<bool, 4> skirts = {true, true, true, true};
+  /// Corners of the bounding box in W [m].
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
-  /// Number of triangles, including the needed skirts.
+  /// Returns the number of triangles to draw, including the skirts that must be drawn.
   std::size_t triangles() const;
 };
 
-/// Ground as tiles, built when first seen at a level and kept until their columns change. Skirts
-/// close the seams between levels. At full detail walls have triangles of their own, so that an
-/// edge stays sharp in light.
+/// Mesh of the ground, divided into tiles. A tile is built when it is first visible at a level of
+/// detail, and reused until the level or the columns of the tile change.
+///
+/// Level 0 has one vertex per column, and each further level doubles the distance between vertices.
+/// Skirts hide the gaps between tiles of different levels. At level 0, walls (steep slopes) have
+/// their own vertices, so that their edges look sharp.
 class TerrainMesh {
  public:
-  /// Columns along a tile.
+  /// Number of columns along the edge of a tile.
   static constexpr int kTile = 64;
-  /// Coarsest level; strides are 1, 2, 4 ... 32 columns.
+  /// Coarsest level of detail. At the levels 0 to 5, vertices are 1, 2, 4, ... 32 columns apart.
   static constexpr int kMaxLevel = 5;
 
-  /// Updates the copy of the ground.
+  /// Updates the copy of the ground from a frame, and marks the tiles that have changed.
   void update(const scene::FrameGround& ground, const Lighting& lighting);
-  /// Selects and builds the tiles that `view` needs, nearest first, at most about `budget`
-  /// triangles. A tile needs skirts where its neighbour has another level.
+  /// Returns the tiles that are visible in `view`, nearest first, and builds their meshes where
+  /// necessary. The levels of detail are chosen so that the total is about `budget` triangles at
+  /// most. A tile needs a skirt on each side where the neighbour has another level.
   std::vector<GroundPart> select(const View& view, int budget);
-  /// Returns the ground beyond the site's edge, from the edge's heights out to the haze.
+  /// Returns the ground beyond the edge of the site. It starts at the heights of the edge and
+  /// reaches out to where haze hides everything.
   GroundPart surroundings(const Lighting& lighting);
 
   /// Returns the copy of the ground from which the triangles are built.
   const GroundSurface& surface() const { return surface_; }
-  /// Number of tiles built since the last update, for tests and benches.
+  /// Returns the number of tiles built since the last `update`.
   int rebuilt() const { return rebuilt_; }
 
  private:
+  // A tile of the ground.
   struct Tile {
+    // Triangles of the tile at the level `level`.
     Mesh mesh;
-    // Level of the mesh; -1: none or out of date.
+    // Level of detail of the mesh; -1 if there is no mesh or if it is out of date.
     int level = -1;
-    // True when it holds walls and needs finer detail.
+    // True if the tile contains walls, which need a finer level.
     bool rough = false;
+    // Corners of the bounding box in W [m].
     Vec3f low, high;
   };
-  /// Cells along a tile; fewer at the far edges.
+  // Returns the number of cells of a tile in x direction: kTile, or fewer at the edge of the site.
+  // A cell is the square between the centres of four neighbouring columns.
   int nodes_x(int tile) const {
     return std::min(surface_.nx() - 1, (tile + 1) * kTile) - tile * kTile;
   }
+  // Returns the number of cells of a tile in y direction.
   int nodes_y(int tile) const {
     return std::min(surface_.ny() - 1, (tile + 1) * kTile) - tile * kTile;
   }
-  /// Computes the box of a tile and whether it holds walls.
+  // Computes the bounding box of a tile and whether it contains walls.
   void measure(int tx, int ty);
-  /// Builds the mesh of a tile at a stride of 2^level columns.
+  // Builds the mesh of a tile at a level of detail.
   void build(int tx, int ty, int level);
-  /// Returns the level of the neighbour at (dx, dy) of a tile, -1 beyond the site's edge.
+  // Returns the level of the tile at the offset (dx, dy) [tiles] from the tile with the index
+  // `tile`; -1 beyond the edge of the site.
   int neighbour_level(int tile, int dx, int dy, const View& view, float pixels) const;
-  /// Returns the coarsest level at which a cell covers at most `pixels` of the picture.
+  // Returns the coarsest level at which a cell of the mesh covers at most `pixels` [pixels] in the
+  // picture.
   int wanted_level(const Tile& tile, const View& view, float pixels) const;
 
+  // Copy of the ground.
   GroundSurface surface_;
+  // Number of tiles in x and y direction.
   int tiles_x_ = 0, tiles_y_ = 0;
+  // All tiles, row by row in y direction; x varies fastest.
   std::vector<Tile> tiles_;
+  // Ground beyond the edge of the site.
   Mesh surroundings_;
+  // True if `surroundings_` must be built again.
   bool surroundings_stale_ = true;
+  // Number of tiles built since the last `update`.
   int rebuilt_ = 0;
 };
 

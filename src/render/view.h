@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera as numbers: its pose, its field of view, and the size of a metre in its picture.
+// Projection of a camera: its pose, its field of view, and the size of a metre in its picture.
 #pragma once
 
 #include <array>
@@ -9,32 +9,34 @@
 
 namespace navvy::render {
 
-/// Perspective view of one FrameCamera with square pixels. Built for one picture; everything that
-/// depends on the camera alone is computed here, once.
+/// Perspective view of a camera with square pixels. It is built once per picture and holds
+/// everything that depends only on the camera.
 struct View {
-  /// Clipping distances [m]. They share the depth buffer's precision, so the near one is as large
-  /// as a close view permits.
+  /// Near and far clipping distances [m]. The near distance is as large as close-up views permit,
+  /// because a smaller one would reduce the precision of the depth buffer.
   static constexpr double kNear = 0.12, kFar = 1500;
 
-  /// Computes the view of a camera.
+  /// Computes all members for a camera.
   explicit View(const scene::FrameCamera& camera);
 
-  /// Returns false only when a box cannot be visible. Tests five planes: the four sides and the
-  /// eye's; boxes beyond the far distance count as visible.
+  /// Returns false if the box from `low` to `high` in W [m] cannot be visible. May return true for
+  /// a box that is not visible, for example beyond the far clipping distance.
   bool sees(const Vec3f& low, const Vec3f& high) const;
 
-  // Position in W [m].
+  /// Position of the camera in W [m].
   Vec3f eye;
-  /// Axes of the camera in W: right, up, back.
+  /// Axes of the camera in W, as columns: right, up, back.
   Mat3 rotation;
-  /// Resolution at the picture's centre.
+  /// Number of pixels per radian at the centre of the picture.
   float pixels_per_radian;
-  /// Half the picture's size at distance 1.
+  /// Tangents of half the horizontal and half the vertical field of view.
   double tan_x, tan_y;
+  /// Size of the picture [pixels].
   int width, height;
-  /// Column-major matrices for OpenGL.
+  /// Projection matrix and model-view matrix for OpenGL, in column-major order.
   std::array<double, 16> projection, model_view;
-  /// Planes of four sides and of the eye; positive inside.
+  /// Planes that bound the visible volume: left, right, bottom and top side and the camera's own
+  /// plane, as (normal, offset) in W. The signed distance of a point is positive inside.
   std::array<Eigen::Vector4f, 5> planes;
 };
 

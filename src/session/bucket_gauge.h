@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components of the soil force on a bucket. Private to the session.
+// Measures the components of the soil force on a bucket. Private to the session.
 #pragma once
 
 #include "scene/machine.h"
@@ -7,38 +7,40 @@
 
 namespace navvy::session {
 
-/// Components of the low-passed soil force on a bucket [N].
+/// Components of the low-pass filtered force of the soil on a bucket [N].
 struct BucketLoad {
-  /// Magnitude of the force.
+  /// Magnitude of the force [N].
   double whole = 0;
-  /// Component against the motion of the cutting edge: the digging resistance. 0 while the edge
-  /// moves slower than 0.05 m/s, as its direction is noise then.
+  /// Component opposite to the velocity of the cutting edge: the digging resistance [N, >= 0]. It
+  /// is 0 while the edge moves slower than 0.05 m/s, because its direction is not reliable then.
   double draft = 0;
-  /// Upward component, never negative: the push of the bucket on the ground less the weight of its
-  /// load.
+  /// Vertical component, if it points up, else 0 [N]. The soil pushes the bucket up when the bucket
+  /// presses on the ground; the weight of the soil in the bucket reduces this force.
   double uplift = 0;
 };
 
-/// Returns the components of `force` (in W) [N] on a link whose cutting edge is at `p_tip` in the
-/// link's frame [m].
+/// Returns the components of `force` [N] in W, which acts on the bucket's link. `link` is the state
+/// of that link, and `p_tip` the position of the cutting edge in its frame [m].
 BucketLoad load_of(const Vec3& force, const vehicle::LinkState& link, const Vec3& p_tip);
 
-/// Measures the soil force on one bucket. Reads the world through handles, which must stay valid.
+/// Measures the soil force on one bucket. It holds handles into the world, which must remain valid.
 class BucketGauge {
  public:
-  /// Looks up the shell and the link of `bucket` in `machine`.
+  /// Makes the gauge of `bucket`, one of the buckets of `machine`.
   BucketGauge(const sim::MachineHandle& machine, const scene::Bucket& bucket)
       : tool_(machine.tool(bucket.shell)), link_(machine.link(bucket.link)), p_tip_(bucket.p_tip) {}
 
-  /// Returns the bucket's shell.
+  /// Returns the handle of the bucket's shell.
   const sim::ToolHandle& tool() const { return tool_; }
-  /// Returns the force of the last step.
+  /// Returns the components of the force at the end of the last step.
   BucketLoad load() const { return load_of(tool_.smooth_force(), link_.state(), p_tip_); }
 
  private:
+  // The bucket's shell.
   sim::ToolHandle tool_;
+  // The link that carries the shell.
   sim::LinkHandle link_;
-  /// Position of the cutting edge in the frame of the link [m].
+  // Position of the cutting edge in the frame of the link [m].
   Vec3 p_tip_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine whose program is carried out by an operator. Private to the session.
+// A machine whose program an operator carries out. Private to the session.
 #pragma once
 
 #include <map>
@@ -16,85 +16,102 @@
 
 namespace navvy::session {
 
-/// The terrain as an operator sees it from its cab: columns and the loose soil on them.
+/// The terrain as operators see it from their cabs: the ground columns and the loose soil on them.
 ///
-/// Takes one view in each step in which it is used, so a snapshot need not contain it. A view costs
-/// a pass over the particles.
+/// The surface is computed at the first request in a step, at the cost of one pass over the
+/// particles. A snapshot does not contain it.
 class SeenSurface final : public control::SurfaceView {
  public:
-  /// Keeps a reference to `world`, which must outlive this object.
+  /// Stores a reference to `world`, which must outlive this object.
   explicit SeenSurface(const sim::World& world) : world_(world) {}
-  /// Returns the terrain of the present step, valid until the next step.
+  /// Returns the terrain in the current step. The reference is valid until the next step.
   const heightfield::Terrain& terrain() const override;
-  /// Returns a new view of the surface that maps show.
+  /// Returns a new copy of the surface as maps show it, without the soil in buckets and beds.
   heightfield::TerrainView mapped() const override;
-  /// Drops the view: the world was put into another state.
+  /// Discards the computed surface. Call it after the state of the world has been replaced.
   void forget() { view_.reset(); }
 
  private:
+  // The observed world.
   const sim::World& world_;
+  // The last computed surface; empty if there is none.
   mutable std::optional<heightfield::TerrainView> view_;
+  // Step of the world for which `view_` was computed.
   mutable std::uint64_t seen_step_ = 0;
 };
 
-/// A machine, its operator, and the digging cycle and bed tip that have begun and not ended.
+/// A machine and its operator. Also records the machine's digging cycle and bed tip while they are
+/// in progress.
 class OperatedMachine {
  public:
-  /// State of all programs by machine name, as it was when the step began.
+  /// Progress of all programs at the beginning of the step, keyed by machine name.
   using Programs = std::map<std::string, control::ProgramProgress>;
 
-  /// Makes the operator of machine `machine` (index in the scene). `surface` and `programs` are
-  /// shared by all operators; references must stay valid. `planners` is asked for a path planner if
-  /// a step needs one.
+  /// Makes the operator of the machine with the index `machine` in the scene. `surface` and
+  /// `programs` are shared by all operators; they and `world` must outlive this object. `planners`
+  /// makes the path planner if a step of the program plans paths.
   OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
                   const Programs& programs, const control::MakePathPlanner& planners);
 
-  /// Index of the machine in the scene.
+  /// Returns the index of the machine in the scene.
   int index() const { return machine_.index(); }
+  /// Returns the name of the machine in the scene.
   const std::string& name() const { return machine_.name(); }
-  /// Returns the operator, which knows how its program stands.
+  /// Returns the operator, for its progress, phase and reports.
   const control::Operator& op() const { return op_; }
-  /// Returns true if inputs drive the machine, so that its program no longer commands it.
+  /// Returns true if `take` has been called: inputs drive the machine, and its program no longer
+  /// commands it.
   bool taken() const { return taken_; }
   /// Returns true while the program commands the machine and has not ended.
   bool busy() const { return !taken_ && !op_.ended(); }
 
-  /// Lets the operator observe and command the machine for one step. Appends cycles and tips that
-  /// end. Does nothing once the machine is taken.
+  /// Lets the operator observe and command the machine for one step. Appends a digging cycle or a
+  /// bed tip that ends in this step to `cycles` or `tips`. Does nothing after `take`.
   void step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips);
-  /// Takes the machine from its program for good and stops what the program had set in motion.
-  /// Returns true the first time.
+  /// Permanently stops the program, because inputs drive the machine from now on, and stops the
+  /// joints and the drive that the program has commanded. Returns true at the first call and false
+  /// afterwards.
   bool take();
-  /// Returns how the program stands. Costs a view of the surface if the report of a step needs one.
+  /// Returns the report of the program. If the running step needs the surface for its measurements,
+  /// that costs one pass over the particles.
   ProgramReport report() const;
 
-  /// Visits all state that determines later commands and reports.
+  /// Saves or loads all state that affects later commands and reports.
   void visit(Archive& a);
 
  private:
-  /// Fills what a cab shows: joint positions, stance, the force on the bucket and its payload.
+  /// Fills in what an operator observes: joint states, pose and stability, and the force on the
+  /// bucket and its payload.
   void observe(control::Observation& seen) const;
-  /// Forwards the commands that changed to the world.
+  /// Passes the new commands to the world. Joints and a drive without a new command keep their last
+  /// one.
   void send(const control::Command& command);
-  /// Updates the open cycle and appends it when it ends.
+  /// Updates the current digging cycle, and appends it to `cycles` when it ends.
   void note_cycle(std::vector<Cycle>& cycles);
-  /// Updates the open bed tip and appends it when it ends.
+  /// Updates the current bed tip, and appends it to `tips` when it ends.
   void note_tip(std::vector<BedTip>& tips);
 
+  // World that the machine is in.
   sim::World& world_;
+  // The operated machine.
   sim::MachineHandle machine_;
-  /// Handles to observe the machine: all joints and wheels, the first bucket, the first bed.
+  // All joints of the machine, in the order of its description.
   std::vector<sim::JointHandle> joints_;
+  // All wheels of the machine, in the order of its description.
   std::vector<sim::WheelHandle> wheels_;
+  // Gauge of the machine's first bucket; empty if it has none.
   std::optional<BucketGauge> bucket_;
+  // The machine's first bed; empty if it has none.
   std::optional<sim::ToolHandle> bed_;
-  // The operator holds its own state; the observation of the last step is kept beside it.
+  // The operator, with the state of the program.
   control::Operator op_;
+  // What the operator observed in the last step.
   control::Observation seen_;
-  // Begun and not ended.
+  // Digging cycle in progress; empty if there is none.
   std::optional<Cycle> open_;
+  // Bed tip in progress; empty if there is none.
   std::optional<BedTip> open_tip_;
-  /// True once inputs took the machine.
+  // True after `take` has been called.
   bool taken_ = false;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of the programs of a run: cycles, tips, forces, and how each program ended.
+// Results of the programs of a run: digging cycles, bed tips, forces, and the outcome of each
+// program.
 #pragma once
 
 #include <cstdint>
@@ -12,88 +13,92 @@
 
 namespace navvy::session {
 
-/// One dig-swing-dump cycle of a machine. It begins when a scoop first touches the ground and ends
-/// when the bucket is empty.
+/// One digging cycle (dig, swing, dump) of a machine. It begins when the bucket starts to move down
+/// into the ground, and ends when the bucket is empty.
 struct Cycle {
-  /// Index in scene::Scene::machines.
+  /// Index of the machine in scene::Scene::machines.
   int machine = 0;
-  /// Simulated times of the first touch, the beginning of the curl, the lift out of the ground, the
-  /// beginning of the dump, and the end [s].
+  /// Simulated times [s] of the events of the cycle: start of the scoop (kScoopStart), start of the
+  /// curl (kCurlStart), bucket lifted out of the ground (kLiftOut), start of the dump (kDumpStart),
+  /// and end (kCycleEnd).
   double start = 0, curl = 0, lift_out = 0, dump_start = 0, end = 0;
-  /// Mass in the bucket at `lift_out` and at `dump_start` [kg].
+  /// Mass of the soil in the bucket at the times `lift_out` and `dump_start` [kg].
   double payload_lift_out = 0, payload_dump = 0;
-  /// Maximum of the low-passed soil force on the bucket [N].
+  /// Maximum magnitude of the low-pass filtered soil force on the bucket during the cycle [N].
   double force_peak = 0;
-  /// Maximum of its component against the motion of the cutting edge, the digging resistance [N].
+  /// Maximum digging resistance during the cycle (BucketLoad::draft) [N].
   double draft_peak = 0;
-  /// Maximum of its upward component since the curl began, when heel or floor push on the ground
-  /// [N].
+  /// Maximum upward soil force after the start of the curl (BucketLoad::uplift) [N]. It occurs when
+  /// the heel or the floor of the bucket presses on the ground.
   double uplift_peak = 0;
 
-  /// Visits every field.
+  /// Saves or loads all fields.
   void visit(Archive& a);
 };
 
-/// One tip of a machine's bed.
+/// One tipping of a machine's bed.
 struct BedTip {
-  /// Index in scene::Scene::machines.
+  /// Index of the machine in scene::Scene::machines.
   int machine = 0;
-  /// Simulated times [s].
+  /// Simulated times at which tipping started and ended [s].
   double start = 0, end = 0;
-  /// Mass in the bed at those times [kg].
+  /// Mass of the soil in the bed at the times `start` and `end` [kg].
   double payload_start = 0, payload_end = 0;
 
-  /// Visits every field.
+  /// Saves or loads all fields.
   void visit(Archive& a);
 };
 
-/// Statistics of the soil force on tools over all steps in contact. Beds do not count, as the soil
-/// in them is a load.
+/// Statistics of the soil force on tools over all steps in which the tools touch soil. Forces on
+/// beds are excluded from `peak`, `sum` and `steps`, because the soil in a bed is a load.
 struct ForceStatistics {
-  /// Maximum of the low-passed force [N].
+  /// Maximum magnitude of the low-pass filtered force on any tool [N].
   double peak = 0;
-  /// Maximum of its component against the motion of a bucket's cutting edge [N].
+  /// Maximum digging resistance of any bucket (BucketLoad::draft) [N].
   double draft_peak = 0;
-  /// Sum of the force's magnitude over `steps` [N].
+  /// Sum of the magnitudes of the unfiltered force over `steps` [N].
   double sum = 0;
-  /// Number of steps in contact; each tool in contact counts its own.
+  /// Number of steps in contact, summed over all tools.
   std::uint64_t steps = 0;
-  /// Maximum of the low-passed force of rock on any shell [N].
+  /// Maximum magnitude of the low-pass filtered force of rock on any tool [N].
   double rock_peak = 0;
-  /// Maximum of |momentum residual| / scale of a nodal solve [-].
+  /// Maximum relative error of the momentum balance between a tool and the soil [-]: the largest
+  /// component of the residual, divided by the scale of the exchanged momentum.
   double residual_max = 0;
-  /// Returns the mean force in contact [N]; 0 without contact.
+  /// Returns the mean force on a tool in contact [N]; 0 if there was no contact.
   double mean() const { return steps > 0 ? sum / static_cast<double>(steps) : 0; }
 
-  /// Visits every field.
+  /// Saves or loads all fields.
   void visit(Archive& a);
 };
 
-/// Status of the program of one machine, or its end.
+/// Current state or final outcome of the program of one machine.
 struct ProgramReport {
-  /// Index in scene::Scene::machines.
+  /// Index of the machine in scene::Scene::machines.
   int machine = 0;
-  /// Number of steps of the program.
+  /// Number of steps of the program; 0 for a machine without a program.
   int steps = 0;
-  /// True if inputs took the machine from its program.
+  /// True if inputs have taken over the machine from its program.
   bool taken = false;
-  /// Reports of the completed steps and of the running one, whose state is that of the program.
+  /// Reports of the completed steps, followed by that of the running step if the program has not
+  /// ended. The state of the last entry is the state of the program. Never empty.
   std::vector<control::StepReport> list;
-  /// Planned paths, in the order of their planning.
+  /// Planned paths, in the order in which they were planned.
   std::vector<control::PlannedPath> paths;
 
-  /// Returns the report of the running step, or of the one that the program ended with.
+  /// Returns the last entry of `list`: the running step, or the step with which the program ended.
   const control::StepReport& last() const { return list.back(); }
-  /// Returns true if the machine fell over while no program drove it. The last entry, of step 0,
-  /// has the details.
+  /// Returns true if the machine tipped over or was buried while no program controlled it. The last
+  /// entry of `list` then has step number 0 and describes the fall.
   bool fell() const { return last().step == 0; }
-  /// Returns true if inputs drive the machine and it stands. The state of its program is unknown.
+  /// Returns true if inputs have taken over the machine and it has not fallen. Its program has no
+  /// outcome then.
   bool by_inputs() const { return taken && !fell(); }
 };
 
-/// Returns a report as a line for people: "'truck', step 1 of 3 (drive_to): blocked: ... (12.30 s,
-/// at 3.20, 4.50)". `name` is the machine's name in the scene. `cut` says why a running step has
-/// ended, if the run is over.
+/// Returns a report as one line of text, such as "'truck', step 1 of 3 (drive_to): blocked: ...
+/// (12.30 s, at 3.20, 4.50 m)". `name` is the name of the machine in the scene. If the run has
+/// ended during a step, `cut` states the reason; it is empty otherwise.
 std::string report_line(const ProgramReport& report, const std::string& name,
                         const std::string& cut = "");
 

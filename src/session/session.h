@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A world with its operators and samplers as one thing that steps, ends, saves and hashes.
+// A session: a world with its operators and samplers, which can be stepped, saved and hashed as a
+// unit.
 #pragma once
 
 #include <memory>
@@ -19,19 +20,21 @@ struct DesignSurface;
 
 namespace navvy::session {
 
-/// A world and the operators that carry out the programs of its scene.
+/// Runs a world together with the operators that carry out the programs of its scene.
 ///
-/// An operator drives each machine that has a program, until an input of the machine is set through
-/// this class. From then on inputs alone drive it, for good. Machines without a program are driven
-/// by inputs from the start. The cost of a step is that of the world's step; operators add some
-/// microseconds, and a view of the ground where a step of a program needs one. Not thread-safe.
+/// If a machine has a program, its operator controls the machine until one of the machine's inputs
+/// is set through this class. From then on only inputs control the machine, and its program does
+/// not continue. Machines without a program are controlled by inputs from the start.
+///
+/// The cost of a step is that of the world's step. Operators add some microseconds, plus one pass
+/// over the particles in steps in which they need the ground surface. Not thread-safe.
 class Session {
  public:
   /// Builds the world of a scene and checks its programs. `planners` makes path planners for steps
-  /// that need paths, usually planner::path_planners(). `make_engine` makes the world's physics
-  /// engine, as for sim::World.
-  /// @throws InputError that lists all targets out of reach and all machines that overlap or start
-  /// in the ground; device::DeviceError for the device.
+  /// that plan paths; usually it is planner::path_planners(). `make_engine` makes the physics
+  /// engine of the world, as for sim::World; if it is empty, the default engine is used. @throws
+  /// InputError with all targets that are out of reach and all machines that overlap or start in
+  /// the ground; device::DeviceError if the OpenCL device fails.
   Session(scene::Scene description, device::Device& device,
           const control::MakePathPlanner& planners = {},
           const vehicle::PhysicsEngineFactory& make_engine = {});
@@ -39,85 +42,105 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Advances by one base step: operators command their machines, the world steps, and samplers
-  /// that are due take a sample. @throws SimulationError with step, time and cause.
+  /// Advances the session by one base step: operators command their machines, the world takes its
+  /// step, and samplers that are due take a sample. @throws SimulationError with step, time and
+  /// cause.
   void step();
-  /// Returns true if every program has ended, done or not, and the settling time has passed, or if
-  /// the scene's duration is over. A machine that inputs drive keeps the run from ending by
-  /// programs.
+  /// Returns true if the run is over. This is the case if the scene's duration has elapsed, or if
+  /// every program has ended (successfully or not), the settling time has passed since, and no
+  /// loose soil is active; active soil delays the end by six settling times at most. A program that
+  /// inputs have taken over never counts as ended, and without programs only the duration ends the
+  /// run.
   bool done() const;
-  /// Returns true if every program is done or was taken by inputs, and no machine fell over.
+  /// Returns true if every program is done or has been taken over by inputs, and no machine has
+  /// fallen without a program.
   bool complete() const;
-  /// Returns true if a step of a program failed, which ends the program, or if a machine fell over
-  /// while no program drove it.
+  /// Returns true if a step of a program has failed, or if a machine has fallen (tipped over or
+  /// been buried) while no program controlled it.
   bool fell_short() const;
 
-  /// Returns the world, for reading. Commands go through this session.
+  /// Returns the world for reading. To command machines, use the functions of this class.
   const sim::World& world() const;
-  /// Sets inputs and commands as World's functions of the same names do. The first of them that
-  /// reaches a machine with a program takes the machine from it: its joints stop, its drive brakes,
-  /// then the value holds. @throws InputError as World's functions do; the program then goes on.
+  /// Sets the input with the index `input`. As with all commands below, the first command to a
+  /// machine with a program takes over the machine: the program ends, the machine stops, and then
+  /// the command takes effect. @throws InputError for an invalid input or value; the program
+  /// continues in that case.
   void set(int input, double value);
+  /// Sets the input with the name `input`, like the function above.
   void set(const std::string& input, double value);
+  /// Commands a joint. Takes over the machine and throws as `set` does.
   void command(const sim::JointHandle& joint, const vehicle::JointInput& input);
+  /// Commands the drive of a machine. Takes over the machine and throws as `set` does.
   void command(const sim::MachineHandle& machine, const vehicle::DriveInput& input);
+  /// Applies or releases the brake of a joint. Takes over the machine and throws as `set` does.
   void brake(const sim::JointHandle& joint, bool on);
+  /// Commands the target pose of a kinematic machine. Takes over the machine and throws as `set`
+  /// does.
   void command(const sim::MachineHandle& machine, const vehicle::BaseInput& input);
-  /// Adds a sampler, such as a sensor. It takes a sample at once and then at its rate.
-  /// @throws InputError as World::add does.
+  /// Adds a sampler, such as a sensor. It takes its first sample immediately and then samples at
+  /// its own rate. @throws InputError as sim::World::add does.
   void add(std::unique_ptr<sim::Sampler> sampler);
 
-  /// Returns the name of the OpenCL device, as its driver gives it.
+  /// Returns the name of the OpenCL device, as reported by its driver.
   const std::string& device_name() const;
-  /// Returns the scene's design surface on the columns of the site; null if the scene has none.
+  /// Returns the design surface of the scene, resampled to the columns of the site; null if the
+  /// scene has none.
   const heightfield::DesignSurface* design() const;
-  /// Returns the activity of a machine: the phase of its operator (control::Operator::phase),
-  /// "idle" without a program, "inputs" once inputs took it, "tipped" or "buried" after a fall.
+  /// Returns what the machine with the index `machine` is doing: the phase of its operator (see
+  /// control::Operator::phase), "idle" if it has no program, "inputs" after inputs have taken over,
+  /// or "tipped" or "buried" if it has fallen.
   std::string phase(int machine) const;
-  /// Returns how the programs stand, in the order of the machines. A program that still runs at the
-  /// end of the duration is out of time. A machine that fell over without a program has a report
-  /// with no steps. Costs a view of the ground if a step's report needs one.
+  /// Returns the reports of all programs, in the order of the machines. A program still running
+  /// when the scene's duration has elapsed is out of time. A machine that has fallen without a
+  /// program has a report with 0 steps. The cost is one pass over the particles if the measurements
+  /// of a running step need the surface.
   std::vector<ProgramReport> programs() const;
-  /// Returns the completed digging cycles, in the order in which they ended.
+  /// Returns all completed digging cycles, in the order in which they ended.
   const std::vector<Cycle>& cycles() const;
-  /// Returns the completed bed tips, in the order in which they ended.
+  /// Returns all completed bed tips, in the order in which they ended.
   const std::vector<BedTip>& tips() const;
-  /// Returns force statistics over all steps so far.
+  /// Returns the force statistics over all steps so far.
   const ForceStatistics& force() const;
-  /// Adds pose and velocities of a link to the outputs (World::watch). Not part of the state.
+  /// Adds pose and velocities of the link named `link` to the outputs (see sim::World::watch).
+  /// Snapshots do not contain this setting.
   void watch(const std::string& link);
-  /// Opens the account of the soil's energy, for the world and for each cycle. It changes no result
-  /// and makes the soil up to three times as slow. Not part of the state.
+  /// Enables the energy balance of the soil, for the world and for each digging cycle. This does
+  /// not change any result, but makes the soil computation up to three times slower. Snapshots do
+  /// not contain this setting.
   void keep_soil_energy();
-  /// Returns the soil's energy account at the end of each of cycles(); empty for cycles that ended
-  /// before the account was opened.
+  /// Returns the energy balance of the soil at the end of each cycle, in the order of `cycles`.
+  /// Entries of cycles that ended before `keep_soil_energy` was called are empty.
   const std::vector<std::optional<sim::SoilEnergy>>& energy_at_ends() const;
-  /// Returns the work of the drives and cylinders of all machines [J].
+  /// Returns the work that the drives and cylinders of all machines have done so far [J].
   double energy() const;
-  /// Returns the wall time that operators took [s].
+  /// Returns the wall time that operators have taken so far [s].
   double control_time() const;
 
-  /// Visits the world, the operators and their results (core/saved_state.h). Loads only into a
-  /// session of the same scene with the same samplers. After an exception the session can only be
-  /// loaded again or destroyed.
+  /// Saves or loads the world, the operators and their results (see core/saved_state.h). Loading
+  /// requires a session with the same scene and the same samplers. If it throws, the session can
+  /// only be loaded again or destroyed.
   void visit(Archive& a);
-  /// Returns the hash of everything that determines the future of the run [hex]. Costs a pass over
-  /// the state.
+  /// Returns a hash [hex] of all state that determines the future of the run. The cost is one pass
+  /// over the state.
   std::string state_hash() const;
-  /// Returns name and hash [hex] of each part of the state: those of World::hash_parts, then
-  /// "operators".
+  /// Returns name and hash [hex] of each part of the state: the parts of sim::World::hash_parts,
+  /// followed by "operators".
   std::vector<std::pair<std::string, std::string>> hash_parts() const;
-  /// Writes a snapshot, atomically. @throws FileError.
+  /// Writes a snapshot to the file `path`, which is replaced as a whole. @throws FileError if
+  /// writing fails.
   void save(const std::string& path) const;
-  /// Loads a snapshot of the same scene. With `anyway` the scene's parameters may differ; the log
-  /// lists the differences. @throws FileError; InputError that names the damaged or differing part,
-  /// after which the session can only be loaded again or destroyed.
+  /// Loads the snapshot in the file `path`, which must belong to the same scene. If `anyway` is
+  /// true, parameters of the scene may differ; the differences are logged. @throws FileError if
+  /// reading fails; InputError that names a damaged or differing part, after which the session can
+  /// only be loaded again or destroyed.
   void load(const std::string& path, bool anyway = false);
 
  private:
+  /// Returns true if the scene's duration has elapsed.
   bool time_is_over() const;
 
   struct State;
+  // World, operators and results.
   std::unique_ptr<State> state_;
 };
 

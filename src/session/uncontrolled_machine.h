@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Detects the fall of a machine that no program drives. Private to the session.
+// Detects that a machine which no program controls has fallen. Private to the session.
 #pragma once
 
 #include <optional>
@@ -13,40 +13,47 @@
 
 namespace navvy::session {
 
-/// Fills the part of an observation that says how a machine stands: pose and velocity of its base
-/// link in W, stability, tyre forces [N], and the fraction of its wheels that are below the ground.
+/// Fills in the part of an observation that describes the state of the base: pose and velocity of
+/// the base link in W, stability, force on the tyres [N], and the fraction of the wheels that are
+/// below the ground.
 void observe_stance(const sim::World& world, const sim::MachineHandle& machine,
                     const std::vector<sim::WheelHandle>& wheels, control::Observation& seen);
 
-/// Watches one machine while inputs drive it, or nothing does.
+/// Monitors one machine while no program controls it.
 ///
-/// A machine that tips over or is buried is reported once: in the log when it happens, and as a
-/// step report for the summary.
+/// If the machine falls, that is, tips over or is buried, this is reported once: in the log at that
+/// moment, and as a step report for the summary.
 class UncontrolledMachine {
  public:
-  /// Keeps a reference to `world`, which must outlive this object.
+  /// Makes the monitor of the machine with the index `machine` in the scene. `world` must outlive
+  /// this object.
   UncontrolledMachine(const sim::World& world, int machine);
 
-  /// Index of the machine in the scene.
+  /// Returns the index of the machine in the scene.
   int index() const { return machine_.index(); }
-  /// Checks the machine. Call it in each step in which no program drives the machine. `by_inputs`
-  /// is true if inputs drive it, which the report mentions.
+  /// Checks the machine. Call it in each step in which no program controls the machine. `by_inputs`
+  /// is true if inputs control it; the report states that.
   void look(bool by_inputs);
-  /// Returns the report of its fall, with state (tipped or buried), time and place; empty while it
-  /// stands. Its step number is 0, as no step of a program was at fault.
+  /// Returns the report of the machine's fall, with state (kTipped or kBuried), time and position;
+  /// empty if the machine has not fallen. Its step number is 0, because it belongs to no step of a
+  /// program.
   const std::optional<control::StepReport>& fall() const { return fall_; }
 
-  /// Visits all state that determines later reports.
+  /// Saves or loads all state that affects later reports.
   void visit(Archive& a);
 
  private:
+  // World that the machine is in.
   const sim::World& world_;
+  // The monitored machine.
   sim::MachineHandle machine_;
+  // All wheels of the machine, in the order of its description.
   std::vector<sim::WheelHandle> wheels_;
-  /// Observation of the last step.
+  // Observation of the machine in the last step.
   control::Observation seen_;
+  // Detects that the machine has fallen.
   control::Watch watch_;
-  /// Report of the fall; empty while the machine stands.
+  // Report of the fall; empty if the machine has not fallen.
   std::optional<control::StepReport> fall_;
 };
 

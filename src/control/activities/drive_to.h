@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `drive_to`: drives along a straight line or a curve to a target.
 #pragma once
 
 #include "control/activity_step.h"
@@ -6,17 +7,22 @@
 
 namespace navvy::control {
 
-/// Drives (rear-wheel drive, Ackermann steering) until the machine's origin is at `target` with
-/// heading `heading`; then brakes and stands for half a second. Gives up after 30 s plus three
-/// times the time that the distance needs.
+/// Drives the base link's origin to `target` with pure pursuit (see Pursuit), then brakes and waits
+/// until the machine has stood still for half a second.
+///
+/// The step fails if the machine ends more than `tolerance` from the target, if it makes no
+/// progress, or if it takes longer than 30 s plus three times the time that the distance needs at
+/// the commanded speed.
 struct DriveTo final : ActivityStep, DriveGoal {
-  /// Name in scene files.
+  /// Name of the step's element in scene files.
   static constexpr const char* kElement = "drive_to";
-  /// Sentence for the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Drives along a straight line or curve to a place.";
-  /// Distance of the origin from the target at the end [m] above which a warning is logged.
+  /// Maximum distance of the base link's origin from the target at the end [m]; if it is exceeded,
+  /// the step fails as out of reach.
   double tolerance = 0.15;
 
+  /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
     f("target_m", target, {-1e6, 1e6}, "Target in W, on the site.", scene::kNeeded);
     f("heading_deg", heading, {-360, 360},
@@ -26,13 +32,17 @@ struct DriveTo final : ActivityStep, DriveGoal {
     f("tolerance_m", tolerance, {0.01, 5},
       "Distance from the target at the end that does not count as a failure.");
   }
-  /// Checks the speed, that the machine has a drive, and that the target is on the site.
+  /// Reports an error if the speed is zero, the machine has no drive, or the target is not on the
+  /// site.
   void check(const scene::StepSource& source) const;
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
-  /// Returns an activity with one phase, which commands only the drive.
+  /// Returns an activity with one phase, "drive". It commands only the drive.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
+  /// Reports an error if even a machine that rolls without slip would end too far from the target.
   void check_reach(ReachCheck& check) const override;
-  /// Returns the pose at the target, upright on the present ground.
+  /// Returns the predicted pose of the base link in W: upright at the target, at its current height
+  /// above the ground.
   std::optional<Pose> station(const scene::Machine& machine, const Pose& X_WB,
                               const SurfaceView& surface) const override;
 };

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `wait`: waits for a given time.
 #pragma once
 
 #include "control/activity_step.h"
 
 namespace navvy::control {
 
-/// Holds the last commands for a while.
+/// Waits for a given time while the last commands stay in effect.
 struct Wait final : ActivityStep {
-  /// Name in scene files.
+  /// Name of the step's element in scene files.
   static constexpr const char* kElement = "wait";
-  /// Sentence for the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText = "Waits.";
+  /// Makes a step that waits for `duration_in` [s].
   explicit Wait(double duration_in = 1) : duration(duration_in) {}
-  /// Duration [s].
+  /// Time to wait [s].
   double duration;
 
+  /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
     f("duration_s", duration, {0, 1e6}, "Time to wait.", scene::kNeeded);
   }
+  /// Checks nothing: there are no rules beyond the range of the duration.
   void check(const scene::StepSource&) {}
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
-  /// Returns an activity with one phase, which holds the last commands.
+  /// Returns an activity with one phase, "wait", which issues no new commands.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The program step `dig`: digs a straight trench.
 #pragma once
 
 #include <optional>
@@ -7,32 +8,36 @@
 
 namespace navvy::control {
 
-/// Digs a straight trench by whole cycles (scoop, swing, dump, return) until depth and length are
-/// reached.
+/// Digs a straight trench in cycles (scoop, swing, dump, return) until the commanded depth and
+/// length are reached.
 ///
-/// Ends when nothing worthwhile is left, after three empty scoops in a row, or after the commanded
-/// number of cycles. The step is done when little of the design is left, or all its cycles were
-/// made; its account reports what is left and the depth reached.
+/// Digging ends when no soil worth a scoop is left, after three empty scoops in a row, or after the
+/// maximum number of cycles. The step is done if at most 15 % of the commanded volume is left, or
+/// if it made the number of cycles that the scene sets; otherwise it fails. Its measurements
+/// include the volume left and the depth reached.
 struct Dig final : ActivityStep {
+  /// Name of the step's element in scene files.
   static constexpr const char* kElement = "dig";
-  /// Sentence for the reference of scene elements.
+  /// One-sentence description of the step for the reference of scene elements.
   static constexpr const char* kText =
       "Digs a straight trench by whole cycles, until floor and length are reached.";
-  /// Ends of the centre line at the surface [m] in W; either may be the far end.
+  /// Ends of the trench's centre line in W (x, y) [m]. Either one may be farther from the machine.
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();
-  /// Depth below the surface at the start [m].
+  /// Depth of the trench below the ground surface as it is when the step starts [m].
   double depth = 0.8;
-  /// Width, one bucket by default [m].
+  /// Width of the trench [m]; the scene reader sets the width of the bucket by default.
   double width = 1.05;
-  /// Position of the spoil heap [m] in W.
+  /// Position (x, y) in W at which the soil is dumped [m].
   Vec2 dump_at = Vec2::Zero();
-  /// Clearance of the tip over the ground there [m].
+  /// Height of the bucket's tip above the ground at `dump_at` when the bucket opens [m].
   double dump_height = 1.5;
-  /// Depth of one slice [m].
+  /// Maximum depth of soil that one pass removes [m].
   double pass_depth = 0.25;
-  /// Largest number of cycles; without it, until the trench is done.
+  /// Number of cycles after which the step is done. If empty, digging goes on until the trench is
+  /// done, for 60 cycles at most.
   std::optional<int> max_cycles;
 
+  /// Lists the child elements of the step with their ranges and descriptions.
   void describe(scene::Fields& f) override {
     f("from_m", from, {-1e6, 1e6}, "One end of the trench's centre line in W.", scene::kNeeded);
     f("to_m", to, {-1e6, 1e6}, "The other end.", scene::kNeeded);
@@ -44,13 +49,19 @@ struct Dig final : ActivityStep {
     f("max_cycles", max_cycles, {1, 100000},
       "Number of cycles; by default until the trench is done, at most 60.");
   }
-  /// Checks that the machine can dig and that trench and spoil are on the site and above rock.
+  /// Reports an error if the machine cannot dig, if the trench or the dump point is not on the
+  /// site, or if the trench is deeper than the ground. Also sets the default of `width`.
   void check(const scene::StepSource& source);
+  /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
+  /// Returns true: digging uses the arm.
   bool needs_arm() const override { return true; }
-  /// Returns an activity with the phases of the digging cycle, and a last look at the trench.
+  /// Returns an activity with the phases of the digging cycle, followed by a final look at the
+  /// trench.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
+  /// Reports an error for each part of the trench and of the dump that the arm cannot reach.
   void check_reach(ReachCheck& check) const override;
+  /// Returns the point at which the step dumps the soil.
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
 };
 

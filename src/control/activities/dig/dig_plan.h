@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans the next scoop: slice by slice, from the far end to the near one.
+// Plans the scoops of a trench. The trench is dug slice by slice from top to bottom, and each slice
+// from the far end to the near end.
 #pragma once
 
 #include <vector>
@@ -10,107 +11,134 @@
 
 namespace navvy::control {
 
-/// The trench as seen from the swing axis.
+/// Centre line of a trench as seen from the machine's swing axis.
 struct TrenchLine {
-  /// Ends in W [m]; `far` is farther from the swing axis.
+  /// Ends of the line in W (x, y) [m]: the one nearer to the swing axis, and the one farther from
+  /// it.
   Vec2 near = Vec2::Zero(), far = Vec2::Zero();
-  /// Distances of the ends from the swing axis, along the line [m].
+  /// Distances of the two ends from the swing axis [m], measured in the direction of the line.
   double near_reach = 0, far_reach = 0;
-  /// Angle of the swing joint over the line [rad].
+  /// Swing angle at which the arm is parallel to the line [rad].
   double swing = 0;
-  /// Distance of the line from the swing axis [m].
+  /// Perpendicular distance of the line from the swing axis [m].
   double offset = 0;
 
+  /// Saves or loads all fields.
   void visit(Archive& a);
 };
 
-/// Returns the trench as seen from a machine whose swing axis has the frame X_WS.
+/// Returns the centre line of the trench `dig` as seen from a machine whose swing axis frame S has
+/// the pose X_WS in W.
 TrenchLine trench_line(const Dig& dig, const Pose& X_WS);
 
-/// One scoop along the line, in metres from the near end.
+/// One scoop along the trench. Positions are distances from the near end of the trench [m].
 struct Scoop {
-  /// Start and end; start > end [m].
+  /// Positions at which the scoop starts and ends. The bucket moves towards the machine, so `start`
+  /// is greater than `end`.
   double start = 0, end = 0;
-  /// Position where the scoop's soil begins [m]: at `start`, or after a run over ground that is
-  /// already dug.
+  /// Position at which the bucket meets soil. It is less than `start` if the scoop starts over
+  /// finished floor.
   double soil = 0;
-  /// Depth of the tip below the surface at the start of the dig [m].
+  /// Depth of the bucket's tip below the original surface [m].
   double level = 0;
-  /// False: nothing is left to dig.
+  /// False if nothing is left to dig; the other fields are meaningless then.
   bool any = false;
 };
 
 /// Progress of a trench.
 struct TrenchState {
-  /// Soil within the design's outline and above its floor [m3].
+  /// Volume of soil that is still inside the commanded trench [m3].
   double left = 0;
-  /// Depth below the original surface that half of the length has reached [m].
+  /// Median depth below the original surface along the centre line [m]: half of the trench's length
+  /// is at least this deep.
   double depth = 0;
 };
 
-/// Plan of a straight trench: the surface along its line before the dig, and the depth that can be
-/// dug.
+/// Plan of a straight trench. It stores the original surface along the centre line and the depth
+/// that can be dug there, and selects the next scoop from the current surface. The parameter `s` is
+/// the distance from the near end along the centre line [m].
 class DigPlan {
  public:
-  /// Creates an empty plan, to be replaced or loaded into.
+  /// Makes an empty plan. Assign another plan to it, or load one, before use.
   DigPlan() = default;
-  /// Plans a trench from the present surface. `scoop_volume` is the bank volume of a full bucket
-  /// [m3].
+  /// Makes the plan of the trench `dig` with the centre line `line`. `surface` is the original
+  /// surface, and `scoop_volume` the volume that a full bucket takes from undisturbed ground [m3].
   DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface);
 
-  /// Returns the next scoop: in the highest slice that still holds a worthwhile share of a bucket,
-  /// from its far end.
+  /// Returns the next scoop. It is in the uppermost slice that still has enough soil, and it starts
+  /// at the farthest soil of that slice.
   Scoop next(const SurfaceView& surface) const;
-  /// Marks the soil at `s`, where a scoop brought nothing, as undiggable below its present depth.
+  /// Marks the ground around `s` [m] as impossible to dig below its current depth. Call it for a
+  /// scoop that came up nearly empty.
   void refuse(const SurfaceView& surface, double s);
-  /// Makes slices thinner from now on, for soil that holds the bucket. Returns false when they are
-  /// as thin as allowed.
+  /// Reduces the thickness of the following slices, for soil that holds the bucket. Returns false
+  /// if the slices already have their minimum thickness.
   bool thin();
-  /// Returns the thickness of a slice [m]: slices are equal, and none is thicker than commanded.
+  /// Returns the thickness of a slice [m]. All slices are equally thick, and none is thicker than
+  /// `Dig::pass_depth`.
   double slice() const { return dig_.depth / slices(); }
-  /// Returns a pass along the whole floor.
+  /// Returns a scoop along the whole floor of the trench.
   Scoop clean_up() const { return {length_, 0, length_, dig_.depth, true}; }
-  /// Returns the soil above depth `level` over the trench's width [m3].
+  /// Returns the volume of soil [m3] that is inside the width of the trench and above a given
+  /// depth. `level` is that depth below the original surface [m]. Soil that cannot be dug does not
+  /// count.
   double volume_above(const SurfaceView& surface, double level) const;
-  /// Returns the progress against the commanded trench; undiggable soil counts as left.
+  /// Returns the progress relative to the commanded trench on the current `surface`. Unlike in
+  /// `volume_above`, soil that cannot be dug counts as left.
   TrenchState state(const SurfaceView& surface) const;
-  /// Returns the height of the original surface at `s` [m] in W.
+  /// Returns the height of the original surface at `s` [m] in W [m].
   double start_height(double s) const;
-  /// Returns the highest soil at `s` on both edges of the cut and half a metre beside, at least the
-  /// original height [m].
+  /// Returns the height in W [m] of the highest ground at `s` [m] beside the trench: from its edges
+  /// to half a metre beyond them. The result is at least the original height.
   double highest_beside(const SurfaceView& surface, double s) const;
-  /// Returns W (x, y) on the centre line at `s` [m] from the near end.
+  /// Returns the point (x, y) in W [m] on the centre line at `s` [m].
   Vec2 point(double s) const { return line_.near + s * along_; }
-  /// Length of the trench [m].
+  /// Returns the length of the trench [m].
   double length() const { return length_; }
-  /// Volume of the commanded trench [m3].
+  /// Returns the volume of the commanded trench [m3].
   double design_volume() const { return length_ * dig_.width * dig_.depth; }
 
+  /// Saves or loads the plan.
   void visit(Archive& a);
 
  private:
+  /// Returns the position [m] at which a scoop in the slice down to depth `level` [m], starting at
+  /// sample `start`, has a full load; 0, the near end, if the soil is less than that.
   double fill_end(const SurfaceView& surface, int start, double level) const;
+  /// Returns the mean height in W [m] of the current surface across the middle of the trench at `s`
+  /// [m].
   double height(const SurfaceView& surface, double s) const;
-  /// Returns the height of diggable soil above depth `level` at sample i [m], negative where the
-  /// ground is lower.
+  /// Returns the height [m] of the soil at sample `i` that can be dug and is above the depth
+  /// `level` [m]; negative if the ground is already lower.
   double remaining(const SurfaceView& surface, int i, double level) const;
-  /// Returns the sample from which a scoop into the soil at sample i starts.
+  /// Returns the sample at which a scoop should start whose soil begins at sample `i`. Near the
+  /// machine this is farther out, over finished floor, so that the bucket has enough distance to
+  /// fill.
   int run_up(const SurfaceView& surface, int i, double level) const;
-  /// Returns the soil above depth `level` between samples i - 1 and i [m3].
+  /// Returns the volume of soil above the depth `level` [m] between the samples i - 1 and i [m3].
   double piece_above(const SurfaceView& surface, int i, double level) const;
+  /// Returns the distance of sample `i` from the near end [m].
   double at(int i) const { return length_ * i / (samples() - 1); }
+  /// Returns the number of slices.
   int slices() const;
+  /// Returns the number of sample points along the centre line.
   int samples() const { return static_cast<int>(start_.size()); }
+  /// Computes `along_` and `length_` from the ends of the line.
   void derive();
 
+  // Commanded trench; `thin` reduces its pass depth.
   Dig dig_;
+  // Centre line of the trench as seen when the plan was made.
   TrenchLine line_;
+  // Volume that a full bucket takes from undisturbed ground [m3].
   double scoop_volume_ = 0;
-  // Original heights in W from near to far [m].
+  // Height of the original surface in W at each sample, from the near to the far end [m].
   std::vector<double> start_;
-  // Depth that can be dug at each sample [m].
+  // Maximum depth that can be dug at each sample, below the original surface [m].
   std::vector<double> deepest_;
+  // Unit vector from the near to the far end in W.
   Vec2 along_ = Vec2::UnitX();
+  // Length of the trench [m].
   double length_ = 1;
 };
 

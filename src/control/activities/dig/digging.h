@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to the dig: the activity that carries it out.
+// The activity that carries out a dig step. Private to the dig.
 #pragma once
 
 #include "control/activities/dig/dig.h"
@@ -11,57 +11,70 @@
 
 namespace navvy::control {
 
-/// State of a dig beside its plan.
+/// State of a dig, except its plan.
 struct DiggingMemory {
+  /// Current move of the arm between two poses.
   ArmMove move;
+  /// Filtered pose of the chassis.
   Stance stance;
+  /// Path of the bucket's tip through the soil.
   TipPath tip;
-  /// Number of cycles when the dig began.
+  /// Number of cycles that the program had completed when the dig began.
   std::int64_t first_cycle = 0;
+  /// Number of empty scoops since the last one that brought soil.
   std::int64_t empty_scoops = 0;
+  /// Number of cleaning passes along the floor so far.
   std::int64_t clean_ups = 0;
-  /// 1 when the scoop is a pass along the whole floor.
+  /// 1 if the current scoop is a cleaning pass along the whole floor, else 0.
   std::int64_t cleaning = 0;
-  /// Scoop::start, end and level [m].
+  /// Current scoop: Scoop::start, Scoop::end and Scoop::level [m].
   double scoop_start = 0, scoop_end = 0, scoop_level = 0;
-  /// Scoop::soil [m].
+  /// Current scoop: Scoop::soil [m].
   double soil_start = 0;
-  /// Position of the tip along the trench, from its near end [m].
+  /// Commanded position of the tip along the trench, from the near end [m].
   double s = 0;
-  /// Progress of the curl, 0 to 1.
+  /// Progress of the curl, from 0 to 1 [-].
   double progress = 0;
-  /// Angle [rad] and height [m] of the tip path when the curl began.
+  /// `curl_angle` [rad] and `curl_z` [m] are the angle and the height in W of the tip path when the
+  /// curl began.
   double curl_angle = 0, curl_z = 0;
-  /// Bank volume [m3] and mass [kg] of a full bucket.
+  /// Bank volume (`scoop_volume` [m3]) and mass (`full_mass` [kg]) of the soil in a bucket that
+  /// counts as full.
   double scoop_volume = 0, full_mass = 0;
-  /// Lift of the tip path when the drag began [m].
+  /// TipPath::lift when the drag began [m].
   double lift_before = 0;
-  /// Integral over the drag's length of the lift that soil has caused since [m2].
+  /// Integral of the additional lift since then over the distance dragged [m2].
   double held_up = 0;
-  /// Payload after the lift when it last fell [kg], and the time of that [s].
+  /// `held` is the payload when it last decreased during the lift phase [kg], and `held_since` the
+  /// phase time at that moment [s]. They show whether soil still falls from the bucket.
   double held = 0, held_since = 0;
 
+  /// Saves or loads all fields.
   void visit(Archive& a);
 };
 
-/// The digging cycle: return, approach, penetrate, drag, curl, lift, swing, dump, until the plan
-/// finds nothing more; then a last look at the trench. digging.cpp holds the sequence, scoop.cpp
-/// the tip's paths through the soil.
+/// Activity that carries out a dig: return, approach, penetrate, drag, curl, lift, swing, dump, and
+/// again, until the plan has no further scoop; then a final look at the trench. digging.cpp
+/// implements the sequence of phases, and scoop.cpp the paths of the tip through the soil.
 class Digging final : public ActivityWith<DiggingMemory> {
  public:
+  /// Makes the activity of the step `dig`. The step and `place` must outlive it; `place` must have
+  /// an arm.
   Digging(OperatorContext& place, const Dig& dig)
       : ActivityWith(place), dig_(dig), arm_(*place.arm) {}
 
-  /// Takes the machine's stance and the original surface, and moves to the first scoop.
+  /// Records the machine's pose and the original surface, and starts the move to the first scoop.
   void begin(const Observation& seen) override;
+  /// Returns the name of the current phase.
   const char* phase() const override;
-  /// Returns cycles, design volume and what is left of it, commanded and reached depth.
+  /// Returns the number of cycles, the commanded volume and the part of it that is left, and the
+  /// commanded and the reached depth.
   std::vector<Measurement> account(const Observation& seen) const override;
-  /// Visits memory and plan.
+  /// Saves or loads the state and the plan.
   void visit(Archive& a) override;
 
  private:
-  // In the order of a cycle; kLook ends the dig.
+  // Phases in the order of a cycle; kLook is the final look at the trench.
   enum Phase : std::int64_t {
     kReturn,
     kApproach,
@@ -74,54 +87,70 @@ class Digging final : public ActivityWith<DiggingMemory> {
     kLook
   };
 
+  /// Advances the current phase by one control step. Returns true when the dig is over.
   bool update(const Observation& seen, double dt, Command& out) override;
 
-  /// Asks the plan for the next scoop; returns false when the dig has come to its end.
+  /// Selects the next scoop. Returns false if there is none, or if a limit on cycles or empty
+  /// scoops is reached.
   bool plan_scoop(const Observation& seen);
-  /// Moves the open bucket over the scoop's start. Called twice per cycle: high, then down once the
-  /// swing has come to rest.
+  /// Starts the move of the open bucket to the start of the scoop, and enters the phase `next`.
+  /// This happens twice per cycle: in the phase kReturn the bucket stays high; in kApproach it
+  /// comes down after the swing has stopped.
   void go_to_scoop(Phase next, const Observation& seen);
-  /// Continues with the next scoop, or with a last look before the end.
+  /// Selects the next scoop and moves to it in the phase `next`, or starts the final look if there
+  /// is no further scoop.
   void go_on(Phase next, const Observation& seen);
-  /// Makes the next slices thinner after a drag that the soil held up.
+  /// Makes the following slices thinner if the soil held the bucket during the last drag.
   void thin_slices();
-  /// Starts to level the bucket and lift it clear of the trench's edges.
+  /// Starts the move that levels the bucket and lifts it clear of the trench's edges.
   void start_lift(const Observation& seen);
-  /// Returns true while the lifted bucket still loses soil over the trench.
+  /// Returns true while soil still falls from the lifted bucket into the trench.
   bool drips(const Observation& seen);
-  /// Starts the swing over the heap, high enough for it, gently with a full bucket.
+  /// Starts the swing to the dump point. The bucket is raised enough to clear the heap; a full
+  /// bucket swings more slowly.
   void start_swing(const Observation& seen);
+  /// Starts to open the bucket.
   void start_dump(const Observation& seen);
-  /// Continues the dump; returns true when the bucket is empty, or will not get emptier.
+  /// Continues the dump. Returns true when the bucket is empty, or when waiting longer is no use.
   bool dump(const Observation& seen);
-  /// Strokes the bucket cylinder while soil sticks.
+  /// Shakes the bucket with its cylinder while soil sticks to it.
   void shake(const Observation& seen);
-  /// Moves the bucket aside and pauses, before the trench counts as done.
+  /// Moves the bucket aside and waits for loose soil to come to rest, before the trench counts as
+  /// done.
   void look_round(const Observation& seen);
-  /// Decides after the pause: another scoop (false), or the end (true).
+  /// Continues the final look. Returns false while it lasts or if there is a further scoop, and
+  /// true if the dig is over.
   bool end_cycle(const Observation& seen);
-  /// Returns true when the scoop's start is out of reach from where the machine stands now.
+  /// Returns true if the start of the scoop is out of reach from the machine's current position.
   bool beyond_reach(const Scoop& scoop) const;
-  /// Reports why there is no other scoop. Always returns true.
+  /// Sets the final state of the step and the reason why there is no further scoop. Always returns
+  /// true.
   bool conclude(const Observation& seen);
-  /// Returns the number of cycles of this dig.
+  /// Returns the number of cycles that this dig has completed.
   std::int64_t cycles() const { return place_.handover.cycles - m.first_cycle; }
+  /// Continues the current move of the arm. Returns true when the move is over.
   bool move(const Observation& seen) { return m.move.advance(place_, seen, phase_time(), phase()); }
 
-  // Tip paths in the vertical plane of the trench. Each moves the wanted tip by one control step;
-  // drag and curl return true when they are done.
+  /// Moves the tip down into the soil, and enters the drag when it is deep enough.
   void penetrate(const Observation& seen, double dt);
+  /// Drags the bucket towards the machine. Returns true when the bucket is full or the scoop has
+  /// ended.
   bool drag(const Observation& seen, double dt);
+  /// Curls the bucket out of the ground. Returns true when the curl is over.
   bool curl(const Observation& seen, double dt);
+  /// Commands the arm to follow the tip path, which the phase has updated before.
   void follow_tip(const Observation& seen, double dt);
-  /// Returns the height [m] in W at which the tip must move so that no part of the bucket goes
-  /// below the slice.
+  /// Returns the lowest allowed height of the tip in W [m], at which no part of the bucket is below
+  /// the slice.
   double floor_height() const;
-  /// Returns true, and warns, when the phase has lasted longer than `limit` [s].
+  /// Returns true and logs a warning if the current phase has lasted longer than `limit` [s].
   bool overdue(double limit) const;
 
+  // The step that is carried out.
   const Dig& dig_;
+  // Kinematics of the machine's arm.
   const ArmKinematics& arm_;
+  // Plan of the trench, made in `begin`.
   DigPlan plan_;
 };
 
