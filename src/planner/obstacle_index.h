@@ -12,7 +12,7 @@ namespace navvy::planner {
 
 /// A summed-area table of the blocks of 4 x 4 columns that contain an undrivable column. A path
 /// search checks most of its poses with this index, which in open terrain is fifty times faster
-/// than `clearance`. Making an index reads every column of the map and takes one byte per two
+/// than `clearance`. Making an index reads every column of the map and takes one byte per four
 /// columns.
 class ObstacleIndex {
  public:
