@@ -110,7 +110,7 @@ class Ground final : public Terrain {
   void require_inside(int ix, int iy) const;
   /// Updates the surface of column (ix, iy) after a change of its layers, and logs the edit.
   void changed(int ix, int iy);
-  /// Never null, except in a ground that was moved from.
+  /// Layers, edits and held columns; null only in a ground that was moved from.
   std::unique_ptr<State> state_;
 };
 

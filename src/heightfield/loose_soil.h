@@ -63,9 +63,9 @@ class LooseSoil {
   const std::vector<LooseGrain>& grains() const { return grains_; }
 
  private:
-  /// Result of `columns()`.
+  /// Value that `columns()` returns.
   std::vector<Column> columns_;
-  /// Result of `grains()`.
+  /// Value that `grains()` returns.
   std::vector<LooseGrain> grains_;
 };
 

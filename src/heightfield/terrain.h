@@ -124,7 +124,7 @@ class Terrain {
   const GroundSetup* setup_;
   /// Surface of the tiles that differ from the untouched site.
   SurfaceTable table_;
-  /// Result of `sequence()`.
+  /// Value that `sequence()` returns.
   std::uint64_t sequence_ = 0;
 
  private:

@@ -32,7 +32,7 @@ class TerrainView final : public Terrain {
   TerrainView(const Terrain& terrain, double time) : Terrain(terrain), time_(time) {}
   /// Simulated time of this view [s].
   double time_;
-  /// Result of `surface()`.
+  /// Value that `surface()` returns.
   SurfaceKind surface_ = SurfaceKind::kColumns;
 };
 

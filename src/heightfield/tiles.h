@@ -21,8 +21,8 @@ namespace navvy::heightfield {
 /// Layers of the changed columns of one tile. A tile is created when one of its columns is first
 /// changed.
 struct Tile {
-  /// Index into `columns` for each column of the tile, x fastest; -1 for columns that are as on the
-  /// untouched site.
+  /// Index into `columns` for each column of the tile, x fastest; -1 for a column that never
+  /// changed.
   std::array<std::int16_t, kTileColumns> slot;
   /// Layers of each changed column, in the order of their first change.
   std::vector<Column> columns;
@@ -47,7 +47,7 @@ class Tiles {
   /// Calls `update_surface` for all changed columns.
   void update_surfaces(SurfaceTable& table, const StartHeights& start) const;
 
-  /// Returns the tiles that have changed columns, in ascending order of their key ty * tiles_x +
+  /// Returns the tiles that contain changed columns. The key of tile (tx, ty) is ty * tiles_x() +
   /// tx.
   const std::map<std::int64_t, std::unique_ptr<Tile>>& touched() const { return touched_; }
   /// Returns the initial mass of all columns that have changed, one entry per soil [kMassQuantum].
@@ -89,7 +89,7 @@ class Tiles {
   /// Groups of tiles, x fastest; null where a group has no tile. Serve to find a tile without a
   /// search.
   std::vector<std::unique_ptr<Group>> groups_;
-  /// Result of `start_mass()`.
+  /// Value that `start_mass()` returns.
   std::vector<std::int64_t> start_mass_;
 };
 

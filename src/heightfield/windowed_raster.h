@@ -89,7 +89,7 @@ class WindowedRaster {
   std::vector<std::int64_t> row_begin_;
   /// Height that was filled in for each entry of `gaps_` [m].
   std::vector<float> filled_;
-  /// Windows in memory; never null.
+  /// Windows that are in memory, and their lock; never null.
   std::unique_ptr<Cache> cache_;
 };
 

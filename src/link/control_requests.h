@@ -39,8 +39,8 @@ class ControlRequests {
   /// control steps per simulated second, which the request "info" reports.
   ControlRequests(run::Simulation& simulation, double rate, ControlServices services = {});
 
-  /// Returns true if `line` is a request, which means that it has the key of one. If not, it sets
-  /// inputs.
+  /// Returns true if `line` contains the key of a request, such as "info". Otherwise it is a line
+  /// that sets inputs.
   static bool is_request(const nlohmann::json& line);
   /// Returns the answer to a request: an object with the key of the request. @throws Error if the
   /// request cannot be answered; the simulation is then unchanged.
@@ -80,7 +80,7 @@ class ControlRequests {
   ControlServices services_;
   /// Numbered maps with all layers.
   map::UpdateFeed feed_;
-  /// Result of `moved()`.
+  /// Value that `moved()` returns.
   bool moved_ = false;
 };
 

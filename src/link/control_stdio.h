@@ -57,10 +57,12 @@ class ControlStdio {
   /// Writes `line` to standard output. Returns false if the controller closed the stream or `stop`
   /// ended the wait.
   bool say(const std::string& line);
-  /// Writes a line with the time and all outputs. Returns false as `say` does.
+  /// Writes a line with the time and all outputs to standard output. Returns false if the
+  /// controller closed the stream or `stop` ended the wait.
   bool say_outputs();
-  /// Answers a request, and writes the outputs again if it replaced the state. Returns false as
-  /// `say` does. @throws Error if the request cannot be answered.
+  /// Answers a request, and writes the outputs again if the request replaced the state. Returns
+  /// false if the controller closed the stream or `stop` ended the wait. @throws Error if the
+  /// request cannot be answered.
   bool answer(const nlohmann::json& request);
   /// Validates a line of inputs and then sets them. Returns false if the line ends the run. @throws
   /// InputError for an invalid line, which then sets nothing.
@@ -76,7 +78,7 @@ class ControlStdio {
   bool skipping_ = false;
   /// True after the end of the input was read.
   bool ended_ = false;
-  /// Result of `gone()`.
+  /// Value that `gone()` returns.
   std::string gone_;
   /// Simulation that is controlled.
   run::Simulation& simulation_;

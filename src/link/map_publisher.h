@@ -59,7 +59,7 @@ class MapPublisher {
  private:
   /// Sockets and threads of the publisher.
   struct State;
-  /// Never null.
+  /// Sockets and threads of the publisher; never null.
   std::unique_ptr<State> state_;
 };
 

@@ -44,7 +44,7 @@ class LayerSource {
 /// Passes over many columns (`copy`, `passing`) store nothing.
 class LayerTiles {
  public:
-  /// Number of columns along each side of a tile. A bucket touches one to four tiles.
+  /// Number of columns along each side of a tile.
   static constexpr int kSide = 64;
   /// Values of one tile, x fastest.
   using Values = std::array<float, static_cast<std::size_t>(kSide) * kSide>;
@@ -125,7 +125,8 @@ class LayerTiles {
   /// Tiles, x fastest; null where a tile was never written. Empty if the map does not contain the
   /// layer.
   std::vector<std::shared_ptr<WrittenTile>> tiles_;
-  /// Source with the tiles that it computed; null if there is no source.
+  /// Source that computes the tiles without a written value, and the tiles it has computed so far;
+  /// null if there is no source.
   std::shared_ptr<const Asked> asked_;
 };
 

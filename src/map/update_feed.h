@@ -93,7 +93,7 @@ class UpdateFeed {
     /// Columns that the update changed.
     std::vector<heightfield::CellRect> rects;
   };
-  /// Returns the result of `since`. The caller must hold the mutex.
+  /// Returns the same as `since(seen)`, for callers that already hold the mutex.
   Update since_locked(std::uint64_t seen) const;
 
   /// Guards `latest_`, `steps_`, `readers_` and `closed_`.
@@ -104,13 +104,13 @@ class UpdateFeed {
   MapMaker maker_;
   /// True if the next update counts as a new map. Only the publishing thread uses it.
   bool restart_ = false;
-  /// Result of `latest()`.
+  /// Value that `latest()` returns.
   Update latest_;
   /// Updates published after the last one with MapUpdate::since = 0, oldest first, at most kKept.
   std::deque<PastUpdate> steps_;
   /// Subscribers.
   std::vector<std::function<void(const Update&)>> readers_;
-  /// Result of `closed()`.
+  /// Value that `closed()` returns.
   bool closed_ = false;
 };
 

@@ -186,7 +186,7 @@ class Simulation {
  private:
   /// Session, recorder and observers of the simulation.
   struct State;
-  /// Never null.
+  /// Session, recorder and observers; never null.
   std::unique_ptr<State> state_;
 };
 

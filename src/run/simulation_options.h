@@ -37,14 +37,15 @@ struct SimulationOptions {
   vehicle::PhysicsEngineFactory make_engine;
 
   // Values that replace those of the scene.
-  /// Maximum simulated time [s]; replaces the value in the scene.
+  /// Maximum simulated time [s]. No value: that of the scene is used.
   std::optional<double> duration;
-  /// Rows of telemetry.csv per simulated second [1/s]; replaces the value in the scene.
+  /// Rows of telemetry.csv per simulated second [1/s]. No value: the rate in the scene is used.
   std::optional<double> telemetry_rate;
-  /// True to draw pictures at the rates of the scene's cameras; replaces the value in the scene.
+  /// True to draw pictures at the rates of the scene's cameras, false to draw none. No value: the
+  /// setting in the scene is used.
   std::optional<bool> pictures;
-  /// Number of control steps of an external controller per simulated second [1/s]; replaces the
-  /// value in the scene. The base step is chosen so that it divides the control period.
+  /// Number of control steps of an external controller per simulated second [1/s]. The base step is
+  /// chosen so that it divides the control period. No value: the rate in the scene is used.
   std::optional<double> control_rate;
 
   // Output.
@@ -74,7 +75,7 @@ struct SimulationOptions {
   // Measurements.
   /// Links, given as "machine/link", whose pose and velocities are added to the outputs
   /// (sim::World::watch).
-  std::vector<std::string> watch;  ///< links to observe, "machine/link" (sim::World::watch)
+  std::vector<std::string> watch;
   /// True to record the energy balance of the soil (`--energy`), which makes the soil up to three
   /// times slower.
   bool soil_energy = false;

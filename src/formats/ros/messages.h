@@ -63,11 +63,11 @@ Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& 
 struct BodyState {
   /// Name of the body's frame, such as "excavator/chassis".
   std::string frame;
-  /// Pose of the body frame B in W [m].
+  /// Pose of the body frame B in the world frame W [m].
   Pose X_WB = Pose::Identity();
-  /// Velocity of the origin of B, in the axes of W [m/s].
+  /// Velocity of the origin of the body frame, in the axes of the world frame W [m/s].
   Vec3 v_W = Vec3::Zero();
-  /// Angular velocity of the body, in the axes of W [rad/s].
+  /// Angular velocity of the body, in the axes of the world frame W [rad/s].
   Vec3 w_W = Vec3::Zero();
 };
 /// Returns an Odometry message with the pose of the body in the world frame, and its twist in the
