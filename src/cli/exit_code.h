@@ -6,7 +6,7 @@ namespace navvy::cli {
 
 /// Exit status of `navvy`. Scripts rely on the numbers, so they must never change.
 enum ExitCode {
-  /// Success.
+  /// The command succeeded.
   kOk = 0,
   /// An error in Navvy itself.
   kInternal = 1,

@@ -28,27 +28,27 @@ struct MapFormat {
   std::string meaning;
   /// Layers that are written if none are requested.
   std::vector<map::MapLayer> by_default;
-  /// Writes at least one layer of `map` to `path`, in the order of `layers`. @throws FileError
-  /// naming path and cause; Error if `layers` is empty; InputError if the format cannot represent
-  /// the request.
+  /// Function that writes at least one layer of `map` to `path`, in the order of `layers`. @throws
+  /// FileError naming path and cause; Error if `layers` is empty; InputError if the format cannot
+  /// represent the request.
   void (*write)(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                 const std::string& path) = nullptr;
   /// Extensions of the additional files that the format writes next to the first one, such as
   /// ".pgm" next to a ".yaml" file.
   std::vector<std::string> others = {};
-  /// Returns the names of the files in a folder of this format, given the folder's `name`. Null for
-  /// formats that are not a folder.
+  /// Function that returns the names of the files in a folder of this format, given the folder's
+  /// `name`. Null for formats that are not a folder.
   std::vector<std::string> (*within)(const std::string& name) = nullptr;
   /// True if the format contains nothing for a scene without a design surface.
   bool needs_design = false;
-  /// Writes a picture of the map with `lines` drawn over it, three columns wide. Each line has one
-  /// of four colours, selected by its number. Null for formats that cannot do this. @throws as
-  /// `write`.
+  /// Function that writes a picture of the map with `lines` drawn over it, three columns wide. Each
+  /// line has one of four colours, selected by its number. Null for formats that cannot do this.
+  /// @throws as `write`.
   void (*write_with_lines)(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                            const std::string& path,
                            const std::vector<map::MapLine>& lines) = nullptr;
-  /// Opens a file or folder at `path` to which messages are added while a simulation runs. Null for
-  /// formats that contain a single instant. @throws FileError, InputError.
+  /// Function that opens a file or folder at `path` to which messages are added while a simulation
+  /// runs. Null for formats that contain a single instant. @throws FileError, InputError.
   std::unique_ptr<ros::Bag> (*open_bag)(const std::string& path) = nullptr;
 };
 

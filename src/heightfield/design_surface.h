@@ -50,19 +50,25 @@ std::optional<DesignSurface> make_design(const scene::Scene& scene, const Terrai
 struct DesignComparison {
   /// Total area of the columns with a design height [m2].
   double area = 0;
-  /// Volume of the initial ground above the design surface [m3].
+  /// Volume between the initial ground and the design surface where the ground is higher than the
+  /// design [m3].
   double design_cut = 0;
-  /// Volume between the design surface and lower initial ground [m3].
+  /// Volume between the initial ground and the design surface where the ground is lower than the
+  /// design [m3].
   double design_fill = 0;
-  /// Volumes by which the ground now lies below (`cut`) and above (`fill`) the initial ground [m3].
+  /// Volumes between the current and the initial ground: `cut` where the ground is now lower, and
+  /// `fill` where it is higher [m3].
   double cut = 0, fill = 0;
-  /// Volume by which the ground now lies below the design surface [m3].
+  /// Volume between the current ground and the design surface where the ground is lower than the
+  /// design [m3].
   double over_dig = 0;
-  /// Volume by which the ground now lies above the design surface [m3].
+  /// Volume between the current ground and the design surface where the ground is higher than the
+  /// design [m3].
   double under_dig = 0;
-  /// Mean over all columns of ground height minus design height [m].
+  /// Ground height minus design height, averaged over all columns with a design height [m].
   double mean_error = 0;
-  /// Mean over all columns of |ground height - design height| [m].
+  /// Absolute value of ground height minus design height, averaged over all columns with a design
+  /// height [m].
   double mean_size = 0;
   /// Ground height minus design height in the column where its absolute value is largest [m].
   double largest_error = 0;

@@ -37,7 +37,7 @@ struct GroundSetup {
   /// Rectangles of the site whose initial layers differ from `layers`. If patches overlap, the last
   /// one applies.
   std::vector<scene::GroundPatch> patches;
-  /// Source of the initial surface heights.
+  /// Function that returns the initial height of each column.
   SurfaceSource surface;
   /// Hash of the file heights that `surface` interpolates; 0 if the surface depends on the scene
   /// only.

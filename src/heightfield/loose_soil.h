@@ -63,9 +63,9 @@ class LooseSoil {
   const std::vector<LooseGrain>& grains() const { return grains_; }
 
  private:
-  /// Value that `columns()` returns.
+  /// Columns with loose soil, in ascending order of iy, then ix.
   std::vector<Column> columns_;
-  /// Value that `grains()` returns.
+  /// Resting particles, in the order of `columns_`, and from bottom to top within each column.
   std::vector<LooseGrain> grains_;
 };
 

@@ -56,7 +56,7 @@ class StartSite {
   std::uint16_t surface_soil(int ix, int iy) const;
 
  private:
-  /// One layer of a column's description.
+  /// One soil layer of a Stack.
   struct StackLayer {
     /// Index of the layer's soil.
     std::uint16_t soil;
@@ -70,7 +70,7 @@ class StartSite {
   struct Patch {
     /// Corners of the rectangle, (x0, y0) and (x1, y1), as world positions [m].
     double x0, y0, x1, y1;
-    /// Layers within the rectangle.
+    /// Layers of the columns in the rectangle, from the surface downwards.
     Stack stack;
   };
   /// Converts layers of a scene to a Stack, replacing soil names by indices.

@@ -51,8 +51,9 @@ class SurfaceTable {
   /// Returns tile (tx, ty) for writing. Replaces a shared tile by a copy. Creates a missing tile
   /// from the initial heights `start`. @throws InputError as StartSite::column.
   SurfaceTile& own(int tx, int ty, const StartHeights& start);
-  /// Marks all tiles as shared. Must be called before the table is copied for other readers. Takes
-  /// time in proportion to the number of tiles written since the last call.
+  /// Marks all tiles as shared, so that later writes to this table copy them first. Must be called
+  /// before the table is copied for other readers. Takes time in proportion to the number of tiles
+  /// written since the last call.
   void freeze() const;
   /// Removes all tiles, which makes the site untouched again. Copies of the table keep their tiles.
   void clear();
@@ -93,7 +94,7 @@ class SurfaceTable {
   }
   /// Number of tiles along x and y, and number of squares along x.
   int tiles_x_, tiles_y_, squares_x_;
-  /// Squares of the site, x fastest; null where all tiles are untouched.
+  /// Squares of the site, in rows along x; null where all tiles of a square are untouched.
   std::vector<std::shared_ptr<Square>> squares_;
   /// Tiles written since the last call of `freeze`.
   mutable std::vector<Place> written_;

@@ -110,8 +110,8 @@ class Terrain {
  protected:
   /// Makes an untouched site with the initial heights `start`.
   explicit Terrain(std::shared_ptr<const StartHeights> start);
-  /// Copying and moving is reserved to derived classes, because a Terrain is only part of an
-  /// object.
+  /// Copies the surface. Copying and moving are protected, because only derived classes are
+  /// complete objects.
   Terrain(const Terrain&) = default;
   Terrain(Terrain&&) noexcept = default;
   Terrain& operator=(const Terrain&) = default;
@@ -124,7 +124,7 @@ class Terrain {
   const GroundSetup* setup_;
   /// Surface of the tiles that differ from the untouched site.
   SurfaceTable table_;
-  /// Value that `sequence()` returns.
+  /// Number that increases with every change of the ground.
   std::uint64_t sequence_ = 0;
 
  private:

@@ -32,7 +32,7 @@ class TerrainView final : public Terrain {
   TerrainView(const Terrain& terrain, double time) : Terrain(terrain), time_(time) {}
   /// Simulated time of this view [s].
   double time_;
-  /// Value that `surface()` returns.
+  /// Surface that the heights describe: with or without loose soil.
   SurfaceKind surface_ = SurfaceKind::kColumns;
 };
 

@@ -77,7 +77,7 @@ class Tiles {
   Tile* find_tile(int tx, int ty) const;
   /// Returns tile (tx, ty) and creates it if it does not exist.
   Tile& touch_tile(int tx, int ty);
-  /// Discards all changes.
+  /// Makes all columns as on the untouched site again.
   void clear();
 
   /// Untouched site that the layers differ from.
@@ -89,7 +89,7 @@ class Tiles {
   /// Groups of tiles, x fastest; null where a group has no tile. Serve to find a tile without a
   /// search.
   std::vector<std::unique_ptr<Group>> groups_;
-  /// Value that `start_mass()` returns.
+  /// Initial mass of all columns that have changed, one entry per soil [kMassQuantum].
   std::vector<std::int64_t> start_mass_;
 };
 

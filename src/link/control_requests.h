@@ -50,7 +50,8 @@ class ControlRequests {
   bool moved() const { return moved_; }
 
  private:
-  /// Returns the answer to the request `key` with value `what`, without the key.
+  /// Returns the answer to the request `key` with the value `what`. (`answer` puts it into an
+  /// object under this key.)
   nlohmann::json dispatch(const std::string& key, const nlohmann::json& what);
   /// Answers "heights": values of a map layer at the cells of a rectangle.
   nlohmann::json heights(const nlohmann::json& what);
@@ -80,7 +81,7 @@ class ControlRequests {
   ControlServices services_;
   /// Numbered maps with all layers.
   map::UpdateFeed feed_;
-  /// Value that `moved()` returns.
+  /// True if the last answered request replaced the state of the simulation.
   bool moved_ = false;
 };
 

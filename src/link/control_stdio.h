@@ -78,13 +78,13 @@ class ControlStdio {
   bool skipping_ = false;
   /// True after the end of the input was read.
   bool ended_ = false;
-  /// Value that `gone()` returns.
+  /// Message that explains how the controller disconnected; empty if it did not.
   std::string gone_;
   /// Simulation that is controlled.
   run::Simulation& simulation_;
   /// Number of control steps per simulated second.
   double rate_;
-  /// Answers requests.
+  /// Answers the requests of the controller.
   ControlRequests requests_;
   /// Number of lines read so far, for error messages.
   std::uint64_t lines_ = 0;

@@ -52,9 +52,9 @@ class PublishedMap {
   const sim::World& world_;
   /// Number of updates per simulated second [1/s].
   double rate_;
-  /// Layers to publish.
+  /// Layers that are sent to readers.
   std::vector<map::MapLayer> layers_;
-  /// Map updates of this run.
+  /// Numbered map updates of this run, from which the publisher sends.
   map::UpdateFeed feed_;
   /// Sends the updates of `feed_`. Always present after construction.
   std::optional<link::MapPublisher> publisher_;

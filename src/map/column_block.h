@@ -33,7 +33,7 @@ class SiteColumns {
   /// Allows deletion through a base class pointer.
   virtual ~SiteColumns() = default;
 
-  /// Returns the terrain view that provides the state.
+  /// Returns the terrain view from which heights and soil properties are read.
   const heightfield::TerrainView& view() const { return view_; }
   /// Returns the options of the map.
   const MapOptions& options() const { return *options_; }
@@ -64,7 +64,7 @@ class SiteColumns {
   float density(int ix, int iy) const;
 
  private:
-  /// Terrain view that provides the state.
+  /// Terrain view from which heights and soil properties are read.
   heightfield::TerrainView view_;
   /// Options of the map; never null.
   std::shared_ptr<const MapOptions> options_;

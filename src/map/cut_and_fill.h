@@ -17,10 +17,11 @@ struct CutFill {
   /// Area within the polygon where elevation or reference is unknown, or that lies outside the site
   /// [m2].
   double unknown_area = 0;
-  /// Volume between the reference and lower ground [m3]. This is a bank volume if the soil that was
-  /// removed was undisturbed.
+  /// Volume between the ground and the reference surface where the ground is lower than the
+  /// reference [m3]. This is a bank volume if the soil that was removed was undisturbed.
   double cut = 0;
-  /// Volume between the reference and higher ground, in the current density state of the soil [m3].
+  /// Volume between the ground and the reference surface where the ground is higher than the
+  /// reference, in the current density state of the soil [m3].
   double fill = 0;
   /// The volume `fill` converted to bank volume, with the density at the surface of each column
   /// [m3]; NaN if the map has no density or soil layer.

@@ -99,7 +99,8 @@ class Surround {
   const TraversabilityLimits& limits_;
   /// Indices of the column, and window size in columns to each side.
   int ix_, iy_, reach_;
-  /// Values computed so far.
+  /// Slope [rad], step height [m] and roughness [m] of the column; no value until they are first
+  /// requested.
   std::optional<float> slope_, step_height_, roughness_;
 };
 

@@ -73,7 +73,7 @@ enum class LayerType : std::uint8_t {
   kIndex,
   /// 0 (false) or 1 (true).
   kFlag,
-  /// Simulated time.
+  /// Simulated time [s].
   kTime
 };
 
@@ -86,7 +86,7 @@ enum class LayerNeeds : std::uint8_t {
   kLooseSoil,
   /// Type and density of the uppermost soil.
   kSoilState,
-  /// A design surface.
+  /// Design surface of the scene.
   kDesign,
   /// Views of the same site at earlier times.
   kHistory
@@ -109,11 +109,12 @@ struct LayerInfo {
   LayerNeeds needs;
   /// Layers that this one is computed from. A map with this layer contains them as well.
   std::vector<MapLayer> from = {};
-  /// Computes the value from the state of column (ix, iy). Null for layers that are not computed
-  /// from a single column.
+  /// Function that computes the layer's value from the state of column (ix, iy). Null for layers
+  /// that are not computed from a single column.
   float (*of_column)(const ColumnBlock& block, int ix, int iy) = nullptr;
-  /// Computes the value from the elevation of nearby columns. Null for other layers. If `of_column`
-  /// is null too, the layer depends on history, and MapMaker sets its values.
+  /// Function that computes the layer's value from the elevation of nearby columns. Null for other
+  /// layers. If `of_column` is null too, the layer depends on history, and MapMaker sets its
+  /// values.
   float (*of_surround)(Surround& surround) = nullptr;
   /// False for layers that a map contains only if they are requested by name.
   bool by_default = true;

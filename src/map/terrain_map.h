@@ -89,7 +89,7 @@ class LayerTiles {
   bool set(int ix, int iy, float value, std::uint64_t edition);
 
  private:
-  /// A tile that was written.
+  /// A tile that stores values written by the map's owner.
   struct WrittenTile {
     /// Values of the tile, x fastest.
     Values values;
@@ -97,7 +97,8 @@ class LayerTiles {
     /// this edition.
     std::uint64_t edition = 0;
   };
-  /// Tiles computed by the source because a reader requested one of their columns.
+  /// The source of a layer, with the tiles that it computed because a reader requested one of their
+  /// columns.
   struct Asked;
   /// Returns the index of the tile that contains column (ix, iy).
   std::size_t tile_of(int ix, int iy) const {
@@ -193,7 +194,7 @@ class TerrainMap {
                              std::uint64_t sequence);
   /// Description of the site, shared by all maps of the site.
   std::shared_ptr<const heightfield::GroundSetup> setup_;
-  /// Simulated time [s].
+  /// Simulated time of the map [s]; NaN if it is unknown.
   double time_;
   /// Sequence number of the map.
   std::uint64_t sequence_;

@@ -31,7 +31,7 @@ struct MapUpdate {
   /// True if `rects` may contain many unchanged columns: their area is more than twice `changed`,
   /// or several updates were combined.
   bool merged = false;
-  /// The later map.
+  /// The later of the two maps, to which this update leads.
   TerrainMap map;
 };
 
@@ -53,7 +53,8 @@ class UpdateFeed {
   /// Pointer to an update, which readers share; null where there is no update.
   using Update = std::shared_ptr<const MapUpdate>;
 
-  /// Makes a feed of maps with these options.
+  /// Makes a feed whose maps have the given options. No map exists until the first call of
+  /// `publish`.
   explicit UpdateFeed(MapOptions options);
 
   /// Makes the map of `view`, gives it the next sequence number, calls the subscribers on this
@@ -96,21 +97,21 @@ class UpdateFeed {
   /// Returns the same as `since(seen)`, for callers that already hold the mutex.
   Update since_locked(std::uint64_t seen) const;
 
-  /// Guards `latest_`, `steps_`, `readers_` and `closed_`.
+  /// Protects `latest_`, `steps_`, `readers_` and `closed_`.
   mutable std::mutex mutex_;
-  /// Notified of every update and of `close`.
+  /// Notified when an update is published and when the feed is closed.
   mutable std::condition_variable news_;
   /// Makes the maps. Only the publishing thread uses it.
   MapMaker maker_;
   /// True if the next update counts as a new map. Only the publishing thread uses it.
   bool restart_ = false;
-  /// Value that `latest()` returns.
+  /// Latest published update; null before the first one.
   Update latest_;
   /// Updates published after the last one with MapUpdate::since = 0, oldest first, at most kKept.
   std::deque<PastUpdate> steps_;
-  /// Subscribers.
+  /// Functions that are called with every update, in the order of their registration.
   std::vector<std::function<void(const Update&)>> readers_;
-  /// Value that `closed()` returns.
+  /// True after `close` was called.
   bool closed_ = false;
 };
 

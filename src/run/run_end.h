@@ -6,8 +6,8 @@
 
 namespace navvy::run {
 
-/// Reason why a run ended. If several apply, the order is kInterrupted, kComplete, kFellShort, and
-/// then one of the others.
+/// Reason why a run ended. If several reasons apply, the first one in this order is reported:
+/// kInterrupted, kComplete, kFellShort, then one of the others.
 enum class EndReason {
   /// All programs were completed, and no machine fell over.
   kComplete,

@@ -94,8 +94,8 @@ class Simulation {
   /// writes nothing.
   /// @throws FileError for a result that could not be written.
   RunEnd finish(const std::string& interrupted_by = "");
-  /// Closes the output folder with the status "failed" and this cause, and writes failed.snapshot.
-  /// Throws nothing: further errors are logged.
+  /// Closes the output folder with the status "failed" and the given cause, and writes
+  /// failed.snapshot. Throws nothing: further errors are logged.
   void fail(const std::string& cause) noexcept;
 
   // State.

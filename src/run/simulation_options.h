@@ -11,11 +11,11 @@
 #include "vehicle/physics_engine_factory.h"
 
 namespace navvy::device {
-/// An OpenCL device.
+/// An OpenCL device (device/device.h).
 class Device;
 }  // namespace navvy::device
 namespace navvy::session {
-/// A world with its operators.
+/// A world with the operators of its machines (session/session.h).
 class Session;
 }  // namespace navvy::session
 

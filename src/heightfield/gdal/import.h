@@ -41,7 +41,7 @@ struct TerrainReport {
   /// Number of file cells that were read: those under the site, with a margin of two cells around
   /// it.
   std::int64_t source_cells = 0;
-  /// Gaps among those `source_cells`.
+  /// Gaps among the file cells that were read (`source_cells`).
   GapFill nodata;
   /// Number of file cells at least partly on the site, and how many of them had no height.
   std::int64_t site_cells = 0, site_gaps = 0;
@@ -62,7 +62,7 @@ struct TerrainReport {
   /// Number of cells whose value cannot be a ground height although the file does not declare it as
   /// nodata.
   std::int64_t unmarked = 0;
-  /// First such value, as stored in the file.
+  /// First cell value in the file that cannot be a ground height; meaningful if `unmarked` > 0.
   double unmarked_value = 0;
   /// True if GDAL's command line tools can read the file. Messages then suggest them as a remedy.
   bool for_gdal = true;

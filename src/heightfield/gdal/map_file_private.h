@@ -35,7 +35,7 @@ struct MapFile {
   /// Collects GDAL's error messages. Declared before `data`, because closing the dataset may report
   /// errors.
   GdalSession session;
-  /// The open file.
+  /// The open file as a GDAL dataset; null after read_windows moved it out.
   std::unique_ptr<GDALDataset> data;
   /// First band of the file, which contains the heights.
   GDALRasterBand* band = nullptr;
@@ -80,11 +80,11 @@ std::string number_text(double value, const char* format = "%.10g");
 HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size);
 /// Returns the number of cells that read_heights would read with the same arguments.
 std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size);
-/// Returns the same heights as read_heights, with filled gaps, for a map of any size. The file is
-/// read completely once, and after that in windows of `side` x `side` cells on demand. Moves the
-/// open file out of `map`.
-/// @throws InputError as read_heights, for an image file, which would have to be decoded from its
-/// beginning for every window, and for more gaps than fit in memory.
+/// Returns the heights of the same cells as read_heights, for a map of any size and with its gaps
+/// filled. The file is read completely once, and after that in windows of `side` x `side` cells on
+/// demand. Moves the open file out of `map`.
+/// @throws InputError as read_heights. Also for a large image file, whose windows would each need
+/// decoding from its beginning, and for more gaps than fit in memory.
 std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner,
                                                    const Vec2& size,
                                                    int side = WindowedRaster::kSide);
