@@ -8,9 +8,9 @@ namespace navvy::cli {
 enum ExitCode {
   /// The command succeeded.
   kOk = 0,
-  /// An error in Navvy itself.
+  /// The program failed because of an error in Navvy itself.
   kInternal = 1,
-  /// Invalid command line, scene, terrain or snapshot.
+  /// The command line, a scene, a terrain file or a snapshot is invalid.
   kBadInput = 2,
   /// There is no OpenCL device, or the device failed.
   kDevice = 3,

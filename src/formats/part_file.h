@@ -29,7 +29,7 @@ class PartFile {
  private:
   /// Throws a FileError for the path, with the cause in errno.
   [[noreturn]] void fail();
-  /// Final path, and path of the temporary file.
+  /// Path of the final file (`path_`) and of the temporary file (`part_`).
   std::string path_, part_;
   /// The open temporary file; null after `commit`.
   std::FILE* file_;

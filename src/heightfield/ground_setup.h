@@ -54,7 +54,7 @@ struct GroundSetup {
   /// Fraction of the file's cells on the site whose unknown heights were filled in from known
   /// neighbours, 0 to 1.
   double filled_share = 0;
-  /// Largest distance from such a filled cell to a cell with a known height [m].
+  /// Largest distance from a filled cell to the nearest cell with a known height [m].
   double filled_from = 0;
 };
 

@@ -40,7 +40,7 @@ class LooseSoil {
  public:
   /// The loose soil that rests on one column.
   struct Column {
-    /// Indices of the column.
+    /// Indices of the terrain column along x and y.
     int ix, iy;
     /// World z of the surface of the loose soil [m].
     double top;

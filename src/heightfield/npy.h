@@ -14,11 +14,11 @@ enum class NpyType { kFloat32, kFloat64, kInt16, kInt32, kUint16, kUint8 };
 
 /// A two-dimensional array as stored in an NPY file.
 struct NpyGrid {
-  /// Type of the elements.
+  /// Type of the elements of the array.
   NpyType type = NpyType::kFloat32;
   /// Number of rows and of columns of the array.
   int rows = 0, columns = 0;
-  /// Undecoded elements, row by row, rows * columns in total.
+  /// The rows * columns elements as stored in the file, row by row, not decoded.
   std::vector<char> bytes;
 };
 

@@ -32,9 +32,9 @@ class ProceduralSurface {
  private:
   /// Height of the ground without shapes, as world z [m].
   double base_;
-  /// Slope of stockpiles without an angle [rad].
+  /// Slope of stockpiles for which the scene gives no angle [rad].
   double friction_angle_;
-  /// Shapes, added in this order.
+  /// Shapes of the ground, whose heights are added up in this order.
   std::vector<scene::GroundFeature> features_;
 };
 

@@ -17,7 +17,7 @@ struct HeightRaster {
   int nx = 0, ny = 0;
   /// Edge lengths of a cell along x and along y [m].
   double cell_x = 1, cell_y = 1;
-  /// Position of the centre of cell (0, 0) [m].
+  /// Coordinates of the centre of cell (0, 0) [m].
   double x0 = 0, y0 = 0;
   /// Height of each cell [m], x fastest, nx * ny values; NaN in gaps.
   std::vector<float> z;
@@ -36,9 +36,9 @@ struct HeightRaster {
 
 /// Result of filling the gaps of a height map.
 struct GapFill {
-  /// Number of cells without a known height.
+  /// Number of cells whose heights were unknown.
   std::int64_t gaps = 0;
-  /// Largest distance from such a cell to one with a known height, in cells.
+  /// Largest distance from a gap to the nearest cell with a known height, in cells.
   int farthest = 0;
 };
 /// Fills the gaps of `raster`, ring by ring from their edges inwards. Each cell gets the mean of

@@ -85,7 +85,7 @@ class StartSite {
   UnitThickness unit_;
   /// Layers outside all patches.
   Stack stack_;
-  /// Patches in the order of the setup.
+  /// Patches in the order of the scene. Later ones take precedence over earlier ones.
   std::vector<Patch> patches_;
 };
 
@@ -160,7 +160,7 @@ class StartHeights {
 
   /// Site whose heights are cached.
   std::shared_ptr<const StartSite> site_;
-  /// Number of groups along x.
+  /// Number of groups of tiles along x.
   int groups_x_;
   /// Groups of tiles, x fastest; null where no tile of a group is cached. Const functions fill them
   /// in, so entries are atomic, and do not change once they are set.

@@ -39,7 +39,7 @@ struct SurfaceTile {
 /// while the original is being written.
 class SurfaceTable {
  public:
-  /// Makes the table of an untouched site.
+  /// Makes an empty table, in which all of `site` is untouched.
   explicit SurfaceTable(const StartSite& site);
 
   /// Returns tile (tx, ty); null if none of its columns ever changed.
@@ -96,7 +96,7 @@ class SurfaceTable {
   int tiles_x_, tiles_y_, squares_x_;
   /// Squares of the site, in rows along x; null where all tiles of a square are untouched.
   std::vector<std::shared_ptr<Square>> squares_;
-  /// Tiles written since the last call of `freeze`.
+  /// Tiles written since the last call of `freeze`, which only this table uses.
   mutable std::vector<Place> written_;
 };
 

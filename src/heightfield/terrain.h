@@ -108,7 +108,7 @@ class Terrain {
   std::uint64_t sequence() const { return sequence_; }
 
  protected:
-  /// Makes an untouched site with the initial heights `start`.
+  /// Makes a terrain that shows the untouched site with the initial heights `start`.
   explicit Terrain(std::shared_ptr<const StartHeights> start);
   /// Copies the surface. Copying and moving are protected, because only derived classes are
   /// complete objects.

@@ -80,11 +80,12 @@ class Tiles {
   /// Makes all columns as on the untouched site again.
   void clear();
 
-  /// Untouched site that the layers differ from.
+  /// The untouched site.
   std::shared_ptr<const StartSite> site_;
   /// Number of tiles and number of groups along x.
   int tiles_x_, groups_x_;
-  /// Owns the tiles. Their order is that of snapshots and hashes.
+  /// Tiles with changed columns, by their key ty * tiles_x_ + tx. Snapshots and hashes contain them
+  /// in the order of the keys.
   std::map<std::int64_t, std::unique_ptr<Tile>> touched_;
   /// Groups of tiles, x fastest; null where a group has no tile. Serve to find a tile without a
   /// search.

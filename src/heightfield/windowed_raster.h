@@ -63,7 +63,7 @@ class WindowedRaster {
   double mean(double x, double y, double edge) const;
 
  private:
-  /// A block of cells in memory.
+  /// A rectangular block of cells that is in memory.
   struct Window;
   /// Windows in memory, with the lock that guards them.
   struct Cache;
@@ -78,7 +78,7 @@ class WindowedRaster {
 
   /// Size, cell edges and position of the map; without heights.
   HeightRaster frame_;
-  /// Reads heights from the file.
+  /// Function that reads heights from the file.
   Source source_;
   /// Number of cells along each side of a window, and number of windows along x.
   int side_, across_;

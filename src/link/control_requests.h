@@ -73,13 +73,13 @@ class ControlRequests {
   /// Updates the map to the current terrain and returns the latest update.
   map::UpdateFeed::Update now();
 
-  /// Simulation that is controlled.
+  /// Simulation that answers the requests.
   run::Simulation& simulation_;
   /// Number of control steps per simulated second.
   double rate_;
-  /// Requests that are allowed.
+  /// Requests that the controller may make.
   ControlServices services_;
-  /// Numbered maps with all layers.
+  /// Numbered maps for the requests "heights" and "changed", with all layers.
   map::UpdateFeed feed_;
   /// True if the last answered request replaced the state of the simulation.
   bool moved_ = false;

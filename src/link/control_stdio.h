@@ -70,17 +70,17 @@ class ControlStdio {
 
   /// Function that ends waiting for the controller by returning true.
   std::function<bool()> stop_;
-  /// Input bytes after the last line that was read.
+  /// Bytes that were received but are not yet part of a line that was read.
   std::string unread_;
   /// Number of bytes at the start of `unread_` that are known to contain no line end.
   std::size_t scanned_ = 0;
   /// True while the rest of a line that is too long is skipped.
   bool skipping_ = false;
-  /// True after the end of the input was read.
+  /// True after standard input has ended.
   bool ended_ = false;
   /// Message that explains how the controller disconnected; empty if it did not.
   std::string gone_;
-  /// Simulation that is controlled.
+  /// Simulation that the controller drives.
   run::Simulation& simulation_;
   /// Number of control steps per simulated second.
   double rate_;

@@ -28,7 +28,7 @@ struct MapOptions {
 /// as one read from a file.
 class SiteColumns {
  public:
-  /// Takes the state of the columns from `view`.
+  /// Describes the columns as they are in `view`, for maps with the given options.
   SiteColumns(heightfield::TerrainView view, std::shared_ptr<const MapOptions> options);
   /// Allows deletion through a base class pointer.
   virtual ~SiteColumns() = default;
@@ -37,8 +37,8 @@ class SiteColumns {
   const heightfield::TerrainView& view() const { return view_; }
   /// Returns the options of the map.
   const MapOptions& options() const { return *options_; }
-  /// Returns true if the data that layers with these needs are computed from are known. If not,
-  /// these layers are unknown in every column.
+  /// Returns true if this object provides the data `needs`. Layers that need other data are unknown
+  /// in every column.
   virtual bool knows(LayerNeeds needs) const;
 
   /// Returns the height of the surface in site column (ix, iy), as world z [m]. The indices are not
@@ -88,7 +88,7 @@ class ColumnBlock {
  private:
   /// State of the site.
   const SiteColumns& site_;
-  /// Columns of the block.
+  /// Rectangle of columns for which a layer is computed.
   const heightfield::CellRect& rect_;
   /// Heights of the rectangle as world z [m], x fastest; empty until one is requested.
   mutable std::vector<float> z_;

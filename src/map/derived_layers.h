@@ -15,12 +15,14 @@ namespace navvy::map {
 /// Limits of the ground that a machine can drive on. Ground that reaches a limit has traversability
 /// 0.
 struct TraversabilityLimits {
-  /// Slope at which the ground stops being drivable [rad] (U).
+  /// Slope at which the ground stops being drivable [rad]. The default is typical but unverified
+  /// (U).
   double slope = radians(30);
-  /// Step height at which the ground stops being drivable [m] (U): about a third of the diameter of
-  /// an excavator's wheel.
+  /// Step height at which the ground stops being drivable [m]. The default, about a third of the
+  /// diameter of an excavator's wheel, is typical but unverified (U).
   double step_height = 0.30;
-  /// Rms roughness at which the ground stops being drivable [m] (U).
+  /// Rms roughness at which the ground stops being drivable [m]. The default is typical but
+  /// unverified (U).
   double roughness = 0.10;
   /// Half the side of the square window in which step height and roughness are computed [m]. The
   /// window extends at least one column to each side.

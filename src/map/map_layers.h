@@ -61,34 +61,35 @@ inline constexpr std::size_t kMapLayers = static_cast<std::size_t>(MapLayer::kSp
 
 /// Meaning of a layer's values, which determines how pictures and exported files show them.
 enum class LayerType : std::uint8_t {
-  /// Height as world z. Exported files contain it in the vertical datum of the site's terrain file.
+  /// Values are heights as world z. Exported files contain them in the vertical datum of the site's
+  /// terrain file.
   kHeight,
-  /// Difference of two heights, positive or negative.
+  /// Values are differences of two heights, positive or negative.
   kDifference,
-  /// Physical quantity without a natural range.
+  /// Values are a physical quantity without a natural range.
   kQuantity,
-  /// Rating from 0 (bad) to 1 (good).
+  /// Values are ratings from 0 (bad) to 1 (good).
   kShare,
-  /// Index into a list. Interpolated values have no meaning.
+  /// Values are indices into a list. Interpolating them gives no meaningful result.
   kIndex,
-  /// 0 (false) or 1 (true).
+  /// Values are 0 (false) or 1 (true).
   kFlag,
-  /// Simulated time [s].
+  /// Values are simulated times [s].
   kTime
 };
 
 /// Data that a layer is computed from. The layer is unknown everywhere if a source of maps does not
 /// have them.
 enum class LayerNeeds : std::uint8_t {
-  /// Current and initial heights.
+  /// The layer is computed from current and initial heights.
   kHeights,
-  /// Depth of loose soil on the columns.
+  /// The layer is computed from the depth of loose soil on the columns.
   kLooseSoil,
-  /// Type and density of the uppermost soil.
+  /// The layer is computed from type and density of the uppermost soil.
   kSoilState,
-  /// Design surface of the scene.
+  /// The layer is computed from a design surface.
   kDesign,
-  /// Views of the same site at earlier times.
+  /// The layer is computed from terrain views at several times.
   kHistory
 };
 

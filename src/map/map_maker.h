@@ -15,16 +15,17 @@ namespace navvy::map {
 
 /// Makes maps of one site, each from the latest terrain view.
 ///
-/// An update recomputes only the columns that changed, and derived layers in the window around
-/// these. The result is bit-identical to a full computation. Columns that are as in the first view
-/// are computed when they are read. The first update therefore takes almost no time, and memory is
-/// needed only for the parts of the site that changed or were read column by column.
+/// An update recomputes only the columns that changed, and derived layers in the window around each
+/// of them. The result is bit-identical to a full computation. Columns that never changed are
+/// computed from the first view when they are read. The first update therefore takes almost no
+/// time, and memory is needed only for the parts of the site that changed or were read column by
+/// column.
 ///
 /// Maps returned earlier never change. One thread makes updates; any number of threads may read the
 /// maps.
 class MapMaker {
  public:
-  /// Prepares for maps with these options.
+  /// Stores the options of the maps. The first call of `update` makes the first map.
   explicit MapMaker(MapOptions options);
 
   /// Updates the map to the terrain of `view`. Returns at most 64 rectangles that cover all columns
@@ -42,7 +43,7 @@ class MapMaker {
  private:
   /// Returns true if the current map has the size and position of the site in `view`.
   bool is_of(const heightfield::TerrainView& view) const;
-  /// Makes the map of the first view.
+  /// Makes the map of the first view of a site.
   void start(const heightfield::TerrainView& view);
   /// Updates the layers that are computed from single columns, for all columns in `rect`.
   void update_columns(const SiteColumns& site, const heightfield::CellRect& rect);
@@ -58,7 +59,7 @@ class MapMaker {
   std::shared_ptr<const MapOptions> options_;
   /// Finds the columns that changed since the last view.
   heightfield::ChangeFollower follower_;
-  /// Result of the last update.
+  /// Rectangles returned by the last update.
   std::vector<heightfield::CellRect> changed_;
   /// Current map; empty before the first update.
   std::optional<TerrainMap> map_;

@@ -31,7 +31,7 @@ struct MapUpdate {
   /// True if `rects` may contain many unchanged columns: their area is more than twice `changed`,
   /// or several updates were combined.
   bool merged = false;
-  /// The later of the two maps, to which this update leads.
+  /// The map after the update.
   TerrainMap map;
 };
 
@@ -83,13 +83,13 @@ class UpdateFeed {
   /// Ends the feed: waiting readers return, subscribers are dropped, and nothing is published any
   /// more.
   void close();
-  /// Returns true after `close`.
+  /// Returns true if `close` was called.
   bool closed() const;
 
  private:
   /// Rectangles of a past update.
   struct PastUpdate {
-    /// Sequence number of the update.
+    /// Sequence number of the past update.
     std::uint64_t sequence;
     /// Columns that the update changed.
     std::vector<heightfield::CellRect> rects;

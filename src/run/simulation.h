@@ -47,7 +47,7 @@ struct LoopHooks {
   std::function<std::string()> interrupted;
   /// Called before each step, for example to set inputs. Ends the run by returning false.
   std::function<bool()> before_step;
-  /// Called after each step.
+  /// Called after each step with the progress of the run.
   std::function<void(const RunProgress&)> progress;
 };
 

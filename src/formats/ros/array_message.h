@@ -31,7 +31,7 @@ struct ArrayMessage {
   std::vector<int> shape;
   /// Simulated time of the sample [s].
   double time = 0;
-  /// Pose of the array's frame F in the world frame W at that time.
+  /// Pose of the array's frame F in the world frame W, at the time of the sample.
   Pose X_WF = Pose::Identity();
   /// Elements in row-major order and in the byte order of this machine. Must remain valid during
   /// `write_array` only.

@@ -19,9 +19,9 @@ namespace navvy::heightfield {
 /// Properties of a terrain file, and of the site made from it. File coordinates have the file's own
 /// units; everything else is in metres and radians.
 struct TerrainReport {
-  /// Path of the file, and the name of its format in GDAL.
+  /// Path of the file (`file`), and the name of its format in GDAL (`format`).
   std::string file, format;
-  /// Size of the whole file in cells.
+  /// Number of cells per row (`columns`) and number of rows (`rows`) of the whole file.
   int columns = 0, rows = 0;
   /// Edge lengths of a cell along x and y [m].
   double cell_x = 0, cell_y = 0;
@@ -30,7 +30,8 @@ struct TerrainReport {
   bool point_registered = false;
   /// Name of the coordinate reference system (CRS); empty if the file has none.
   std::string crs;
-  /// Names of the units of coordinates and heights, as in the file.
+  /// Names of the units of the coordinates (`unit`) and of the heights (`height_unit`), as in the
+  /// file.
   std::string unit, height_unit;
   /// Metres per unit of the coordinates (`metres`) and of the heights (`height_metres`).
   double metres = 1, height_metres = 1;
