@@ -23,7 +23,7 @@ struct CellRect {
   }
   /// Returns the number of columns in the rectangle; 0 if it is empty.
   std::int64_t area() const { return empty() ? 0 : static_cast<std::int64_t>(x1 - x0) * (y1 - y0); }
-  /// Returns the intersection of this rectangle with `other`, which may be empty.
+  /// Returns the intersection of this rectangle with `other`. The result may be empty.
   CellRect cut(const CellRect& other) const;
   /// Grows this rectangle to the smallest one that contains both it and `other`. An empty `other`
   /// changes nothing.
@@ -43,8 +43,8 @@ class RectList {
   static constexpr std::size_t kMost = 64;
   /// Adds the columns of `rect` to the set. An empty rectangle has no effect.
   void add(const CellRect& rect);
-  /// Returns the rectangles that cover the set. They may overlap. Equal sequences of `add` give
-  /// equal lists.
+  /// Returns the rectangles that cover the set. They may overlap. The result depends only on the
+  /// sequence of calls of `add`.
   std::vector<CellRect> rects() const;
 
  private:
@@ -53,7 +53,8 @@ class RectList {
   struct Entry {
     /// Columns that this entry covers.
     CellRect rect;
-    /// Index of the entry whose union with this one adds the fewest columns.
+    /// Index of this entry's best merge partner, which is the entry whose union with this one adds
+    /// the fewest columns.
     std::size_t partner = 0;
     /// Number of columns that the union with `partner` covers and neither of the two entries does.
     std::int64_t added = 0;

@@ -47,7 +47,7 @@ class ChangeLog {
   };
 
  private:
-  /// Entries in ascending order of `last`.
+  /// Entries of the log, in ascending order of Edit::last.
   std::vector<Edit> edits_;
   /// Number of edits so far.
   std::uint64_t sequence_ = 0;

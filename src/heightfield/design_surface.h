@@ -70,7 +70,8 @@ struct DesignComparison {
   /// Absolute value of ground height minus design height, averaged over all columns with a design
   /// height [m].
   double mean_size = 0;
-  /// Ground height minus design height in the column where its absolute value is largest [m].
+  /// Ground height minus design height in the column where the two differ most [m]; positive if the
+  /// ground is higher.
   double largest_error = 0;
 };
 /// Compares the current heights of `ground` with `design`. All results are 0 if no column has a

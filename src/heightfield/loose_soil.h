@@ -22,7 +22,7 @@ struct LooseGrain {
   double z = 0;
   /// Volume of the particle including pores [m3].
   double volume = 0;
-  /// Index of the particle's soil in the soils of the site.
+  /// Index of the particle's soil in the site's list of soils.
   std::uint16_t soil = 0;
   /// Volume of the particle divided by its bank volume [-].
   float specific_volume = 1;
@@ -46,7 +46,7 @@ class LooseSoil {
     double top;
     /// Depth of the loose soil above the resting soil of the column [m]; greater than 0.
     double depth;
-    /// Index of the soil of the uppermost resting particle.
+    /// Soil of the uppermost resting particle, as an index into the site's list of soils.
     std::uint16_t soil;
     /// Volume divided by bank volume of the uppermost resting particle [-].
     float specific_volume;

@@ -10,7 +10,7 @@ namespace navvy::heightfield {
 /// One soil layer of a terrain column. Its thickness is mass * specific_volume / (bank_density *
 /// cell^2).
 struct SoilLayer {
-  /// Index of the layer's soil in the soils of the scene.
+  /// Index of the layer's soil in the scene's list of soils.
   std::uint16_t soil = 0;
   /// Mass of the layer [kMassQuantum].
   std::int64_t mass = 0;

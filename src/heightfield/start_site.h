@@ -58,7 +58,7 @@ class StartSite {
  private:
   /// One soil layer of a Stack.
   struct StackLayer {
-    /// Index of the layer's soil.
+    /// Index of the layer's soil in the setup's list of soils.
     std::uint16_t soil;
     /// Thickness of the layer [m].
     double thickness;

@@ -84,8 +84,8 @@ class WindowedRaster {
   int side_, across_;
   /// Cells without a known height in the file, given by iy * nx + ix, in ascending order.
   std::vector<std::int64_t> gaps_;
-  /// Index in `gaps_` of the first gap of each row of cells, and the number of gaps as last entry;
-  /// empty if there are no gaps.
+  /// First gap of each row of cells, as an index into `gaps_`; one more entry contains the number
+  /// of gaps. Empty if there are no gaps.
   std::vector<std::int64_t> row_begin_;
   /// Height that was filled in for each entry of `gaps_` [m].
   std::vector<float> filled_;

@@ -75,7 +75,7 @@ class SiteColumns {
 /// thread may use a block.
 class ColumnBlock {
  public:
-  /// Refers to `site` and `rect`, both of which must outlive the block.
+  /// Represents the columns of `site` in `rect`. Both arguments must outlive the block.
   ColumnBlock(const SiteColumns& site, const heightfield::CellRect& rect)
       : site_(site), rect_(rect) {}
 

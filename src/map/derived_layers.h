@@ -77,7 +77,7 @@ float traversability(float slope, float step_height, float roughness,
 /// need are computed only once.
 class Surround {
  public:
-  /// Refers to column (ix, iy) of `patch`. The patch and the limits must outlive this object;
+  /// Represents column (ix, iy) of `patch`. The patch and the limits must outlive this object;
   /// `reach` must be limits.reach(patch.cell).
   Surround(const ElevationPatch& patch, int ix, int iy, const TraversabilityLimits& limits,
            int reach)

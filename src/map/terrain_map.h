@@ -89,12 +89,12 @@ class LayerTiles {
   bool set(int ix, int iy, float value, std::uint64_t edition);
 
  private:
-  /// A tile that stores values written by the map's owner.
+  /// A tile that was written with `set`.
   struct WrittenTile {
     /// Values of the tile, x fastest.
     Values values;
-    /// Edition in which the tile was last copied or created. It may be written in place only in
-    /// this edition.
+    /// Edition in which the tile was created or copied. Writes in this edition change the tile in
+    /// place; writes in another edition copy it first.
     std::uint64_t edition = 0;
   };
   /// The source of a layer, with the tiles that it computed because a reader requested one of their
@@ -185,7 +185,8 @@ class TerrainMap {
   /// Returns a copy of this map whose `layer` is computed by `source`. If `source` is null, the
   /// layer is unknown everywhere.
   TerrainMap with(MapLayer layer, std::shared_ptr<const LayerSource> source) const;
-  /// Returns this map with another sequence number, by moving it.
+  /// Returns this map with the given sequence number. Moves the layers, because copying them takes
+  /// time on a large site.
   TerrainMap numbered(std::uint64_t sequence) &&;
 
  private:

@@ -23,7 +23,7 @@ struct MapUpdate {
   std::uint64_t sequence = 0;
   /// Simulated time of `map` [s].
   double time = 0;
-  /// At most 64 rectangles that cover all columns with a changed value. They may overlap.
+  /// Rectangles, at most 64, that cover all columns with a changed value. They may overlap.
   std::vector<heightfield::CellRect> rects;
   /// Number of columns with a changed value. If several updates were combined, this is an upper
   /// bound: the total area of `rects`, at most that of the site.
