@@ -21,8 +21,5 @@ using PatchSink = std::function<bool(const char* bytes, std::size_t count)>;
 /// float32 values row by row, beginning with the row of smallest y.
 bool send_patch(const map::MapUpdate& update, const std::vector<map::MapLayer>& layers,
                 const PatchSink& sink);
-/// Returns the bytes that send_patch passes to its sink, all at once.
-std::vector<char> patch_bytes(const map::MapUpdate& update,
-                              const std::vector<map::MapLayer>& layers);
 
 }  // namespace navvy::formats

@@ -9,7 +9,7 @@ namespace navvy::formats {
 
 /// Colour channels of a pixel, in their order in the file. The numeric value of an enumerator is
 /// the number of channels.
-enum class PixelKind { kGray = 1, kGrayAlpha = 2, kRgb = 3, kRgba = 4 };
+enum class PixelKind { kGrayAlpha = 2, kRgba = 4 };
 
 /// Returns a PNG file with 8 bits per channel. `pixels` contains the rows without padding, top row
 /// first. @throws Error if the number of bytes does not match the size of the image.

@@ -69,12 +69,6 @@ class LayerTiles {
     const float* tile = values(tile_of(ix, iy));
     return tile != nullptr ? tile + place(ix, iy) : nullptr;
   }
-  /// A tile in memory as a matrix, with rows along y and columns along x.
-  using View = Eigen::Map<const Eigen::Array<float, kSide, kSide, Eigen::RowMajor>>;
-  /// Returns a view of tile (tx, ty), which contains the site columns from (64 tx, 64 ty), without
-  /// copying it. The view is valid as long as a map that contains the tile. Values beyond the edge
-  /// of the site are kUnknown.
-  View view(int tx, int ty) const;
   /// Copies the values of the columns in `rect`, which must lie within the site, to `out`: x
   /// fastest, with `stride` values from the start of one row to the start of the next.
   void copy(const heightfield::CellRect& rect, float* out, std::size_t stride) const;
@@ -182,9 +176,6 @@ class TerrainMap {
   /// Returns a copy of this map whose `layer` has the given values, one for each of the nx x ny
   /// columns, x fastest. @throws Error if the number of values is wrong.
   TerrainMap with(MapLayer layer, std::span<const float> values) const;
-  /// Returns a copy of this map whose `layer` is computed by `source`. If `source` is null, the
-  /// layer is unknown everywhere.
-  TerrainMap with(MapLayer layer, std::shared_ptr<const LayerSource> source) const;
   /// Returns this map with the given sequence number. Moves the layers, because copying them takes
   /// time on a large site.
   TerrainMap numbered(std::uint64_t sequence) &&;
