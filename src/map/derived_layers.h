@@ -85,11 +85,14 @@ class Surround {
 
   /// Returns the limits of the map.
   const TraversabilityLimits& limits() const { return limits_; }
-  /// Returns the angle of the surface from the horizontal [rad], as slope_at.
+  /// Returns the angle of the surface from the horizontal at the column [rad]; NaN if it is
+  /// unknown.
   float slope();
-  /// Returns the largest step within the window [m], as step_height_at.
+  /// Returns the largest height difference between neighbouring columns within the window around
+  /// the column [m]; NaN if the column's elevation is unknown.
   float step_height();
-  /// Returns the rms roughness within the window [m], as roughness_at.
+  /// Returns the rms distance of the surface from its least-squares plane within the window around
+  /// the column [m]; NaN if it is unknown.
   float roughness();
   /// Returns one component of the unit upward normal, in world axes: x, y or z for axis 0, 1 or 2.
   float normal(int axis) const;

@@ -103,14 +103,16 @@ class LayerTiles {
   static std::size_t place(int ix, int iy) {
     return static_cast<std::size_t>(iy % kSide * kSide + ix % kSide);
   }
-  /// Returns the values of a tile, and computes them if necessary; null if they are unknown.
+  /// Returns the values of a tile, x fastest, and computes them if necessary; null if they are
+  /// unknown.
   const float* values(std::size_t tile) const {
     if (const WrittenTile* written = tiles_[tile].get()) return written->values.data();
     return asked_ ? ask(tile) : nullptr;
   }
-  /// Returns a tile computed by the source, and stores it.
+  /// Returns the values of a tile that no one wrote to, x fastest. Computes them by the source and
+  /// stores them if no reader requested the tile before.
   const float* ask(std::size_t tile) const;
-  /// Returns the values of a tile that is in memory; null for other tiles.
+  /// Returns the values of a tile, x fastest, if they are in memory; null if they are not.
   const float* present(std::size_t tile) const;
   /// Computes the values of a tile by the source and writes them to `to`.
   void compute(std::size_t tile, Values& to) const;
