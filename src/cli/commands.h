@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands of `navvy`: each function adds options to the parser. The chosen command stores
-// its work in `action`.
+// The subcommands of `navvy`. Each function adds a subcommand with its options to the command line
+// parser. Parsing stores the work of the chosen subcommand in `action`.
 #pragma once
 
 #include <functional>
@@ -8,36 +8,37 @@
 #include <vector>
 
 namespace CLI {
-// CLI11 takes seconds to compile, so only sources include it.
+/// The command line parser of CLI11. It takes seconds to compile, so headers only declare it.
 class App;
 }  // namespace CLI
 
 namespace navvy::cli {
 
-/// Runs the chosen subcommand; returns the exit status.
+/// Function that runs the chosen subcommand and returns the exit status of the process.
 using Action = std::function<int()>;
 
-/// Adds `navvy run`. `command_line` is recorded in the folder of the run, the program first.
+/// Adds `navvy run`, which runs a scene. `command_line` contains the program and its arguments; it
+/// is recorded in the output folder.
 void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line);
-/// Adds `navvy map`, which writes layers of a site to a file.
+/// Adds `navvy map`, which writes map layers of a site to a file.
 void add_map(CLI::App& app, Action& action);
-/// Adds `navvy check`, which reports faults of files.
+/// Adds `navvy check`, which reports errors in input files.
 void add_check(CLI::App& app, Action& action);
-/// Adds `navvy devices`, which lists OpenCL devices.
+/// Adds `navvy devices`, which lists the OpenCL devices.
 void add_devices(CLI::App& app, Action& action);
-/// Adds `navvy soils`, which lists shipped soils or the values of one.
+/// Adds `navvy soils`, which lists the shipped soils, or the values of one soil.
 void add_soils(CLI::App& app, Action& action);
-/// Adds `navvy machines`, which lists shipped machines or the parts of one.
+/// Adds `navvy machines`, which lists the shipped machines, or the parts of one machine.
 void add_machines(CLI::App& app, Action& action);
-/// Adds `navvy scenes`, which lists shipped scenes.
+/// Adds `navvy scenes`, which lists the shipped scenes.
 void add_scenes(CLI::App& app, Action& action);
-/// Adds `navvy channels`, which lists inputs, outputs and arrays of a scene.
+/// Adds `navvy channels`, which lists the inputs, outputs and arrays of a scene.
 void add_channels(CLI::App& app, Action& action);
-/// Adds `navvy schema`, which prints the elements of scene files.
+/// Adds `navvy schema`, which prints the elements that scene files may contain.
 void add_schema(CLI::App& app, Action& action);
-/// Adds `navvy lab`, the virtual soil laboratory.
+/// Adds `navvy lab`, which runs an experiment of the virtual soil laboratory.
 void add_lab(CLI::App& app, Action& action);
-/// Adds `navvy bench`, which measures the speed of the soil.
+/// Adds `navvy bench`, which measures the speed of the soil simulation.
 void add_bench(CLI::App& app, Action& action);
 
 }  // namespace navvy::cli

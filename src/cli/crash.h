@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports which library caused a crash.
+// Reports crashes, and the library that caused them.
 #pragma once
 
 namespace navvy::cli {
 
-/// Installs handlers that report crashes (SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT) with the
-/// library that caused them, and write the summary of the run as "failed". A crash inside the
-/// OpenCL driver ends the process with the exit status of a failing device; others end it as the
-/// system does, with a core file where enabled. A library that ends the process by itself is
-/// reported, too: compilers within drivers do so on a full disk.
+/// Installs handlers that report a crash (SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT) with the
+/// library that caused it, and write a run summary with the status "failed".
+///
+/// After a crash inside the OpenCL driver, the process ends with the exit status kDevice. After
+/// other crashes it ends as usual for the signal, with a core file where enabled. The handlers also
+/// report a library that ends the process by calling exit, as compilers inside drivers do on a full
+/// disk.
 void install_crash_report();
-/// Allows the process to end: main returns.
+/// Announces that main is about to return. Any exit before this call is reported as caused by a
+/// library.
 void expect_exit();
 
 }  // namespace navvy::cli

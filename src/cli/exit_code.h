@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exit status of the program; `navvy --help` and the README document it.
+// Exit status of the `navvy` program, also documented in `navvy --help` and the README.
 #pragma once
 
 namespace navvy::cli {
 
-/// Exit status of `navvy`. Scripts rely on the numbers, so they never change.
+/// Exit status of `navvy`. Scripts rely on the numbers, so they must never change.
 enum ExitCode {
+  /// The command succeeded.
   kOk = 0,
-  kInternal = 1,    ///< error of Navvy itself
-  kBadInput = 2,    ///< command line, scene, terrain or snapshot
-  kDevice = 3,      ///< no OpenCL device, or it failed
-  kFile = 4,        ///< a result could not be written (disk full, permission)
-  kSimulation = 5,  ///< the simulation failed; failed.snapshot was written
-  /// The run ended before a program of it did; all results are written.
+  /// The program failed because of an error in Navvy itself.
+  kInternal = 1,
+  /// The command line, a scene, a terrain file or a snapshot is invalid.
+  kBadInput = 2,
+  /// There is no OpenCL device, or the device failed.
+  kDevice = 3,
+  /// A result could not be written, for example because the disk is full.
+  kFile = 4,
+  /// The simulation failed, and failed.snapshot was written.
+  kSimulation = 5,
+  /// The run ended before one of its programs was completed. All results were written.
   kIncomplete = 6,
-  /// An experiment gave a result outside its acceptance range.
+  /// A result of a laboratory experiment is outside its acceptance range.
   kOutOfTolerance = 7,
-  /// Ctrl-C, SIGTERM, SIGHUP, or a controller that went away; results up to then are complete.
+  /// A signal (Ctrl-C, SIGTERM, SIGHUP) or the loss of the controller ended the run. Results up to
+  /// then are complete.
   kInterrupted = 130
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output of `navvy lab`: a table for people, JSON for programs.
+// Output of `navvy lab`: a table for the user, and JSON for programs.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,17 @@
 
 namespace navvy::cli {
 
-/// Returns an experiment as JSON: inputs, results, expectations and series. Keys contain quantity
-/// and unit, as in scene files.
+/// Returns an experiment as JSON: its inputs, results, expected values and time series. Keys
+/// contain quantity and unit, as in scene files.
 nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::Report& report);
 
-/// Prints the results as a table with five digits, marks those outside their acceptance range, and
-/// adds lines about the run.
+/// Prints the results of an experiment to standard output, as a table with five significant digits.
+/// Results outside their acceptance range are marked. Lines with information about the run follow.
 void print_table(const lab::Report& report);
 
-/// Returns a function that shows progress on a terminal; empty when stderr is a file or pipe.
+/// Returns a function that shows progress on stderr in a single line; its argument is the completed
+/// fraction, above 0 and up to 1. Returns an empty function if `quiet` is true or stderr is not a
+/// terminal.
 std::function<void(double)> progress_line(bool quiet);
 
 }  // namespace navvy::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that every command on a scene shares.
+// Command line options shared by all subcommands that use a scene.
 #pragma once
 
 #include <cstdint>
@@ -10,39 +10,42 @@
 #include "scene_io/loader.h"
 
 namespace CLI {
+/// The command line parser of CLI11.
 class App;
-}
+}  // namespace CLI
 
 namespace navvy::cli {
 
-/// A scene and the changes to it, as given on the command line. The parser fills it before the
-/// command runs.
+/// A scene file and changes to it, as given on the command line. The parser fills this struct
+/// before the subcommand runs.
 struct SceneOptions {
-  /// Path, or name of a shipped scene, as typed.
+  /// Path of a scene file, or name of a shipped scene.
   std::string file;
-  /// OpenCL device, as device::Device takes it. Empty: the environment decides.
+  /// OpenCL device as described at device::Device. Empty: the environment variable NAVVY_DEVICE
+  /// selects it.
   std::string device;
-  /// Settings, KEY=VALUE each.
+  /// Changed values of the scene, each as KEY=VALUE.
   std::vector<std::string> set;
-  /// Values of --terrain, --at and --size as text. `overrides` parses them, so that an error names
-  /// its option.
+  /// Values of the options --terrain, --at and --size as text. They are parsed by `overrides`, so
+  /// that error messages can name the option.
   std::string terrain, at, size;
-  /// Seed of the scene; empty: its own.
+  /// Seed that replaces the scene's seed, if given.
   std::optional<std::uint64_t> seed;
-  /// Maximum simulated time [s]; 0: that of the scene.
+  /// Maximum simulated time [s]; 0 for the duration in the scene.
   double duration = 0;
   /// True to draw no pictures.
   bool no_render = false;
 
-  /// Adds the options that change a scene's values (--set, --seed, --terrain, --at, --size). The
-  /// struct must stay alive until the command has run.
+  /// Adds the options that change values of the scene to `command`: --set, --seed, --terrain, --at
+  /// and --size. This struct must stay alive until the command has run.
   void add_values_to(CLI::App& command);
-  /// Adds all options to a subcommand. The struct must stay alive until the command has run.
+  /// Adds all options and the scene argument to `command`. This struct must stay alive until the
+  /// command has run.
   void add_to(CLI::App& command);
-  /// Returns the changes for the loader. @throws InputError for a malformed value.
+  /// Returns the changes to the scene, for the loader. @throws InputError for a malformed value.
   scene_io::Overrides overrides() const;
-  /// Loads the scene with its changes. `resolved` is as in scene_io::load_scene. @throws
-  /// InputError.
+  /// Loads the scene and applies the changes. If `resolved` is not null, it receives the text of
+  /// the resulting scene, as for scene_io::load_scene. @throws InputError.
   scene::Scene load(std::string* resolved = nullptr) const;
 };
 

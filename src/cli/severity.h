@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognises log lines that contain their severity.
+// Recognises log lines that already state their severity.
 #pragma once
 
 #include <string>
 
 namespace navvy::cli {
 
-/// Returns true for a fault as core/error.h formats it, `file:line: warning: ...`, which needs no
-/// further severity.
+/// Returns true if `line` states its severity, as the text of a Fault does: "error: ..." or
+/// "file:line: warning: ...". The severity is then not added again.
 inline bool has_severity(const std::string& line) {
   // Colons of the file part are not followed by a space.
   const std::size_t colon = line.find(": ");

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of single values on the command line with clear messages.
+// Validates single values of command line options, with clear error messages.
 #pragma once
 
 #include <string>
 
 namespace navvy::cli {
 
-/// Checks for a finite number above 0. Returns an empty text or an error message, for
-/// CLI::Option::check. (The check of CLI11 prints its bounds with 300 digits.)
+/// Checks that `text` is a finite number greater than 0. Returns an error message, or an empty text
+/// if it is, as CLI::Option::check requires. (The check of CLI11 itself prints its bounds with 300
+/// digits.)
 std::string above_zero(const std::string& text);
-/// Checks for a finite number of at least 0.
+/// Checks that `text` is a finite number greater than or equal to 0. Returns an error message, or
+/// an empty text if it is.
 std::string not_negative(const std::string& text);
-/// Checks for a whole number from 0 to 2^64 - 1.
+/// Checks that `text` is an integer from 0 to 2^64 - 1. Returns an error message, or an empty text
+/// if it is.
 std::string whole_number(const std::string& text);
 
 }  // namespace navvy::cli

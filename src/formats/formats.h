@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps as files that other programs read. Each format has a file of its own here. All writers write
-// beside the target and rename, so that an error, a full disk or a kill leaves either the old file
-// or folder or the new one.
+// Writes maps as files for other programs. Each format is implemented in a source file of its own.
+// All writers write a new file next to the target and then rename it: after an error, a full disk
+// or a kill, either the old or the complete new file (or folder) exists.
 #pragma once
 
 #include <memory>
@@ -14,50 +14,57 @@
 namespace navvy::formats {
 
 namespace ros {
+/// A ROS bag that is being written (formats/ros/bag.h).
 class Bag;
-}
+}  // namespace ros
 
-/// A format that the program offers: its names, and the functions that write it.
+/// A map file format: its names, and the functions that write it.
 struct MapFormat {
-  /// Name in options and scenes: "geotiff".
+  /// Name in options and scenes, such as "geotiff".
   std::string name;
-  /// Ending of the file: ".tif"; empty for a folder.
+  /// File name extension, such as ".tif"; empty for a format that is a folder.
   std::string extension;
-  /// One line for people.
+  /// One-line description for the user.
   std::string meaning;
-  /// Layers that are written when nobody names any.
+  /// Layers that are written if none are requested.
   std::vector<map::MapLayer> by_default;
-  /// Writes the layers, at least one, in the order given. @throws FileError naming path and cause;
-  /// Error for no layer; InputError where the format cannot hold what is asked.
+  /// Function that writes at least one layer of `map` to `path`, in the order of `layers`. @throws
+  /// FileError naming path and cause; Error if `layers` is empty; InputError if the format cannot
+  /// represent the request.
   void (*write)(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                 const std::string& path) = nullptr;
-  /// Endings of the files that accompany the first: ".pgm" beside ".yaml".
+  /// Extensions of the additional files that the format writes next to the first one, such as
+  /// ".pgm" next to a ".yaml" file.
   std::vector<std::string> others = {};
-  /// Returns the names of the files in a folder called `name`; null for formats of single files.
+  /// Function that returns the names of the files in a folder of this format, given the folder's
+  /// `name`. Null for formats that are not a folder.
   std::vector<std::string> (*within)(const std::string& name) = nullptr;
-  /// True for a format that is empty without a design surface.
+  /// True if the format contains nothing for a scene without a design surface.
   bool needs_design = false;
-  /// Writes a picture with lines over it, three columns wide, in four colours by the numbers of the
-  /// lines; null for formats that cannot. @throws as `write`.
+  /// Function that writes a picture of the map with `lines` drawn over it, three columns wide. Each
+  /// line has one of four colours, selected by its number. Null for formats that cannot do this.
+  /// @throws as `write`.
   void (*write_with_lines)(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                            const std::string& path,
                            const std::vector<map::MapLine>& lines) = nullptr;
-  /// Opens a file or folder that grows while a world runs; null for formats of one instant.
-  /// @throws FileError, InputError.
+  /// Function that opens a file or folder at `path` to which messages are added while a simulation
+  /// runs. Null for formats that contain a single instant. @throws FileError, InputError.
   std::unique_ptr<ros::Bag> (*open_bag)(const std::string& path) = nullptr;
 };
 
-/// Returns every format, in the order in which the program lists them.
+/// Returns all formats, in the order in which the program lists them.
 const std::vector<MapFormat>& all_formats();
-/// Returns the format called `name`. @throws InputError that suggests the nearest name.
+/// Returns the format called `name`. @throws InputError that suggests the most similar name.
 const MapFormat& format_named(const std::string& name);
-/// Writes a map in the format called `format`. @throws as format_named and MapFormat::write.
+/// Writes `layers` of `map` to `path` in the format called `format`. @throws as format_named and
+/// MapFormat::write.
 void write_map(const std::string& format, const map::TerrainMap& map,
                const std::vector<map::MapLayer>& layers, const std::string& path);
-/// Returns the paths of all files that `format` writes for `path`, which has its extension.
+/// Returns the paths of all files that `format` writes if it is given `path`, which must have the
+/// format's extension.
 std::vector<std::string> files_of(const MapFormat& format, const std::string& path);
-/// Checks that `format` could write to `path`, without touching it; the free space of the disk is
-/// not checked. @throws FileError, InputError as MapFormat::write.
+/// Checks that `format` can write to `path`, without changing anything there. Free disk space is
+/// not checked. @throws FileError or InputError as MapFormat::write.
 void require_writable(const MapFormat& format, const std::string& path);
 
 }  // namespace navvy::formats

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updates of a map as bytes for other processes.
+// Encodes map updates as bytes for other processes.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,15 @@
 
 namespace navvy::formats {
 
-/// Takes the next bytes of a stream that is too large to be held; returning false ends it.
+/// Function that receives the next `count` bytes of a stream. It returns false to end the stream.
 using PatchSink = std::function<bool(const char* bytes, std::size_t count)>;
 
-/// Hands an update to `sink` as a patch (src/map/README.md, "Updates"): the magic "NAVVYMAP", the
-/// length of the header (32 bits, little-endian), the header as JSON, and for each rectangle and
-/// each layer its float32 rows, least y first. Pieces have at most 16 MiB or one row. Returns false
-/// when the sink ended the stream.
+/// Passes a map update to `sink` as a patch (src/map/README.md, "Updates"), in pieces of at most 16
+/// MiB or one row. Returns false if the sink ended the stream.
+///
+/// A patch consists of the text "NAVVYMAP", the length of the header (32 bits, little-endian), the
+/// header as JSON, and the values: for each rectangle of the update and each of `layers`, the
+/// float32 values row by row, beginning with the row of smallest y.
 bool send_patch(const map::MapUpdate& update, const std::vector<map::MapLayer>& layers,
                 const PatchSink& sink);
 

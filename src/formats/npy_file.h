@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes NumPy's NPY format 1.0; heightfield/npy.h reads it.
+// Writes NumPy's NPY format, version 1.0. (heightfield/npy.h reads it.)
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,15 @@
 
 namespace navvy::formats {
 
-/// Returns the file of an array[iy, ix] of ny x nx numbers, row 0 first, of type '<f4' or '|i1'.
+/// Returns an NPY file with an array of shape (ny, nx) and element type '<f4'. `values` contains nx
+/// * ny values, row 0 first.
 std::string npy_bytes(std::span<const float> values, int nx, int ny);
+/// Returns an NPY file with an array of shape (ny, nx) and element type '|i1'. `values` contains nx
+/// * ny values, row 0 first.
 std::string npy_bytes(std::span<const std::int8_t> values, int nx, int ny);
 
-/// Returns the header of a '<f4' array of ny x nx numbers, which precedes them in the file.
+/// Returns the header of an NPY file with an array of shape (ny, nx) and element type '<f4'. The
+/// values follow it in the file.
 std::string npy_header(int nx, int ny);
 
 }  // namespace navvy::formats

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations on one column, a stack of soil layers, bottom first. All are pure functions, and
-// masses are exact integers.
+// Operations on one terrain column, which is a stack of soil layers stored from bottom to top. All
+// are pure functions, and masses are exact integers.
 #pragma once
 
 #include <cstdint>
@@ -11,35 +11,37 @@
 
 namespace navvy::heightfield {
 
-/// Thickness [m] of one mass unit at specific volume 1, per soil: kMassQuantum / (bank_density
-/// cell^2).
+/// Thickness of one mass unit (kMassQuantum) in a column at bank density [m], one entry per soil:
+/// kMassQuantum / (bank_density * cell^2).
 using UnitThickness = std::vector<double>;
 
-/// Returns the thickness of one layer [m].
+/// Returns the thickness of one soil layer [m].
 inline double thickness(const SoilLayer& layer, const UnitThickness& unit) {
   return static_cast<double>(layer.mass) * static_cast<double>(layer.specific_volume) *
          unit[layer.soil];
 }
 
-/// Returns the height of the column above its bottom [m], summed from the bottom up. All heights
-/// come from this function, so that equal layers always give equal bits.
+/// Returns the height of the top of a column above bedrock [m], summed over `layers` from bottom to
+/// top. All heights are computed by this function, so that equal layers have bit-identical heights.
 inline double column_height(std::span<const SoilLayer> layers, const UnitThickness& unit) {
   double height = 0;
   for (const SoilLayer& layer : layers) height += thickness(layer, unit);
   return height;
 }
 
-/// Moves everything above `height` [m above the bottom] from `column` to the end of `taken`, bottom
-/// first.
+/// Removes all soil above `height` [m above bedrock] from `column` and appends it to `taken`, from
+/// bottom to top. A layer that crosses `height` is split at a whole mass unit.
 void take_above(Column& column, double height, const UnitThickness& unit,
                 std::vector<SoilLayer>& taken);
 
-/// Adds `layer` on top and merges it with the top layer when both are alike. A column with very
-/// many layers unites neighbours, so that it stays short however often it is worked.
+/// Adds `layer` on top of `column`. It is merged with the top layer if soil, specific volume and
+/// plastic shear are nearly equal. In a column of more than 12 layers, the two most similar
+/// neighbours of the same soil are merged, so that columns stay short.
 void put(Column& column, const SoilLayer& layer);
 
-/// Lowers the column by `drop` [m] by raising the density of its uppermost `zone` [m], and of
-/// deeper soil where that does not suffice. No layer falls below `min_specific_volume`.
+/// Lowers the top of `column` by `drop` [m] by increasing the density of the uppermost `zone` [m]
+/// of soil, and of deeper soil if that is not enough. No layer is compacted below
+/// `min_specific_volume` (volume / bank volume), so the column may end up higher than requested.
 void compact(Column& column, double drop, double zone, float min_specific_volume,
              const UnitThickness& unit);
 

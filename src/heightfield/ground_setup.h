@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The untouched site: its size, its soils and the source of its surface.
+// Description of an untouched site: size, soils, and the source of its initial surface.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,48 @@
 
 namespace navvy::heightfield {
 
-/// Source of the untouched surface: returns the height [m] of the bank surface in W at the centre
-/// of a column (ix, iy) of the site. It must be a pure function that several threads may call at a
-/// time, because tiles are made from it when they are first read.
+/// Function that returns the initial height of the ground, as world z [m], at the centre of site
+/// column (ix, iy). It must be a pure function that several threads may call at the same time,
+/// because tiles are computed on first access.
 using SurfaceSource = std::function<double(int ix, int iy)>;
 
-/// Grid, soils and georeference of a site. Column (0, 0) has least x and least y, x runs fastest,
-/// and the centre of column (ix, iy) lies at origin + ((ix, iy) + 0.5) cell.
+/// Grid, soils and georeference of a site. Column (0, 0) has the smallest x and y, and arrays of
+/// columns are stored with x fastest. The centre of column (ix, iy) lies at world (x, y) = origin +
+/// ((ix, iy) + 0.5) * cell.
 struct GroundSetup {
-  /// Number of columns along x and y.
+  /// Number of columns along x (nx) and along y (ny).
   int nx = 0, ny = 0;
-  /// Edge of a column [m].
+  /// Edge length of a column [m].
   double cell = 0.1;
-  /// Lower-left corner of the site in W [m].
+  /// World (x, y) of the corner of the site with the smallest x and y [m].
   Vec2 origin = Vec2::Zero();
-  /// Height of bedrock in W, where every column starts [m].
+  /// World z of bedrock, which is the bottom of every column [m].
   double datum = 0;
-  /// Soils of the scene; layers refer to them by index.
+  /// Soils of the scene. Soil layers refer to them by index.
   std::vector<scene::Soil> soils;
-  /// Layers from the surface down.
+  /// Initial soil layers of the site, from the surface downwards.
   std::vector<scene::GroundLayer> layers;
-  /// Rectangles with layers of their own.
+  /// Rectangles of the site whose initial layers differ from `layers`. If patches overlap, the last
+  /// one applies.
   std::vector<scene::GroundPatch> patches;
-  /// Height of the untouched surface.
+  /// Function that returns the initial height of each column.
   SurfaceSource surface;
-  /// Hash of the heights that `surface` takes from a map; 0 when it depends on the scene alone.
+  /// Hash of the file heights that `surface` interpolates; 0 if the surface depends on the scene
+  /// only.
   std::uint64_t map_hash = 0;
-  // Georeference for exports: file coordinates of `origin`, and file z = W z + height_offset [m].
-  // The file may count in feet.
+  /// Georeference for exports: file coordinates of `origin` (`easting`, `northing`, in units of
+  /// `file_unit`), and `height_offset` [m], such that file height = world z + height_offset, in
+  /// metres.
   double easting = 0, northing = 0, height_offset = 0;
-  /// Metres per unit of the coordinates and of the heights in the file.
+  /// Metres per unit of the file's horizontal coordinates (`file_unit`) and heights
+  /// (`file_height_unit`). They differ from 1 for files in feet.
   double file_unit = 1, file_height_unit = 1;
-  /// CRS of the file as WKT; empty where there is none.
+  /// Coordinate reference system of the file as WKT; empty if it has none.
   std::string crs_wkt;
-  /// Share of the map's cells on the site whose heights were filled in from the nearest known ones,
-  /// 0 to 1.
+  /// Fraction of the file's cells on the site whose unknown heights were filled in from known
+  /// neighbours, 0 to 1.
   double filled_share = 0;
-  /// Largest distance from such a cell to a known one [m].
+  /// Largest distance from a filled cell to the nearest cell with a known height [m].
   double filled_from = 0;
 };
 

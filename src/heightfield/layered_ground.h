@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground at rest: columns of layered soil over a bedrock datum, counted in integer mass.
+// The resting ground: columns of layered soil above bedrock, with masses counted in integers.
 #pragma once
 
 #include <cstdint>
@@ -18,81 +18,99 @@ namespace navvy::heightfield {
 
 class TerrainView;
 
-/// Columns of layered soil on a regular grid: the live terrain that is dug, filled and compacted.
+/// Columns of layered soil on a regular grid: the live terrain that machines dig, fill and compact.
 ///
-/// Only tiles of 32 x 32 columns that were touched hold columns. All others are computed from the
-/// source on reading, so that memory and time follow the touched tiles and not the size of the
-/// site. Every change is mass-exact and announced by a sequence number and a rectangle. Several
-/// threads may read at a time; a thread that changes the ground must be alone with it. Readers that
-/// need more time, or run in another thread, take a `view`.
+/// Layers are stored only for columns that changed, in tiles of 32 x 32 columns. All other columns
+/// are computed from the setup on access, so memory and time grow with the changed area and not
+/// with the site. Every change conserves mass exactly and increases `sequence`.
+///
+/// Several threads may read at the same time, but not while another thread changes the ground. A
+/// reader that runs beside the simulation takes a `view`.
 class Ground final : public Terrain {
  public:
+  /// Description of the untouched site.
   using Setup = GroundSetup;
-  /// @throws InputError with every fault of the setup.
+  /// Makes the untouched ground described by `setup`. @throws InputError listing every error of the
+  /// setup.
   explicit Ground(Setup setup);
+  /// Destroys the ground. Views of it remain valid.
   ~Ground();
-  /// Moves the ground; views stay valid.
+  /// Moves the ground. Views of it remain valid.
   Ground(Ground&&) noexcept;
+  /// Replaces this ground by another one. Views of either remain valid.
   Ground& operator=(Ground&&) noexcept;
 
-  /// Returns an immutable copy of the present surface, stamped with `time` [s]. Costs 0.1 us, plus
-  /// 0.01 us for each tile that changed since the last view; such a tile (14 KiB) is copied when it
-  /// changes next. May be called from several threads.
+  /// Returns an immutable copy of the current surface, labelled with simulated time `time` [s].
+  /// Takes 0.1 us plus 0.01 us for each tile changed since the last view. The next change of such a
+  /// tile copies it (14 KiB). Several threads may call this function at the same time.
   TerrainView view(double time = 0) const;
 
-  /// Returns a copy of the layers of a column, bottom first; those of an untouched column are
-  /// computed from the source.
+  /// Returns a copy of the soil layers of column (ix, iy), from bottom to top. @throws Error for a
+  /// column outside the site.
   std::vector<SoilLayer> layers(int ix, int iy) const;
-  /// Writes the layers into a vector that the caller owns, to avoid allocations in loops.
+  /// Writes the soil layers of column (ix, iy) to `out`, from bottom to top. Reusing `out` avoids
+  /// allocations in loops. @throws Error for a column outside the site.
   void column(int ix, int iy, std::vector<SoilLayer>& out) const;
-  /// Writes the layers that the column had on the untouched site.
+  /// Writes the soil layers that column (ix, iy) had on the untouched site to `out`, from bottom to
+  /// top. @throws Error for a column outside the site.
   void start_column(int ix, int iy, std::vector<SoilLayer>& out) const;
-  /// Removes everything above height z in W [m] and appends it to `taken`, bottom first. Masses are
-  /// exact. The surface of the column is left at z up to one mass quantum.
+  /// Removes all soil above world height `z` [m] from column (ix, iy) and appends it to `taken`,
+  /// from bottom to top. Mass is conserved exactly; the new surface differs from `z` by at most the
+  /// thickness of one mass unit.
+  /// @throws Error for a column outside the site.
   void take_above(int ix, int iy, double z, std::vector<SoilLayer>& taken);
-  /// Adds a layer on top. Merges it with the top layer when soil and density state agree (within
-  /// 1e-3); volumes add.
+  /// Adds `layer` on top of column (ix, iy). It is merged with the top layer if soil and density
+  /// state agree (within 1e-3); the volumes then add up. A layer without mass changes nothing.
+  /// @throws Error for a column outside the site, or for a layer with invalid values.
   void put(int ix, int iy, const SoilLayer& layer);
-  /// Presses the surface down to `height` in W [m] by raising density, as a rut does. Mass stays;
-  /// the specific volume of the top layers falls, but not below `min_specific_volume`.
+  /// Compacts column (ix, iy) until its surface is at world height `height` [m], as a wheel does in
+  /// a rut. The mass is unchanged. The specific volume of the uppermost soil decreases, but not
+  /// below `min_specific_volume` (volume / bank volume), so the surface may remain higher.
+  /// @throws Error for a column outside the site.
   void compact_to(int ix, int iy, double height, float min_specific_volume = 0.85f);
 
-  /// Replaces the set of columns that carry a load now, given by iy * nx + ix. Soil neither leaves
-  /// these columns nor slides onto them by itself. Columns that are released count as changed, so
-  /// that processes waiting for them look again.
-  /// @throws Error for a column outside the site, without any change.
+  /// Replaces the set of held columns, which are the columns that carry a load, such as a wheel.
+  /// Each is given by the key iy * nx + ix. Soil in a held column stays in place, and no other soil
+  /// slides onto it. Columns that are released count as changed, so that the soil checks them
+  /// again.
+  /// @throws Error for a column outside the site; the set is then unchanged.
   void hold(std::set<std::int64_t> columns);
-  /// Adds columns to the held ones. @throws Error as hold.
+  /// Adds `columns` to the set of held columns, with keys as in `hold`. @throws Error for a column
+  /// outside the site.
   void hold_more(const std::set<std::int64_t>& columns);
-  /// Returns true when column (ix, iy) is held.
+  /// Returns true if column (ix, iy) is in the set of held columns.
   bool held(int ix, int iy) const;
 
-  /// Returns the mass now minus the mass at the start over all touched tiles, per soil, recounted
-  /// from the columns [kMassQuantum].
+  /// Returns the current mass minus the initial mass of the ground, one entry per soil
+  /// [kMassQuantum]. The sum is recomputed from all changed columns.
   std::vector<std::int64_t> mass_change() const;
 
-  /// Returns the bounding rectangle of what changed after sequence number `sequence`: exact for
-  /// recent numbers, a superset for older ones. Only the soil uses it, because its own state holds
-  /// the number; all other clients use a ChangeFollower.
+  /// Returns the bounding rectangle of all columns changed after sequence number `sequence`. It is
+  /// exact for recent numbers and may be too large for older ones. Only the soil uses this
+  /// function, because it saves the sequence number in its own state; other clients use a
+  /// ChangeFollower.
   CellRect changed_since(std::uint64_t sequence) const;
 
-  /// Returns the bounding rectangle of all touched tiles, which holds every column that ever
+  /// Returns the bounding rectangle of all tiles with a changed column; empty if no column ever
   /// changed.
   CellRect touched_rect() const;
 
-  /// Returns the number of touched tiles.
+  /// Returns the number of tiles with a changed column.
   std::size_t touched_tiles() const;
-  /// Visits the changed columns, the held ones and the log of edits. The untouched site comes from
-  /// the scene; only its size is compared. A ChangeFollower sees what loading changed.
-  /// @throws InputError for a site of another size or for impossible columns.
+  /// Saves or loads the changed columns, the held columns and the log of edits. The untouched site
+  /// is not saved: it comes from the scene, and only its size and datum are compared. A
+  /// ChangeFollower reports the columns that loading changed.
+  /// @throws InputError for a site of another size or datum, or for impossible columns.
   void visit(Archive& a);
 
  private:
+  /// Changed tiles, log of edits, held columns and lock of a ground.
   struct State;
-  /// @throws Error for a column outside the site.
+  /// Checks that column (ix, iy) lies on the site. @throws Error if it does not.
   void require_inside(int ix, int iy) const;
-  /// Updates the visible state of a column and logs the edit.
+  /// Updates the surface of column (ix, iy) after a change of its layers, and logs the edit.
   void changed(int ix, int iy);
+  /// Layers, edits and held columns; null only in a ground that was moved from.
   std::unique_ptr<State> state_;
 };
 

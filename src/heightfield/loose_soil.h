@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loose soil on resting columns, computed from its particles.
+// Depth of the loose soil that rests on the columns, computed from its particles.
 #pragma once
 
 #include <cstdint>
@@ -9,58 +9,63 @@
 
 namespace navvy::heightfield {
 
-/// A particle this far above the surface reached so far is separated from it by a gap [cells]
-/// [docs/exchange.md, maps].
+/// Largest gap between a particle and the soil surface below it at which the particle still counts
+/// as resting on that surface, in cell edges [docs/exchange.md, maps].
 inline constexpr double kLooseGap = 2.0;
 
-/// A particle as the heightfield sees it. The owner of the particles fills it in.
+/// A soil particle with the data that the heightfield needs. The owner of the particles fills it
+/// in.
 struct LooseGrain {
-  /// Column below the particle; grains off the site are left out.
+  /// Column that contains the particle. Particles outside the site are ignored.
   int ix = 0, iy = 0;
-  /// Height in W [m].
+  /// World z of the particle [m].
   double z = 0;
-  /// Volume including pores [m3].
+  /// Volume of the particle including pores [m3].
   double volume = 0;
-  /// Index into the soils of the site.
+  /// Index of the particle's soil in the site's list of soils.
   std::uint16_t soil = 0;
-  /// Volume over bank volume.
+  /// Volume of the particle divided by its bank volume [-].
   float specific_volume = 1;
-  /// Mass, for accounts of the resting soil [kMassQuantum].
+  /// Mass of the particle, for sums over the resting soil [kMassQuantum].
   std::int64_t mass = 0;
 };
 
-/// The surface of loose soil, column by column.
+/// The loose soil that rests on each column, computed from particles.
 ///
-/// Grains are stacked on their column from the lowest up; each raises the surface by its volume
-/// over the area of the column. A grain more than two cells above the surface reached so far is in
-/// the air or in a bucket: neither it nor the grains above it rest on the column, until the gap is
-/// closed. Only columns with resting grains are held.
+/// The particles of a column are stacked in order of height. Each one raises the surface of its
+/// column by its volume divided by the column's area. A particle more than kLooseGap cells above
+/// that surface counts as being in the air or in a bucket, and is left out. Only columns with
+/// resting particles are stored.
 class LooseSoil {
  public:
-  /// The loose soil on one column.
+  /// The loose soil that rests on one column.
   struct Column {
+    /// Indices of the terrain column along x and y.
     int ix, iy;
-    /// Height of its surface in W [m].
+    /// World z of the surface of the loose soil [m].
     double top;
-    /// Depth above the resting column [m]; positive.
+    /// Depth of the loose soil above the resting soil of the column [m]; greater than 0.
     double depth;
-    /// Soil of the uppermost resting grain.
+    /// Soil of the uppermost resting particle, as an index into the site's list of soils.
     std::uint16_t soil;
-    /// Volume over bank volume of the same grain.
+    /// Volume divided by bank volume of the uppermost resting particle [-].
     float specific_volume;
   };
   /// Makes a site without loose soil.
   LooseSoil() = default;
-  /// Stacks the grains on the columns; costs a sort of the grains. The same grains in the same
-  /// order give a bit-identical result.
+  /// Stacks `grains` on the resting `columns`. Takes the time of sorting the grains. Equal grains
+  /// in equal order give a bit-identical result.
   LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains);
-  /// Returns the columns row by row, each row from least x.
+  /// Returns the columns with loose soil, in ascending order of iy, then ix.
   const std::vector<Column>& columns() const { return columns_; }
-  /// Returns the resting grains in the order of the columns, each column from below.
+  /// Returns all resting particles, in the order of `columns()`, and from bottom to top within each
+  /// column.
   const std::vector<LooseGrain>& grains() const { return grains_; }
 
  private:
+  /// Columns with loose soil, in ascending order of iy, then ix.
   std::vector<Column> columns_;
+  /// Resting particles, in the order of `columns_`, and from bottom to top within each column.
   std::vector<LooseGrain> grains_;
 };
 

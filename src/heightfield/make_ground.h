@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the ground from the description of a scene.
+// Builds the ground that a scene describes.
 #pragma once
 
 #include <string>
@@ -9,28 +9,32 @@
 
 namespace navvy::heightfield {
 
-/// Builds the site of `world`, procedural or from a file, in columns of world.solver.cell.
+/// Builds the ground of `world` from shapes or from a terrain file, with columns of edge
+/// world.solver.cell.
 ///
-/// The size asked for is rounded up to blocks of 4 x 4 columns; without an origin the middle of the
-/// site is W (0, 0). Bedrock (the datum) lies `depth` below the lowest point of the surface.
-/// Heights of a site from a file are W z = file z - Setup::height_offset. With
-/// SteepGround::kSettle, slopes above the friction angle of the surface soil slide once, which
-/// needs the whole surface in memory (at most kMostSettledColumns). `report`, when given, receives
-/// the findings in a terrain file as text for people.
-/// @throws InputError with every fault found: bad numbers, unknown soils, a file that is missing,
-/// off the map or not readable by this build.
+/// The requested size is rounded up to multiples of 4 columns. If the scene gives no origin, the
+/// centre of the site is at world (0, 0). Bedrock (the datum) lies at the plane that the scene
+/// gives, or `depth` below the lowest point of the surface. For a terrain file, world z = file
+/// height - Setup::height_offset.
+///
+/// With SteepGround::kSettle, slopes steeper than the friction angle of the surface soil slide once
+/// before the run. This needs the whole surface in memory, so the site may have at most
+/// kMostSettledColumns columns. If `report` is not null, it receives a description of the terrain
+/// file for the user; it is cleared if there is no file.
+/// @throws InputError for invalid numbers, unknown soils, or a terrain file that is missing, does
+/// not cover the site, or cannot be read by this build.
 Ground make_ground(const scene::Scene& world, std::string* report = nullptr);
 
-/// Returns the height of the rock in W [m]: the plane that the scene gives, or `depth` below the
-/// `lowest` point of the surface.
-/// @throws InputError when that plane has less than a centimetre of soil above it somewhere.
+/// Returns the world z of bedrock [m]: the plane that the scene gives, or else the scene's `depth`
+/// below `lowest`, the lowest point of the surface [m].
+/// @throws InputError if the given plane is less than 1 cm below `lowest`.
 double bedrock(const scene::Scene& world, double lowest);
 
-/// Largest number of columns that can be settled.
+/// Maximum number of columns of a site that can be settled (SteepGround::kSettle).
 inline constexpr int kMostSettledColumns = 4000000;
 
-/// Returns the number of columns along a side of `length` [m], rounded up to a multiple of 4 (soil
-/// blocks).
+/// Returns the number of columns of edge `cell` [m] along a site of `length` [m], rounded up to a
+/// multiple of 4, the width of a soil block.
 int site_columns(double length, double cell);
 
 }  // namespace navvy::heightfield

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads NumPy's NPY as a map: one array with two axes, whose rows are the rows of the map.
+// Reads height maps from NumPy's NPY files: one two-dimensional array, whose rows are the map's
+// rows.
 #pragma once
 
 #include <string>
@@ -7,26 +8,27 @@
 
 namespace navvy::heightfield {
 
-/// Element types that maps come in: '<f4', '<f8', '<i2', '<i4', '<u2' and '|u1'; all little-endian.
+/// Element types that a height map may have: '<f4', '<f8', '<i2', '<i4', '<u2' and '|u1' in the
+/// order of the enumerators, all little-endian.
 enum class NpyType { kFloat32, kFloat64, kInt16, kInt32, kUint16, kUint8 };
 
-/// The array as the file holds it.
+/// A two-dimensional array as stored in an NPY file.
 struct NpyGrid {
-  /// Type of the elements.
+  /// Type of the elements of the array.
   NpyType type = NpyType::kFloat32;
-  /// Size of the array.
+  /// Number of rows and of columns of the array.
   int rows = 0, columns = 0;
-  /// rows x columns numbers, the columns of row 0 first.
+  /// The rows * columns elements as stored in the file, row by row, not decoded.
   std::vector<char> bytes;
 };
 
-/// Returns true when the file begins like an NPY file; false also when it cannot be read.
+/// Returns true if the file begins with the NPY signature; false also if it cannot be read.
 bool is_npy_file(const std::string& path);
 
-/// Reads the whole file.
-/// @throws InputError naming file, offset or key, value and remedy: for Fortran order, another
-/// type, other than two axes, a size that differs from the shape, a broken header, or more bytes
-/// than core/limits.h allows.
+/// Reads the NPY file `path`.
+/// @throws InputError naming the file, the offending value and a remedy: for Fortran order, an
+/// unsupported element type, an array that is not two-dimensional, a file size that does not match
+/// the shape, an invalid header, or a file larger than core/limits.h allows.
 NpyGrid read_npy(const std::string& path);
 
 }  // namespace navvy::heightfield

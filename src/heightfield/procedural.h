@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a site that a scene describes by shapes.
+// Initial surface of a site that a scene describes by shapes.
 #pragma once
 
 #include <vector>
@@ -9,27 +9,32 @@
 
 namespace navvy::heightfield {
 
-/// A flat ground with shapes on it, as a pure function of place: two builds agree in any order of
-/// queries.
+/// The initial ground as the sum of a base height and shapes such as hills and trenches. It is a
+/// pure function of position, so the order of queries does not matter.
 ///
-/// Shapes are summed. A slope rises along its yaw. Hills are two octaves of value noise bounded by
-/// +- height / 2. The floor of a trench is length x width, and its sides lean outward by `angle`
-/// from the vertical. The toe of a bank is the line through its centre along yaw; its face rises to
-/// the left at `angle` from the horizontal (0 or 90 deg: vertical).
+/// A slope rises along its yaw direction. Hills are two octaves of value noise within +- height /
+/// 2. A trench has a floor of length x width, and walls that lean outwards by `angle` from the
+/// vertical. A bank rises to the left of the line through its centre along yaw, at `angle` from the
+/// horizontal (0 or 90 deg: vertical). A stockpile is a cone. A block is a rectangle of constant
+/// height.
 class ProceduralSurface {
  public:
-  /// `friction_angle` [rad] is the slope of stockpiles that give no angle.
+  /// Copies the shapes of `ground`. `friction_angle` [rad] is the slope of stockpiles that give no
+  /// angle of their own.
   ProceduralSurface(const scene::StartGround& ground, double friction_angle);
 
-  /// Returns the height of the surface at W (x, y) [m].
+  /// Returns the world z of the surface at world position (x, y) [m].
   double operator()(double x, double y) const;
-  /// Returns a height that the surface never falls below inside the rectangle [m]; exact for a
-  /// single shape other than hills.
+  /// Returns a lower bound of the surface height within the world rectangle from `min` to `max`
+  /// [m]. The bound is exact for a single shape that lies within the rectangle, except for hills.
   double lower_bound(const Vec2& min, const Vec2& max) const;
 
  private:
+  /// Height of the ground without shapes, as world z [m].
   double base_;
+  /// Slope of stockpiles for which the scene gives no angle [rad].
   double friction_angle_;
+  /// Shapes of the ground, whose heights are added up in this order.
   std::vector<scene::GroundFeature> features_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of a few cells of a map, shared by maps in memory and maps that are read in windows. A
-// raster here has nx, ny, cell_x, cell_y, x0, y0 like HeightRaster.
+// Formulas for a few cells of a height map, shared by HeightRaster and WindowedRaster. A template
+// parameter `Raster` stands for a type with the members nx, ny, cell_x, cell_y, x0 and y0 of
+// HeightRaster.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +9,14 @@
 
 namespace navvy::heightfield {
 
-/// Largest number of map cells per side that a soil cell averages; finer maps are sampled that
-/// densely.
+/// Maximum number of samples along each side of a terrain column when the heights of a finer map
+/// are averaged over the column.
 inline constexpr int kMostSamples = 16;
 
-/// Returns the bilinear height [m]. `corners(ix, iy, jx, jy, z)` fills z with cells (ix, iy), (jx,
-/// iy), (ix, jy), (jx, jy), where jx and jy are ix and iy or one more.
+/// Returns the height of a map at position (x, y) [m], interpolated bilinearly between cell
+/// centres.
+/// @param corners function `corners(ix, iy, jx, jy, z)` that writes the heights of cells (ix, iy),
+/// (jx, iy), (ix, jy) and (jx, jy) to z[0] to z[3]; jx is ix or ix + 1, and jy is iy or iy + 1.
 template <class Raster, class Corners>
 double bilinear(const Raster& raster, double x, double y, const Corners& corners) {
   // Outside the outermost centres the nearest value: a site may reach half a cell beyond them.
@@ -26,8 +29,8 @@ double bilinear(const Raster& raster, double x, double y, const Corners& corners
   return (1 - v) * ((1 - u) * z[0] + u * z[1]) + v * ((1 - u) * z[2] + u * z[3]);
 }
 
-/// Returns the mean of `sample(x, y)` over a square of `edge` [m] around (x, y): one sample where
-/// the map is coarser than that.
+/// Returns the mean of `sample(x, y)` over a square with edge `edge` [m] around (x, y) [m]. It is a
+/// single sample if the map's cells are not smaller than the square.
 template <class Raster, class Sample>
 double mean_of_samples(const Raster& raster, double x, double y, double edge,
                        const Sample& sample) {
@@ -44,8 +47,9 @@ double mean_of_samples(const Raster& raster, double x, double y, double edge,
   return sum / (sx * sy);
 }
 
-/// Returns the mean of the known cells among the eight neighbours of a gap, diagonal ones weighted
-/// by 1 / sqrt 2; NaN when none is known. `at(ix, iy)` returns a cell, NaN where it is not known.
+/// Returns the mean height of the known cells among the eight neighbours of cell (ix, iy); NaN if
+/// none is known. Diagonal neighbours have the weight 1 / sqrt(2). `at(ix, iy)` returns the height
+/// of a cell, or NaN if it is unknown.
 template <class Raster, class At>
 float mean_of_neighbours(const Raster& raster, int ix, int iy, const At& at) {
   double sum = 0, weights = 0;
@@ -63,8 +67,9 @@ float mean_of_neighbours(const Raster& raster, int ix, int iy, const At& at) {
   return static_cast<float>(sum / weights);
 }
 
-/// Returns the tangent of the mean gradient of the 2 x 2 cells a (least x and y), b, c (larger y),
-/// d.
+/// Returns the tangent of the slope of four neighbouring cells, from their mean gradient. The
+/// heights [m] are `a` at (ix, iy), `b` at (ix + 1, iy), `c` at (ix, iy + 1) and `d` at (ix + 1, iy
+/// + 1).
 template <class Raster>
 float tangent(const Raster& raster, double a, double b, double c, double d) {
   return static_cast<float>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets a given surface slide to its angle of repose, once, before a run.
+// Lets a surface slide to its angle of repose once, before a run.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,26 @@
 
 namespace navvy::heightfield {
 
-/// A dense surface, x fastest [m].
+/// A surface with a stored height for every column of a site.
 struct DenseSurface {
-  /// Number of columns along x and y.
+  /// Number of columns along x (nx) and along y (ny).
   int nx = 0, ny = 0;
-  /// Edge of a column [m].
+  /// Edge length of a column [m].
   double cell = 0.1;
-  /// Heights of the columns.
+  /// Height of each column [m], x fastest.
   std::vector<double> height;
-  /// Height of column (ix, iy); nothing is checked.
+  /// Returns a reference to the height of column (ix, iy) [m]. The indices are not checked.
   double& at(int ix, int iy) { return height[static_cast<std::size_t>(iy) * nx + ix]; }
+  /// Returns the height of column (ix, iy) [m]. The indices are not checked.
   double at(int ix, int iy) const { return height[static_cast<std::size_t>(iy) * nx + ix]; }
 };
 
-/// Moves soil downhill between edge neighbours until no drop between them exceeds tan(repose) x
-/// cell by more than a fiftieth. `repose` is in radians. Volume is conserved to rounding, and the
-/// order is fixed, so that the result repeats bit for bit. The sweeps cover the steep part only.
-/// Returns the number of sweeps, or -1 when `most_sweeps` did not suffice.
+/// Moves soil downhill between columns that share an edge, until no height difference between them
+/// exceeds tan(repose) * cell by more than 2 %. Only the steep parts of the surface are visited.
+/// Volume is conserved up to rounding, and equal input gives a bit-identical result.
+/// @param repose angle of repose [rad]
+/// @param most_sweeps maximum number of passes over the surface
+/// @returns the number of passes that moved soil, or -1 if `most_sweeps` passes were not enough
 int settle(DenseSurface& surface, double repose, int most_sweeps = 20000);
 
 }  // namespace navvy::heightfield

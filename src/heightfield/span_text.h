@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rectangle of coordinates as text for messages.
+// Formats a rectangle of coordinates for messages.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,8 @@
 
 namespace navvy::heightfield {
 
-/// Returns a text such as "x 0.000 .. 12.500, y -3.000 .. 4.000".
+/// Returns the rectangle from `low` to `high` as text, such as "x 0.000 .. 12.500, y -3.000 ..
+/// 4.000".
 inline std::string span_text(const Vec2& low, const Vec2& high) {
   // Space for four numbers as long as a double may be.
   char text[1400];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a site for all its readers: wheels, pictures, maps, exports, operators, planners.
+// The surface of a site, for everything that reads it: wheels, pictures, maps, exports, operators,
+// planners.
 #pragma once
 
 #include <algorithm>
@@ -14,46 +15,48 @@
 
 namespace navvy::heightfield {
 
-/// Surface that a reader asks for. Every client names it where it takes its view.
+/// Selects the surface that a view of the terrain shows.
 enum class SurfaceKind : std::uint8_t {
-  /// The resting columns alone.
+  /// Resting soil only: the tops of the columns.
   kColumns,
-  /// The columns and the particles on them: what an eye or a lidar sees, including soil in a bucket
-  /// near the ground.
+  /// Resting soil and the particles above it, as a camera or a lidar sees them. Includes soil in a
+  /// bucket near the ground.
   kWithLooseSoil,
-  /// The columns and the particles on them, without the contents of buckets and beds: what maps,
-  /// files and volumes count.
+  /// Resting soil and the loose soil on it, without soil in buckets and truck beds. Used for maps,
+  /// exported files and volumes.
   kMapped
 };
 
-/// The read-only side of a ground. `Ground` implements it with the columns of the present moment,
-/// `TerrainView` as a copy that never changes.
+/// Read-only interface to the surface of a site. A `Ground` provides its current state, and a
+/// `TerrainView` a copy that never changes.
 ///
-/// Columns are numbered as in GroundSetup. Reading has no visible effect and may be done by several
-/// threads at a time; a live ground must not change meanwhile. A height costs 8 ns at a column and
-/// 19 ns between columns, dug or not, where the columns have been read before.
+/// Several threads may read at the same time; a live ground must not change meanwhile. Columns are
+/// numbered as in GroundSetup. Once a column was read, its height takes 8 ns at the column centre
+/// and 19 ns between centres, whether or not the column was changed.
 class Terrain {
  public:
-  /// Returns the grid, the soils and the georeference of the site.
+  /// Returns the description of the site: grid, soils and georeference.
   const GroundSetup& setup() const { return *setup_; }
-  /// Returns the number of columns along x and y.
+  /// Returns the number of columns along x.
   int nx() const { return setup_->nx; }
+  /// Returns the number of columns along y.
   int ny() const { return setup_->ny; }
-  /// Returns the edge of a column [m].
+  /// Returns the edge length of a column [m].
   double cell() const { return setup_->cell; }
-  /// Returns the lower-left corner of the site in W [m].
+  /// Returns the world (x, y) of the corner of the site with the smallest x and y [m].
   const Vec2& origin() const { return setup_->origin; }
-  /// Returns the height of bedrock in W [m].
+  /// Returns the world z of bedrock [m].
   double datum() const { return setup_->datum; }
-  /// Returns the rectangle of all columns.
+  /// Returns the rectangle of all columns of the site.
   CellRect site_rect() const { return {0, 0, nx(), ny()}; }
-  /// Returns true when the site has column (ix, iy).
+  /// Returns true if the site has a column (ix, iy).
   bool contains(int ix, int iy) const { return ix >= 0 && iy >= 0 && ix < nx() && iy < ny(); }
-  /// Returns the column that holds W (x, y); it may lie outside the site.
+  /// Returns the indices of the column that contains world position (x, y) [m]. They may lie
+  /// outside the site.
   Vec2i column_at(double x, double y) const;
 
-  /// Returns the height of the surface in W [m]. Here and below, a column outside the site stands
-  /// for the nearest one inside.
+  /// Returns the height of the surface in column (ix, iy), as world z [m]. Indices outside the site
+  /// give the value of the nearest column inside it.
   double height(int ix, int iy) const {
     ix = std::clamp(ix, 0, setup_->nx - 1);
     iy = std::clamp(iy, 0, setup_->ny - 1);
@@ -61,61 +64,77 @@ class Terrain {
     return tile != nullptr ? tile->height[static_cast<std::size_t>(index_in_tile(ix, iy))]
                            : start_->height(ix, iy);
   }
-  /// Returns the height of the untouched site in W [m].
+  /// Returns the initial height of the ground in column (ix, iy), as world z [m]. Indices outside
+  /// the site give the value of the nearest column inside it.
   double start_height(int ix, int iy) const;
-  /// Returns the soil at the surface, an index into setup().soils.
+  /// Returns the uppermost soil of column (ix, iy), as an index into setup().soils. Indices outside
+  /// the site give the value of the nearest column inside it.
   std::uint16_t surface_soil(int ix, int iy) const;
-  /// Returns the density state at the surface: volume over bank volume of the uppermost layer, 1
-  /// where no one worked [-].
+  /// Returns the density state of the uppermost soil in column (ix, iy), which is its volume
+  /// divided by its bank volume [-]; 1 for undisturbed ground. Indices outside the site give the
+  /// value of the nearest column inside it.
   float specific_volume(int ix, int iy) const;
-  /// Returns the depth of the loose soil on the column [m]; 0 in every terrain of columns alone.
+  /// Returns the depth of the loose soil on column (ix, iy) [m]; always 0 in a live ground and in
+  /// views of kind SurfaceKind::kColumns. Indices outside the site give the value of the nearest
+  /// column inside it.
   float loose_depth(int ix, int iy) const;
-  /// Returns true where the visible soil consists of particles, which may still move.
+  /// Returns true if the visible soil of column (ix, iy) consists of particles, which may still
+  /// move.
   bool active(int ix, int iy) const { return loose_depth(ix, iy) > 0; }
 
-  /// Returns the height at W (x, y) [m]: bilinear between the centres of columns, level beyond the
-  /// outermost ones.
+  /// Returns the height of the surface at world position (x, y) [m], as world z [m]. The surface is
+  /// bilinear between column centres, and level beyond the outermost centres.
   double sample(double x, double y) const;
-  /// Returns the unit upward normal in W of the same surface.
+  /// Returns the unit upward normal, in world axes, of the bilinear surface at world position (x,
+  /// y) [m].
   Vec3 normal(double x, double y) const;
-  /// Returns the distance of the first hit of the ray p + t d, 0 <= t <= range (d unit, W) [m];
-  /// negative when there is none, 0 when p is in the soil.
+  /// Intersects the surface with the ray from `p` in the direction of the unit vector `d`, both in
+  /// world coordinates, up to the distance `range` [m]. Returns the distance from `p` to the first
+  /// hit [m], 0 if `p` is below the surface, and a negative value if nothing is hit or a coordinate
+  /// is not finite.
   double ray(const Vec3& p, const Vec3& d, double range) const;
 
-  /// Copies the heights of a rectangle, which may reach beyond the site, x fastest [m]. Other
-  /// layers: src/map.
+  /// Writes the surface heights of the columns in `rect` to `out`, as world z [m], x fastest.
+  /// Columns outside the site get the height of the nearest column inside it. (For other quantities
+  /// see map::MapMaker.)
   void copy_heights(const CellRect& rect, std::vector<float>& out) const;
 
-  /// Returns the greatest height in a rectangle in W [m]; minus infinity for an empty one. Costs
-  /// about a nanosecond per column.
+  /// Returns the maximum surface height in `rect`, as world z [m]; minus infinity if the rectangle
+  /// is empty. Takes about 1 ns per column.
   double highest(const CellRect& rect) const;
 
-  /// Returns a number that grows with every change of the ground; equal numbers of one ground mean
-  /// equal columns.
+  /// Returns a number that increases with every change of the ground. A ground has the same columns
+  /// whenever it has the same number.
   std::uint64_t sequence() const { return sequence_; }
 
  protected:
-  /// Makes an untouched site.
+  /// Makes a terrain that shows the untouched site with the initial heights `start`.
   explicit Terrain(std::shared_ptr<const StartHeights> start);
-  // Only derived classes copy and move: half a ground is useless.
+  /// Copies the surface. Copying and moving are protected, because only derived classes are
+  /// complete objects.
   Terrain(const Terrain&) = default;
   Terrain(Terrain&&) noexcept = default;
   Terrain& operator=(const Terrain&) = default;
   Terrain& operator=(Terrain&&) noexcept = default;
   ~Terrain() = default;
 
-  // A ground and its views share the untouched site and all tiles that did not change in between.
+  /// Initial heights, shared by a ground and its views.
   std::shared_ptr<const StartHeights> start_;
-  // Stored in the site, so it stays valid when this object is moved.
+  /// Description of the site. Points into `start_`, so it remains valid when this object is moved.
   const GroundSetup* setup_;
+  /// Surface of the tiles that differ from the untouched site.
   SurfaceTable table_;
+  /// Number that increases with every change of the ground.
   std::uint64_t sequence_ = 0;
 
  private:
   friend class ChangeFollower;
-  /// Reads the heights of the four corners of a dual cell.
+  /// Writes the heights of columns (ix, iy), (ix + 1, iy), (ix, iy + 1) and (ix + 1, iy + 1) to
+  /// z[0] to z[3]. They are the corners of one dual cell, in which the surface is bilinear.
   void corners(int ix, int iy, double z[4]) const;
-  /// Finds the dual cell around a place and the position in it.
+  /// Finds the dual cell, which is the square between four column centres, that contains world
+  /// position (x, y) [m]. Returns the column at its first corner in (ix, iy), and the position
+  /// within the cell in (u, v), from 0 to 1.
   void locate(double x, double y, int& ix, int& iy, double& u, double& v) const;
 };
 

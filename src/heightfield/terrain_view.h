@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terrain at one instant, which never changes.
+// The terrain at one instant, as an immutable copy.
 #pragma once
 
 #include "heightfield/loose_soil.h"
@@ -9,28 +9,30 @@ namespace navvy::heightfield {
 
 class Ground;
 
-/// An immutable copy of a ground's surface at one instant. Any number of threads may read it while
-/// the ground changes.
+/// An immutable copy of a ground's surface at one instant, made by Ground::view. Any number of
+/// threads may read it while the ground changes, and it may outlive the ground.
 ///
-/// `Ground::view` makes it. It shares its tiles with the ground and with other views, so that
-/// copying one costs microseconds and keeping one costs the tiles that changed since (14 KiB each).
-/// It may outlive the ground.
+/// It shares its tiles with the ground and with other views. Copying a view therefore takes
+/// microseconds, and storing one takes 14 KiB for each tile that changed since.
 class TerrainView final : public Terrain {
  public:
-  /// Returns the time that it was stamped with [s].
+  /// Returns the simulated time of this view [s].
   double time() const { return time_; }
-  /// Returns the kind of surface that its heights describe.
+  /// Returns which surface the heights describe: with or without loose soil.
   SurfaceKind surface() const { return surface_; }
 
-  /// Returns the same instant with loose soil: height, soil and density state are those of the
-  /// loose soil where some rests. `surface` says which loose soil was passed in. Costs a copy of
-  /// every tile that has any.
+  /// Returns a copy of this view with `loose` soil added. In columns with loose soil, height,
+  /// surface soil and density state are those of the loose soil. `surface` labels the result
+  /// (TerrainView::surface); it does not filter `loose`. Copies each tile that has loose soil.
   TerrainView with(const LooseSoil& loose, SurfaceKind surface = SurfaceKind::kWithLooseSoil) const;
 
  private:
   friend class Ground;
+  /// Copies the surface of `terrain` and labels it with simulated time `time` [s].
   TerrainView(const Terrain& terrain, double time) : Terrain(terrain), time_(time) {}
+  /// Simulated time of this view [s].
   double time_;
+  /// Surface that the heights describe: with or without loose soil.
   SurfaceKind surface_ = SurfaceKind::kColumns;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers of the columns that changed: a sparse table of tiles of 32 x 32 columns over the untouched
-// site.
+// Soil layers of the columns that differ from the untouched site, stored in a sparse table of tiles
+// of 32 x 32 columns.
 #pragma once
 
 #include <array>
@@ -18,64 +18,79 @@ class Archive;
 
 namespace navvy::heightfield {
 
-/// A touched tile: the layers of those of its columns that changed.
+/// Layers of the changed columns of one tile. A tile is created when one of its columns is first
+/// changed.
 struct Tile {
-  /// Index into `columns`; -1 where the column is as on the untouched site.
+  /// Index into `columns` for each column of the tile, x fastest; -1 for a column that never
+  /// changed.
   std::array<std::int16_t, kTileColumns> slot;
-  /// Layers of the changed columns.
+  /// Layers of each changed column, in the order of their first change.
   std::vector<Column> columns;
 };
 
-/// Layers of the columns that differ from the untouched site. Their visible state is in a
-/// SurfaceTable, which `update_surface` keeps consistent.
+/// Layers of all columns that differ from the untouched site. Their visible surface is stored in a
+/// SurfaceTable, which the owner updates by calling `update_surface`.
 class Tiles {
  public:
-  /// Makes a table without touched tiles.
+  /// Makes a table for `site` in which no column has changed.
   explicit Tiles(std::shared_ptr<const StartSite> site);
 
-  /// Returns the layers of a changed column, or null while it is as at the start.
+  /// Returns the layers of column (ix, iy); null if the column never changed.
   const Column* find_column(int ix, int iy) const;
-  /// Returns the column for writing and creates it if needed; call `update_surface` after changing
-  /// it.
+  /// Returns the layers of column (ix, iy) for writing. Stores its initial layers first if the
+  /// column never changed. The caller must call `update_surface` after writing. @throws InputError
+  /// as StartSite::column.
   Column& touch_column(int ix, int iy);
-  /// Writes height, soil and density state of a touched column into the table.
+  /// Writes height, soil and density state of changed column (ix, iy) to `table`. `start` provides
+  /// the initial heights for a new tile of the table.
   void update_surface(int ix, int iy, SurfaceTable& table, const StartHeights& start) const;
-  /// Writes those of all touched columns.
+  /// Calls `update_surface` for all changed columns.
   void update_surfaces(SurfaceTable& table, const StartHeights& start) const;
 
-  /// Returns the touched tiles by key (ty tiles_x + tx), in ascending order.
+  /// Returns the tiles that contain changed columns. The key of tile (tx, ty) is ty * tiles_x() +
+  /// tx.
   const std::map<std::int64_t, std::unique_ptr<Tile>>& touched() const { return touched_; }
-  /// Returns the mass that the changed columns held at the start, per soil [kMassQuantum].
+  /// Returns the initial mass of all columns that have changed, one entry per soil [kMassQuantum].
   const std::vector<std::int64_t>& start_mass() const { return start_mass_; }
 
-  /// Visits the layers of the changed columns in the order of tiles and of the columns in them,
-  /// independent of the order of edits. A tile without changed columns counts too, because it was
-  /// touched.
-  /// @throws InputError for a column outside the site or an impossible layer.
+  /// Saves or loads the layers of the changed columns, in ascending order of tile and column,
+  /// regardless of the order of edits. Tiles that were created but have no changed column are saved
+  /// too.
+  /// @throws InputError when loading a column outside the site or an impossible layer.
   void visit(Archive& a);
 
+  /// Returns the number of tiles of the site along x.
   int tiles_x() const { return tiles_x_; }
+  /// Returns the thickness of one mass unit in a column [m], one entry per soil.
   const UnitThickness& unit() const { return site_->unit(); }
 
  private:
-  // Groups of 32 x 32 pointers lead to the tiles, so that a site of 1 km2 costs 800 bytes until it
-  // is touched.
+  /// Pointers to 32 x 32 neighbouring tiles; null where a tile has no changes. Groups are created
+  /// on demand, so an untouched site of 1 km2 takes 800 bytes.
   using Group = std::array<Tile*, kTileColumns>;
+  /// Returns the index in `groups_` of the group that contains tile (tx, ty).
   std::size_t group_of(int tx, int ty) const {
     return static_cast<std::size_t>(ty / kTileSide) * static_cast<std::size_t>(groups_x_) +
            static_cast<std::size_t>(tx / kTileSide);
   }
-  /// Returns null while no column of the tile was touched.
+  /// Returns tile (tx, ty); null if none of its columns changed.
   Tile* find_tile(int tx, int ty) const;
-  /// Returns the tile and creates it if needed.
+  /// Returns tile (tx, ty) and creates it if it does not exist.
   Tile& touch_tile(int tx, int ty);
-  /// Removes all changes.
+  /// Makes all columns as on the untouched site again.
   void clear();
 
+  /// The untouched site.
   std::shared_ptr<const StartSite> site_;
+  /// Number of tiles and number of groups along x.
   int tiles_x_, groups_x_;
+  /// Tiles with changed columns, by their key ty * tiles_x_ + tx. Snapshots and hashes contain them
+  /// in the order of the keys.
   std::map<std::int64_t, std::unique_ptr<Tile>> touched_;
+  /// Groups of tiles, x fastest; null where a group has no tile. Serve to find a tile without a
+  /// search.
   std::vector<std::unique_ptr<Group>> groups_;
+  /// Initial mass of all columns that have changed, one entry per soil [kMassQuantum].
   std::vector<std::int64_t> start_mass_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as text.
+// Encodes bytes as base64 text.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace navvy::link {
 
-/// Returns `bytes` in base64 with padding and without line ends [RFC 4648]: four characters for
-/// each three bytes, so a picture or an array fits into one line of JSON.
+/// Returns `bytes` as base64 text with padding and without line breaks [RFC 4648]. The text has
+/// four characters for each three bytes and fits into one line of JSON.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace navvy::link

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller may ask between two steps: maps, arrays, pictures, states.
+// Requests that a controller can make between two steps: maps, arrays, pictures, states.
 #pragma once
 
 #include <cstdint>
@@ -12,57 +12,77 @@
 
 namespace navvy::link {
 
-/// Returns enough of a value or text to recognise it, for messages: at most 80 bytes and "...".
+/// Returns a JSON value as text for messages, shortened to 80 bytes and "..." if it is longer.
 std::string shown(const nlohmann::json& value);
+/// Returns `text` for messages, shortened to 80 bytes and "..." if it is longer. Control characters
+/// are replaced by "?".
 std::string shown(const std::string& text);
 
-/// Services that a program offers to its controller.
+/// Requests that a program allows its controller to make.
 struct ControlServices {
-  bool images = true;  ///< pictures may be drawn
-  bool files = true;   ///< states may be saved to and loaded from files
+  /// True if the controller may request pictures.
+  bool images = true;
+  /// True if the controller may save states to files and load them.
+  bool files = true;
 };
 
 /// Answers requests of a controller (docs/reference/control_protocol.md).
 ///
-/// A request is an object with one key: {"info": true}, {"heights": {...}}, {"changed": N},
-/// {"arrays": ["name"]} or {"arrays": true}, {"image": "camera"}, {"reset": true}, {"save":
-/// "file"},
-/// {"load": "file"} or {"watch": "machine/link"}. Simulated time stands still meanwhile. The map
-/// begins with the construction, is updated when it is asked for, and costs nothing otherwise.
+/// A request is a JSON object with one key: "info", "heights", "changed", "arrays", "image",
+/// "reset", "save", "load" or "watch". Simulated time does not advance while a request is answered.
+///
+/// The requests "heights" and "changed" use a map that this class makes at its construction and
+/// updates at each such request.
 class ControlRequests {
  public:
-  /// Keeps a reference to `simulation`, which must outlive this object. `rate` is the number of
-  /// control steps per simulated second, for `info`.
+  /// Stores a reference to `simulation`, which must outlive this object. `rate` is the number of
+  /// control steps per simulated second, which the request "info" reports.
   ControlRequests(run::Simulation& simulation, double rate, ControlServices services = {});
 
-  /// Returns true if the line asks for something and so sets no input.
+  /// Returns true if `line` contains the key of a request, such as "info". Otherwise it is a line
+  /// that sets inputs.
   static bool is_request(const nlohmann::json& line);
-  /// Returns the answer, an object under the request's key. @throws Error for a request that cannot
-  /// be answered; the simulation is then as it was.
+  /// Returns the answer to a request: an object with the key of the request. @throws Error if the
+  /// request cannot be answered; the simulation is then unchanged.
   nlohmann::json answer(const nlohmann::json& line);
-  /// Returns true if the last answer replaced the state: its outputs are others now.
+  /// Returns true if the last answered request replaced the state of the simulation ("reset" or
+  /// "load"), so that its outputs have changed.
   bool moved() const { return moved_; }
 
  private:
-  // Answers by request, without the key.
+  /// Returns the answer to the request `key` with the value `what`. (`answer` puts it into an
+  /// object under this key.)
   nlohmann::json dispatch(const std::string& key, const nlohmann::json& what);
-  // One function per request. Each receives the value of its key and returns that of the answer.
+  /// Answers "heights": values of a map layer at the cells of a rectangle.
   nlohmann::json heights(const nlohmann::json& what);
+  /// Answers "changed": rectangles that changed since the map with sequence number `what`.
   nlohmann::json changed(const nlohmann::json& what);
+  /// Answers "arrays": the latest samples of the named arrays, or of all arrays.
   nlohmann::json arrays(const nlohmann::json& what) const;
+  /// Answers "image": the picture of a camera as PNG.
   nlohmann::json image(const nlohmann::json& what) const;
+  /// Answers "info": scene, device, rates, site and channels.
   nlohmann::json info() const;
+  /// Answers "watch": adds outputs for a link, and returns their names and units.
   nlohmann::json watch(const nlohmann::json& what);
+  /// Answers "save": writes the state of the simulation to a file.
   nlohmann::json save(const nlohmann::json& what) const;
+  /// Replaces the state of the simulation by calling `load`, starts a new map, and returns the
+  /// answer with the new time and step count.
   nlohmann::json replaced(const std::function<void()>& load);
+  /// Updates the map to the current terrain and returns the latest update.
   map::UpdateFeed::Update now();
 
+  /// Simulation that answers the requests.
   run::Simulation& simulation_;
-  double rate_;  ///< control steps per simulated second
+  /// Number of control steps per simulated second.
+  double rate_;
+  /// Requests that the controller may make.
   ControlServices services_;
-  /// Numbered maps of all layers.
+  /// Numbered maps for the requests "heights" and "changed", with all layers.
   map::UpdateFeed feed_;
-  bool moved_ = false;  ///< the last answer replaced the state
+  /// True if the last answered request replaced the state of the simulation.
+  bool moved_ = false;
 };
 
 }  // namespace navvy::link

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends patches of a running map to other processes, over TCP or as numbered files.
+// Sends map updates of a running simulation to other processes, over TCP or as numbered files.
 #pragma once
 
 #include <cstddef>
@@ -11,51 +11,55 @@
 
 namespace navvy::link {
 
-/// Sends every update of a feed to all readers from threads of its own, so that the publishing loop
-/// never waits.
+/// Sends every update of a map feed to all readers as patches (formats/map_patch.h). It uses
+/// threads of its own, so the thread that publishes updates never waits for readers.
 ///
-/// `tcp:PORT` listens on 127.0.0.1, `tcp:HOST:PORT` on the address HOST; port 0 takes a free one.
-/// Each reader that connects gets one patch with the whole map, then patches in order, each counted
-/// from the one before. A slow reader gets one patch for everything it missed. A reader that
-/// disconnects, or closes its own direction, is dropped within a second and may connect again. The
-/// 65th reader at a time is refused, which is logged.
+/// The destination `tcp:PORT` listens for readers on 127.0.0.1, and `tcp:HOST:PORT` on the IPv4
+/// address HOST; port 0 selects a free port. Each reader that connects gets a patch with the whole
+/// map first, and then patches that each continue the one before. A slow reader gets one patch for
+/// all updates that it missed. A reader that disconnects, or closes its sending direction, is
+/// dropped within a second and may connect again. If kMostReaders are connected, further ones are
+/// refused, which is logged.
 ///
-/// A folder gets `patch_000000001.navvymap` and so on, each complete or absent, the first with the
-/// whole map, to be read in the order of their numbers, and at the end an empty file `end`.
+/// Any other destination is a folder. It gets the files `patch_000000001.navvymap`,
+/// `patch_000000002.navvymap` and so on, to be read in this order. The first one contains the whole
+/// map. A file appears only when it is complete. The empty file `end` follows after the last one.
 class MapPublisher {
  public:
-  /// Starts to publish. The feed must outlive it.
-  /// @throws InputError for an invalid place or a port in use; FileError for a folder that cannot
-  /// be made.
+  /// Starts to publish `layers` of the maps in `feed`, which must outlive this object, to the
+  /// destination `place`.
+  /// @throws InputError for an invalid destination or a port in use; FileError for a folder that
+  /// cannot be made.
   MapPublisher(map::UpdateFeed& feed, const std::string& place, std::vector<map::MapLayer> layers);
-  /// Finishes as `finish` does.
+  /// Ends publishing as `finish` does.
   ~MapPublisher();
-  /// Checks that one could publish there, without making a folder or keeping a port. @throws
-  /// InputError as the constructor.
+  /// Checks that the destination `place` can be used, without making a folder or keeping a port
+  /// open. @throws InputError as the constructor.
   static void require_place(const std::string& place);
   MapPublisher(const MapPublisher&) = delete;
   MapPublisher& operator=(const MapPublisher&) = delete;
 
-  /// Closes the feed, sends what is left, for at most kPatience seconds to each reader, and ends
-  /// the threads. `fault` then reports what went wrong. Must be called at most once.
+  /// Closes the feed, sends the remaining updates, and ends the threads. Each TCP reader gets at
+  /// most kPatience seconds for this. Later calls do nothing. After this call, `fault` is final.
   void finish();
 
-  /// Returns the port that it listens on; 0 for a folder.
+  /// Returns the port on which readers can connect; 0 if the destination is a folder.
   int port() const;
-  /// Returns the cause that ended the writing of a folder; empty while there is none. Readers over
-  /// TCP that disconnect are not a fault.
+  /// Returns the message of the first error that occurred when writing to a folder; empty if there
+  /// was none. TCP readers that disconnect are not an error.
   std::string fault() const;
 
-  /// Longest time that `finish` waits for a reader [s].
+  /// Maximum time that `finish` waits for a TCP reader [s].
   static constexpr double kPatience = 2;
-  /// Largest number of readers over TCP at a time.
+  /// Maximum number of TCP readers connected at the same time.
   static constexpr std::size_t kMostReaders = 64;
-  /// File of a folder that gets no more patches.
+  /// Name of the file that marks the end of the patches in a folder.
   static constexpr const char* kEnd = "end";
 
  private:
-  /// Hides sockets and threads from clients.
+  /// Sockets and threads of the publisher.
   struct State;
+  /// Sockets and threads of the publisher; never null.
   std::unique_ptr<State> state_;
 };
 

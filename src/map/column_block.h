@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What map layers are computed from: the state of every column of a site at one instant.
+// Inputs from which map layers are computed: the state of every column of a site at one instant.
 #pragma once
 
 #include <memory>
@@ -12,75 +12,91 @@
 
 namespace navvy::map {
 
-/// Options of a map: its contents.
+/// Layers that a map contains, and the parameters to compute them.
 struct MapOptions {
-  /// Layers of the map; the layers that these are computed from are added.
+  /// Layers of the map. Layers that these are computed from are added automatically.
   std::vector<MapLayer> layers = default_layers();
-  /// Limits for kTraversability and the window of step height and roughness.
+  /// Limits for the layer kTraversability, and the window size for kStepHeight and kRoughness.
   TraversabilityLimits limits;
-  /// Design surface in W [m], one value per column, x fastest, NaN where there is none. Empty means
-  /// that the site has no design.
+  /// World z of the design surface [m], one value per column of the site, x fastest; NaN for
+  /// columns without a design height. Empty if the site has no design.
   std::vector<float> target;
 };
 
-/// State of the columns of a site at one instant, as a terrain view holds it. Immutable, so any
-/// number of threads may read. A source that knows less than a view overrides the functions.
+/// State of all columns of a site at one instant, taken from a terrain view. Immutable, so any
+/// number of threads may read it. A derived class represents a site about which less is known, such
+/// as one read from a file.
 class SiteColumns {
  public:
-  /// Describes the site as `view` shows it.
+  /// Describes the columns as they are in `view`, for maps with the given options.
   SiteColumns(heightfield::TerrainView view, std::shared_ptr<const MapOptions> options);
+  /// Allows deletion through a base class pointer.
   virtual ~SiteColumns() = default;
 
-  /// Returns the view of the site.
+  /// Returns the terrain view from which heights and soil properties are read.
   const heightfield::TerrainView& view() const { return view_; }
   /// Returns the options of the map.
   const MapOptions& options() const { return *options_; }
-  /// Returns false where layers with these needs are unknown in every column.
+  /// Returns true if this object provides the data `needs`. Layers that need other data are unknown
+  /// in every column.
   virtual bool knows(LayerNeeds needs) const;
 
-  // Every function below takes a column of the site; nothing is checked.
-  /// Height of the surface in W [m].
+  /// Returns the height of the surface in site column (ix, iy), as world z [m]. The indices are not
+  /// checked.
   double height(int ix, int iy) const { return view_.height(ix, iy); }
-  /// Height of the untouched site in W [m].
+  /// Returns the initial height of the ground in site column (ix, iy), as world z [m]. The indices
+  /// are not checked.
   virtual double start_height(int ix, int iy) const { return view_.start_height(ix, iy); }
-  /// Height of the design surface in W [m]; unknown without a design.
+  /// Returns the height of the design surface in site column (ix, iy), as world z [m]; NaN if there
+  /// is none. The indices are not checked.
   float target(int ix, int iy) const;
-  /// Depth of the soil that rests on the column as particles [m].
+  /// Returns the depth of loose soil, which consists of particles, on site column (ix, iy) [m]. The
+  /// indices are not checked.
   virtual float loose_depth(int ix, int iy) const { return view_.loose_depth(ix, iy); }
-  /// Index of the uppermost soil in setup().soils.
+  /// Returns the uppermost soil of site column (ix, iy), as an index into the setup's list of
+  /// soils. The indices are not checked.
   float soil(int ix, int iy) const { return view_.surface_soil(ix, iy); }
-  /// Volume over bank volume of the uppermost soil.
+  /// Returns volume divided by bank volume of the uppermost soil in site column (ix, iy) [-]. The
+  /// indices are not checked.
   float specific_volume(int ix, int iy) const { return view_.specific_volume(ix, iy); }
-  /// Bulk density of the uppermost soil [kg/m3].
+  /// Returns the bulk density of the uppermost soil in site column (ix, iy) [kg/m3]. The indices
+  /// are not checked.
   float density(int ix, int iy) const;
 
  private:
+  /// Terrain view from which heights and soil properties are read.
   heightfield::TerrainView view_;
+  /// Options of the map; never null.
   std::shared_ptr<const MapOptions> options_;
 };
 
-/// A rectangle of columns for which a layer is computed. Copies the heights of the rectangle when
-/// the first elevation is asked for, which is faster than one look-up per column. One thread.
+/// A rectangle of columns for which a layer is computed. The heights of the whole rectangle are
+/// copied when the first one is requested, which is faster than one look-up per column. Only one
+/// thread may use a block.
 class ColumnBlock {
  public:
-  /// Both must outlive the block.
+  /// Represents the columns of `site` in `rect`. Both arguments must outlive the block.
   ColumnBlock(const SiteColumns& site, const heightfield::CellRect& rect)
       : site_(site), rect_(rect) {}
 
   /// Returns the state of the site.
   const SiteColumns& site() const { return site_; }
-  /// Returns the height of the surface of a column of the rectangle in W [m].
+  /// Returns the height of the surface in column (ix, iy), as world z [m]. The column must lie in
+  /// the rectangle.
   float elevation(int ix, int iy) const;
 
  private:
+  /// State of the site.
   const SiteColumns& site_;
+  /// Rectangle of columns for which a layer is computed.
   const heightfield::CellRect& rect_;
+  /// Heights of the rectangle as world z [m], x fastest; empty until one is requested.
   mutable std::vector<float> z_;
 };
 
-/// Makes the map of a site whose columns are computed when a reader asks for them. The map has
-/// sequence number `sequence` and the layers of the options.
-/// @throws InputError for a target with another number of values than the site has columns, and for
+/// Returns a map with sequence number `sequence` and the layers of site->options(). The values are
+/// computed from `site` when they are read.
+/// @throws InputError if the options contain a target whose size is not the number of columns, or
 /// limits that are not finite and positive.
 TerrainMap make_map(const std::shared_ptr<const SiteColumns>& site, std::uint64_t sequence);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers that follow from elevation alone: pure functions of the columns nearby, so that updating a
-// part of a map is bit-identical to computing all of it.
+// Layers that are computed from elevation only: pure functions of nearby columns, so that updating
+// a part of a map is bit-identical to computing all of it.
 #pragma once
 
 #include <algorithm>
@@ -12,89 +12,110 @@
 
 namespace navvy::map {
 
-/// Limits of what a machine can drive on. A value at its limit counts as bad, zero as best.
+/// Limits of the ground that a machine can drive on. Ground that reaches a limit has traversability
+/// 0.
 struct TraversabilityLimits {
-  /// Steepest slope [rad] (U).
+  /// Slope at which the ground stops being drivable [rad]. The default is typical but unverified
+  /// (U).
   double slope = radians(30);
-  /// Highest step [m] (U): about a third of the diameter of an excavator's wheel.
+  /// Step height at which the ground stops being drivable [m]. The default, about a third of the
+  /// diameter of an excavator's wheel, is typical but unverified (U).
   double step_height = 0.30;
-  /// Largest rms roughness [m] (U).
+  /// Rms roughness at which the ground stops being drivable [m]. The default is typical but
+  /// unverified (U).
   double roughness = 0.10;
-  /// Half the side of the square over which step height and roughness are computed [m]; at least
-  /// one column.
+  /// Half the side of the square window in which step height and roughness are computed [m]. The
+  /// window extends at least one column to each side.
   double window = 0.20;
-  /// @throws InputError that names the number that is not finite and positive, or a window of more
-  /// than 64 columns of `cell` [m].
+  /// Checks the limits for columns with edge `cell` [m]. @throws InputError naming a value that is
+  /// not finite and positive, or a window of more than 64 columns to each side.
   void require_valid(double cell) const;
-  /// Returns the number of columns to either side that a value depends on.
+  /// Returns the number of columns to each side that the window covers, for columns with edge
+  /// `cell` [m]: from 1 to 64.
   int reach(double cell) const;
 };
 
-/// Elevation of a rectangle of columns with a margin around it; unknown outside the site.
+/// Heights of a rectangle of columns, including a margin around the columns of interest.
 struct ElevationPatch {
-  /// Columns of the patch, margin included.
+  /// Columns of the patch, including the margin. They may lie outside the site.
   heightfield::CellRect rect;
-  /// Edge of a column [m].
+  /// Edge length of a column [m].
   double cell = 0;
-  /// Heights in W [m], x fastest.
+  /// Heights as world z [m], x fastest; NaN outside the site.
   std::vector<float> z;
-  /// Returns the height of column (ix, iy) of the site, which must lie in the patch [m].
+  /// Returns the height of site column (ix, iy), as world z [m]; NaN if it is unknown. The column
+  /// must lie in the patch.
   float at(int ix, int iy) const {
     return z[static_cast<std::size_t>(iy - rect.y0) * static_cast<std::size_t>(rect.x1 - rect.x0) +
              static_cast<std::size_t>(ix - rect.x0)];
   }
 };
 
-// Each function takes a column (ix, iy) of the site at least `reach` columns inside the patch and
-// returns NaN where the elevation of that column is unknown.
-/// Returns the gradient of the surface [-]: central differences, one-sided beside unknown columns
-/// and at the edge; NaN where an axis has no known neighbour.
+/// Returns the gradient of the surface in column (ix, iy), along x and y [-]. It uses central
+/// differences, and one-sided differences next to unknown columns. NaN if the column's elevation is
+/// unknown; a component is NaN if neither neighbour on its axis is known. The column must lie at
+/// least one column inside the patch.
 Vec2 gradient_at(const ElevationPatch& patch, int ix, int iy);
-/// Returns the angle of that gradient from the horizontal [rad].
+/// Returns the angle of the surface from the horizontal in column (ix, iy) [rad]; NaN if a
+/// component of `gradient_at` is NaN. The column must lie at least one column inside the patch.
 float slope_at(const ElevationPatch& patch, int ix, int iy);
-/// Returns the largest |z_a - z_b| of two edge neighbours a, b that both lie in the window [m].
+/// Returns the largest height difference between two columns that share an edge, within `reach`
+/// columns of column (ix, iy) [m]; NaN if the elevation of (ix, iy) is unknown. The column must lie
+/// at least `reach` columns inside the patch.
 float step_height_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Returns the rms of the residuals of the least-squares plane through the window [m]; NaN where
-/// the known columns do not determine a plane.
+/// Returns the rms distance, along z, of the surface from its least-squares plane, within `reach`
+/// columns of column (ix, iy) [m]. NaN if the elevation of (ix, iy) is unknown, or if the known
+/// columns do not determine a plane. The column must lie at least `reach` columns inside the patch.
 float roughness_at(const ElevationPatch& patch, int ix, int iy, int reach);
-/// Returns the mean of 1 - value / limit of the three; 0 where one of them reaches its limit, NaN
-/// where one is NaN.
+/// Returns the traversability of ground with the given slope [rad], step height [m] and roughness
+/// [m]: the mean of 1 - value / limit of the three values. 0 if any value reaches its limit, NaN if
+/// any value is NaN.
 float traversability(float slope, float step_height, float roughness,
                      const TraversabilityLimits& limits);
 
-/// One column and the elevation around it. Computes what several layers share only once.
+/// Computes the layers of one column that depend on nearby elevations. Values that several layers
+/// need are computed only once.
 class Surround {
  public:
-  /// The patch and the limits must outlive it; `reach` is limits.reach(patch.cell).
+  /// Represents column (ix, iy) of `patch`. The patch and the limits must outlive this object;
+  /// `reach` must be limits.reach(patch.cell).
   Surround(const ElevationPatch& patch, int ix, int iy, const TraversabilityLimits& limits,
            int reach)
       : patch_(patch), limits_(limits), ix_(ix), iy_(iy), reach_(reach) {}
 
   /// Returns the limits of the map.
   const TraversabilityLimits& limits() const { return limits_; }
-  /// Angle from the horizontal [rad].
+  /// Returns the angle of the surface from the horizontal at the column [rad]; NaN if it is
+  /// unknown.
   float slope();
-  /// Largest step within the window [m].
+  /// Returns the largest height difference between neighbouring columns within the window around
+  /// the column [m]; NaN if the column's elevation is unknown.
   float step_height();
-  /// Rms roughness within the window [m].
+  /// Returns the rms distance of the surface from its least-squares plane within the window around
+  /// the column [m]; NaN if it is unknown.
   float roughness();
-  /// Component 0, 1 or 2 of the unit upward normal in W.
+  /// Returns one component of the unit upward normal, in world axes: x, y or z for axis 0, 1 or 2.
   float normal(int axis) const;
 
  private:
+  /// Heights around the column.
   const ElevationPatch& patch_;
+  /// Limits of the map.
   const TraversabilityLimits& limits_;
+  /// Indices of the column, and window size in columns to each side.
   int ix_, iy_, reach_;
+  /// Slope [rad], step height [m] and roughness [m] of the column; no value until they are first
+  /// requested.
   std::optional<float> slope_, step_height_, roughness_;
 };
 
-/// Returns `rect` grown by `by` columns to each side, also beyond the site.
+/// Returns `rect` extended by `by` columns on each side. The result may extend beyond the site.
 inline heightfield::CellRect grown(const heightfield::CellRect& rect, int by) {
   return {rect.x0 - by, rect.y0 - by, rect.x1 + by, rect.y1 + by};
 }
 
-/// Calls `work(block)` for blocks of at most 256 x 256 columns that cover `rect`: their elevation
-/// with its margin fits a processor's cache.
+/// Calls `work(block)` for blocks of at most 256 x 256 columns that together cover `rect`. The
+/// heights of a block with its margin fit into a processor cache.
 template <class Work>
 void for_each_block(const heightfield::CellRect& rect, const Work& work) {
   constexpr int kBlock = 256;
@@ -104,8 +125,8 @@ void for_each_block(const heightfield::CellRect& rect, const Work& work) {
                                  std::min(y0 + kBlock, rect.y1)});
 }
 
-/// Calls `work(ix, iy, surround)` for every column of `block`, around which `patch` has a margin of
-/// limits.reach(patch.cell) columns.
+/// Calls `work(ix, iy, surround)` for every column of `block`. The patch must extend at least
+/// limits.reach(patch.cell) columns beyond the block on each side.
 template <class Work>
 void for_each_surround(const ElevationPatch& patch, const heightfield::CellRect& block,
                        const TraversabilityLimits& limits, const Work& work) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of a terrain map: one table with the name, the unit and the rule of each.
+// The layers of a terrain map: a table with the name, the unit and the formula of each layer.
 #pragma once
 
 #include <array>
@@ -13,123 +13,134 @@ namespace navvy::map {
 class ColumnBlock;
 class Surround;
 
-/// A layer of a map: one float32 per column of the site, NaN where the value is unknown.
-/// src/map/README.md gives the formulas. To add a layer, add an enumerator here and a row in
-/// map_layers.cpp.
+/// A layer of a terrain map, which has one float32 per column of the site, and NaN where the value
+/// is unknown. src/map/README.md gives the formulas. To add a layer, add an enumerator here and a
+/// row in map_layers.cpp.
 enum class MapLayer : std::uint8_t {
-  /// Surface in W [m].
+  /// World z of the surface [m].
   kElevation,
-  /// Surface of the untouched site in W [m].
+  /// World z of the initial ground surface [m].
   kElevationStart,
-  /// Design surface in W [m]; unknown where the scene has no design.
+  /// World z of the design surface [m]; unknown if the scene has no design.
   kTarget,
-  /// Elevation minus target [m]; positive where soil is still to be removed.
+  /// Elevation minus target [m]; positive where soil must still be removed.
   kCutFill,
   /// Angle of the surface from the horizontal [rad].
   kSlope,
-  /// Largest height between neighbouring columns within the window [m].
+  /// Largest height difference between columns that share an edge, within
+  /// TraversabilityLimits::window [m].
   kStepHeight,
-  /// Rms distance from the least-squares plane through the window [m].
+  /// Rms distance of the surface from its least-squares plane, within TraversabilityLimits::window
+  /// [m].
   kRoughness,
-  /// 0 (not drivable) to 1 (best).
+  /// Traversability for a machine, from 0 (not drivable) to 1 (best).
   kTraversability,
-  /// Depth of the soil that rests on the columns as particles [m].
+  /// Depth of the loose soil on the column, which consists of particles [m].
   kLooseDepth,
-  /// Bulk density of the uppermost soil in its present state [kg/m3].
+  /// Bulk density of the uppermost soil in its current state [kg/m3].
   kDensity,
-  /// Index of the uppermost soil in the scene's list.
+  /// Index of the uppermost soil in the scene's list of soils.
   kSoil,
-  /// Simulated time of the last observed change [s]; unknown where none was observed.
+  /// Simulated time at which the column last changed [s]; unknown if no change was observed.
   kDisturbedAt,
-  /// 1 where the soil may still move, 0 where it is at rest.
+  /// 1 if the column has loose soil, which may still move; 0 if its soil is at rest.
   kActive,
-  /// Elevation minus elevation at the start [m].
+  /// Elevation minus initial elevation [m].
   kChange,
-  /// Components of the unit upward normal in W.
+  /// x component of the unit upward normal, in world axes.
   kNormalX,
+  /// y component of the unit upward normal, in world axes.
   kNormalY,
+  /// z component of the unit upward normal, in world axes.
   kNormalZ,
-  /// Volume over bank volume of the uppermost soil.
+  /// Volume divided by bank volume of the uppermost soil [-].
   kSpecificVolume
 };
-/// Number of layers.
+/// Number of map layers.
 inline constexpr std::size_t kMapLayers = static_cast<std::size_t>(MapLayer::kSpecificVolume) + 1;
 
-/// Meaning of a layer's numbers. Every layer is stored as float32; pictures and exports look here.
+/// Meaning of a layer's values, which determines how pictures and exported files show them.
 enum class LayerType : std::uint8_t {
-  /// Height counted from W z = 0: an export adds the datum of the site's file.
+  /// Values are heights as world z. Exported files contain them in the vertical datum of the site's
+  /// terrain file.
   kHeight,
-  /// Signed difference around zero.
+  /// Values are differences of two heights, positive or negative.
   kDifference,
-  /// Physical quantity without a natural range.
+  /// Values are a physical quantity without a natural range.
   kQuantity,
-  /// Number from 0 (bad) to 1 (good).
+  /// Values are ratings from 0 (bad) to 1 (good).
   kShare,
-  /// Index into a list; interpolating it makes no sense.
+  /// Values are indices into a list. Interpolating them gives no meaningful result.
   kIndex,
-  /// 0 or 1.
+  /// Values are 0 (false) or 1 (true).
   kFlag,
-  /// Simulated time.
+  /// Values are simulated times [s].
   kTime
 };
 
-/// Knowledge that a layer needs. Where a source of maps lacks it, the layer is unknown everywhere.
+/// Data that a layer is computed from. The layer is unknown everywhere if a source of maps does not
+/// have them.
 enum class LayerNeeds : std::uint8_t {
-  /// Present and initial heights.
+  /// The layer is computed from current and initial heights.
   kHeights,
-  /// Depth of the soil that rests on the columns as particles.
+  /// The layer is computed from the depth of loose soil on the columns.
   kLooseSoil,
-  /// Kind and density of the uppermost soil.
+  /// The layer is computed from type and density of the uppermost soil.
   kSoilState,
-  /// A design surface.
+  /// The layer is computed from a design surface.
   kDesign,
-  /// Views of the same site at earlier times.
+  /// The layer is computed from terrain views at several times.
   kHistory
 };
 
-/// One row of the table: a layer and the rule that computes it.
+/// One row of the layer table: properties of a layer, and the function that computes it.
 struct LayerInfo {
   /// Enumerator of the layer.
   MapLayer layer;
   /// Name in files, options and messages, such as "step_height".
   std::string name;
-  /// "m", "rad", "kg/m3", "s" or "-".
+  /// Unit of the values: "m", "rad", "kg/m3", "s" or "-".
   std::string unit;
-  /// One line for people.
+  /// One-line description for the user.
   std::string meaning;
-  /// Meaning of its numbers.
+  /// Meaning of the layer's values.
   LayerType type;
-  /// The layer is NaN (kUnknown) in every column where this is missing. Formats without NaN write
-  /// their own nodata value.
+  /// Data that the layer is computed from. Without them the layer is NaN (kUnknown) in every
+  /// column. File formats without NaN write their own nodata value.
   LayerNeeds needs;
-  /// Layers that a map with this layer holds too, because this one is computed from them.
+  /// Layers that this one is computed from. A map with this layer contains them as well.
   std::vector<MapLayer> from = {};
-  /// Computes the value from the column itself; null for layers of the other two kinds.
+  /// Function that computes the layer's value from the state of column (ix, iy). Null for layers
+  /// that are not computed from a single column.
   float (*of_column)(const ColumnBlock& block, int ix, int iy) = nullptr;
-  /// Computes the value from the elevation of the columns around. Layers with neither function
-  /// depend on history: MapMaker stamps them.
+  /// Function that computes the layer's value from the elevation of nearby columns. Null for other
+  /// layers. If `of_column` is null too, the layer depends on history, and MapMaker sets its
+  /// values.
   float (*of_surround)(Surround& surround) = nullptr;
-  /// False for layers that are written only where somebody names them.
+  /// False for layers that a map contains only if they are requested by name.
   bool by_default = true;
 
-  /// Returns true for heights in W, to which exports add the datum.
+  /// Returns true if the values are world z, which exported files convert to the vertical datum of
+  /// the terrain file.
   bool height() const { return type == LayerType::kHeight; }
 };
 
-/// Returns the table, in the order of the enumerators.
+/// Returns the layer table, in the order of the enumerators of MapLayer.
 const std::array<LayerInfo, kMapLayers>& layers();
-/// Returns the place of a layer in the table.
+/// Returns the index of `layer` in the layer table.
 inline std::size_t index_of(MapLayer layer) { return static_cast<std::size_t>(layer); }
-/// Returns the row of a layer.
+/// Returns the row of `layer` in the layer table.
 inline const LayerInfo& info(MapLayer layer) { return layers()[index_of(layer)]; }
-/// Returns the layer called `name`. @throws InputError that suggests the nearest name.
+/// Returns the layer called `name`. Names from earlier releases are accepted too. @throws
+/// InputError that suggests the most similar name.
 MapLayer layer_named(const std::string& name);
-/// Returns the layers of a list such as "slope,soil": each once, in the order given.
+/// Parses a comma-separated list of layer names, such as "slope,soil". Returns each layer once, in
+/// the order of the list.
 /// @throws InputError for an unknown name or an empty list.
 std::vector<MapLayer> layers_named(const std::string& list);
-/// Returns every layer of the table.
+/// Returns all layers of the layer table.
 std::vector<MapLayer> all_layers();
-/// Returns the layers that a map has when nobody names any.
+/// Returns the layers that a map contains if none are requested by name.
 std::vector<MapLayer> default_layers();
 
 }  // namespace navvy::map

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines that pictures of a map show over it.
+// Lines that are drawn over pictures of a map.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@ namespace navvy::map {
 
 /// A line over a map, such as a planned path.
 struct MapLine {
-  /// Number of the line, from 1; pictures choose the colour by it.
+  /// Number that selects the line's colour in pictures; the first line has number 1.
   int number = 1;
-  /// Corners in W [m].
+  /// Vertices of the line, as world (x, y) [m].
   std::vector<Vec2> places;
 };
 

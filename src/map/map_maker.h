@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the map of a site up to date from one view of its terrain to the next.
+// Keeps the map of a site up to date as its terrain changes.
 #pragma once
 
 #include <cstdint>
@@ -13,61 +13,70 @@
 
 namespace navvy::map {
 
-/// Makes maps of one site, each from the latest view.
+/// Makes maps of one site, each from the latest terrain view.
 ///
-/// An update recomputes only columns that changed, and derived layers in the window around them;
-/// the result is bit-identical to a full computation. Columns that are as in the first view are
-/// computed from that view when a reader asks, so that the first update costs nothing and a site
-/// takes memory only where it changed or was read column by column. An update costs what changed,
-/// and a pointer per layer and tile of 64 x 64 columns. Maps taken before never change. One thread
-/// updates; any number of threads read the maps.
+/// An update recomputes only the columns that changed, and derived layers in the window around each
+/// of them. The result is bit-identical to a full computation. Columns that never changed are
+/// computed from the first view when they are read. The first update therefore takes almost no
+/// time, and memory is needed only for the parts of the site that changed or were read column by
+/// column.
+///
+/// Maps returned earlier never change. One thread makes updates; any number of threads may read the
+/// maps.
 class MapMaker {
  public:
-  /// Makes maps with these options.
+  /// Stores the options of the maps. The first call of `update` makes the first map.
   explicit MapMaker(MapOptions options);
 
-  /// Brings the map up to date. Returns at most 64 rectangles that cover the columns with any
-  /// changed value; they may overlap and may include columns that did not change. Returns the whole
-  /// site the first time, and for a view of another site.
-  /// @throws InputError for a target with another number of values than the site has columns, and
-  /// for limits that are not finite and positive.
+  /// Updates the map to the terrain of `view`. Returns at most 64 rectangles that cover all columns
+  /// with a changed value. They may overlap, and may contain unchanged columns. The first call, and
+  /// a view of another site, return the whole site. The reference is valid until the next call.
+  /// @throws InputError if the options contain a target whose size is not the number of columns, or
+  /// limits that are not finite and positive.
   const std::vector<heightfield::CellRect>& update(const heightfield::TerrainView& view);
-  /// Returns the present map. @throws Error before the first update.
+  /// Returns the current map. @throws Error if `update` was never called.
   TerrainMap map();
-  /// Makes the next update start anew, without history (`disturbed_at`).
+  /// Discards the map and its history (layer `disturbed_at`). The next update behaves like the
+  /// first one.
   void forget();
 
  private:
-  /// Returns true when the map is of the same size and place as the view.
+  /// Returns true if the current map has the size and position of the site in `view`.
   bool is_of(const heightfield::TerrainView& view) const;
-  /// Makes the map of the first view.
+  /// Makes the map of the first view of a site.
   void start(const heightfield::TerrainView& view);
-  /// Updates the layers that depend on a column alone.
+  /// Updates the layers that are computed from single columns, for all columns in `rect`.
   void update_columns(const SiteColumns& site, const heightfield::CellRect& rect);
-  /// Updates the layers that follow from the elevation around a column.
+  /// Updates the layers that are computed from nearby elevations, for all columns in `rect`.
   void update_derived(const heightfield::CellRect& rect);
-  /// Returns true when the map holds the layer.
+  /// Returns true if the map contains `layer`.
   bool wants(MapLayer layer) const { return !map_->tiles_[index_of(layer)].empty(); }
-  /// Writes a value and returns true when it changed. Does nothing for a layer that the map does
-  /// not hold.
+  /// Writes the value of `layer` in column (ix, iy). Returns true if the value changed. Does
+  /// nothing and returns false if the map does not contain the layer.
   bool set(MapLayer layer, int ix, int iy, float value);
 
-  // Shared with the sources of the tiles.
+  /// Options of the maps, shared with the sources that compute tiles.
   std::shared_ptr<const MapOptions> options_;
+  /// Finds the columns that changed since the last view.
   heightfield::ChangeFollower follower_;
+  /// Rectangles returned by the last update.
   std::vector<heightfield::CellRect> changed_;
+  /// Current map; empty before the first update.
   std::optional<TerrainMap> map_;
-  // Edition of the tiles that are written now.
+  /// Edition number with which tiles are written. Increased before every update and whenever a map
+  /// is returned, so that tiles of returned maps are copied instead of written.
   std::uint64_t edition_ = 0;
-  // Number of updates so far, which numbers the maps.
+  /// Number of updates so far, which is the sequence number of the current map.
   std::uint64_t updates_ = 0;
-  // Rows of the layers that the map holds, by the rule that computes them. A change of a layer in
-  // marking_ stamps the column where the map holds disturbed_at.
+  /// Layers of the map, by the function that computes them: from a single column (`of_column_` and
+  /// `marking_`), or from nearby elevations (`of_surround_`). A change in one of the layers in
+  /// `marking_` sets the column's value in the layer `disturbed_at`.
   std::vector<const LayerInfo*> of_column_, marking_, of_surround_;
 };
 
-/// Returns the values of one layer over `rect`, which must lie within the site: x fastest, row 0
-/// with least y. Costs 10 to 60 ns per column. @throws InputError as MapMaker::update.
+/// Returns the values of one layer for the columns in `rect`, which must lie within the site: x
+/// fastest, beginning with the row of smallest y. Takes 10 to 60 ns per column. @throws InputError
+/// as MapMaker::update.
 std::vector<float> layer_values(const heightfield::TerrainView& view, MapLayer layer,
                                 const heightfield::CellRect& rect, const MapOptions& options = {});
 

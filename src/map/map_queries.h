@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queries of a map at a place. All are const, allocate little or nothing, and may run in any number
-// of threads at a time.
+// Queries of a map at world positions. They do not change the map, allocate little or no memory,
+// and may run in any number of threads at the same time.
 #pragma once
 
 #include <optional>
@@ -10,31 +10,35 @@
 
 namespace navvy::map {
 
-/// Returns the value of the column that holds W (x, y); NaN where it is unknown, outside the site,
-/// and for a layer that the map does not hold.
+/// Returns the value of `layer` in the column that contains world position (x, y) [m]. NaN if the
+/// value is unknown, the position is outside the site, or the map does not contain the layer.
 float value(const TerrainMap& map, MapLayer layer, double x, double y);
 
-/// Returns the height in W [m] of the surface that is bilinear between the centres of columns and
-/// level from the outermost centres to the edge of the site; NaN outside the site and where a
-/// column around the place is unknown.
+/// Returns the height of the surface at world position (x, y) [m], as world z [m]. The surface is
+/// bilinear between column centres, and level from the outermost centres to the edge of the site.
+/// NaN outside the site, and if the elevation of one of the surrounding columns is unknown.
 double height(const TerrainMap& map, double x, double y);
-/// Returns the unit upward normal of that surface in W; nothing where `height` is NaN.
+/// Returns the unit upward normal, in world axes, of the bilinear surface at world position (x, y)
+/// [m]. Returns no value if `height` is NaN there.
 std::optional<Vec3> normal(const TerrainMap& map, double x, double y);
-/// Returns the angle of that surface from the horizontal [rad]; NaN where `height` is NaN. The
-/// layer `slope` belongs to a column instead and spans three columns.
+/// Returns the angle from the horizontal of the bilinear surface at world position (x, y) [rad];
+/// NaN if `height` is NaN there. The map layer `slope` differs: it has one value per column,
+/// computed from three columns along each axis.
 double slope(const TerrainMap& map, double x, double y);
 
-/// Result of a line-of-sight query.
+/// Result of a line-of-sight query between two points.
 enum class Sight {
-  /// The surface stays below the segment.
+  /// The surface does not rise above the line segment.
   kFree,
-  /// The surface rises above the segment; touching it is not enough.
+  /// The surface rises above the line segment. Touching it is not enough.
   kHidden,
-  /// The segment is free as far as is known, but crosses unknown columns or leaves the site.
+  /// The known surface does not rise above the line segment, but the segment crosses unknown
+  /// columns or leaves the site.
   kUnsure
 };
-/// Tests whether the straight segment between two points in W [m] stays above the surface. Exact
-/// for the bilinear surface. Costs some 10 ns per column crossed.
+/// Tests if the straight line segment between the world points `p` and `q` [m] is free of ground.
+/// The result is exact for the bilinear surface. Takes about 10 ns per column crossed. Points that
+/// are not finite give Sight::kUnsure.
 Sight line_of_sight(const TerrainMap& map, const Vec3& p, const Vec3& q);
 
 }  // namespace navvy::map

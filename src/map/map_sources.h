@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of a scene that is not running: of its untouched site, and of what a run left.
+// Maps of a scene that is not running: of its untouched site, and of the terrain at the end of a
+// run.
 #pragma once
 
 #include <string>
@@ -12,28 +13,31 @@
 
 namespace navvy::map {
 
-/// Returns the limits that the machine's file gives (navvy:traversability), or the defaults.
+/// Returns the limits in the machine's file (navvy:traversability), or the default limits if the
+/// file gives none.
 TraversabilityLimits limits_of(const scene::Machine& machine);
-/// Returns options for maps with `layers`: the limits of the first machine of the scene that gives
-/// some (navvy:traversability), else the defaults, and where a layer needs it the design surface of
-/// the scene on the columns of `site`. `design`, when given, is used instead of computing it again.
+/// Returns options for maps of `site` with the given layers. The limits are those of the first
+/// machine of `scene` that gives some (navvy:traversability), or else the defaults. The design
+/// surface is included if one of the layers needs it.
+/// @param design design surface of the scene if the caller already has it; null: computed here
 /// @throws InputError as heightfield::make_design.
 MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& site,
                        std::vector<MapLayer> layers,
                        const heightfield::DesignSurface* design = nullptr);
 
-/// Returns the map of an untouched site. Needs no OpenCL device and computes columns when the map
-/// is read.
+/// Returns the map of an untouched site. Needs no OpenCL device. Columns are computed when they are
+/// read.
 TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options);
 
-/// Returns the map of the ground at the end of a run of `scene` that began on `start`, from the
-/// heights that the run wrote (`terrain_end.tif`). It has elevation and the layers that follow from
-/// it, elevation_start and target. The band `loose_depth` of the file gives loose_depth and active;
-/// a run whose soil had all come to rest writes no such band, and both are 0 then. Soil, density
-/// and the time of changes are unknown, because the file does not hold them. Columns that did not
-/// change have exactly the heights of the start; others are rounded as in the file. The time of the
-/// map is NaN.
-/// @throws FileError when the file is missing, InputError when it belongs to another site.
+/// Returns the map of the ground at the end of a run of `scene`, from the file `terrain_end`
+/// (terrain_end.tif) that the run wrote. `start` is the untouched site of the scene.
+///
+/// Available are elevation, the layers computed from it, elevation_start and target. Layers
+/// loose_depth and active come from the file's band `loose_depth`; they are 0 if all soil had come
+/// to rest, because the file then has no such band. Soil, density and the time of changes are
+/// unknown. Columns that did not change have exactly their initial heights; others are rounded as
+/// in the file. The time of the map is NaN.
+/// @throws FileError if the file is missing, InputError if it belongs to another site.
 TerrainMap map_of_run(const scene::Scene& scene, const heightfield::Ground& start,
                       const std::string& terrain_end, const MapOptions& options);
 

@@ -1,33 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a run ended.
+// How and why a run ended.
 #pragma once
 
 #include <string>
 
 namespace navvy::run {
 
-/// Reason of an end. The first one that holds counts: interrupted, complete, fell short, and only
-/// then a request or the duration.
+/// Reason why a run ended. If several reasons apply, the first one in this order is reported:
+/// kInterrupted, kComplete, kFellShort, then one of the others.
 enum class EndReason {
-  kComplete,      ///< every program reached its end and no machine fell over
-  kFellShort,     ///< a step of a program failed, or a machine fell over
-  kOutOfTime,     ///< the duration was over before the programs were
-  kEndRequested,  ///< the caller or its controller ended the run before its end
-  kInterrupted    ///< a signal, or a controller that went away
+  /// All programs were completed, and no machine fell over.
+  kComplete,
+  /// A program step failed, or a machine fell over.
+  kFellShort,
+  /// The maximum simulated time was reached before the programs ended.
+  kOutOfTime,
+  /// The caller or a controller ended the run early.
+  kEndRequested,
+  /// A signal interrupted the run, or its controller disconnected.
+  kInterrupted
 };
 
-/// End of a run.
+/// Result of a run.
 struct RunEnd {
+  /// Reason why the run ended.
   EndReason reason = EndReason::kEndRequested;
-  std::string cause;             ///< of an interruption, for people
-  double time = 0;               ///< simulated [s]
-  bool snapshot_missed = false;  ///< the run ended before SimulationOptions::snapshot_at
+  /// Cause of an interruption, as text for the user; empty for other reasons.
+  std::string cause;
+  /// Simulated time at the end [s].
+  double time = 0;
+  /// True if the run ended before SimulationOptions::snapshot_at, so that the requested snapshot
+  /// was not written.
+  bool snapshot_missed = false;
 };
 
-/// Returns the reason in words: "complete", "fell_short", "out_of_time", "end_requested" or
+/// Returns the name of an end reason: "complete", "fell_short", "out_of_time", "end_requested" or
 /// "interrupted".
 const char* name_of(EndReason reason);
-/// Returns the status that summary.json gives a run with this end.
+/// Returns the value of "status" in summary.json for a run with this end reason: "finished",
+/// "incomplete" or "interrupted".
 const char* status_of(EndReason reason);
 
 }  // namespace navvy::run

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// What takes part in a run beside its recorder.
+// Interface of objects that follow a run step by step.
 #pragma once
 
 namespace navvy::run {
 
-/// Follows a simulation from step to step, as a publisher or a display does. Functions are called
-/// on the thread that steps. What `after_step` and `restart` throw makes the run a failed one.
+/// Follows a simulation from step to step, such as a map publisher or a display. All functions are
+/// called on the thread that runs the simulation. An exception from `after_step` or `restart` ends
+/// the run as failed.
 class RunObserver {
  public:
+  /// Allows deletion through a base class pointer.
   virtual ~RunObserver() = default;
-  /// Called after each step has been recorded.
+  /// Called after each step, once the step was recorded.
   virtual void after_step() {}
-  /// Called after `reset` or `load`, before the next step or the end: the state is another one.
+  /// Called after Simulation::reset or Simulation::load replaced the state, before the next step or
+  /// before the end of the run.
   virtual void restart() {}
-  /// Called once when no step follows any more, before files are closed, also after a failure.
+  /// Called once after the last step, before files are closed. Also called after a failure.
   virtual void closing() {}
-  /// Called once with the final state. After a run that did not fail it comes before the summary is
-  /// written, and what it throws makes the run a failed one.
+  /// Called once with the final state. It is called before the summary is written, so an exception
+  /// makes the run a failed one. After a failure it is called after the summary was written.
   virtual void finish() {}
 };
 

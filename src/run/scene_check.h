@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a scene, found before it runs.
+// Finds errors in a scene before it runs.
 #pragma once
 
 #include <string>
@@ -10,15 +10,19 @@
 
 namespace navvy::run {
 
-/// Result of a check.
+/// Result of checking a scene.
 struct SceneCheck {
-  std::vector<Fault> faults;       ///< errors and warnings, with file and line; none twice
-  std::vector<std::string> notes;  ///< lines for people: the map under the site, how machines stand
+  /// Errors and warnings, with file and line where known. Each is listed only once.
+  std::vector<Fault> faults;
+  /// Information for the user, one line per entry: the terrain file, the design surface, and how
+  /// stable the machines stand.
+  std::vector<std::string> notes;
 };
 
-/// Checks what only a machine on its ground can show: the reach of programs, what the scene
-/// records, overlapping machines, and what machines do in their first second. Needs no OpenCL
-/// device. Throws only std::bad_alloc.
+/// Checks what the scene file alone does not show: whether machines can reach the targets of their
+/// programs, whether records can be written, whether machines overlap, and how machines behave
+/// during the first second on the ground. Needs no OpenCL device. Errors are returned; the only
+/// exception thrown is std::bad_alloc.
 SceneCheck check_scene(const scene::Scene& scene);
 
 }  // namespace navvy::run

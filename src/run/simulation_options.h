@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a caller chooses for one simulation.
+// Options of a simulation.
 #pragma once
 
 #include <functional>
@@ -11,54 +11,80 @@
 #include "vehicle/physics_engine_factory.h"
 
 namespace navvy::device {
+/// An OpenCL device (device/device.h).
 class Device;
-}
+}  // namespace navvy::device
 namespace navvy::session {
+/// A world with the operators of its machines (session/session.h).
 class Session;
-}
+}  // namespace navvy::session
 
 namespace navvy::run {
 
-/// Settings of a Simulation. The defaults simulate the scene as it is and write nothing.
+/// Options of a Simulation. With the defaults, the scene is simulated as it is and nothing is
+/// written.
 struct SimulationOptions {
   // Device.
-  /// OpenCL device as device::Device takes it: "cpu", "gpu", an index or a part of a name. Empty:
-  /// NAVVY_DEVICE decides, else the first CPU.
+  /// OpenCL device as described at device::Device: "cpu", "gpu", an index, or a part of a name.
+  /// Empty: the environment variable NAVVY_DEVICE selects it, or else the first CPU is used.
   std::string device;
-  /// Device to use in place of `device`, for several simulations in one process.
+  /// Device that is used instead of `device`, so that several simulations in one process can share
+  /// it. Null: the simulation opens its own.
   std::shared_ptr<device::Device> shared_device;
 
-  /// Makes the physics engine of the machines, as for sim::World. Empty: the built-in ones.
+  /// Function that makes the physics engine of the machines (see sim::World). Empty: the built-in
+  /// engines are used.
   vehicle::PhysicsEngineFactory make_engine;
 
   // Values that replace those of the scene.
-  std::optional<double> duration;        ///< maximum simulated time [s]
-  std::optional<double> telemetry_rate;  ///< rows of telemetry.csv [1/s]
-  std::optional<bool> pictures;          ///< draw pictures at the rates of the scene's cameras
-  /// Control steps that a controller outside asks for [1/s]. The base step divides their period.
+  /// Maximum simulated time [s]. No value: that of the scene is used.
+  std::optional<double> duration;
+  /// Rows of telemetry.csv per simulated second [1/s]. No value: the rate in the scene is used.
+  std::optional<double> telemetry_rate;
+  /// True to draw pictures at the rates of the scene's cameras, false to draw none. No value: the
+  /// setting in the scene is used.
+  std::optional<bool> pictures;
+  /// Number of control steps of an external controller per simulated second [1/s]. The base step is
+  /// chosen so that it divides the control period. No value: the rate in the scene is used.
   std::optional<double> control_rate;
 
   // Output.
-  /// Folder of the results (record/recorder.h). Empty: no file is written. The results of an
-  /// earlier run in it move to "<folder>.previous".
+  /// Output folder (record/recorder.h). Empty: no file is written. Results of an earlier run in the
+  /// folder are moved to "<folder>.previous".
   std::string folder;
-  double hash_every = 0;   ///< simulated time between rows of hashes.csv [s]; 0: no such file
-  std::string scene_text;  ///< the scene as scene_io::load_scene resolves it, for scene.sdf
-  std::vector<std::string> command;  ///< command line that started the run, for run.json
-  std::string snapshot;              ///< file to save the state to; empty: none
-  double snapshot_at = -1;           ///< simulated time of that snapshot [s]
+  /// Simulated time between two rows of hashes.csv [s]; 0: the file is not written.
+  double hash_every = 0;
+  /// Text that is recorded as scene.sdf: the scene with all changes, as scene_io::load_scene
+  /// returns it.
+  std::string scene_text;
+  /// Command line that started the run, which is recorded in run.json.
+  std::vector<std::string> command;
+  /// File to which the state is saved at `snapshot_at`; empty: none.
+  std::string snapshot;
+  /// Simulated time at which `snapshot` is saved [s]. At a negative time it is saved before the
+  /// first step.
+  double snapshot_at = -1;
 
   // Start.
-  std::string resume;          ///< snapshot to continue from; empty: the start of the scene
-  bool resume_anyway = false;  ///< also if the scene's parameters differ from the snapshot's
+  /// Snapshot from which the run continues; empty: the run begins with the initial state of the
+  /// scene.
+  std::string resume;
+  /// True to continue from a snapshot even if its scene parameters differ from those of the scene.
+  bool resume_anyway = false;
 
   // Measurements.
-  std::vector<std::string> watch;  ///< links to observe, "machine/link" (sim::World::watch)
-  bool soil_energy = false;        ///< keep the soil's energy account; up to three times as slow
-  /// Adds samplers. Called with each new session before a state is loaded into it: once at the
-  /// start, and again by a reset to another seed.
+  /// Links, given as "machine/link", whose pose and velocities are added to the outputs
+  /// (sim::World::watch).
+  std::vector<std::string> watch;
+  /// True to record the energy balance of the soil (`--energy`), which makes the soil up to three
+  /// times slower.
+  bool soil_energy = false;
+  /// Function that adds array samplers to a new session. Called before a state is loaded into the
+  /// session: once in the constructor, and again when Simulation::reset is called with another
+  /// seed.
   std::function<void(session::Session&)> set_up;
-  /// Receives messages about device and rates before the first step, one line each.
+  /// Function that receives messages about the device and the rates before the first step, one line
+  /// each.
   std::function<void(const std::string&)> note;
 };
 

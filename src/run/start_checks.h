@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of options before the first step.
+// Checks of simulation options before the first step.
 #pragma once
 
 #include <string>
@@ -9,17 +9,19 @@
 
 namespace navvy::run {
 
-/// Returns "12.5" with at most six digits, for messages.
+/// Returns `value` as text with at most six significant digits, such as "12.5", for messages.
 std::string short_text(double value);
 
-/// Refuses a snapshot to save that would replace a file of another kind, or one that the run itself
-/// writes. @throws InputError.
+/// Checks that a snapshot may be written to the file `path`; an empty path is accepted. `folder` is
+/// the output folder of the run, or empty. @throws InputError if `path` is an existing file that is
+/// not a snapshot, or a file that the run itself writes to `folder`.
 void check_snapshot(const std::string& path, const std::string& folder);
-/// Refuses a snapshot to resume that cannot be read; an empty path is none. Cheap enough to ask
-/// before the scene is loaded. @throws InputError.
+/// Checks that the snapshot `path` can be read; an empty path is accepted. The check is fast, so it
+/// can be made before the scene is loaded. @throws InputError.
 void check_resume(const std::string& path);
-/// Refuses a snapshot time that the run does not reach, and a resumed state with nothing left to
-/// run. @throws InputError.
+/// Checks the times of snapshots. @throws InputError if SimulationOptions::snapshot_at is later
+/// than the maximum duration of the run, or if a run is resumed from a snapshot at which the run is
+/// already done.
 void check_times(const SimulationOptions& options, const session::Session& session);
 
 }  // namespace navvy::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Typed arrays of a running world, such as scans and grids, as messages of a bag.
+// Arrays of a running simulation, such as scans and grids, as messages of a ROS bag.
 #pragma once
 
 #include <cstddef>
@@ -11,39 +11,41 @@
 
 namespace navvy::formats::ros {
 
-/// Type of one element.
+/// Type of the elements of an array.
 enum class ArrayElement { kUint8, kUint16, kInt32, kFloat32, kFloat64 };
 
-/// One sample of an array, whoever made it. The data are only read during `write_array`.
+/// One sample of an array output.
 struct ArrayMessage {
-  /// Unique in the bag, e.g. "excavator/height_grid".
+  /// Name of the array, which is unique in the bag, such as "excavator/height_grid".
   std::string name;
-  /// Unit of every element: "m", "1".
+  /// Unit of all elements, such as "m" or "1".
   std::string unit;
-  /// One line for people.
+  /// One-line description for the user.
   std::string meaning;
-  /// Frame F that the numbers count in: "world" for W, "<machine>/<link>", or one of its own.
+  /// Name of the coordinate frame that the elements refer to: "world", "<machine>/<link>", or a
+  /// name of the array's own.
   std::string frame;
   /// Type of the elements.
   ArrayElement element = ArrayElement::kFloat32;
-  /// Row-major, slowest first: {rows, columns}.
+  /// Size of each dimension, slowest first, such as {rows, columns}.
   std::vector<int> shape;
   /// Simulated time of the sample [s].
   double time = 0;
-  /// Pose of the frame in W at that time.
+  /// Pose of the array's frame F in the world frame W, at the time of the sample.
   Pose X_WF = Pose::Identity();
-  /// The elements in the byte order of this machine.
+  /// Elements in row-major order and in the byte order of this machine. Must remain valid during
+  /// `write_array` only.
   std::span<const std::byte> data;
 };
 
-/// Appends a sample to a bag:
-/// - `/<name>` as std_msgs UInt8-, UInt16-, Int32-, Float32- or Float64MultiArray with one
+/// Appends a sample of an array to `bag`:
+/// - to `/<name>`, a std_msgs UInt8-, UInt16-, Int32-, Float32- or Float64MultiArray with one
 ///   dimension per entry of the shape, stamped with the time of the sample;
-/// - before the first sample `/<name>/description` (std_msgs/String), a JSON object with name,
-///   unit, meaning, frame, type and shape;
-/// - `/tf` with the frame as a child of "map", unless the frame is W.
+/// - before the first sample, to `/<name>/description`, a std_msgs/String with a JSON object of
+///   name, unit, meaning, frame, type and shape;
+/// - to `/tf`, the pose of the array's frame as a child of "map", unless it is the world frame.
 ///
-/// @throws Error when the data do not fill the shape; FileError.
+/// @throws Error if the number of bytes does not match the shape; FileError.
 void write_array(Bag& bag, const ArrayMessage& array);
 
 }  // namespace navvy::formats::ros

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that ROS 2 plays: MCAP, and the folder of rosbag2 with SQLite storage.
+// Bags that ROS 2 can play: MCAP files, and rosbag2 folders with SQLite storage.
 #pragma once
 
 #include <cstdint>
@@ -10,31 +10,34 @@
 
 namespace navvy::formats::ros {
 
-/// A bag that is being written. Messages should come in the order of their times; the metadata
-/// report the least and the greatest in any case. Not thread-safe.
+/// A ROS bag that is being written. Messages should be added in the order of their times; the
+/// metadata contain the earliest and the latest time in any case. Not thread-safe.
 class Bag {
  public:
+  /// Allows deletion through a base class pointer. Does not close the bag.
   virtual ~Bag() = default;
-  /// Appends a message to `topic`, which always has the same kind. `time_ns` is simulated time
-  /// [ns]. @throws FileError naming path and cause (disk full).
+  /// Appends a message to `topic`, whose messages must all have the same type. `time_ns` is the
+  /// simulated time [ns]. @throws FileError naming path and cause, such as a full disk.
   virtual void write(const std::string& topic, MessageKind kind, std::int64_t time_ns,
                      const Bytes& message) = 0;
-  /// Returns true when a message of `topic` was written.
+  /// Returns true if the bag contains a message of `topic`.
   virtual bool has(const std::string& topic) const = 0;
-  /// Writes the summary that readers look for; nothing may be written afterwards. Without it an
-  /// MCAP file can only be read as a stream, and a folder lacks its metadata. @throws FileError.
+  /// Completes the bag. Nothing may be written afterwards. A bag that was not closed is incomplete:
+  /// an MCAP file can then only be read as a stream, and a folder has no metadata. @throws
+  /// FileError.
   virtual void close() = 0;
 };
 
-/// Opens an MCAP file with profile ros2, without chunks and compression; schemas, channels and
-/// statistics are repeated at its end. Replaces `path` at once and grows with each message. @throws
+/// Creates an MCAP file with the profile ros2, without chunks and without compression. Schemas,
+/// channels and statistics are repeated at its end. Replaces an existing file at once. @throws
 /// FileError.
 std::unique_ptr<Bag> make_mcap(const std::string& path);
 
-/// Opens a rosbag2 folder: `<folder>/<name of the folder>_0.db3` (SQLite) and, at the end,
-/// `<folder>/metadata.yaml` of version 5, which ROS 2 Humble writes. The messages of one time form
-/// a transaction, which a kill in its middle loses.
-/// @throws FileError; InputError when the folder holds a file that does not belong to a bag.
+/// Creates a rosbag2 folder with the files `<folder>/<name of the folder>_0.db3` (SQLite) and, when
+/// it is closed, `<folder>/metadata.yaml` of version 5, as ROS 2 Humble writes it. Messages with
+/// the same time form one transaction; if the process is killed during a transaction, its messages
+/// are lost.
+/// @throws FileError; InputError if the folder contains a file that does not belong to a bag.
 std::unique_ptr<Bag> make_bag_folder(const std::string& folder);
 
 }  // namespace navvy::formats::ros

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages of ROS 2 as CDR bytes, for bags that planners play without Navvy. Only this folder uses
-// Fast-CDR and SQLite.
+// ROS 2 messages encoded as CDR bytes, for bags that can be played without Navvy. Only this folder
+// uses Fast-CDR and SQLite.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace navvy::formats::ros {
 
-/// A message in a bag: encapsulation header, then little-endian CDR.
+/// An encoded message: encapsulation header, followed by the little-endian CDR data.
 using Bytes = std::vector<char>;
 
-/// Kinds of messages that are written here.
+/// Types of messages that the functions of this header encode.
 enum class MessageKind {
   kGridMap,
   kOccupancyGrid,
@@ -33,67 +33,71 @@ enum class MessageKind {
   kFloat32Array,
   kFloat64Array
 };
-/// Number of kinds.
+/// Number of message types.
 inline constexpr int kMessageKinds = static_cast<int>(MessageKind::kFloat64Array) + 1;
-/// Returns the ROS type, such as "grid_map_msgs/msg/GridMap".
+/// Returns the ROS name of a message type, such as "grid_map_msgs/msg/GridMap".
 const std::string& type_name(MessageKind kind);
-/// Returns the definition of the message with all types it contains, as the schema encoding
-/// `ros2msg` of MCAP requires.
+/// Returns the definition of a message type and of all types that it contains, in MCAP's schema
+/// encoding `ros2msg`.
 const std::string& definition(MessageKind kind);
 
-/// Name of frame W in messages.
+/// Name of the world frame W in messages.
 inline constexpr const char* kFrame = "map";
 
-/// Returns a GridMap. Its pose is the centre of the map; the numbers of a layer begin at greatest x
-/// and greatest y and run first towards least x. `elevation` is the basic layer when it is among
-/// the layers. Here and below, times are simulated ones from the start of the run [ns], lengths in
-/// metres, angles in radians.
+/// Returns a GridMap message with `layers` of `map`, stamped with the simulated time `time_ns`
+/// [ns]. Its pose is the centre of the map. The values of a layer begin at the largest x and y; x
+/// changes fastest and decreases. `elevation` is the basic layer if it is one of the layers.
 Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                std::int64_t time_ns);
-/// Returns an OccupancyGrid: 100 (1 - traversability) rounded, -1 where unknown, row-major from the
-/// lower-left column. The map must hold traversability.
+/// Returns an OccupancyGrid message, stamped with the simulated time `time_ns` [ns]. Its values are
+/// 100 (1 - traversability), rounded, and -1 where the traversability is unknown; row-major,
+/// beginning at the smallest x and y. The map must contain the layer traversability.
 Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns);
-/// Returns a PointCloud2 with a point (x y z in W as float32) for each column of known elevation,
-/// row by row from least y, and a float32 field for each other layer.
+/// Returns a PointCloud2 message, stamped with the simulated time `time_ns` [ns]. It has one point
+/// for each column of known elevation, row by row from the smallest y: world x, y, z as float32
+/// [m], and a float32 field for each other layer.
 Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                   std::int64_t time_ns);
 
-/// State of a body in W.
+/// Pose and velocity of a body in the world frame W.
 struct BodyState {
-  /// Name of its frame, such as "excavator/chassis".
+  /// Name of the body's frame, such as "excavator/chassis".
   std::string frame;
-  /// Pose in W [m].
+  /// Pose of the body frame B in the world frame W [m].
   Pose X_WB = Pose::Identity();
-  /// Velocity of its origin in the axes of W [m/s].
+  /// Velocity of the origin of the body frame, in the axes of the world frame W [m/s].
   Vec3 v_W = Vec3::Zero();
-  /// Angular velocity in the axes of W [rad/s].
+  /// Angular velocity of the body, in the axes of the world frame W [rad/s].
   Vec3 w_W = Vec3::Zero();
 };
-/// Returns an Odometry: pose in W, twist in the axes of the body. The covariances are 0, because
+/// Returns an Odometry message with the pose of the body in the world frame, and its twist in the
+/// axes of the body, stamped with the simulated time `time_ns` [ns]. The covariances are 0, because
 /// the state is exact.
 Bytes odometry(const BodyState& body, std::int64_t time_ns);
 
-/// State of the joints of a machine, in equal order.
+/// State of the joints of a machine. All vectors have one entry per joint, in the same order.
 struct JointStates {
   /// Names of the joints.
   std::vector<std::string> names;
-  /// Positions [rad|m].
+  /// Positions of the joints [rad|m].
   std::vector<double> positions;
-  /// Velocities [rad/s|m/s].
+  /// Velocities of the joints [rad/s|m/s].
   std::vector<double> velocities;
-  /// Efforts [N m|N].
+  /// Torques or forces of the joints [N m|N].
   std::vector<double> efforts;
 };
-/// Returns a JointState.
+/// Returns a JointState message, stamped with the simulated time `time_ns` [ns].
 Bytes joint_state(const JointStates& joints, std::int64_t time_ns);
-/// Returns a TFMessage with every body as a child of W.
+/// Returns a TFMessage with the pose of every body as a child of the world frame, stamped with the
+/// simulated time `time_ns` [ns].
 Bytes tf(const std::vector<BodyState>& bodies, std::int64_t time_ns);
-/// Returns a Clock.
+/// Returns a Clock message with the simulated time `time_ns` [ns].
 Bytes clock(std::int64_t time_ns);
-/// Returns a String.
+/// Returns a String message with `text`.
 Bytes string_message(const std::string& text);
-/// Returns a MultiArray of `shape` (row-major, slowest first). Its elements have `element_bytes`
-/// bytes each, in the byte order of this machine, without padding.
+/// Returns a MultiArray message. `shape` contains the size of each dimension, slowest first. `data`
+/// contains the elements in row-major order, `element_bytes` bytes each, in the byte order of this
+/// machine and without padding.
 Bytes multi_array(const std::vector<int>& shape, std::size_t element_bytes,
                   std::span<const std::byte> data);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The topics of a bag of a map, and of a running world.
+// The topics that a ROS bag contains for a map and for a running simulation.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +10,35 @@
 
 namespace navvy::formats::ros {
 
-/// Returns simulated time [s] as ROS counts it [ns]; 0 where the time is unknown.
+/// Converts a simulated time in seconds to a ROS time in nanoseconds. Returns 0 if `time` is NaN,
+/// which means unknown.
 std::int64_t stamp(double time);
 
-/// Appends /clock.
+/// Appends a message with the simulated time `time_ns` [ns] to the topic /clock.
 void write_clock(Bag& bag, std::int64_t time_ns);
 
-/// Appends /terrain/grid_map, /terrain/points, and /terrain/occupancy where the layers include
-/// traversability.
+/// Appends `map` to the topics /terrain/grid_map and /terrain/points, and to /terrain/occupancy if
+/// `layers` contains traversability. `time_ns` is the simulated time [ns].
 void write_map(Bag& bag, const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                std::int64_t time_ns);
 
-/// The state of one machine.
+/// State of one machine.
 struct MachineState {
   /// Name of the machine.
   std::string name;
-  /// Its links, the base first; frames are called "<machine>/<link>".
+  /// States of the machine's links, base link first. Their frames are called "<machine>/<link>".
   std::vector<BodyState> links;
-  /// State of its joints.
+  /// States of the machine's joints.
   JointStates joints;
 };
 
-/// Returns a name in which every character that topics may not have is an underscore.
+/// Returns `name` as a valid part of a topic name: characters other than ASCII letters and digits
+/// become underscores, and an underscore precedes a leading digit.
 std::string topic_part(const std::string& name);
 
-/// Appends /tf (every link in the frame "map"), and for each machine /<machine>/odom (its base
-/// link) and /<machine>/joint_states.
+/// Appends the states of all machines: every link to /tf as a child of "map", the base link of each
+/// machine to /<machine>/odom, and its joints to /<machine>/joint_states. `time_ns` is the
+/// simulated time [ns].
 void write_machines(Bag& bag, const std::vector<MachineState>& machines, std::int64_t time_ns);
 
 }  // namespace navvy::formats::ros

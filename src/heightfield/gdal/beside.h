@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the files that belong to a map file.
+// Finds the additional files that belong to a map file.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace navvy::heightfield {
 
-/// Returns the names, without folder, of the files that may be read together with the map `file`:
-/// itself, its projection, its world file and its metadata. GDAL receives this list and looks for
-/// no other files. All are plain files of bounded size.
-/// @throws FileError naming a file that is not.
+/// Returns the names, without folder, of the files that may be read to open the map `file`: the
+/// file itself, and those in its folder that hold its projection, world file or metadata. GDAL
+/// receives this list and looks for no other files.
+/// @throws FileError naming an additional file that is not a plain file or is too large.
 std::vector<std::string> files_beside(const std::string& file);
 
 }  // namespace navvy::heightfield

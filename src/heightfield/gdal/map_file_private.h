@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A raster file that is open, with its georeference, units and gaps. Shared by the readers of
-// ground and design.
+// An open raster file with its georeference, units and gaps. Shared by the readers of terrain and
+// of design surfaces.
 #pragma once
 
 #include <gdal_priv.h>
@@ -18,64 +18,73 @@
 
 namespace navvy::heightfield {
 
-/// A map that is being read. Oddities of the file are noted in `report`; a file that cannot be used
-/// is refused by name.
+/// An open raster file of heights. Problems that do not prevent its use are noted in `report`.
 struct MapFile {
-  /// Opens the file and reads georeference, CRS and units. `element` names it in faults: "terrain"
-  /// or "design".
+  /// Opens `file` and reads georeference, CRS and units.
+  /// @param scale resolution and position for files that have none of their own
+  /// @param element name of the scene element in error messages: "terrain" or "design"
   /// @throws InputError naming file, value, rule and remedy.
   MapFile(const std::string& file, const scene::RasterScale& scale, const std::string& element);
 
-  /// Path of the file, and its name in faults.
+  /// Path of the file, and name of its scene element in error messages.
   std::string file, element;
-  /// Metres and place from the scene, for files that have none.
+  /// Resolution and position from the scene, for files that have none of their own.
   scene::RasterScale scale;
-  /// Values of an NPY file, which GDAL has no driver for: the dataset reads them from here.
+  /// Array of an NPY file. GDAL has no driver for NPY, so `data` is a dataset on this memory.
   std::vector<char> numbers;
-  /// Outlives the dataset, whose closing may report failures.
+  /// Collects GDAL's error messages. Declared before `data`, because closing the dataset may report
+  /// errors.
   GdalSession session;
-  /// The open file.
+  /// The open file as a GDAL dataset; null after read_windows moved it out.
   std::unique_ptr<GDALDataset> data;
-  /// Its first band, which holds the heights.
+  /// First band of the file, which contains the heights.
   GDALRasterBand* band = nullptr;
-  /// Findings so far.
+  /// Properties and problems found so far.
   TerrainReport report;
-  /// CRS as WKT2; empty where the file has none.
+  /// CRS of the file as WKT2; empty if it has none.
   std::string crs_wkt;
-  /// True when the file gives its own coordinates.
+  /// True if the file has coordinates of its own.
   bool georeferenced = false;
-  /// Lower-left corner of the map and edges of a cell in file units, and the direction in which
-  /// rows and columns run.
+  /// Lower-left corner of the map (x_min, y_min) and edge lengths of a cell (step_x, step_y), in
+  /// file units.
   double x_min = 0, y_min = 0, step_x = 1, step_y = 1;
-  /// True where columns run towards least x, or rows towards least y.
+  /// True if x decreases with the column index (`columns_fall`), and if y decreases with the row
+  /// index (`rows_fall`).
   bool columns_fall = false, rows_fall = true;
-  /// Size of a block of the file in cells.
+  /// Size of a storage block of the file, in cells.
   int block_x = 1, block_y = 1;
-  /// Size of a decoded block.
+  /// Size of a decoded storage block [bytes].
   double block_bytes = 0;
 
-  /// Returns the command that changes the file's own description; gdal_edit.py can write to GeoTIFF
-  /// only.
+  /// Returns a shell command that changes the metadata of the file with the gdal_edit.py option
+  /// `option`. Files in other formats than GeoTIFF are converted to GeoTIFF first, because
+  /// gdal_edit.py can write only that.
   std::string edit(const std::string& option) const;
-  /// Throws an InputError about a part of the file.
+  /// Throws an InputError about `part` of the file, with the offending value, the violated rule and
+  /// a remedy.
   [[noreturn]] void fail(const std::string& part, const std::string& value, const std::string& rule,
                          const std::string& remedy) const;
 };
 
-/// Formats a number for a message.
+/// Returns `value` formatted with the printf format `format`, for messages.
 std::string number_text(double value, const char* format = "%.10g");
 
-/// Reads the cells under a rectangle of `size` [m], and two more around it, in our order; gaps are
-/// NaN. `corner` [m] is the lower-left corner of the rectangle, counted from that of the map.
-/// Heights are counted from `report.height_offset`, a whole number of metres near their mean, so
-/// that float resolves millimetres. x0 and y0 of the raster count from `corner`.
-/// @throws InputError when all of it is a gap, it has too many cells, or the file is damaged.
+/// Reads the cells under a rectangle of `size` [m], with a margin of two cells, in the orientation
+/// of HeightRaster. Gaps are NaN.
+///
+/// Heights are relative to map.report.height_offset, a whole number of metres near their mean, so
+/// that float resolves millimetres. x0 and y0 of the result are relative to `corner`.
+/// @param corner lower-left corner of the rectangle, relative to that of the map [m]
+/// @throws InputError if all cells are gaps, if there are too many cells, or if the file is
+/// damaged.
 HeightRaster read_heights(MapFile& map, const Vec2& corner, const Vec2& size);
-/// Returns the number of cells that read_heights would read.
+/// Returns the number of cells that read_heights would read with the same arguments.
 std::int64_t cells_under(const MapFile& map, const Vec2& corner, const Vec2& size);
-/// Returns the same heights for a map of any size, with gaps filled: the file is read through once,
-/// and then in windows of `side` cells on demand. Takes the open file out of `map`.
-/// @throws InputError as read_heights, for a picture, and for more gaps than can be held.
+/// Returns the heights of the same cells as read_heights, for a map of any size and with its gaps
+/// filled. The file is read completely once, and after that in windows of `side` x `side` cells on
+/// demand. Moves the open file out of `map`.
+/// @throws InputError as read_heights. Also for a large image file, whose windows would each need
+/// decoding from its beginning, and for more gaps than fit in memory.
 std::shared_ptr<const WindowedRaster> read_windows(MapFile& map, const Vec2& corner,
                                                    const Vec2& size,
                                                    int side = WindowedRaster::kSide);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reeds-Shepp paths by rapidly exploring random trees; the only place with OMPL. Exists only in
+// Searches for Reeds-Shepp paths by rapidly exploring random trees. The only user of OMPL; only in
 // builds with NAVVY_WITH_OMPL.
 #pragma once
 
@@ -11,33 +11,34 @@
 
 namespace navvy::planner {
 
-/// A search from one pose to another within a rectangle, through poses that `valid` accepts.
+/// A search for a path from one pose to another, within a rectangle and through valid poses only.
 struct ReedsSheppProblem {
-  /// Poses in W.
+  /// First and last pose of the path, in the world frame.
   control::PlanePose start, goal;
-  /// Radius of the bends [m].
+  /// Radius of the arcs of the path [m].
   double radius = 5;
-  /// Rectangle that the reference point stays in [m].
+  /// Corners of the rectangle that the positions of all poses must lie in, as world (x, y) [m].
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();
-  /// Iterations of all trees together, which end the search.
+  /// Number of iterations, summed over all trees, after which the search ends.
   int iterations = 1000;
-  /// Seed of the random numbers; not 0.
+  /// Seed of the random numbers; must not be 0.
   std::uint32_t seed = 1;
-  /// Returns true for poses that the machine may take.
+  /// Function that returns true if the machine may take a pose.
   std::function<bool(const control::PlanePose&)> valid;
 };
 
-/// Length [m] that a change of direction counts for when paths are compared: the machine stops and
-/// turns its wheels.
+/// Length that is added to the cost of a path for each change of direction [m], because the machine
+/// then stops and turns its wheels.
 inline constexpr double kCuspPrice = 3;
 
-/// Returns the shortest Reeds-Shepp path [Reeds 1990] where it is valid. Otherwise returns the
-/// cheapest of several paths that pairs of trees [Kuffner 2000] find within the iterations, each
-/// shortened by straight connections between its places; nothing when none is found. Poses are
-/// checked every 0.15 m.
+/// Returns the shortest Reeds-Shepp path [Reeds 1990] from start to goal if all its poses are
+/// valid. Otherwise searches with pairs of trees [Kuffner 2000], shortens the paths they find, and
+/// returns the one with the lowest cost: length plus kCuspPrice per change of direction. Returns no
+/// value if no path is found within the iterations. Poses are checked every 0.15 m.
 ///
-/// Equal problems give bit-identical paths: nothing depends on the time, and the only source of
-/// seeds in the library is set anew under a lock. Several threads may call it; they take turns.
+/// Equal problems give bit-identical paths: the search does not depend on time, and the random
+/// number generator of OMPL is seeded for each call. Several threads may call this function; a lock
+/// makes them run one after the other.
 std::optional<control::Path> plan_reeds_shepp(const ReedsSheppProblem& problem);
 
 }  // namespace navvy::planner
