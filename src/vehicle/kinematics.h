@@ -97,7 +97,7 @@ class CylinderMap {
   /// Returns the pose of rod_link in base_link at joint position `q`.
   Pose rod_in_base(double q) const;
   /// Computes the pin between rocker and coupler, `pin`, for the bucket's coupler pin at `c`, both
-  /// in base_link's frame [m]. Returns false if the bars are too short to meet; `pin` is then the
+  /// in base_link's frame [m]. Returns false if the bars cannot meet; `pin` is then the
   /// nearest point.
   bool close_linkage(const Vec3& c, Vec3& pin) const;
   /// Checks the diameters, and that the linkage closes within the joint's limits. @throws
