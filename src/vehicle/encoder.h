@@ -53,6 +53,7 @@ class JointEncoder {
   /// Returns how many of `edges` counts are lost, drawn at random.
   std::int64_t lost_of(std::int64_t edges);
 
+  /// Properties of this encoder as given in the scene.
   scene::Encoder about_;
   /// Joint position at the last call of advance() [rad].
   double position_ = 0;
