@@ -33,7 +33,8 @@ struct TrackContact {
   /// this wheel [m].
   Vec2 shear = Vec2::Zero();
 
-  /// Visits load and shear. @throws InputError for a shear that is not finite.
+  /// Visits load and shear.
+  /// @throws InputError for a shear that is not finite.
   void visit(Archive& a);
 };
 
@@ -50,15 +51,16 @@ struct TrackState {
 /// Motion of a track at the start of a step. The carrier is the link on which the running gear is
 /// mounted, with frame C.
 struct TrackMotion {
-  /// Pose of the carrier in W.
+  /// Pose in W of the carrier link, on which the track's running gear is mounted.
   Pose X_WC = Pose::Identity();
-  /// Velocity of the carrier's origin in W [m/s].
+  /// Velocity in W of the origin of the track's carrier link [m/s].
   Vec3 v_W = Vec3::Zero();
-  /// Angular velocity of the carrier in W [rad/s].
+  /// Angular velocity of the track's carrier link in W [rad/s].
   Vec3 w_W = Vec3::Zero();
-  /// Centre of the sprocket in C [m].
+  /// Centre of the sprocket in the frame C of the track's carrier link [m].
   Vec3 p_sprocket = Vec3::Zero();
-  /// Angular speed of the sprocket relative to the carrier [rad/s]; positive rolls forward.
+  /// Angular speed of the sprocket relative to the track's carrier link [rad/s]; positive rolls
+  /// forward.
   double spin = 0;
   /// Inertia of sprocket, idler and track, reduced to the sprocket's axis [kg m2]. It limits forces
   /// so that an explicit time step remains stable.
@@ -86,11 +88,11 @@ struct TrackForce {
     /// Point of application in W [m], on the outside of the track.
     Vec3 p_W = Vec3::Zero();
   };
-  /// Forces on the carrier: one per loaded contact, then the resistance of the soil ahead if there
-  /// is any.
+  /// Forces of the ground on the track's carrier link: one per loaded contact, then the resistance
+  /// of the soil ahead of the track, if there is any.
   std::vector<Push> pushes;
-  /// Torque of the track on its sprocket, about the sprocket's axis relative to the carrier [N m];
-  /// positive drives the sprocket forward.
+  /// Torque of the track on its sprocket, about the sprocket's axis [N m]; positive drives the
+  /// sprocket forward. The opposite torque acts on the carrier link.
   double torque = 0;
   /// Sum of all `pushes` in W [N].
   Vec3 force_W = Vec3::Zero();

@@ -55,20 +55,22 @@ struct TrackBodyForce {
   /// Forces in W on the track's carrier link, one per contact [N]. The caller applies the opposite
   /// force to the body.
   std::vector<Vec3> f_W;
-  /// Torque of the track on its sprocket, about the sprocket's axis relative to the carrier [N m];
-  /// positive drives the sprocket forward.
+  /// Torque of the track on its sprocket, about the sprocket's axis [N m]; positive drives the
+  /// sprocket forward. The opposite torque acts on the carrier link.
   double torque = 0;
 };
 
 /// Returns the force of rigid bodies on the track of the sprocket `wheel` over the next step `dt`
 /// [s], and advances `shear`, which has one entry per station.
 ///
-/// `touches` must be sorted by line, then by station.
+/// `stations` is the result of track_stations() for this track. `touches` must be sorted by line,
+/// then by station.
 ///
-/// A single contact is as stiff as one roller on both lines. Contacts that are closer to each other
-/// than the rollers share that stiffness, so that a flat floor is as stiff as all rollers together.
-/// If several bodies touch one disc, all of them press on it, but only the one with the largest
-/// load also grips. Contact forces never pull.
+/// A single contact on one line is half as stiff as a roller, so a body that touches both lines
+/// meets the stiffness of one roller. Contacts on one line that are closer to each other than the
+/// rollers are share this stiffness; a flat floor is thus as stiff as all rollers together. If
+/// several bodies touch one disc, all of them press on it, but only the one with the largest load
+/// also grips. Contact forces never pull.
 TrackBodyForce track_body_force(const scene::Wheel& wheel,
                                 const std::vector<TrackStation>& stations,
                                 const TrackMotion& motion, const std::vector<TrackTouch>& touches,

@@ -27,8 +27,8 @@ struct TyreState {
   /// Shear displacement by which the soil under the strip has yielded [m], >= 0.
   std::array<double, 2> sheared{};
 
-  /// Visits the bristle deflections and the soil's displacements. @throws InputError for a value
-  /// out of range.
+  /// Visits the bristle deflections and the soil's shear displacements.
+  /// @throws InputError for a value out of range.
   void visit(Archive& a);
 };
 
@@ -39,12 +39,14 @@ struct TyreMotion {
   Pose X_WWheel = Pose::Identity();
   /// Velocity of the wheel's centre in W [m/s].
   Vec3 v_W = Vec3::Zero();
-  /// Angular velocity of the carrier in W, without the wheel's spin [rad/s].
+  /// Angular velocity in W of the carrier, the link on which the wheel spins [rad/s]. It does not
+  /// include the wheel's spin.
   Vec3 w_W = Vec3::Zero();
-  /// Angular speed of the wheel about y relative to the carrier [rad/s]; positive rolls forward.
+  /// Angular speed of the wheel about its axle relative to the carrier link [rad/s]; positive rolls
+  /// forward.
   double spin = 0;
-  /// Inertia of the wheel about y [kg m2]. It limits forces so that an explicit time step remains
-  /// stable.
+  /// Inertia of the wheel about its axle [kg m2]. It limits forces so that an explicit time step
+  /// remains stable.
   double spin_inertia = 10;
 };
 
@@ -52,8 +54,8 @@ struct TyreMotion {
 struct TyreForce {
   /// Force on the wheel in W [N].
   Vec3 force_W = Vec3::Zero();
-  /// Moment of the force about the wheel's centre in W [N m]. It acts on the wheel; the part across
-  /// the axle reaches the carrier.
+  /// Moment of the ground's force about the wheel's centre in W [N m]. It acts on the wheel and,
+  /// through the axle, on the carrier link.
   Vec3 moment_W = Vec3::Zero();
   /// Longitudinal slip [-]: (rim speed - ground speed) / the larger magnitude of the two.
   double slip = 0;

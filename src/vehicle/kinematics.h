@@ -100,8 +100,8 @@ class CylinderMap {
   /// in base_link's frame [m]. Returns false if the bars cannot meet; `pin` is then the
   /// nearest point.
   bool close_linkage(const Vec3& c, Vec3& pin) const;
-  /// Checks the diameters, and that the linkage closes within the joint's limits. @throws
-  /// InputError otherwise.
+  /// Checks the diameters, and that the linkage closes within the joint's limits.
+  /// @throws InputError otherwise.
   void check() const;
 
   /// Properties of the cylinder as given in the scene.

@@ -20,9 +20,9 @@ struct MachineWheel {
   int spin_joint = -1, steer_joint = -1, wheel_link = -1, carrier_link = -1;
   /// Inertia of the wheel about its axis [kg m2].
   double spin_inertia = 1;
-  /// Unit spin axis in the carrier's frame.
+  /// Unit spin axis of the wheel in the frame of its carrier link.
   Vec3 axis_C = Vec3::UnitY();
-  /// Centre of the wheel in the carrier's frame [m].
+  /// Centre of the wheel in the frame of its carrier link [m].
   Vec3 center_C = Vec3::Zero();
 
   /// State of the tyre on the ground.
@@ -45,8 +45,8 @@ struct MachineWheel {
   /// Shear displacement of a crawler's shoes on rigid bodies; empty for a wheel without a track.
   /// TyreBodies saves it.
   terramechanics::TrackBodyShear body_shear;
-  /// Mean point of application of `body_W` on a track, in the carrier's frame [m]. TyreBodies saves
-  /// it.
+  /// Mean point of application of `body_W` on a track, in the frame of the track's carrier link
+  /// [m]. TyreBodies saves it.
   Vec3 body_p_C = Vec3::Zero();
 
   /// Visits the state of tyre, track and brake. TyreBodies visits the state of contacts with

@@ -34,14 +34,15 @@ class AckermannLine : public DriveLine {
   /// Makes the drive line for `drive`.
   /// @param wheels all wheels of the machine; the driven ones form one group
   AckermannLine(const scene::AckermannDrive& drive, const std::vector<DriveWheel>& wheels);
-  /// Returns the motion for a command: the commanded speed, and the yaw rate of the bicycle angle
-  /// `input.steer`, both within the drive's limits.
+  /// Returns the motion of the machine for the command `input`: the commanded speed, and the yaw
+  /// rate that follows from the bicycle angle `input.steer`, both within the drive's limits. The
+  /// speed is zero under the brake.
   Roll roll(const DriveInput& input) const override;
-  /// Returns the motion for the current wheel motion: the speed is the mean of the driven wheels,
-  /// the curvature the mean of the steered ones.
+  /// Returns the motion of the machine for the wheel motions in `motion`, one per wheel. The speed
+  /// is the mean rim speed of the driven wheels; the curvature is the mean of the steered wheels.
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
-  /// Returns the spin [rad/s] of a wheel that rolls at the machine's speed. The difference between
-  /// inner and outer wheels is neglected.
+  /// Returns the spin [rad/s] of a wheel that rolls without slip at the machine's speed,
+  /// `roll.speed`. The speed difference between inner and outer wheels is neglected.
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   /// Returns the Ackermann angle [rad] of the left or right steered wheel for the bicycle angle
   /// `input.steer`.

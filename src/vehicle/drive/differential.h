@@ -32,12 +32,14 @@ class DifferentialLine final : public DriveLine {
   /// Makes the drive line for `drive`.
   /// @param wheels all wheels of the machine; the driven ones form a left and a right group
   DifferentialLine(const scene::DifferentialDrive& drive, const std::vector<DriveWheel>& wheels);
-  /// Returns the motion for a command, from the limited speeds of both sides; zero under the brake.
+  /// Returns the motion of the machine for the command `input`, from the limited rim speeds of both
+  /// sides; zero under the brake.
   Roll roll(const DriveInput& input) const override;
-  /// Returns the motion for the current wheel motion: each side has the mean speed of its driven
-  /// wheels.
+  /// Returns the motion of the machine for the wheel motions in `motion`, one per wheel. Each side
+  /// moves at the mean rim speed of its driven wheels.
   Roll rolled(const std::vector<WheelMotion>& motion) const override;
-  /// Returns the spin [rad/s] of a wheel that rolls at the speed of its side of the machine.
+  /// Returns the spin [rad/s] of a wheel that rolls without slip at the speed of its side, while
+  /// the machine moves by `roll`.
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   /// Returns nothing, since this drive steers no wheels. Casters swivel freely.
   std::optional<double> steer_angle(const DriveInput& input,

@@ -40,7 +40,8 @@ class LinkageLine final : public AckermannLine {
   /// Makes the drive line for `drive`.
   /// @param wheels all wheels of the machine; the driven ones form one group
   LinkageLine(const scene::LinkageDrive& drive, const std::vector<DriveWheel>& wheels);
-  /// Returns the motion for a command, with the mean curvature of both steered wheels; zero under
+  /// Returns the motion of the machine for the command `input`, whose `steer` is the position of
+  /// the steering motor. The curvature is the mean of both steered wheels; the speed is zero under
   /// the brake.
   Roll roll(const DriveInput& input) const override;
   /// Returns the angle [rad] of the left or right steered wheel for the motor position
