@@ -84,8 +84,8 @@ class GroundQuery {
     return {};
   }
 
-  /// Returns the compaction of the ground at x, y since the tyre that now stands there arrived. The
-  /// default implementation returns zero: ground that does not compact.
+  /// Returns by how much the ground at x, y has been compacted since the tyre that now stands there
+  /// arrived. The default implementation returns zero, for ground that does not compact.
   virtual Sinkage sinking(double x, double y) const {
     (void)x, (void)y;
     return {};

@@ -33,7 +33,7 @@ struct TrackContact {
   /// this wheel [m].
   Vec2 shear = Vec2::Zero();
 
-  /// Visits load and shear.
+  /// Saves, loads or hashes load and shear.
   /// @throws InputError for a shear that is not finite.
   void visit(Archive& a);
 };

@@ -25,9 +25,9 @@ struct TrackGrip {
   double most = 0, K = 0;
 };
 
-/// Returns the grip of a contact whose largest shear force is `most` [N] and whose shear modulus is
-/// `K` [m]. K is increased where the contact would be too stiff for an explicit step `dt` [s] with
-/// the accelerated `mass` [kg].
+/// Returns the grip of a contact whose largest shear force is `most` [N], 63 % of which is
+/// mobilised at the shear displacement `K` [m]. K is increased where the contact would be too stiff
+/// for an explicit step `dt` [s] with the accelerated `mass` [kg].
 TrackGrip track_grip(double most, double K, double mass, double dt);
 
 /// Returns the shear force (forward, left) [N] on the shoes of a contact, at most grip.most.

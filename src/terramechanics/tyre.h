@@ -27,7 +27,7 @@ struct TyreState {
   /// Shear displacement by which the soil under the strip has yielded [m], >= 0.
   std::array<double, 2> sheared{};
 
-  /// Visits the bristle deflections and the soil's shear displacements.
+  /// Saves, loads or hashes the bristle deflections and the soil's shear displacements.
   /// @throws InputError for a value out of range.
   void visit(Archive& a);
 };
@@ -65,7 +65,7 @@ struct TyreForce {
   /// Radial deflection of the more deflected of the two contact strips [m].
   double deflection = 0;
 
-  /// Visits all fields.
+  /// Saves, loads or hashes all fields.
   void visit(Archive& a);
 };
 

@@ -46,11 +46,11 @@ class JointEncoder {
   /// Returns the injected share of lost counts [-].
   double missed() const { return missed_; }
 
-  /// Visits the encoder's register, injected errors and random generator.
+  /// Saves, loads or hashes the encoder's register, injected errors and random generator.
   void visit(Archive& a);
 
  private:
-  /// Returns how many of `edges` counts are lost, drawn at random.
+  /// Draws at random how many of `edges` further counts are lost, and returns that number.
   std::int64_t lost_of(std::int64_t edges);
 
   /// Properties of this encoder as given in the scene.
@@ -94,7 +94,7 @@ class Encoders {
     return e < 0 ? nullptr : &encoders_[static_cast<std::size_t>(e)];
   }
 
-  /// Visits all encoders. A loaded archive must have the same number of encoders.
+  /// Saves, loads or hashes all encoders. A loaded archive must have the same number of encoders.
   void visit(Archive& a);
 
  private:

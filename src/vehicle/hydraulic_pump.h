@@ -46,7 +46,7 @@ class HydraulicPump {
   /// Returns the smoothed pressure that the swashplate follows [Pa].
   double pressure() const { return pressure_; }
 
-  /// Visits the pump's flow, pressure and share.
+  /// Saves, loads or hashes the pump's flow, pressure and share.
   void visit(Archive& a);
 
  private:

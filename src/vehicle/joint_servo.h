@@ -18,7 +18,7 @@ struct JointLimits {
   /// unknown.
   double inertia = 0;
 
-  /// Visits all limits.
+  /// Saves, loads or hashes all limits.
   void visit(Archive& a);
 };
 
@@ -72,7 +72,7 @@ class JointServo {
   /// Returns true if the joint has been stalled for longer than kStallTime.
   bool stalled() const { return stall_time_ > kStallTime; }
 
-  /// Visits the command, the valve and the stall time.
+  /// Saves, loads or hashes the command, the valve and the stall time.
   void visit(Archive& a);
 
  private:

@@ -26,7 +26,7 @@ struct JointInput {
   /// in mode kFree.
   double target = 0;
 
-  /// Visits mode and target.
+  /// Saves, loads or hashes mode and target.
   void visit(Archive& a);
 };
 
@@ -42,7 +42,7 @@ struct BaseInput {
   /// one step.
   double duration = 0.1;
 
-  /// Visits the target pose and the duration.
+  /// Saves, loads or hashes the target pose and the duration.
   void visit(Archive& a);
 };
 
@@ -85,7 +85,7 @@ struct CombustionEngineState {
   /// Engaged gear, 1-based; 0 for a drive without gears.
   int gear = 0;
 
-  /// Visits speed, torque, power and gear.
+  /// Saves, loads or hashes speed, torque, power and gear.
   void visit(Archive& a);
 };
 
@@ -117,11 +117,12 @@ struct Stability {
   /// weakest edge. kNoTippingLoad if no edge can tip; 0 for a machine that is already tipping or
   /// has no bucket.
   double tipping_load = 0;
-  /// Direction in which the machine would tip over that edge, as an angle from the base link's x
-  /// axis, positive to the left [rad].
+  /// Direction in which the machine would tip over its weakest edge, as an angle from the base
+  /// link's x axis, positive to the left [rad].
   double tipping_heading = 0;
-  /// Same distance as `margin`, but for the centre of pressure on the ground, which includes soil,
-  /// loads and towed machines [m].
+  /// Distance of the centre of pressure on the ground from the edge of the polygon of the feet,
+  /// seen from above [m]; negative outside the polygon. In contrast to `margin`, it includes the
+  /// effect of soil, loads and towed machines.
   double loaded_margin = 0;
 };
 

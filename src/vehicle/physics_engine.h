@@ -96,8 +96,8 @@ class PhysicsEngine {
   /// linear) and the axes of W. Returns zero for a link that forces cannot move.
   virtual Mat6 inverse_mass(int machine, int link) const = 0;
 
-  /// Visits all state between two steps. An engine loaded from an archive continues exactly as the
-  /// saved one. Precondition for loading: the same machines have been added.
+  /// Saves, loads or hashes all state between two steps. An engine loaded from an archive continues
+  /// exactly as the saved one. Precondition for loading: the same machines have been added.
   /// @throws InputError for an archive of other machines, or for a machine without a finite pose.
   virtual void visit(Archive& a) = 0;
 

@@ -25,9 +25,9 @@ struct TippingLoad {
   Vec2 outward = Vec2::Zero();
 };
 
-/// Returns the smallest mass at `load_point` that tips a machine of `mass` M [kg] with its centre
-/// of mass at `centre`, over all edges of the convex hull of `feet`. All points are horizontal
-/// positions in W [m].
+/// Returns the smallest load at `load_point` that tips a machine of `mass` M [kg], with its centre
+/// of mass at `centre`, over an edge of the convex hull of `feet`, and the direction across that
+/// edge. All points are horizontal positions in W [m].
 ///
 /// The load moves the common centre of mass onto an edge: m = M d / l, where d is the distance of
 /// `centre` inside the edge and l that of `load_point` outside it (static tipping load as in

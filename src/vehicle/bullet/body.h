@@ -116,8 +116,8 @@ class TreeBody {
   /// Moves the collision objects of all links to their current poses.
   void place_colliders();
 
-  /// Visits base pose, joint positions, velocities and expected support, which are the whole state
-  /// of the tree between two steps.
+  /// Saves, loads or hashes base pose, joint positions, velocities and expected support, which are
+  /// the whole state of the tree between two steps.
   void visit(Archive& a);
 
  private:

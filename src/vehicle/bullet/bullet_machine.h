@@ -39,7 +39,8 @@ class BulletMachine {
   const TreeBody& tree() const { return tree_; }
   /// Returns the scene data from which the machine was built.
   const scene::Machine& scene() const { return machine_; }
-  /// Returns the constraint rows of the joints' servos, by joint; null for a joint without a servo.
+  /// Returns the constraint rows of the joints' servos, indexed by joint; null for a joint without
+  /// a servo.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
   /// Returns the constraint rows of those ball joints that have limits.
   std::vector<std::unique_ptr<BallLimits>>& balls() { return joints_.balls(); }
@@ -49,11 +50,12 @@ class BulletMachine {
   const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const {
     return drive_.differentials();
   }
-  /// Returns the collision objects of the links, by link; null for a link without collision shapes.
+  /// Returns the collision objects of the links, indexed by link; null for a link without collision
+  /// shapes.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }
-  /// Returns the collision objects of the shells (steel plates of tools), by shell. They collide
-  /// with bodies but not with the ground, since the soil model computes the force of soil on
-  /// shells.
+  /// Returns the collision objects of the shells (steel plates of tools), indexed by shell. They
+  /// collide with bodies but not with the ground, since the soil model computes the force of soil
+  /// on shells.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& steel() { return steel_; }
   /// Returns all collision objects of links and shells; no entry is null.
   std::vector<btMultiBodyLinkCollider*> all_colliders() const;
@@ -65,7 +67,7 @@ class BulletMachine {
   MachineWheels& wheels() { return wheels_; }
 
   /// Sets the command of a joint. If the drive controls the joint, this command overrides the drive
-  /// until its next command.
+  /// until the drive's next command.
   void set_joint(int joint, const JointInput& input);
   /// Sets the drive's command. Joints that set_joint() has overridden follow the drive again.
   void set_drive(const DriveInput& input) { drive_.set(input); }
@@ -128,17 +130,18 @@ class BulletMachine {
   /// Returns the sum of all external impulses since the start, in W [N s].
   const Vec3& external_impulse() const { return external_impulse_; }
 
-  /// Visits all state between two steps. A loaded machine continues exactly as the saved one.
+  /// Saves, loads or hashes all state between two steps. A loaded machine continues exactly as the
+  /// saved one.
   void visit(Archive& a);
 
  private:
   /// Force on a link that add_force() has stored for the next step.
   struct Push {
-    /// Index of the link.
+    /// Index of the link on which the force acts.
     int link = 0;
     /// Force [N] and point of application [m] in W.
     Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
-    /// Visits link, force and point.
+    /// Saves, loads or hashes link, force and point.
     void visit(Archive& a);
   };
   /// Makes the collision objects of all links with collision shapes.
@@ -157,8 +160,8 @@ class BulletMachine {
   /// Sets Bullet's activation state of the base link's collision object.
   void set_active(bool active);
 
-  /// Scene data from which the machine was built. Each of these members refers to the members
-  /// before it.
+  /// Scene data from which the machine was built. It must be declared first: each of the following
+  /// members refers to members before it.
   scene::Machine machine_;
   /// Articulated tree.
   TreeBody tree_;
@@ -168,15 +171,15 @@ class BulletMachine {
   MachineWheels wheels_;
   /// Drive that turns and steers the wheels.
   MachineDrive drive_;
-  /// Constraint rows between shells and rock, by shell.
+  /// Constraint rows between shells and rock, indexed by shell.
   std::vector<std::unique_ptr<RockContact>> rock_;
-  /// Collision shapes of the links, by link.
+  /// Collision shapes of the links, indexed by link.
   std::vector<LinkShape> shapes_;
-  /// Collision objects of the links, by link; null for a link without shapes.
+  /// Collision objects of the links, indexed by link; null for a link without shapes.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-  /// Collision shapes of the shells, by shell.
+  /// Collision shapes of the shells, indexed by shell.
   std::vector<LinkShape> plates_;
-  /// Collision objects of the shells, by shell.
+  /// Collision objects of the shells, indexed by shell.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> steel_;
   /// Forces that act in the next step.
   std::vector<Push> pushes_;

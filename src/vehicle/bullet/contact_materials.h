@@ -63,7 +63,7 @@ class ContactMaterials {
 
   /// Table of material pairs.
   scene::Materials table_;
-  /// Names of all materials in the table, by index.
+  /// Names of all materials in the table, indexed by index.
   std::vector<std::string> names_;
   /// Table entry for each pair of material indices, as a square matrix in row-major order; null for
   /// a pair that the table does not contain.

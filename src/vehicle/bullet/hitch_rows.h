@@ -35,7 +35,7 @@ class HitchRows final : public MultibodyRows {
   /// after the solver.
   void end_step(double dt);
 
-  /// Visits whether the hitch is closed, and its force.
+  /// Saves, loads or hashes whether the hitch is closed, and its force.
   void visit(Archive& a);
 
  private:

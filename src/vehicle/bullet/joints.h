@@ -39,7 +39,7 @@ struct Actuator {
   /// Position at which the brake holds the joint [rad|m].
   double held = 0;
 
-  /// Visits servo, effort and brake.
+  /// Saves, loads or hashes servo, effort and brake.
   void visit(Archive& a);
 };
 
@@ -62,7 +62,7 @@ class MachineJoints {
   const Actuator& operator[](int joint) const {
     return actuators_.at(static_cast<std::size_t>(joint));
   }
-  /// Returns the constraint rows of the servos, by joint; null for fixed and ball joints.
+  /// Returns the constraint rows of the servos, indexed by joint; null for fixed and ball joints.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
   /// Returns the constraint rows of those ball joints that have limits.
   std::vector<std::unique_ptr<BallLimits>>& balls() { return balls_; }
@@ -93,8 +93,8 @@ class MachineJoints {
   /// does on a joint is not subtracted.
   double work() const { return work_; }
 
-  /// Visits servos, brakes and pump. Visit the tree first, since the cylinders are evaluated at its
-  /// positions.
+  /// Saves, loads or hashes servos, brakes and pump. Visit the tree first, since the cylinders are
+  /// evaluated at its positions.
   void visit(Archive& a);
 
  private:
@@ -117,7 +117,7 @@ class MachineJoints {
   Hydraulics hydraulics_;
   /// State of each joint.
   std::vector<Actuator> actuators_;
-  /// Constraint rows of the servos, by joint; null for fixed and ball joints.
+  /// Constraint rows of the servos, indexed by joint; null for fixed and ball joints.
   std::vector<std::unique_ptr<ServoConstraint>> constraints_;
   /// Constraint rows of those ball joints that have limits.
   std::vector<std::unique_ptr<BallLimits>> balls_;

@@ -46,7 +46,8 @@ class MachineDrive {
   /// Returns the state of the combustion engine; all zero without one.
   const CombustionEngineState& engine() const { return line_->engine(); }
 
-  /// Visits the drive command and the state of the drive line. Visit joints and wheels first.
+  /// Saves, loads or hashes the drive command and the state of the drive line. Visit joints and
+  /// wheels first.
   void visit(Archive& a);
 
  private:

@@ -31,8 +31,8 @@ class RockContact final : public MultibodyRows {
   /// Returns the impulse of the rock on the shell in the last step, in W [N s].
   const Vec3& impulse() const { return impulse_; }
 
-  /// Visits the normal impulse of each corner, which limits the friction of the next step, and the
-  /// impulse on the shell.
+  /// Saves, loads or hashes the normal impulse of each corner, which limits the friction of the
+  /// next step, and the impulse on the shell.
   void visit(Archive& a);
 
   /// Adds the rows of all corners that could reach the rock in this step. Bullet calls it in every

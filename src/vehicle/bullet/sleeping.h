@@ -48,7 +48,7 @@ class Rest {
   /// ground.
   void feel(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high);
 
-  /// Visits sleep state, rest time and recorded ground.
+  /// Saves, loads or hashes sleep state, rest time and recorded ground.
   void visit(Archive& a);
 
  private:

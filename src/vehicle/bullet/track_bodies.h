@@ -51,8 +51,8 @@ class TrackBodies {
   /// Contacts of the track that is being computed. Each refers to its body by the body's index in
   /// `near_`.
   std::vector<terramechanics::TrackTouch> touches_;
-  /// Discs of each track, by machine and wheel; without stations until the first use, and for
-  /// wheels without a track.
+  /// Discs of each track, indexed by machine and wheel; without stations until the first use, and
+  /// for wheels without a track.
   std::vector<std::vector<Track>> tracks_;
 };
 

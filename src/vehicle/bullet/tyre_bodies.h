@@ -57,7 +57,7 @@ class TyreBodies {
   ContactCandidates bodies_;
   /// Contacts of the contact strip that is being computed.
   std::vector<Touch> touches_;
-  /// Disc of each wheel's contact strips, by machine and wheel; empty until the first use.
+  /// Disc of each wheel's contact strips, indexed by machine and wheel; empty until the first use.
   std::vector<std::vector<std::optional<Disc>>> discs_;
   /// Contacts of crawler tracks with bodies.
   TrackBodies tracks_;

@@ -49,8 +49,8 @@ struct MachineWheel {
   /// [m]. TyreBodies saves it.
   Vec3 body_p_C = Vec3::Zero();
 
-  /// Visits the state of tyre, track and brake. TyreBodies visits the state of contacts with
-  /// bodies.
+  /// Saves, loads or hashes the state of tyre, track and brake. TyreBodies visits the state of
+  /// contacts with bodies.
   void visit(Archive& a);
 };
 

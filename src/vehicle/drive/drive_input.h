@@ -22,7 +22,8 @@ struct DriveInput {
   /// Gear of an engine with gears, 1-based; 0 to select gears automatically.
   int gear = 0;
 
-  /// Visits all values except the gear, which is part of the state of a drive with gears.
+  /// Saves, loads or hashes all values except the gear, which is part of the state of a drive with
+  /// gears.
   void visit(Archive& a);
 };
 

@@ -47,7 +47,8 @@ struct Coupled {
   std::vector<double> weight;
 };
 
-/// Differential carrier whose speed a speed source prescribes for the next step.
+/// Differential carrier whose speed over the next step is prescribed by an engine that acts as a
+/// speed source.
 struct HeldCarrier {
   /// Prescribed speed of the carrier [rad/s].
   double speed = 0;
@@ -138,8 +139,8 @@ class DriveLine {
   /// current speed.
   void torques(const DriveInput& input, const std::vector<WheelTurn>& turns, double mass, double dt,
                std::vector<double>& torque, double pump_power = 0);
-  /// Returns the speed that a speed source prescribes for the mean of all driven wheels in this
-  /// step; nothing for other engines. Call it after torques().
+  /// Returns the mean speed of all driven wheels that an engine of type speed source prescribes for
+  /// this step; nothing for other engines. Call it after torques().
   const std::optional<HeldCarrier>& held() const { return held_; }
   /// Records the speed [rad/s] that the carrier of a speed source reached in the step, and the
   /// torque [N m] that it took.
@@ -149,7 +150,7 @@ class DriveLine {
   /// no gears and does not share its engine with the pump.
   const CombustionEngineState& engine() const { return state_; }
 
-  /// Visits the state of all governors and of the engine.
+  /// Saves, loads or hashes the state of all governors and of the engine.
   void visit(Archive& a);
 
  protected:

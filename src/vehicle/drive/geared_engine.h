@@ -63,7 +63,7 @@ class GearedEngine {
   /// the pump takes `pump_power` [W]. Torque and power include pump and drive.
   CombustionEngineState state(double carrier, double torque, double pump_power) const;
 
-  /// Visits the engaged gear and the time since the last gear change.
+  /// Saves, loads or hashes the engaged gear and the time since the last gear change.
   void visit(Archive& a);
 
  private:

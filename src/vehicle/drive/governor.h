@@ -60,7 +60,7 @@ class SpeedGovernor {
   /// while the brakes are on.
   void reset(double speed);
 
-  /// Visits the setpoint and the integral part.
+  /// Saves, loads or hashes the setpoint and the integral part.
   void visit(Archive& a);
 
  private:
