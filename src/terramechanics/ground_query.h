@@ -37,9 +37,9 @@ struct Sinkage {
 
 /// Height, normal and soil of the ground at one point.
 struct GroundState {
-  /// Height of the surface in W [m].
+  /// Height of the surface in the world frame [m].
   double height = 0;
-  /// Unit normal of the surface in W, pointing up.
+  /// Unit normal of the surface in the world frame, pointing up.
   Vec3 normal = Vec3::UnitZ();
   /// Soil at the surface and its volume ratio.
   SoilState soil;
@@ -47,8 +47,8 @@ struct GroundState {
 
 /// Square grid on which a ground defines its heights.
 struct GroundLattice {
-  /// Position x, y of one grid node in W [m]. The other nodes are at whole multiples of `spacing`
-  /// from it.
+  /// Position x, y of one grid node in the world frame [m]. The other nodes are at whole multiples
+  /// of `spacing` from it.
   Vec2 node = Vec2::Zero();
   /// Distance between neighbouring nodes along x and along y [m].
   double spacing = 0.1;
@@ -56,8 +56,8 @@ struct GroundLattice {
 
 /// Read access to the ground under wheels, tracks and rigid bodies.
 ///
-/// Every query takes a horizontal position x, y in W [m]. Outside its extent, a ground returns the
-/// values of its nearest point.
+/// Every query takes a horizontal position x, y in the world frame [m]. Outside its extent, a
+/// ground returns the values of its nearest point.
 ///
 /// A wheel reads heights and normals about a hundred times per step but the soil only a few times,
 /// so each quantity has its own function.
@@ -66,16 +66,16 @@ class GroundQuery {
   /// Destroys the ground through this interface.
   virtual ~GroundQuery() = default;
 
-  /// Returns the height of the surface at x, y in W [m].
+  /// Returns the height of the surface at x, y in the world frame [m].
   virtual double height(double x, double y) const = 0;
-  /// Returns an upper bound in W [m] of all surface heights in the rectangle with the corners `low`
-  /// and `high` [m]. Callers use it to skip bodies that are well above the ground. The default
-  /// implementation returns infinity, which skips nothing.
+  /// Returns an upper bound in the world frame [m] of all surface heights in the rectangle with the
+  /// corners `low` and `high` [m]. Callers use it to skip bodies that are well above the ground.
+  /// The default implementation returns infinity, which skips nothing.
   virtual double highest(const Vec2& low, const Vec2& high) const {
     (void)low, (void)high;
     return std::numeric_limits<double>::infinity();
   }
-  /// Returns the unit normal of the surface at x, y in W, pointing up.
+  /// Returns the unit normal of the surface at x, y in the world frame, pointing up.
   virtual Vec3 normal(double x, double y) const = 0;
   /// Returns the soil at the surface at x, y and its volume ratio. The default implementation
   /// returns a firm floor.

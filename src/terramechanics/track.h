@@ -51,11 +51,11 @@ struct TrackState {
 /// Motion of a track at the start of a step. The carrier is the link on which the running gear is
 /// mounted, with frame C.
 struct TrackMotion {
-  /// Pose in W of the carrier link, on which the track's running gear is mounted.
+  /// Pose of the carrier link, on which the track's running gear is mounted, in the world frame.
   Pose X_WC = Pose::Identity();
-  /// Velocity in W of the origin of the track's carrier link [m/s].
+  /// Velocity of the origin of the track's carrier link in the world frame [m/s].
   Vec3 v_W = Vec3::Zero();
-  /// Angular velocity of the track's carrier link in W [rad/s].
+  /// Angular velocity of the track's carrier link in the world frame [rad/s].
   Vec3 w_W = Vec3::Zero();
   /// Centre of the sprocket in the frame C of the track's carrier link [m].
   Vec3 p_sprocket = Vec3::Zero();
@@ -69,9 +69,9 @@ struct TrackMotion {
 
 /// Rectangle of ground on which one wheel of the running gear presses the track.
 struct TrackPatch {
-  /// Centre of the rectangle in W [m].
+  /// Centre of the rectangle in the world frame [m].
   Vec3 p_W = Vec3::Zero();
-  /// Unit vector along the track in W, forward.
+  /// Unit vector along the track in the world frame, forward.
   Vec3 ahead_W = Vec3::UnitX();
   /// Side along `ahead_W`, and side across it, which is the width of the track [m].
   double length = 0, width = 0;
@@ -83,9 +83,9 @@ struct TrackPatch {
 struct TrackForce {
   /// Force on the carrier of the track at one point.
   struct Push {
-    /// Force of the ground in W [N].
+    /// Force of the ground in the world frame [N].
     Vec3 f_W = Vec3::Zero();
-    /// Point of application in W [m], on the outside of the track.
+    /// Point of application in the world frame [m], on the outside of the track.
     Vec3 p_W = Vec3::Zero();
   };
   /// Forces of the ground on the track's carrier link: one per loaded contact, then the resistance
@@ -94,7 +94,7 @@ struct TrackForce {
   /// Torque of the track on its sprocket, about the sprocket's axis [N m]; positive drives the
   /// sprocket forward. The opposite torque acts on the carrier link.
   double torque = 0;
-  /// Sum of all `pushes` in W [N].
+  /// Sum of all `pushes` in the world frame [N].
   Vec3 force_W = Vec3::Zero();
   /// Slip of the track [-]: (track speed - ground speed) / the larger magnitude of the two.
   double slip = 0;

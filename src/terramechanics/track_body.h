@@ -52,8 +52,8 @@ using TrackBodyShear = std::vector<std::array<Vec2, kTrackLines>>;
 
 /// Force of rigid bodies on a track over one step.
 struct TrackBodyForce {
-  /// Forces in W on the track's carrier link, one per contact [N]. The caller applies the opposite
-  /// force to the body.
+  /// Forces in the world frame on the track's carrier link, one per contact [N]. The caller applies
+  /// the opposite force to the body.
   std::vector<Vec3> f_W;
   /// Torque of the track on its sprocket, about the sprocket's axis [N m]; positive drives the
   /// sprocket forward. The opposite torque acts on the carrier link.

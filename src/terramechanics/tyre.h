@@ -34,13 +34,13 @@ struct TyreState {
 
 /// Motion of a wheel at the start of a step. The carrier is the link on which the wheel spins.
 struct TyreMotion {
-  /// Pose in W of a frame at the wheel's centre that does not spin with it: y is the spin axis, x
-  /// points forward.
+  /// Pose of the wheel in the world frame, without its spin: the origin is the wheel's centre, y is
+  /// the spin axis, x points forward.
   Pose X_WWheel = Pose::Identity();
-  /// Velocity of the wheel's centre in W [m/s].
+  /// Velocity of the wheel's centre in the world frame [m/s].
   Vec3 v_W = Vec3::Zero();
-  /// Angular velocity in W of the carrier, the link on which the wheel spins [rad/s]. It does not
-  /// include the wheel's spin.
+  /// Angular velocity of the carrier, the link on which the wheel spins, in the world frame
+  /// [rad/s]. It does not include the wheel's spin.
   Vec3 w_W = Vec3::Zero();
   /// Angular speed of the wheel about its axle relative to the carrier link [rad/s]; positive rolls
   /// forward.
@@ -52,10 +52,10 @@ struct TyreMotion {
 
 /// Force of the ground on a wheel over one step.
 struct TyreForce {
-  /// Force on the wheel in W [N].
+  /// Force on the wheel in the world frame [N].
   Vec3 force_W = Vec3::Zero();
-  /// Moment of the ground's force about the wheel's centre in W [N m]. It acts on the wheel and,
-  /// through the axle, on the carrier link.
+  /// Moment of the ground's force about the wheel's centre in the world frame [N m]. It acts on the
+  /// wheel and, through the axle, on the carrier link.
   Vec3 moment_W = Vec3::Zero();
   /// Longitudinal slip [-]: (rim speed - ground speed) / the larger magnitude of the two.
   double slip = 0;

@@ -9,13 +9,13 @@ namespace navvy::terramechanics {
 
 /// Contact of a rigid body with the round tread of a tyre, or with a disc of a track.
 struct BodyTouch {
-  /// Contact point on the body in W [m].
+  /// Contact point on the body in the world frame [m].
   Vec3 p_W = Vec3::Zero();
-  /// Unit normal in W, pointing out of the body.
+  /// Unit normal in the world frame, pointing out of the body.
   Vec3 normal = Vec3::UnitZ();
   /// Penetration of the tread into the body along the normal [m].
   double depth = 0;
-  /// Velocity of the body at `p_W` in W [m/s].
+  /// Velocity of the body at `p_W` in the world frame [m/s].
   Vec3 v_W = Vec3::Zero();
   /// Friction coefficient of the tyre or track on this body [-].
   double friction = 0.8;
@@ -24,8 +24,8 @@ struct BodyTouch {
   double inverse_mass = 0;
 };
 
-/// Returns the force [N] in W of a body on the wheel at the contact point over the next step `dt`
-/// [s]. The caller applies the opposite force to the body.
+/// Returns the force of a body on the wheel at the contact point over the next step `dt` [s], in
+/// the world frame [N]. The caller applies the opposite force to the body.
 ///
 /// With a `bristle` (deflection forward and left [m]) the contact grips, and the bristle advances.
 /// With a null `bristle` the contact slides without friction. Only one contact of a strip may grip.

@@ -54,11 +54,11 @@ class JointServo {
   /// @return the velocity that the valve passes with enough oil [rad/s|m/s]; 0 in the modes without
   /// a valve (kFree and kEffort).
   double open(const scene::Joint& joint, const JointLimits& limits, double q, double qd, double dt);
-  /// Returns true if the last open() left the valve clearly open. It returns false for a function
-  /// that holds its position or stalls, which takes hardly any oil.
+  /// Returns true if the last open() left the valve clearly open. It returns false for a joint that
+  /// holds its position or stalls, which takes hardly any oil.
   bool flows() const { return flows_; }
-  /// Returns the motion for the solver in this step, if the function gets `share` (0 to 1) of the
-  /// oil that its valve passes. The other parameters are those of open().
+  /// Returns the motion for the solver in this step, if the joint's cylinder gets `share` (0 to 1)
+  /// of the oil that its valve passes. The other parameters are those of open().
   Demand demand(const scene::Joint& joint, const JointLimits& limits, double q, double qd,
                 double share, double dt);
   /// Records the result of the step: the `effort` that the solver applied [N m|N] for `demand`, and
@@ -94,7 +94,7 @@ class JointServo {
   double held_ = 0;
   /// Velocity towards the target in the last step, before the delay of the valve [rad/s|m/s].
   double wanted_ = 0;
-  /// Share of its oil that the function got in the last step [-].
+  /// Share (0 to 1) of the oil passed by its valve that the joint's cylinder got in the last step.
   double share_ = 1;
   /// Time for which the joint has been stalled [s].
   double stall_time_ = 0;

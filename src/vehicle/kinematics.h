@@ -21,7 +21,7 @@ namespace navvy::vehicle {
 /// fixed or ball joint ignores `q`.
 Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q);
 
-/// Returns the poses in W of all links of `machine`, in the order of machine.links.
+/// Returns the poses in the world frame of all links of `machine`, in the order of machine.links.
 ///
 /// `X_WB` is the pose of the base link, links[0]. `q` has the position of each joint [rad|m];
 /// joints beyond its end are at their initial positions.

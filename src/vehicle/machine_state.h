@@ -33,10 +33,10 @@ struct JointInput {
 /// Target pose of the base link of a kinematic machine. It holds until it is replaced or until the
 /// machine's drive is commanded.
 struct BaseInput {
-  /// Target position of the base link's origin in W [m].
+  /// Target position of the base link's origin in the world frame [m].
   Vec3 p_W = Vec3::Zero();
-  /// Target orientation as roll, pitch and yaw about the fixed axes of W [rad]. Roll is applied
-  /// first, yaw last.
+  /// Target orientation as roll, pitch and yaw about the fixed axes of the world frame [rad]. Roll
+  /// is applied first, yaw last.
   Vec3 angles = Vec3::Zero();
   /// Duration of the motion to the target at constant velocity [s]; 0 to reach the target within
   /// one step.
@@ -89,13 +89,14 @@ struct CombustionEngineState {
   void visit(Archive& a);
 };
 
-/// Pose and velocity of a link's frame L, as scene::Link defines it, in W.
+/// Pose and velocity of a link in the world frame. The link's frame L is the one that scene::Link
+/// defines.
 struct LinkState {
-  /// Pose of L in W.
+  /// Pose of the link's frame in the world frame.
   Pose X_WL = Pose::Identity();
-  /// Velocity of the origin of L in W [m/s].
+  /// Velocity of the origin of the link's frame in the world frame [m/s].
   Vec3 v_WL = Vec3::Zero();
-  /// Angular velocity of the link in W [rad/s].
+  /// Angular velocity of the link in the world frame [rad/s].
   Vec3 w_WL = Vec3::Zero();
 };
 
@@ -139,27 +140,30 @@ struct HitchState {
   bool closed = false;
   /// Distance between the eye and the hook [m].
   double apart = 0;
-  /// Force of the child machine on the parent machine in W [N]; 0 while the hitch is open.
+  /// Force of the child machine on the parent machine in the world frame [N]; 0 while the hitch is
+  /// open.
   Vec3 force = Vec3::Zero();
 };
 
 /// State of a wheel or track after the last step, including its ground force. Engines without
 /// forces leave forces, slip and sinkage at 0.
 struct WheelState {
-  /// Pose in W of a frame at the wheel's centre that does not spin with it: y is the spin axis, x
-  /// points forward.
+  /// Pose of the wheel in the world frame, without its spin: the origin is the wheel's centre, y is
+  /// the spin axis, x points forward.
   Pose X_WWheel = Pose::Identity();
-  /// Velocity of the wheel's centre in W [m/s].
+  /// Velocity of the wheel's centre in the world frame [m/s].
   Vec3 v_W = Vec3::Zero();
   /// Angular speed of the wheel relative to its carrier [rad/s]; positive rolls forward (+x).
   double spin = 0;
   /// Position of the wheel's steering joint [rad]; 0 without one.
   double steer = 0;
-  /// Force on the tyre or track from ground and rigid bodies together in the last step, in W [N].
+  /// Force on the tyre or track from ground and rigid bodies together in the last step, in the
+  /// world frame [N].
   Vec3 force_W = Vec3::Zero();
-  /// Part of `force_W` from rigid bodies, in W [N]. This part presses no rut into the ground.
+  /// Part of `force_W` from rigid bodies, in the world frame [N]. This part presses no rut into the
+  /// ground.
   Vec3 body_W = Vec3::Zero();
-  /// Point in W at which `body_W` acts on a track [m]; the wheel's centre for a tyre.
+  /// Point in the world frame at which `body_W` acts on a track [m]; the wheel's centre for a tyre.
   Vec3 body_p_W = Vec3::Zero();
   /// Torque of the half shaft that drives the wheel in the last step [N m], including the torque
   /// that locked or limited-slip differentials transfer.

@@ -25,7 +25,7 @@ using terramechanics::GroundQuery;
 ///
 /// The functions below are the core that every engine implements; the capabilities at the end are
 /// optional. Indices of links, joints and wheels are those of scene::Machine; poses, velocities and
-/// forces are in W. An engine is not thread-safe.
+/// forces are in the world frame. An engine is not thread-safe.
 ///
 /// The `coupling` module adds all machines before the first step. Then it calls an engine in this
 /// order in every base step: commands (set_joint, set_drive, set_brake), step(), reads of states
@@ -93,7 +93,7 @@ class PhysicsEngine {
   /// Returns the state of a wheel or track after the last step, including its ground force.
   virtual WheelState wheel(int machine, int wheel) const = 0;
   /// Returns the inverse of a link's articulated mass at the link's origin, in the order (angular,
-  /// linear) and the axes of W. Returns zero for a link that forces cannot move.
+  /// linear) and world axes. Returns zero for a link that forces cannot move.
   virtual Mat6 inverse_mass(int machine, int link) const = 0;
 
   /// Saves, loads or hashes all state between two steps. An engine loaded from an archive continues
@@ -136,9 +136,9 @@ HitchCapability& require_hitches(PhysicsEngine& engine);
 std::vector<terramechanics::TrackPatch> track_patches(const PhysicsEngine& engine, int machine,
                                                       int wheel);
 
-/// Makes the engine for dynamic machines, built on the Bullet library. `gravity` is in W [m/s2].
-/// `materials` gives the properties of contacts between two bodies that both have a material.
-/// Machines of another engine take part only as obstacles (ObstacleCapability).
+/// Makes the engine for dynamic machines, built on the Bullet library. `gravity` is in the world
+/// frame [m/s2]. `materials` gives the properties of contacts between two bodies that both have a
+/// material. Machines of another engine take part only as obstacles (ObstacleCapability).
 std::unique_ptr<PhysicsEngine> make_bullet_engine(const Vec3& gravity,
                                                   const scene::Materials& materials = {});
 /// Makes the kinematic engine, whose machines follow their commands at limited rates and are not

@@ -69,11 +69,11 @@ class HitchCapability {
 /// soil.
 class RockCapability {
  public:
-  /// Sets the height of the rock surface in W [m]. Until it is set, shells meet no rock. The height
-  /// is not part of the engine's state, so set it again after loading a snapshot.
+  /// Sets the height of the rock surface in the world frame [m]. Until it is set, shells meet no
+  /// rock. The height is not part of the engine's state, so set it again after loading a snapshot.
   virtual void set_rock(double height) = 0;
-  /// Returns the impulse of the rock on a shell in the last step, in W [N s]. `shell` is an index
-  /// in scene::Machine::shells.
+  /// Returns the impulse of the rock on a shell in the last step, in the world frame [N s]. `shell`
+  /// is an index in scene::Machine::shells.
   virtual Vec3 rock_impulse(int machine, int shell) const = 0;
 
  protected:
@@ -108,16 +108,16 @@ class PowerCapability {
 /// Capability of an engine to report momentum and work, from which tests check balances.
 class AccountCapability {
  public:
-  /// Returns the total linear momentum of a machine, in W [N s].
+  /// Returns the total linear momentum of a machine, in the world frame [N s].
   virtual Vec3 momentum(int machine) const = 0;
   /// Returns the mechanical work that a machine's joints and drive have done on it since the start
   /// [J]. Work done by a load on a joint is not subtracted.
   virtual double work(int machine) const = 0;
   /// Returns the sum of all impulses of the ground on the machine (tyres, tracks, contacts, rock)
-  /// in the last step, in W [N s].
+  /// in the last step, in the world frame [N s].
   virtual Vec3 ground_impulse(int machine) const = 0;
   /// Returns the sum of all impulses that the caller has applied to the machine since the start,
-  /// including those of forces, in W [N s].
+  /// including those of forces, in the world frame [N s].
   virtual Vec3 external_impulse(int machine) const = 0;
 
  protected:

@@ -14,8 +14,8 @@ namespace navvy::vehicle {
 /// Interface of a physics engine, defined in vehicle/physics_engine.h.
 class PhysicsEngine;
 
-/// Function that makes a physics engine without machines, for `gravity` (in W [m/s2]) and the
-/// contact `materials` of a scene. The world then adds its machines.
+/// Function that makes a physics engine without machines, for `gravity` (in the world frame [m/s2])
+/// and the contact `materials` of a scene. The world then adds its machines.
 ///
 /// Include vehicle/physics_engine.h wherever a function is converted to this type.
 using PhysicsEngineFactory = std::function<std::unique_ptr<PhysicsEngine>(

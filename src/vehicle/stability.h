@@ -20,14 +20,14 @@ struct TippingLoad {
   /// Mass of the load [kg]; 0 for a machine that tips without a load, kNoTippingLoad if no load can
   /// tip it.
   double load = kNoTippingLoad;
-  /// Horizontal unit vector in W across that edge, pointing away from the machine; zero if no edge
-  /// can tip.
+  /// Horizontal unit vector in the world frame across that edge, pointing away from the machine;
+  /// zero if no edge can tip.
   Vec2 outward = Vec2::Zero();
 };
 
 /// Returns the smallest load at `load_point` that tips a machine of `mass` M [kg], with its centre
 /// of mass at `centre`, over an edge of the convex hull of `feet`, and the direction across that
-/// edge. All points are horizontal positions in W [m].
+/// edge. All points are horizontal positions in the world frame [m].
 ///
 /// The load moves the common centre of mass onto an edge: m = M d / l, where d is the distance of
 /// `centre` inside the edge and l that of `load_point` outside it (static tipping load as in
@@ -36,8 +36,8 @@ struct TippingLoad {
 TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
                          const Vec2& load_point);
 
-/// Returns the centre of mass of all links of `machine`, which is machine `index` of `engine`, in W
-/// [m]. The soil that it carries is not included.
+/// Returns the centre of mass of all links of `machine`, which is machine `index` of `engine`, in
+/// the world frame [m]. The soil that it carries is not included.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 /// Returns the stability after the last step of `machine`, which is machine `index` of `engine`.

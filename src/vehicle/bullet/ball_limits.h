@@ -38,8 +38,8 @@ class BallLimits final : public MultibodyRows {
  public:
   /// Allocates the rows for one ball joint.
   /// @param link Bullet's index of the joint's child link
-  /// @param R_CJ axes of the joint's frame J in Bullet's frame of the child
-  /// @param R_PJ axes of J in Bullet's frame of the parent at the initial position
+  /// @param R_CJ axes of the joint's frame in Bullet's frame of the child
+  /// @param R_PJ axes of the joint's frame in Bullet's frame of the parent at the initial position
   /// @param cone, twist limits [rad]; pi or more means unlimited
   BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone,
              double twist);

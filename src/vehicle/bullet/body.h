@@ -52,9 +52,10 @@ class TreeBody {
   /// Does nothing for other joints.
   void set_position(int joint, double q);
 
-  /// Returns pose and velocity in W of a link's own frame, as the model defines it.
+  /// Returns pose and velocity in the world frame of a link, at the origin that the model defines
+  /// for it.
   LinkState link(int link) const;
-  /// Returns the centre of mass of a link in W [m].
+  /// Returns the centre of mass of a link in the world frame [m].
   Vec3 center(int link) const;
   /// Returns the mass of a link [kg].
   double mass(int link) const { return mass_[index(link)]; }
@@ -62,11 +63,11 @@ class TreeBody {
   double total_mass() const { return total_mass_; }
   /// Returns true if the base link is fixed to the world.
   bool fixed_base() const { return body_->hasFixedBase(); }
-  /// Returns the linear momentum of all moving links in W [N s].
+  /// Returns the linear momentum of all moving links in the world frame [N s].
   Vec3 momentum() const;
-  /// Returns the origin of a joint in W [m].
+  /// Returns the origin of a joint in the world frame [m].
   Vec3 joint_origin(int joint) const;
-  /// Returns the unit axis of a revolute or prismatic joint in W.
+  /// Returns the unit axis of a revolute or prismatic joint in the world frame.
   Vec3 joint_axis(int joint) const;
   /// Returns the inertia of all links that move with a joint, about its axis [kg m2] or, for a
   /// prismatic joint, along its axis [kg].
@@ -94,11 +95,11 @@ class TreeBody {
   void virtual_work(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                     double* work) const;
   /// Returns the inverse of a link's articulated mass at the link's origin, in the order (angular,
-  /// linear) and the axes of W.
+  /// linear) and world axes.
   Mat6 inverse_mass(int link) const;
 
-  /// Advances the velocities by gravity (in W [m/s2]) and all added forces in one explicit step of
-  /// `dt` [s].
+  /// Advances the velocities by gravity (in the world frame [m/s2]) and all added forces in one
+  /// explicit step of `dt` [s].
   ///
   /// A body without joints also gains the velocity of its expected support, the mean of the
   /// impulses that apply_impulse() received in the last steps. The solver thus treats it as
@@ -121,11 +122,12 @@ class TreeBody {
   void visit(Archive& a);
 
  private:
-  /// Pose and velocity of a link's inertial frame I, which is Bullet's frame of the link.
+  /// Pose and velocity of a link's inertial frame, which is Bullet's frame of the link.
   struct Frame {
-    /// Pose of I in W.
+    /// Pose of the link's inertial frame in the world frame.
     Pose X_WI = Pose::Identity();
-    /// Velocity of the centre of mass [m/s] and angular velocity [rad/s], in W.
+    /// Velocity of the link's centre of mass [m/s] and angular velocity of the link [rad/s], in the
+    /// world frame.
     Vec3 v_W = Vec3::Zero(), w_W = Vec3::Zero();
   };
   /// Converts a non-negative index to std::size_t.
@@ -149,8 +151,8 @@ class TreeBody {
   /// those of apply_impulse().
   void respond(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W,
                std::vector<double>& delta) const;
-  /// Returns the velocity of a link's origin, (angular, linear) in W, that belongs to the
-  /// generalised velocity `velocity`.
+  /// Returns the velocity of a link's origin, (angular, linear) in the world frame, that belongs to
+  /// the generalised velocity `velocity`.
   Vec6 twist_of(int link, const std::vector<double>& velocity) const;
 
   /// Bullet's multibody.

@@ -99,11 +99,11 @@ class BulletMachine {
   /// Computes the demands of the servos, the drive, and the forces on tyres and tracks from
   /// `ground`, for a step of `dt` [s]. Call it before accelerate().
   void begin_step(const GroundQuery& ground, double dt);
-  /// Adds the effect of gravity (in W [m/s2]) and of all forces to the velocities. Call it before
-  /// the solver.
+  /// Adds the effect of gravity (in the world frame [m/s2]) and of all forces to the velocities.
+  /// Call it before the solver.
   void accelerate(const Vec3& gravity, double dt);
   /// Advances positions and reads efforts and work after the solver. `contact` is the impulse of
-  /// all rigid contacts of this machine with the ground in W [N s].
+  /// all rigid contacts of this machine with the ground in the world frame [N s].
   void end_step(const GroundQuery& ground, const Vec3& contact, double dt);
 
   /// Returns the state of a joint after the last step.
@@ -115,7 +115,7 @@ class BulletMachine {
   std::vector<terramechanics::TrackPatch> track_patches(int wheel) const {
     return wheels_.track_patches(wheel);
   }
-  /// Returns the impulse of the rock on a shell in the last step, in W [N s].
+  /// Returns the impulse of the rock on a shell in the last step, in the world frame [N s].
   const Vec3& rock_impulse(int shell) const {
     return rock_.at(static_cast<std::size_t>(shell))->impulse();
   }
@@ -125,9 +125,9 @@ class BulletMachine {
   const CombustionEngineState& engine() const { return drive_.engine(); }
   /// Returns the mechanical work that joints and drive have done since the start [J].
   double work() const { return joints_.work(); }
-  /// Returns the impulse of the ground on the machine in the last step, in W [N s].
+  /// Returns the impulse of the ground on the machine in the last step, in the world frame [N s].
   const Vec3& ground_impulse() const { return ground_impulse_; }
-  /// Returns the sum of all external impulses since the start, in W [N s].
+  /// Returns the sum of all external impulses since the start, in the world frame [N s].
   const Vec3& external_impulse() const { return external_impulse_; }
 
   /// Saves, loads or hashes all state between two steps. A loaded machine continues exactly as the
@@ -139,7 +139,7 @@ class BulletMachine {
   struct Push {
     /// Index of the link on which the force acts.
     int link = 0;
-    /// Force [N] and point of application [m] in W.
+    /// Force [N] and point of application [m] in the world frame.
     Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
     /// Saves, loads or hashes link, force and point.
     void visit(Archive& a);
@@ -155,7 +155,7 @@ class BulletMachine {
   std::unique_ptr<btMultiBodyLinkCollider> make_collider(const LinkShape& shape, int link);
   /// Moves all collision objects to the current poses.
   void place_colliders();
-  /// Computes the bounding box of the base link's collision shapes in W [m].
+  /// Computes the bounding box of the base link's collision shapes in the world frame [m].
   void box(btVector3& low, btVector3& high) const;
   /// Sets Bullet's activation state of the base link's collision object.
   void set_active(bool active);
@@ -186,7 +186,7 @@ class BulletMachine {
   /// Sleep state; empty for a machine that never sleeps.
   std::optional<Rest> rest_;
   /// Impulse of the ground in the last step, the part of it from tyres and tracks, and the sum of
-  /// external impulses since the start, in W [N s].
+  /// external impulses since the start, in the world frame [N s].
   Vec3 ground_impulse_ = Vec3::Zero(), tyre_impulse_ = Vec3::Zero(),
        external_impulse_ = Vec3::Zero();
 };

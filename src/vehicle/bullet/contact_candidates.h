@@ -23,7 +23,7 @@ struct MetBody {
   BulletMachine* machine = nullptr;
   /// Index of the link in that machine.
   int link = 0;
-  /// Corners of the collision object's bounding box in W [m].
+  /// Corners of the collision object's bounding box in the world frame [m].
   btVector3 low, high;
 
   /// Adds a force `f_W` [N] at the point `p_W` [m] on the body for this step, and wakes the body if
@@ -39,16 +39,17 @@ struct Disc {
   /// @param radius outer radius [m]
   /// @param half half of the thickness [m]
   Disc(double radius, double half);
-  /// Moves the disc to the pose `X_W` in W. The y axis of that pose is the disc's axis.
+  /// Moves the disc to the pose `X_W` in the world frame. The y axis of that pose is the disc's
+  /// axis.
   void place(const Pose& X_W);
 
   /// Collision shape of the disc.
   std::unique_ptr<btConvexShape> shape;
   /// Collision object of the disc at its current pose.
   std::unique_ptr<btCollisionObject> object;
-  /// Centre of the disc in W [m].
+  /// Centre of the disc in the world frame [m].
   Vec3 center = Vec3::Zero();
-  /// Corners of the disc's bounding box in W [m].
+  /// Corners of the disc's bounding box in the world frame [m].
   btVector3 low, high;
 };
 

@@ -31,8 +31,8 @@ class ContactMaterials {
   /// Sets the properties of all contacts. Call it after collision detection, while velocities are
   /// still those of the last step, since a body at rest is recognised by its velocity.
   /// @param ground collision object of the ground
-  /// @param gravity gravity in W [m/s2]; the velocity that a body gained from it while it
-  /// overlapped the other body does not count as part of an impact
+  /// @param gravity gravity in the world frame [m/s2]; the velocity that a body gained from it
+  /// while it overlapped the other body does not count as part of an impact
   void apply(btDispatcher& dispatcher, const btCollisionObject& ground, const Vec3& gravity);
 
  private:
@@ -63,7 +63,7 @@ class ContactMaterials {
 
   /// Table of material pairs.
   scene::Materials table_;
-  /// Names of all materials in the table, indexed by index.
+  /// Names of all materials in the table. Their positions in this list are the materials' indices.
   std::vector<std::string> names_;
   /// Table entry for each pair of material indices, as a square matrix in row-major order; null for
   /// a pair that the table does not contain.

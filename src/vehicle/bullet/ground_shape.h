@@ -29,14 +29,14 @@ class GroundShape final : public btConcaveShape {
   /// Returns a bounding box that contains everything.
   void getAabb(const btTransform& t, btVector3& low, btVector3& high) const override;
   /// Calls `callback` for each triangle of the ground whose cell is under the box from `low` to
-  /// `high` in W [m] and not entirely below it. Under boxes of more than 256 cells along a side,
-  /// grid nodes are skipped.
+  /// `high` in the world frame [m] and not entirely below it. Under boxes of more than 256 cells
+  /// along a side, grid nodes are skipped.
   void processAllTriangles(btTriangleCallback* callback, const btVector3& low,
                            const btVector3& high) const override;
 
-  /// Returns the unit direction in W in which the ground pushes a body at the contact point `p_W`
-  /// [m]. Among the possible directions it is the closest one to the detected contact normal
-  /// `normal_W` (unit vector, away from the ground).
+  /// Returns the unit direction in the world frame in which the ground pushes a body at the contact
+  /// point `p_W` [m]. Among the possible directions it is the closest one to the detected contact
+  /// normal `normal_W` (unit vector, away from the ground).
   ///
   /// Bullet treats each triangle separately, so a body that slides over a plane of many triangles
   /// would catch on their edges. Here, a contact on a plane has only the plane's normal. A contact

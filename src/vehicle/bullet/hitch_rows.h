@@ -39,9 +39,9 @@ class HitchRows final : public MultibodyRows {
   void visit(Archive& a);
 
  private:
-  /// Returns the position of the hook in W [m].
+  /// Returns the position of the hook in the world frame [m].
   Vec3 hook() const { return parent_.link(hitch_.parent_link).X_WL * hitch_.hook; }
-  /// Returns the position of the eye in W [m].
+  /// Returns the position of the eye in the world frame [m].
   Vec3 eye() const { return child_.link(hitch_.child_link).X_WL * hitch_.eye; }
   /// Sets the Jacobians of the row with index `row`, so that it measures the velocity of the parent
   /// minus that of the child: the translation along `J_W` and the rotation about `L_W`, at the
@@ -56,7 +56,7 @@ class HitchRows final : public MultibodyRows {
   TreeBody& child_;
   /// True while the hitch is closed.
   bool closed_ = true;
-  /// Force of the child on the parent in the last step, in W [N].
+  /// Force of the child on the parent in the last step, in the world frame [N].
   Vec3 force_ = Vec3::Zero();
 };
 

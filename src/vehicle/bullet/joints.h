@@ -83,8 +83,8 @@ class MachineJoints {
   /// Moves the valves, distributes the oil, and sets constraint rows and damping for a step of `dt`
   /// [s]. Call it before the solver.
   void begin_step(double dt);
-  /// Reads efforts, work and oil flow of a step of `dt` [s], and evaluates the cylinders at the new
-  /// positions. Call it after the solver.
+  /// Computes efforts, work and oil flow from the solver's impulses of a step of `dt` [s], and
+  /// evaluates the cylinders at the new positions. Call it after the solver.
   void end_step(double dt);
 
   /// Returns the state of a joint after the last step, with the limits at its current position.
@@ -93,8 +93,8 @@ class MachineJoints {
   /// does on a joint is not subtracted.
   double work() const { return work_; }
 
-  /// Saves, loads or hashes servos, brakes and pump. Visit the tree first, since the cylinders are
-  /// evaluated at its positions.
+  /// Saves, loads or hashes servos, brakes and pump. Call it after TreeBody::visit(), since loading
+  /// evaluates the cylinders at the tree's positions.
   void visit(Archive& a);
 
  private:
@@ -104,7 +104,7 @@ class MachineJoints {
   JointLimits limits(int joint) const;
   /// Returns the demand with which a set brake holds the joint in a step of `dt` [s].
   JointServo::Demand hold(int joint, double dt);
-  /// Returns the share (0 to 1) of its demanded oil that every function gets in this step.
+  /// Returns the share (0 to 1) of its demanded oil that every cylinder gets in this step.
   double share_oil(double dt);
   /// Returns true if the drive turns the wheel on this joint.
   bool is_drives(const Actuator& a) const { return a.driven && a.spins_wheel; }

@@ -46,8 +46,8 @@ class MachineDrive {
   /// Returns the state of the combustion engine; all zero without one.
   const CombustionEngineState& engine() const { return line_->engine(); }
 
-  /// Saves, loads or hashes the drive command and the state of the drive line. Visit joints and
-  /// wheels first.
+  /// Saves, loads or hashes the drive command and the state of the drive line. Call it after the
+  /// visit() of joints and wheels.
   void visit(Archive& a);
 
  private:
@@ -58,7 +58,7 @@ class MachineDrive {
   void steer();
   /// Locks oscillating axles and casters under the brake, and frees them otherwise.
   void lock_axles();
-  /// Adds a constraint row over the joints of all wheels whose `weight` [-] is not zero.
+  /// Adds a constraint row that couples the spins of all wheels whose `weight` [-] is not zero.
   void add_row(const std::vector<double>& weight);
   /// Sets the limits of all differentials that are not open from the torques of this step, and the
   /// speed of a carrier with a prescribed speed.
@@ -89,8 +89,8 @@ class MachineDrive {
   std::vector<double> shaft_;
   /// Differentials that are locked or have limited slip.
   std::vector<Coupled> coupled_;
-  /// Weight of each wheel in the speed of the carrier that a speed source turns; empty without a
-  /// speed source.
+  /// Weight of each wheel's spin in the speed of the differential carrier, if an engine of type
+  /// speed source turns that carrier; empty for other engines.
   std::vector<double> carrier_;
   /// Constraint rows, one for each entry of `coupled_`, then one for the carrier of a speed source
   /// if there is one.

@@ -24,11 +24,11 @@ class RockContact final : public MultibodyRows {
   /// @param corners corners of the shell in the link's frame [m]
   RockContact(TreeBody& tree, int link, std::vector<Vec3> corners);
 
-  /// Sets the height of the rock's surface in W [m].
+  /// Sets the height of the rock's surface in the world frame [m].
   void set_height(double z) { height_ = z; }
   /// Reads the impulses from the solver. Call it after the solver, before the positions change.
   void settle();
-  /// Returns the impulse of the rock on the shell in the last step, in W [N s].
+  /// Returns the impulse of the rock on the shell in the last step, in the world frame [N s].
   const Vec3& impulse() const { return impulse_; }
 
   /// Saves, loads or hashes the normal impulse of each corner, which limits the friction of the
@@ -51,14 +51,14 @@ class RockContact final : public MultibodyRows {
   int link_;
   /// Corners of the shell in the link's frame [m].
   std::vector<Vec3> corners_;
-  /// Height of the rock's surface in W [m].
+  /// Height of the rock's surface in the world frame [m].
   double height_ = -1e6;
   /// Normal impulse of each corner in the last step [N s].
   std::vector<double> normal_;
   /// Direction of each row of the current step, three rows per corner; zero for a row that was not
   /// added.
   std::vector<Vec3> along_;
-  /// Impulse of the rock on the shell in the last step, in W [N s].
+  /// Impulse of the rock on the shell in the last step, in the world frame [N s].
   Vec3 impulse_ = Vec3::Zero();
 };
 

@@ -39,13 +39,13 @@ class Rest {
   /// Updates the rest time of an active body after a step of `dt` [s] that moved it to the pose
   /// `X_WB`. Returns true if the body falls asleep now.
   bool tire(const Pose& X_WB, double dt);
-  /// Records the ground under the body's bounding box with the corners `low` and `high` in W [m],
-  /// when it falls asleep.
+  /// Records the ground under the body's bounding box with the corners `low` and `high` in the
+  /// world frame [m], when it falls asleep.
   void lie_down(const terramechanics::GroundQuery& ground, const btVector3& low,
                 const btVector3& high);
   /// Wakes the sleeping body before a step if the ground under its bounding box (corners `low` and
-  /// `high` in W [m]) differs from the recorded ground. Each call compares another part of the
-  /// ground.
+  /// `high` in the world frame [m]) differs from the recorded ground. Each call compares another
+  /// part of the ground.
   void feel(const terramechanics::GroundQuery& ground, const btVector3& low, const btVector3& high);
 
   /// Saves, loads or hashes sleep state, rest time and recorded ground.

@@ -37,7 +37,8 @@ struct MachineWheel {
   /// wheels.
   terramechanics::TrackState running_track;
 
-  /// Force of rigid bodies on the tyre or track in the last step, in W [N]. TyreBodies saves it.
+  /// Force of rigid bodies on the tyre or track in the last step, in the world frame [N].
+  /// TyreBodies saves it.
   Vec3 body_W = Vec3::Zero();
   /// Deflection (forward, left) of the bristles of each contact strip on rigid bodies [m].
   /// TyreBodies saves it.
@@ -49,8 +50,8 @@ struct MachineWheel {
   /// [m]. TyreBodies saves it.
   Vec3 body_p_C = Vec3::Zero();
 
-  /// Saves, loads or hashes the state of tyre, track and brake. TyreBodies visits the state of
-  /// contacts with bodies.
+  /// Saves, loads or hashes the state of tyre, track and brake. TyreBodies::visit() does so for the
+  /// state of contacts with bodies.
   void visit(Archive& a);
 };
 
@@ -76,7 +77,7 @@ class MachineWheels {
   std::vector<MachineWheel>& all() { return wheels_; }
 
   /// Computes the forces of `ground` on all tyres and tracks for a step of `dt` [s], adds them to
-  /// the tree, and returns their total impulse in W [N s].
+  /// the tree, and returns their total impulse in the world frame [N s].
   Vec3 push(const terramechanics::GroundQuery& ground, double dt);
 
   /// Returns the motion of a wheel at its centre, in a frame that does not spin with the wheel.

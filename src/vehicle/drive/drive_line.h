@@ -20,12 +20,12 @@ namespace navvy::vehicle {
 struct DriveWheel {
   /// True if the drive turns this wheel.
   bool driven = false;
-  /// True for a wheel on the left side of the machine, whose link has y > 0 in the machine's frame
-  /// M.
+  /// True for a wheel on the left side of the machine, whose link has y > 0 in the machine frame.
   bool left = false;
   /// Radius of the unloaded wheel [m].
   double radius = 0;
-  /// Position of the wheel's link along x of M [m]. All wheels of one axle have the same value.
+  /// Position of the wheel's link along x of the machine frame [m]. All wheels of one axle have the
+  /// same value.
   double x = 0;
 };
 /// Returns the constant properties of all wheels, in the order of machine.wheels.
@@ -80,9 +80,9 @@ struct WheelMotion {
   std::optional<double> steer;
 };
 
-/// Motion of the machine's frame M when its wheels roll without slip.
+/// Motion of the machine frame when its wheels roll without slip.
 struct Roll {
-  /// Speed along x of M [m/s].
+  /// Speed along x of the machine frame [m/s].
   double speed = 0;
   /// Yaw rate [rad/s], positive to the left.
   double yaw_rate = 0;
