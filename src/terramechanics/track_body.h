@@ -46,8 +46,9 @@ struct TrackTouch {
   std::size_t body = 0;
 };
 
-/// Shear displacements (forward, left) of a track's shoes on bodies [m]: one entry per disc and
-/// line, valid where shoes leave the piece of track that the disc represents.
+/// Shear displacement (forward, left) of a track's shoes relative to the bodies that they touch
+/// [m]. There is one entry per disc and line: the displacement of the shoes that leave the disc's
+/// piece of track.
 using TrackBodyShear = std::vector<std::array<Vec2, kTrackLines>>;
 
 /// Force of rigid bodies on a track over one step.

@@ -40,13 +40,13 @@ TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass
 /// the world frame [m]. The soil that it carries is not included.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
-/// Returns the stability after the last step of `machine`, which is machine `index` of `engine`.
+/// Returns the stability of `machine`, which is machine `index` of `engine`, after the last step.
 ///
 /// The feet are: the lowest point of every wheel, whether it touches the ground or not; both ends
-/// of the lower run of a crawler's track; and the lowest points of the base link's collision shapes
-/// that reach as far down, such as a caster's ball or a skid. An oscillating axle counts as locked,
-/// so the result is valid while the axle is locked or at its stop. The tipping load hangs on the
-/// bucket's joint.
+/// of the lower run of a crawler's track; and the lowest points of collision shapes of the base
+/// link, and of links fixed to it or on a ball joint, that reach as far down as the wheels, such as
+/// a caster's ball or a skid. An oscillating axle counts as locked, so the result is valid while
+/// the axle is locked or at its stop. The tipping load hangs on the bucket's joint.
 Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 }  // namespace navvy::vehicle

@@ -117,8 +117,8 @@ class TreeBody {
   /// Moves the collision objects of all links to their current poses.
   void place_colliders();
 
-  /// Saves, loads or hashes base pose, joint positions, velocities and expected support, which are
-  /// the whole state of the tree between two steps.
+  /// Saves, loads or hashes base pose, joint positions, velocities and expected support (see
+  /// step_velocities()), which are the whole state of the tree between two steps.
   void visit(Archive& a);
 
  private:
@@ -172,9 +172,9 @@ class TreeBody {
   std::vector<Vec3> pivot_I_;
   /// Total mass of all moving links [kg].
   double total_mass_ = 0;
-  /// Expected support of a body without joints, in the order (angular about the centre of mass,
-  /// linear). `support_` is the impulse since the last step [N m s, N s], `bearing_` its mean over
-  /// the last steps as a force [N m, N].
+  /// Impulse that is expected to support a body without joints in the next step, in the order
+  /// (angular about the centre of mass, linear). `support_` is the impulse applied since the last
+  /// step [N m s, N s], `bearing_` its mean over the last steps as a force [N m, N].
   Vec6 support_ = Vec6::Zero(), bearing_ = Vec6::Zero();
   /// Generalised velocity that the solver gains from the expected support in the current step;
   /// empty otherwise.

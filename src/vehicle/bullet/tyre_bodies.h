@@ -28,8 +28,8 @@ class TyreBodies {
   void push(Machines& machines, const std::vector<Mover>& movers, btCollisionWorld& world,
             double dt);
 
-  /// Visits, for every wheel, the bristles or shear on bodies and the forces of the last step. A
-  /// machine that is alone in its engine has no such state.
+  /// Saves, loads or hashes, for every wheel, the bristles or shear on bodies and the forces of the
+  /// last step. A machine that is alone in its engine has no such state.
   void visit(Archive& a, Machines& machines, const std::vector<Mover>& movers);
 
  private:

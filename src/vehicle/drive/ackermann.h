@@ -24,7 +24,8 @@ SteerAngles ackermann(const scene::AckermannDrive& drive, double bicycle);
 /// selects the left or the right wheel. The result is bounded to +-20, since no bicycle angle
 /// corresponds to a wheel that stands across the machine.
 double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool left);
-/// Returns the largest bicycle angle [rad], at which the inner wheel is at `drive.max_steer`.
+/// Returns the largest bicycle angle [rad], at which the inner wheel is at `drive.max_steer`. The
+/// bicycle angle is that of an imaginary single wheel in the middle of the front axle.
 double max_bicycle_angle(const scene::AckermannDrive& drive);
 
 /// Drive line of a machine with Ackermann steering. One governor or engine turns all driven wheels,

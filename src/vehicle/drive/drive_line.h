@@ -202,15 +202,16 @@ class DriveLine {
 /// Makes the drive line for the type of machine.drive.
 std::unique_ptr<DriveLine> make_drive_line(const scene::Machine& machine);
 
-/// Returns a bicycle that can follow the same arcs as `drive`, so that path followers can steer any
-/// machine by a bicycle angle.
+/// Returns a single-track (bicycle) model that can follow the same arcs as `drive`. Path followers
+/// use it to steer any machine by a bicycle angle.
 ///
 /// For an Ackermann drive or a steering linkage it is the drive itself. For a differential drive,
-/// its wheelbase is the track width, and its largest angle is that of the arc on which the inner
-/// wheels stand still.
+/// the model's wheelbase is the track width, and its largest angle is that of the arc on which the
+/// inner wheels stand still.
 scene::AckermannDrive equivalent_bicycle(const scene::Drive& drive);
-/// Returns the DriveInput::steer that makes `drive` follow the arc of its equivalent_bicycle() at
-/// the angle `bicycle` [rad], at `speed` [m/s] (negative backwards).
+/// Returns the value of DriveInput::steer with which `drive` follows the same arc as its
+/// equivalent_bicycle() at the steering angle `bicycle` [rad] and the speed `speed` [m/s] (negative
+/// backwards).
 double steer_command(const scene::Drive& drive, double bicycle, double speed);
 
 }  // namespace navvy::vehicle
