@@ -9,7 +9,7 @@ namespace navvy::vehicle {
 
 /// Motor of one revolute or prismatic joint. It brings the joint to a given velocity with a limited
 /// impulse, and keeps the joint between its stops with unlimited impulse. After the solver has run,
-/// both impulses can be read back.
+/// the impulse of the motor can be read back.
 class ServoConstraint final : public MultibodyRows {
  public:
   /// Allocates the rows for one joint.
@@ -27,9 +27,6 @@ class ServoConstraint final : public MultibodyRows {
   }
   /// Returns the impulse of the motor in the last step [N m s|N s].
   double motor_impulse() { return getAppliedImpulse(0); }
-  /// Returns the impulse of both stops in the last step [N m s|N s], positive in the joint's
-  /// positive direction.
-  double limit_impulse() { return getAppliedImpulse(1) - getAppliedImpulse(2); }
 
   /// Sets the Jacobians of all rows. Bullet calls it once.
   void finalizeMultiDof() override;

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Law and particle arithmetic of kernels/soil/law.h and point.h compiled for doubles.
+// Constants of the law for the double twin.
 #pragma once
 
 #include "scene/soil.h"
+#include "soil/host_law/double_law.h"
 #include "soil/particles/soil_table.h"
-#include "soil/reference/double_real.h"
 
 namespace navvy::soil::reference {
-
-// With all extensions of the law: those that a soil does not use have no effect.
-#define LAW_EXTENDED
-#include "soil/point.h"  // NOLINT: on purpose inside the namespace
-#undef LAW_EXTENDED
 
 /// Returns the constants of the law in double precision. `cell` [m]. The kernels get the same
 /// numbers rounded to floats.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Law and particle arithmetic of kernels/soil/law.h and point.h compiled for doubles.
+#pragma once
+
+#include "soil/host_law/double_real.h"
+
+namespace navvy::soil::reference {
+
+// With all extensions of the law: those that a soil does not use have no effect.
+#define LAW_EXTENDED
+#include "soil/point.h"  // NOLINT: on purpose inside the namespace
+#undef LAW_EXTENDED
+
+}  // namespace navvy::soil::reference
