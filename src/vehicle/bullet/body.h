@@ -176,8 +176,8 @@ class TreeBody {
   /// (angular about the centre of mass, linear). `support_` is the impulse applied since the last
   /// step [N m s, N s], `bearing_` its mean over the last steps as a force [N m, N].
   Vec6 support_ = Vec6::Zero(), bearing_ = Vec6::Zero();
-  /// Generalised velocity that the solver gains from the expected support in the current step;
-  /// empty otherwise.
+  /// Change of the generalised velocity that step_velocities() added for the expected support and
+  /// step_positions() removes again; empty if there is none.
   std::vector<double> expected_;
   /// True while the stored kinematics, and the factors of the articulated inertia, match the
   /// current state.

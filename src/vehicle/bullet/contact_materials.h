@@ -65,8 +65,8 @@ class ContactMaterials {
   scene::Materials table_;
   /// Names of all materials in the table. Their positions in this list are the materials' indices.
   std::vector<std::string> names_;
-  /// Table entry for each pair of material indices, as a square matrix in row-major order; null for
-  /// a pair that the table does not contain.
+  /// Pointers to the table's entries as a square matrix in row-major order, one row and one column
+  /// per material index; null for a pair that the table does not contain.
   std::vector<const scene::MaterialPair*> pairs_;
   /// True if any pair in the table is compliant.
   bool soft_ = false;

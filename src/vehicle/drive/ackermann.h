@@ -28,8 +28,9 @@ double bicycle_tangent(const scene::AckermannDrive& drive, double angle, bool le
 /// bicycle angle is that of an imaginary single wheel in the middle of the front axle.
 double max_bicycle_angle(const scene::AckermannDrive& drive);
 
-/// Drive line of a machine with Ackermann steering. One governor or engine turns all driven wheels,
-/// and open differentials give each of them the same torque.
+/// Drive line of a machine with Ackermann steering. One governor or engine turns all driven wheels
+/// and gives each of them the same torque. Locked and limited-slip differentials (differentials())
+/// then transfer torque between them.
 class AckermannLine : public DriveLine {
  public:
   /// Makes the drive line for `drive`.
