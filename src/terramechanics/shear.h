@@ -3,9 +3,9 @@
 //
 //   tau = (c + p tan phi) (1 - exp(-|j| / K))      [Janosi 1961], as in [Wong 2008, eq. 2.73]
 //
-// tau is the shear stress [Pa], p the normal pressure [Pa], j the shear displacement since the soil
-// was entered [m], K the displacement at which 63 % of the strength is mobilised [m]
-// (scene::Soil::janosi_k).
+// tau is the shear stress [Pa], p the normal pressure [Pa], j the shear displacement since the rim
+// or shoe entered the soil [m], and K the displacement at which 63 % of the strength is mobilised
+// [m] (scene::Soil::janosi_k). c + p tan phi is the strength.
 #pragma once
 
 #include "scene/soil.h"
@@ -13,29 +13,33 @@
 
 namespace navvy::terramechanics {
 
-/// Coulomb strength of a surface: c + p tan phi.
+/// Coulomb strength of a sliding surface: c + p tan phi at the normal pressure p.
 struct ShearStrength {
-  /// Cohesion c, or adhesion on steel [Pa].
+  /// Cohesion c of the soil, or its adhesion to steel [Pa].
   double cohesion = 0;
-  /// tan phi, or tan delta on steel [-].
+  /// Friction coefficient [-]: tan phi of the soil, or tan delta of soil on steel.
   double slope = 0;
 };
 
-/// Returns the strength between this soil and a bare rim or tool. The weaker of two layers slides:
-/// the soil itself (residual cohesion with phi) or the steel surface (adhesion with delta),
-/// whichever has less friction.
+/// Returns the strength of the contact between `soil` and a smooth steel rim or tool. Whichever has
+/// less friction slides: the soil itself (residual cohesion and phi) or the interface with the
+/// steel (adhesion and delta).
 ShearStrength rim_strength(const scene::Soil& soil);
 
-/// Returns the strength of a soil surface under rubber or grousers, which hold the soil between
-/// them: phi with the cohesion of its density, intact at bank density and above, loose once
-/// swollen, interpolated in between. Zero on a firm floor.
+/// Returns the strength of a soil surface under rubber or grousers, where soil slides on soil.
+///
+/// The friction is phi. The cohesion depends on the volume ratio: it has the intact value at bank
+/// density and denser, the loose value in fully swollen soil, and is interpolated in between.
+/// Returns zero strength on a firm floor.
 ShearStrength surface_strength(const SoilState& ground);
 
-/// Returns the share of the strength that a displacement mobilises, 0 to 1: 1 - exp(-|j| / K).
+/// Returns the share of the strength, 0 to 1, that a shear displacement j = `displacement` [m]
+/// mobilises: 1 - exp(-|j| / K), with K = `janosi_k` [m].
 double mobilised_share(double displacement, double janosi_k);
 
-/// Returns the shear stress [Pa] under `pressure` [Pa] after `displacement` [m], with the
-/// displacement's sign.
+/// Returns the shear stress [Pa] of a surface of this `strength` under the normal `pressure` [Pa]
+/// after a shear displacement of `displacement` [m]. The stress has the sign of the displacement.
+/// `janosi_k` is the shear modulus K [m].
 double shear_stress(const ShearStrength& strength, double pressure, double displacement,
                     double janosi_k);
 

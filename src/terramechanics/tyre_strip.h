@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact strip of a tyre (a tyre of a twin pair, or half of a single tyre): carcass spring and
-// bristles, shared by the laws on ground and on bodies.
+// Forces of one contact strip of a tyre (one tyre of a twin pair, or one half of a single tyre):
+// carcass spring and tread bristles. Contacts with the ground and with rigid bodies share them.
 #pragma once
 
 #include "core/math.h"
@@ -8,41 +8,52 @@
 
 namespace navvy::terramechanics {
 
-// Share of the radius at which the tread meets the rim.
+/// Largest radial deflection as a share of the tyre's radius [-], at which the tread meets the rim.
 inline constexpr double kMaxDeflection = 0.25;
 
-/// Returns the distance of the strips' middles from the wheel's centre along the axle [m].
+/// Returns the distance [m] along the axle from the wheel's centre to the middle of either contact
+/// strip.
 double track_offset(const scene::Wheel& tyre);
 
-/// Returns the force of the carcass spring and damper [N]. Never pulls; limited where the tread
-/// meets the rim. `share` is the strip's part of the wheel's stiffness, `closing` the compression
-/// speed [m/s].
+/// Returns the radial force [N] of a contact strip's carcass spring and damper. It never pulls and
+/// is limited where the tread meets the rim.
+///
+/// `share` is the strip's part of the wheel's stiffness and damping [-], `deflection` its radial
+/// deflection [m], `closing` the rate of that deflection [m/s], positive while it grows.
 double radial_force(const scene::Wheel& tyre, double share, double deflection, double closing);
 
-/// Advances the bristle by the slip of this step and returns the force on the tyre (forward, left)
-/// [N], at most `limit`. `rim_mass` [kg] is the mass that the force accelerates; it limits an
-/// explicit step.
+/// Advances the deflection `bristle` (forward, left) [m] of a strip's tread by one step `dt` [s]
+/// and returns the tangential force on the tyre (forward, left) [N], at most `limit` [N].
+///
+/// `share` is the strip's part of the wheel's stiffness and damping [-], `slip` the velocity of the
+/// tread over the ground (forward, left) [m/s], `rolling` the speed of the rim [m/s]. `rim_mass` is
+/// the mass that the force accelerates [kg]; it limits the stiffness so that an explicit step is
+/// stable.
 Vec2 bristle_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
                    double limit, double rim_mass, double dt, Vec2& bristle);
 
-/// Shear of the soil under a contact strip.
+/// Shear law of the soil under one contact strip of a tyre.
 struct TrackShear {
-  /// Largest force along the ground [N].
+  /// Largest tangential force of the soil [N].
   double limit = 0;
-  /// Displacement at which 63 % of it is mobilised [m].
+  /// Shear displacement K at which 63 % of `limit` is mobilised [m], > 0.
   double janosi_k = 0;
-  /// Half length of the patch: the soil under it is replaced over this distance [m].
+  /// Half length l of the contact patch [m]. Rolling over this distance replaces the sheared soil
+  /// by fresh soil.
   double half_length = 0;
 };
 
-/// Computes the same on soil: the bristle in series with soil that yields once its mobilised
-/// strength is reached,
+/// Returns the tangential force on a strip (forward, left) [N] on soil, and advances `bristle` [m]
+/// and `sheared` [m] by one step `dt` [s]. The other parameters are those of bristle_force().
+///
+/// The bristle is in series with soil that yields once its mobilised strength is reached:
 ///
 ///   F = -k u - c v_s,  |F| <= limit (1 - exp(-j / K)),  dj/dt = yielding - |V| / l j
 ///
-/// with `sheared` j [m], stored in TyreState. In steady rolling at a small slip s, j = s l: the
-/// mean displacement over a patch of length 2 l. Soil at rest that has yielded holds what it bore.
-/// K is above 0; towards 0 the law becomes bristle_force.
+/// u is the bristle's deflection, v_s the slip velocity, V the rolling speed, and j = `sheared` the
+/// soil's displacement, which TyreState stores. In steady rolling at a small slip s, j = s l, the
+/// mean displacement over a patch of length 2 l. Soil that has yielded and is at rest still resists
+/// with its mobilised strength. As K approaches 0, the law becomes bristle_force().
 Vec2 shear_force(const scene::Wheel& tyre, double share, const Vec2& slip, double rolling,
                  const TrackShear& soil, double rim_mass, double dt, Vec2& bristle,
                  double& sheared);

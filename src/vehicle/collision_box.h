@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collision shapes as boxes, where a box is sufficient.
+// Boxes around collision shapes, for callers that need only a box.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace navvy::vehicle {
 
-/// Returns the box around a collision shape in the frame of its link. Returns nothing for planes,
-/// which are ground of their own, and for meshes that cannot be read, which the loader has
-/// reported.
+/// Returns the box around a collision shape, in the frame of the link that carries the shape.
+/// Returns nothing for a plane, which callers treat as ground, and for a mesh file that cannot be
+/// read, which the scene loader has already reported.
 std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision);
 
 }  // namespace navvy::vehicle

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forward kinematics and cylinder geometry of a machine's tree, independent of any engine.
+// Forward kinematics of a machine's links, and geometry of its cylinders. Independent of the
+// physics engine.
 //
-// Signs: a joint's position is positive by the right-hand rule about its axis (for the pitch joints
-// of an excavator's arm, axis (0,-1,0), this lifts the link). A cylinder's force is positive when
-// it extends. The lever is dl/dq, so by virtual work torque = force x lever: with a negative lever
-// the extending cylinder turns the joint negatively. Extending fills the head side (bore area),
-// retracting fills the rod side (bore minus rod area).
+// Signs: a joint's position is positive by the right-hand rule about its axis. For the pitch joints
+// of an excavator's arm, whose axis is (0,-1,0), positive rotation lifts the link. A cylinder's
+// force is positive when it extends the cylinder. The lever arm is dl/dq, the derivative of the
+// cylinder's length with respect to the joint's position. By virtual work, torque = force x lever;
+// with a negative lever arm, the extending cylinder turns the joint in its negative direction.
+// Extending fills the head side (bore area), retracting fills the rod side (bore minus rod area).
 #pragma once
 
 #include <vector>
@@ -15,85 +17,110 @@
 
 namespace navvy::vehicle {
 
-/// Returns the pose of the joint's child link in its parent link at joint position q. Fixed and
-/// ball joints ignore q.
+/// Returns the pose of the joint's child link in its parent link at joint position `q` [rad|m]. A
+/// fixed or ball joint ignores `q`.
 Pose joint_pose(const scene::Machine& machine, const scene::Joint& joint, double q);
 
-/// Returns the poses of all links for base pose X_WB (pose of links[0]) and joint positions `q`.
+/// Returns the poses in the world frame of all links of `machine`, in the order of machine.links.
+///
+/// `X_WB` is the pose of the base link, links[0]. `q` has the position of each joint [rad|m];
+/// joints beyond its end are at their initial positions.
 std::vector<Pose> forward_kinematics(const scene::Machine& machine, const Pose& X_WB,
                                      const std::vector<double>& q);
 
-/// Cylinder length [m] and lever arm dl/dq [m/rad] at a joint position.
+/// Geometry of a hydraulic cylinder at one joint position.
 struct CylinderGeometry {
+  /// Distance between the cylinder's pins [m], and its lever arm dl/dq [m/rad]; the lever of a
+  /// prismatic joint is dimensionless.
   double length = 0, lever = 0;
-  /// Pins in base_link's frame [m].
+  /// Pin of the barrel and pin of the rod, both in base_link's frame [m].
   Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
 };
-/// Computes the geometry of a cylinder once; CylinderMap is faster for repeated use.
+/// Returns the geometry of `cylinder` at joint position `q`. For repeated evaluation, CylinderMap
+/// is faster.
+/// @throws InputError for unknown names of joint or links.
 CylinderGeometry cylinder_geometry(const scene::Machine& machine, const scene::Cylinder& cylinder,
                                    double q);
 
-/// Largest torques [N m] (positive and negative direction of the joint) and speeds [rad/s] that a
-/// cylinder allows at a joint position, as magnitudes.
+/// Limits that a hydraulic cylinder imposes on its joint at one joint position, as magnitudes.
 struct CylinderLimits {
+  /// Largest torques [N m|N] and speeds [rad/s|m/s] in the positive and in the negative direction
+  /// of the joint.
   double torque_positive = 0, torque_negative = 0, speed_positive = 0, speed_negative = 0;
 };
-/// Computes the limits of a cylinder once; CylinderMap is faster for repeated use.
+/// Returns the limits that `cylinder` imposes on its joint at joint position `q`. For repeated
+/// evaluation, CylinderMap is faster.
+/// @throws InputError for unknown names of joint or links.
 CylinderLimits cylinder_limits(const scene::Machine& machine, const scene::Cylinder& cylinder,
                                double q);
 
-/// Returns the area [m2] of all `count` cylinders together.
+/// Returns the total piston area on the head side (bore) of all cylinder.count cylinders [m2].
 double head_area(const scene::Cylinder& cylinder);
+/// Returns the total piston area on the rod side (bore minus rod) of all cylinder.count cylinders
+/// [m2].
 double rod_area(const scene::Cylinder& cylinder);
 
-/// Cylinder with resolved names, for evaluation in every step.
+/// Cylinder of a machine with its names resolved to indices, for evaluation in every step.
 ///
-/// A four-bar linkage is in the plane normal to the joint's axis: the rocker turns about `p_rocker`
-/// on base_link; rod pin and coupler pin are on one ray from that pivot. Of the two assemblies the
-/// convex four-bar is used: in the middle of the joint's range, the rocker's coupler pin and the
-/// joint are on opposite sides of the line from the rocker pivot to the bucket's coupler pin. The
-/// assembly is the same over the whole range.
+/// A four-bar linkage lies in the plane normal to the joint's axis. Its rocker turns about
+/// `p_rocker` on base_link; the rod's pin and the coupler's pin are on one ray from that pivot. Two
+/// assemblies of the bars are possible; the convex one is used. It is chosen in the middle of the
+/// joint's range: there the rocker's coupler pin and the joint are on opposite sides of the line
+/// from the rocker's pivot to the bucket's coupler pin. The assembly is the same over the whole
+/// range.
 class CylinderMap {
  public:
-  /// Resolves the names.
+  /// Resolves the names of `cylinder` in `machine` and checks its geometry.
   /// @throws InputError if a name is unknown, if base_link and rod_link are not the two links of
-  /// the joint, or if the linkage cannot be closed or reaches a dead centre within the joint's
-  /// limits.
+  /// the joint, if the rod is not thinner than the bore, or if the linkage cannot be closed or
+  /// reaches a dead centre within the joint's limits.
   CylinderMap(const scene::Machine& machine, const scene::Cylinder& cylinder);
   /// Returns the index of the joint that the cylinder moves.
   int joint() const { return joint_; }
-  /// Returns the index of the link that carries the cylinder's base.
+  /// Returns the index of the link that carries the barrel of the cylinder.
   int base_link() const { return base_link_; }
-  /// Returns length, lever and pins at joint position q.
+  /// Returns the cylinder's length, lever arm and pins at joint position `q` [rad|m].
   CylinderGeometry geometry(double q) const;
-  /// Returns the limits of torque and speed at joint position q.
+  /// Returns the limits of the joint's torque and speed at joint position `q` [rad|m].
   CylinderLimits limits(double q) const;
-  /// Returns the limits for a geometry already computed for the same q.
+  /// Returns the limits of the joint's torque and speed for a geometry that geometry() has already
+  /// computed.
   CylinderLimits limits(const CylinderGeometry& geometry) const;
 
  private:
   friend CylinderGeometry cylinder_geometry(const scene::Machine&, const scene::Cylinder&, double);
   friend CylinderLimits cylinder_limits(const scene::Machine&, const scene::Cylinder&, double);
+  /// Selects the constructor that does not check the linkage.
   struct Unchecked {};
+  /// Resolves the names without checking that the linkage closes.
   CylinderMap(const scene::Machine& machine, const scene::Cylinder& cylinder, Unchecked);
-  /// Returns the pose of rod_link in base_link at joint position q.
+  /// Returns the pose of rod_link in base_link at joint position `q`.
   Pose rod_in_base(double q) const;
-  /// Computes the coupler pin of the rocker for the bucket's coupler pin c. Returns false if the
-  /// bars do not reach.
+  /// Computes the pin between rocker and coupler, `pin`, for the bucket's coupler pin at `c`, both
+  /// in base_link's frame [m]. Returns false if the bars cannot meet; `pin` is then the
+  /// nearest point.
   bool close_linkage(const Vec3& c, Vec3& pin) const;
-  /// @throws InputError if the linkage does not close within the joint's limits.
+  /// Checks the diameters, and that the linkage closes within the joint's limits.
+  /// @throws InputError otherwise.
   void check() const;
 
+  /// Properties of the cylinder as given in the scene.
   scene::Cylinder cylinder_;
+  /// Indices of the joint that the cylinder moves, and of the link that carries its barrel.
   int joint_ = -1, base_link_ = -1;
+  /// True if base_link is the joint's child; if the joint is prismatic; if the joint has limits.
   bool base_is_child_ = false, prismatic_ = false, has_limits_ = false;
+  /// Range of the joint [rad|m]; +-pi without limits.
   double lower_ = 0, upper_ = 0;
-  Pose X_parent_pivot_ = Pose::Identity(),
-       // The child frame is the parent pivot, rotated, then X_pivot_child_.
-      X_pivot_child_ = Pose::Identity();
-  Vec3 axis_ = Vec3::UnitZ();  // in the pivot frame
-  // Joint origin and axis in base_link at q = 0. For a revolute joint they are the same at every q.
+  /// Pose of the joint's pivot in its parent link, and of the child link in the pivot frame. The
+  /// joint's motion is in between.
+  Pose X_parent_pivot_ = Pose::Identity(), X_pivot_child_ = Pose::Identity();
+  /// Unit axis of the joint in the pivot frame.
+  Vec3 axis_ = Vec3::UnitZ();
+  /// Origin [m] and unit axis of the joint in base_link at q = 0. For a revolute joint they are the
+  /// same at every q.
   Vec3 p_joint_ = Vec3::Zero(), axis_base_ = Vec3::UnitZ();
+  /// Sign that selects one of the two assemblies of the linkage, 1 or -1.
   double branch_ = 1;
 };
 

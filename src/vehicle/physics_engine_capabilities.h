@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Optional abilities of a physics engine, one small interface each. An engine returns null for an
-// ability that it lacks (vehicle/physics_engine.h); whoever needs it reports that to the user.
+// Optional capabilities of a physics engine, one small interface each. An engine returns null for a
+// capability that it lacks (vehicle/physics_engine.h). A caller that needs a missing capability
+// reports that to the user.
 #pragma once
 
 #include <vector>
@@ -13,43 +14,49 @@
 
 namespace navvy::vehicle {
 
-/// Moves the bases of machines to given poses.
+/// Capability of an engine to move the base links of machines to given poses.
 class PlacementCapability {
  public:
-  /// Moves the base link to `input` within its duration. The target holds until it is replaced or
-  /// until the drive is commanded.
+  /// Moves the machine's base link to the pose in `input` within its duration. The target holds
+  /// until it is replaced or until the machine's drive is commanded.
   virtual void set_base(int machine, const BaseInput& input) = 0;
-  /// Returns the pose that the base moves to, or its present pose if it has no target.
+  /// Returns the pose to which the machine's base link moves. Without a target, this is its current
+  /// pose.
   virtual BaseInput base(int machine) const = 0;
 
  protected:
   ~PlacementCapability() = default;
 };
 
-/// Collides this engine's machines with machines that another engine moves.
+/// Capability of an engine to collide its machines with machines that another engine moves, called
+/// obstacles.
 ///
-/// Obstacles push what they meet and are not pushed back.
+/// Obstacles push what they touch and are not pushed back.
 class ObstacleCapability {
  public:
-  /// Adds the collision shapes and shells of `machine` as an obstacle and returns its number.
+  /// Adds the collision shapes and shells of `machine` as an obstacle and returns the obstacle's
+  /// index.
   /// @throws InputError for a machine that this engine cannot build.
   virtual int add_obstacle(const scene::Machine& machine) = 0;
-  /// Sets the pose and velocity of every link of an obstacle at the start of the next step. Call it
-  /// before every step.
+  /// Sets pose and velocity of every link of an obstacle for the start of the next step. `links`
+  /// has one entry per link of the obstacle's machine. Call it before every step.
   virtual void move_obstacle(int obstacle, const std::vector<LinkState>& links) = 0;
 
  protected:
   ~ObstacleCapability() = default;
 };
 
-/// Couples machines by hitches. Coupled machines do not collide with each other.
+/// Capability of an engine to couple two machines by a hitch. Machines coupled by a closed hitch do
+/// not collide with each other.
 class HitchCapability {
  public:
-  /// Adds a hitch between two machines of this engine and returns its number. `parent` and `child`
-  /// are indices in this engine and replace the scene's indices in `hitch`.
+  /// Adds a hitch between two machines of this engine and returns the hitch's index. `parent` and
+  /// `child` are machine indices in this engine; the scene's machine indices in `hitch` are
+  /// ignored.
   virtual int add_hitch(const scene::Hitch& hitch, int parent, int child) = 0;
   /// Closes or opens a hitch.
-  /// @throws InputError when it should close and the eye is farther than kHitchReach from the hook.
+  /// @throws InputError if an open hitch is to be closed while its eye is farther than kHitchReach
+  /// from its hook.
   virtual void set_hitch(int hitch, bool closed) = 0;
   /// Returns the state of a hitch after the last step.
   virtual HitchState hitch(int hitch) const = 0;
@@ -58,52 +65,59 @@ class HitchCapability {
   ~HitchCapability() = default;
 };
 
-/// Stops shells at a level rock surface below the soil.
+/// Capability of an engine to stop shells (steel plates of tools) at a level rock surface below the
+/// soil.
 class RockCapability {
  public:
-  /// Sets the height of the rock surface [m]. Until it is set, no shell meets rock. The height is
-  /// not part of the engine's state: set it again after loading.
+  /// Sets the height of the rock surface in the world frame [m]. Until it is set, shells meet no
+  /// rock. The height is not part of the engine's state, so set it again after loading a snapshot.
   virtual void set_rock(double height) = 0;
-  /// Returns the impulse of the rock on a shell in the last step [N s], axes of W.
+  /// Returns the impulse of the rock on a shell in the last step, in the world frame [N s]. `shell`
+  /// is an index in scene::Machine::shells.
   virtual Vec3 rock_impulse(int machine, int shell) const = 0;
 
  protected:
   ~RockCapability() = default;
 };
 
-/// Reports where crawler tracks press on the ground.
+/// Capability of an engine to report where crawler tracks press on the ground.
 class TrackCapability {
  public:
-  /// Returns the contact patches of a track in the last step; empty for a wheel without a track.
+  /// Returns the rectangles on which the track of a wheel pressed in the last step; empty for a
+  /// wheel without a track.
   virtual std::vector<terramechanics::TrackPatch> track_patches(int machine, int wheel) const = 0;
 
  protected:
   ~TrackCapability() = default;
 };
 
-/// Reports the state of pumps and combustion engines.
+/// Capability of an engine to report the state of hydraulic pumps and combustion engines.
 class PowerCapability {
  public:
-  /// Returns the pump's state after the last step; zeros for a machine without a pump.
+  /// Returns the state of the machine's pump after the last step; all zero for a machine without a
+  /// pump.
   virtual PumpState pump(int machine) const = 0;
-  /// Returns the state of the combustion engine after the last step; zeros for a drive that neither
-  /// has gears nor shares its engine with the pump.
+  /// Returns the state of the machine's combustion engine after the last step. All values are zero
+  /// for a drive that has no gears and does not share its engine with the pump.
   virtual CombustionEngineState drive_engine(int machine) const = 0;
 
  protected:
   ~PowerCapability() = default;
 };
 
-/// Accounts for momentum and work, so that tests can close their balances.
+/// Capability of an engine to report momentum and work, from which tests check balances.
 class AccountCapability {
  public:
-  /// Returns the total momentum of a machine [N s], axes of W.
+  /// Returns the total linear momentum of a machine, in the world frame [N s].
   virtual Vec3 momentum(int machine) const = 0;
-  /// Returns the mechanical work of the machine's joints and drive since the start [J].
+  /// Returns the mechanical work that a machine's joints and drive have done on it since the start
+  /// [J]. Work done by a load on a joint is not subtracted.
   virtual double work(int machine) const = 0;
-  /// Returns the sum of ground impulses (tyres, tracks, contacts, rock) in the last step [N s].
+  /// Returns the sum of all impulses of the ground on the machine (tyres, tracks, contacts, rock)
+  /// in the last step, in the world frame [N s].
   virtual Vec3 ground_impulse(int machine) const = 0;
-  /// Returns the sum of all impulses applied by the caller since the start [N s].
+  /// Returns the sum of all impulses that the caller has applied to the machine since the start,
+  /// including those of forces, in the world frame [N s].
   virtual Vec3 external_impulse(int machine) const = 0;
 
  protected:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Factory of a world's physics engine. Names the engine's interface without including it.
+// Factory of a world's physics engine. This header declares the engine's interface without
+// including it.
 #pragma once
 
 #include <functional>
@@ -10,11 +11,13 @@
 
 namespace navvy::vehicle {
 
+/// Interface of a physics engine, defined in vehicle/physics_engine.h.
 class PhysicsEngine;
 
-/// Makes an empty physics engine for `gravity` [m/s2, axes of W] and the contact materials of a
-/// scene. The world adds machines to it afterwards. Include vehicle/physics_engine.h where a
-/// factory is converted to this type.
+/// Function that makes a physics engine without machines, for `gravity` (in the world frame [m/s2])
+/// and the contact `materials` of a scene. The world then adds its machines.
+///
+/// Include vehicle/physics_engine.h wherever a function is converted to this type.
 using PhysicsEngineFactory = std::function<std::unique_ptr<PhysicsEngine>(
     const Vec3& gravity, const scene::Materials& materials)>;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stability of a machine against tipping: centre of mass against its feet.
+// Stability of a machine against tipping over: its centre of mass relative to the polygon of its
+// feet.
 #pragma once
 
 #include <vector>
@@ -10,35 +11,42 @@
 
 namespace navvy::vehicle {
 
-/// Returns the signed distance [m] of `p` from the boundary of the convex hull of `feet`, positive
-/// inside; 0 if they span no area.
+/// Returns the signed distance [m] of the point `p` from the boundary of the convex hull of `feet`;
+/// positive inside the hull, negative outside. Returns 0 if the feet span no area.
 double support_margin(std::vector<Vec2> feet, const Vec2& p);
 
 /// Load that tips a machine over the weakest edge of the polygon of its feet.
 struct TippingLoad {
-  /// Load [kg]; 0 for a machine that tips without load.
+  /// Mass of the load [kg]; 0 for a machine that tips without a load, kNoTippingLoad if no load can
+  /// tip it.
   double load = kNoTippingLoad;
-  /// Unit vector across that edge, seen from above; zero if no edge can tip.
+  /// Horizontal unit vector in the world frame across that edge, pointing away from the machine;
+  /// zero if no edge can tip.
   Vec2 outward = Vec2::Zero();
 };
 
-/// Returns the mass at `load_point` that moves the centre of a machine of `mass` [kg] at `centre`
-/// onto an edge, the minimum over all edges: m = M d / l with the distances of centre and load from
-/// the edge's line, inside and outside (static tipping load as in [ISO 10567]). All points are seen
-/// from above [m]: gravity is vertical, so slopes are included. Tyres and cylinders are rigid.
+/// Returns the smallest load at `load_point` that tips a machine of `mass` M [kg], with its centre
+/// of mass at `centre`, over an edge of the convex hull of `feet`, and the direction across that
+/// edge. All points are horizontal positions in the world frame [m].
+///
+/// The load moves the common centre of mass onto an edge: m = M d / l, where d is the distance of
+/// `centre` inside the edge and l that of `load_point` outside it (static tipping load as in
+/// [ISO 10567]). Since gravity is vertical, slopes are included. Tyres and cylinders count as
+/// rigid.
 TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
                          const Vec2& load_point);
 
-/// Returns the centre of mass of all links of machine `index` of the engine [m] in W, without the
-/// soil it carries.
+/// Returns the centre of mass of all links of `machine`, which is machine `index` of `engine`, in
+/// the world frame [m]. The soil that it carries is not included.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
-/// Returns the stability after the last step.
+/// Returns the stability of `machine`, which is machine `index` of `engine`, after the last step.
 ///
-/// A foot is the lowest point of a wheel, whether it touches the ground or not, an end of a
-/// crawler's lower run, or the lowest point of a collision shape of the base that reaches as far
-/// down: a caster's ball, a skid. An oscillating axle counts as locked, or at its stop: the machine
-/// leans until then. The load hangs on the joint of the bucket.
+/// The feet are: the lowest point of every wheel, whether it touches the ground or not; both ends
+/// of the lower run of a crawler's track; and the lowest points of collision shapes of the base
+/// link, and of links fixed to it or on a ball joint, that reach as far down as the wheels, such as
+/// a caster's ball or a skid. An oscillating axle counts as locked, so the result is valid while
+/// the axle is locked or at its stop. The tipping load hangs on the bucket's joint.
 Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index);
 
 }  // namespace navvy::vehicle

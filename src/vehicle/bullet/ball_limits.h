@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of a ball joint: the cone and the twist of a hitch.
+// Limits of a ball joint: the cone and the twist range of, for example, a hitch.
 #pragma once
 
 #include <array>
@@ -10,44 +10,54 @@
 
 namespace navvy::vehicle {
 
-/// Stop of a ball joint: the remaining angle [rad], and the axis about which turning opens it, in
-/// the parent's frame of the joint.
+/// Stop of a ball joint at the joint's current rotation.
 struct BallStop {
+  /// Angle by which the joint can still turn before it reaches the stop [rad]; negative if it is
+  /// beyond the stop.
   double gap = 0;
+  /// Axis, in the joint's frame on the parent, about which positive rotation of the child moves
+  /// away from the stop.
   Vec3 axis = Vec3::Zero();
 };
 
-/// Returns the stops of a ball at rotation R (the child's joint frame in the parent's): cone, then
-/// twist to either side. A stop is missing if it is free or undefined. The cone is the angle
-/// between the x axes, the twist the rotation about them.
-/// @param cone, twist [rad]; pi and more: free
+/// Returns the three stops of a ball joint at the rotation `R` of the child's joint frame in the
+/// parent's: the cone, the lower twist limit and the upper twist limit.
+///
+/// The cone angle is the angle between the x axes of both frames; the twist is the rotation about
+/// them. A stop is empty if its angle is unlimited or cannot be determined at this rotation.
+/// @param cone, twist limits of the two angles [rad]; pi or more means unlimited
 std::array<std::optional<BallStop>, 3> ball_stops(const Mat3& R, double cone, double twist);
 
-/// Stops of one ball joint: the x axis of the child (of the joint's frame) leans by at most `cone`
-/// from its direction at the start, and the child turns by at most `twist` about it in either
-/// direction. As for a hinge they act from the step in which they could be reached, with unlimited
-/// impulse, and recover from an overrun slowly.
+/// Constraint rows for the stops of one ball joint.
+///
+/// The x axis of the joint's frame on the child may deviate by at most `cone` from its initial
+/// direction, and the child may turn by at most `twist` about it in either direction. The stops act
+/// with unlimited impulse, from the step in which they could be reached. A joint beyond a stop
+/// returns slowly.
 class BallLimits final : public MultibodyRows {
  public:
-  /// Adds the rows of one joint.
-  /// @param link Bullet's link of the joint
-  /// @param R_CJ, R_PJ axes of the joint's frame in Bullet's frames of the child, and of the parent
-  /// at the start
-  /// @param cone, twist [rad]; pi and more: free
+  /// Allocates the rows for one ball joint.
+  /// @param link Bullet's index of the joint's child link
+  /// @param R_CJ axes of the joint's frame in Bullet's frame of the child
+  /// @param R_PJ axes of the joint's frame in Bullet's frame of the parent at the initial position
+  /// @param cone, twist limits [rad]; pi or more means unlimited
   BallLimits(btMultiBody* body, int link, const Mat3& R_CJ, const Mat3& R_PJ, double cone,
              double twist);
 
-  // Bullet calls this in every step.
+  /// Adds the rows of all stops that could be reached in this step. Bullet calls it in every step.
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
 
  private:
-  /// Adds a row that keeps `gap` [rad] open, which grows as the child turns about `axis`, in the
-  /// child's frame.
+  /// Adds the row with index `row` that stops the child before the angle `gap` [rad] becomes
+  /// negative. The gap grows as the child turns about `axis`, which is given in the child's frame.
   void keep_open(int row, double gap, const Vec3& axis, btMultiBodyConstraintArray& rows,
                  btMultiBodyJacobianData& data, const btContactSolverInfo& info);
 
+  /// Axes of the joint's frame in Bullet's frame of the child, and of the parent at the initial
+  /// position.
   Mat3 R_CJ_, R_PJ_;
+  /// Limits of cone angle and twist [rad].
   double cone_, twist_;
 };
 

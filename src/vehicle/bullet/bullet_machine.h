@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machine in the Bullet engine: tree, joints with hydraulics, wheels, drive, rock.
+// One machine in the Bullet engine: tree, joints with hydraulics, wheels, drive, and contacts with
+// rock.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -18,135 +19,174 @@
 
 namespace navvy::vehicle {
 
-/// Steps one machine around the solver that all machines share: begin_step, the engine's solver
-/// over all rows and contacts, end_step. Counts impulses and work.
+/// One machine of the Bullet engine.
 ///
-/// Its parts hold references to each other, so a machine is neither copied nor moved.
+/// A step has three parts: begin_step() and accelerate(), then the engine's solver over the rows
+/// and contacts of all machines, then end_step(). The machine also sums up its impulses and work.
+///
+/// The parts of a machine refer to each other, so a machine is neither copied nor moved.
 class BulletMachine {
  public:
-  /// Builds the parts. @throws InputError for data that a part cannot use.
+  /// Builds all parts of `machine`, with its model frame M at the pose `X_WM`.
+  /// @throws InputError for data that a part cannot use.
   BulletMachine(const scene::Machine& machine, const Pose& X_WM);
   BulletMachine(const BulletMachine&) = delete;
   BulletMachine& operator=(const BulletMachine&) = delete;
 
-  /// Returns the articulated tree.
+  /// Returns the articulated tree of the machine.
   TreeBody& tree() { return tree_; }
+  /// Returns the articulated tree of the machine.
   const TreeBody& tree() const { return tree_; }
-  /// Returns the data the machine was built from.
+  /// Returns the scene data from which the machine was built.
   const scene::Machine& scene() const { return machine_; }
-  /// Rows and bodies for the engine's solver. Some entries are null.
+  /// Returns the constraint rows of the joints' servos, indexed by joint; null for a joint without
+  /// a servo.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return joints_.servos(); }
+  /// Returns the constraint rows of those ball joints that have limits.
   std::vector<std::unique_ptr<BallLimits>>& balls() { return joints_.balls(); }
+  /// Returns the constraint rows between shells and rock, one entry per shell.
   std::vector<std::unique_ptr<RockContact>>& rock() { return rock_; }
+  /// Returns the constraint rows of the differentials that couple their shafts.
   const std::vector<std::unique_ptr<DifferentialRow>>& differentials() const {
     return drive_.differentials();
   }
-  /// Colliders by link; null for a link without shapes.
+  /// Returns the collision objects of the links, indexed by link; null for a link without collision
+  /// shapes.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& colliders() { return colliders_; }
-  /// Returns the shells' plates, by shell. They collide with bodies but not with the ground: shells
-  /// meet soil there.
+  /// Returns the collision objects of the shells (steel plates of tools), indexed by shell. They
+  /// collide with bodies but not with the ground, since the soil model computes the force of soil
+  /// on shells.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>>& steel() { return steel_; }
-  /// Returns all colliders and plates that exist.
+  /// Returns all collision objects of links and shells; no entry is null.
   std::vector<btMultiBodyLinkCollider*> all_colliders() const;
-  /// Returns the link that a collider moves with.
+  /// Returns the index of the link with which a collision object moves.
   int link_of(const btMultiBodyLinkCollider& collider) const {
     return tree_.link_of_bullet(collider.m_link);
   }
   /// Returns the wheels with their tyres and tracks.
   MachineWheels& wheels() { return wheels_; }
 
-  /// Takes the joint from the drive until the drive's next command.
+  /// Sets the command of a joint. If the drive controls the joint, this command overrides the drive
+  /// until the drive's next command.
   void set_joint(int joint, const JointInput& input);
-  /// Sets the drive's command. Joints taken by set_joint return to it.
+  /// Sets the drive's command. Joints that set_joint() has overridden follow the drive again.
   void set_drive(const DriveInput& input) { drive_.set(input); }
-  /// Sets or releases a joint's brake.
+  /// Sets or releases the brake of a joint.
   void set_brake(int joint, bool on) { joints_.set_brake(joint, on); }
-  /// Returns the command that the drive follows now.
+  /// Returns the command that the drive currently follows.
   const DriveInput& drive() const { return drive_.input(); }
-  /// Adds a force [N] at p_W for the next step, or applies an impulse [N s, N m s] at once. Both
-  /// are counted as external.
+  /// Adds a force `f_W` [N] at the point `p_W` [m] on a link for the next step. It counts as an
+  /// external impulse.
   void add_force(int link, const Vec3& f_W, const Vec3& p_W);
+  /// Applies an impulse `J_W` [N s] at the point `p_W` [m] and an angular impulse `L_W` [N m s] to
+  /// a link at once; see TreeBody::apply_impulse() for `dt` [s]. It counts as an external impulse.
   void apply_impulse(int link, const Vec3& J_W, const Vec3& L_W, const Vec3& p_W, double dt);
 
-  /// Returns whether the machine sleeps: it takes no part in the step except as a neighbour. Only
-  /// loose bodies of one link sleep.
+  /// Returns true if the machine sleeps: it is at rest and takes no part in the step, but other
+  /// bodies still collide with it. Only loose bodies of one link can sleep.
   bool asleep() const { return rest_ && rest_->asleep(); }
-  /// Returns the time at rest [s]; 0 for a machine that never sleeps.
+  /// Returns the time for which the machine has been at rest [s]; 0 for a machine that never
+  /// sleeps.
   double still() const { return rest_ ? rest_->still() : 0; }
-  /// Wakes the machine because another one that has been at rest for `still` [s] has come near.
+  /// Wakes the machine because another one, which has been at rest for `still` [s], has come near.
   void wake(double still);
-  /// Wakes the machine because something pushes it.
+  /// Wakes the machine because a force or impulse acts on it.
   void disturb();
-  /// Moves the base of an obstacle to this pose and velocity. It meets sleeping bodies only while
-  /// it moves.
+  /// Moves the base link of an obstacle to the given pose and velocity. The obstacle collides with
+  /// sleeping bodies only while it moves.
   void move_base(const LinkState& link);
 
-  /// Computes servo demands, drive and tyre forces before the solver; `accelerate` then adds
-  /// gravity and all forces to the velocities.
+  /// Computes the demands of the servos, the drive, and the forces on tyres and tracks from
+  /// `ground`, for a step of `dt` [s]. Call it before accelerate().
   void begin_step(const GroundQuery& ground, double dt);
+  /// Adds the effect of gravity (in the world frame [m/s2]) and of all forces to the velocities.
+  /// Call it before the solver.
   void accelerate(const Vec3& gravity, double dt);
   /// Advances positions and reads efforts and work after the solver. `contact` is the impulse of
-  /// the rigid contacts with the ground [N s].
+  /// all rigid contacts of this machine with the ground in the world frame [N s].
   void end_step(const GroundQuery& ground, const Vec3& contact, double dt);
 
-  /// State between two steps, by indices of scene::Machine.
+  /// Returns the state of a joint after the last step.
   JointState joint(int joint) const { return joints_.state(joint); }
+  /// Returns the state of a wheel or track after the last step.
   WheelState wheel(int wheel) const;
+  /// Returns the rectangles on which the track of a wheel pressed in the last step; empty for a
+  /// wheel without a track.
   std::vector<terramechanics::TrackPatch> track_patches(int wheel) const {
     return wheels_.track_patches(wheel);
   }
-  /// Returns the impulse of the rock on a shell in the last step [N s].
+  /// Returns the impulse of the rock on a shell in the last step, in the world frame [N s].
   const Vec3& rock_impulse(int shell) const {
     return rock_.at(static_cast<std::size_t>(shell))->impulse();
   }
-  /// Returns the pump's state; zeros without a pump.
+  /// Returns the state of the machine's pump; all zero without a pump.
   PumpState pump() const { return {joints_.pump().flow(), joints_.pump().pressure()}; }
-  /// Returns the state of the combustion engine; zeros without one.
+  /// Returns the state of the combustion engine; all zero without one.
   const CombustionEngineState& engine() const { return drive_.engine(); }
-  /// Returns the work of joints and drive since the start [J].
+  /// Returns the mechanical work that joints and drive have done since the start [J].
   double work() const { return joints_.work(); }
-  /// Returns the ground's impulse in the last step [N s].
+  /// Returns the impulse of the ground on the machine in the last step, in the world frame [N s].
   const Vec3& ground_impulse() const { return ground_impulse_; }
-  /// Returns the sum of external impulses since the start [N s].
+  /// Returns the sum of all external impulses since the start, in the world frame [N s].
   const Vec3& external_impulse() const { return external_impulse_; }
 
-  /// Visits all state between two steps. A loaded machine continues exactly as the saved one did.
+  /// Saves, loads or hashes all state between two steps. A loaded machine continues exactly as the
+  /// saved one.
   void visit(Archive& a);
 
  private:
-  /// Force that add_force stored for the next step.
+  /// Force on a link that add_force() has stored for the next step.
   struct Push {
+    /// Index of the link on which the force acts.
     int link = 0;
+    /// Force [N] and point of application [m] in the world frame.
     Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+    /// Saves, loads or hashes link, force and point.
     void visit(Archive& a);
   };
-  /// Adds collision shapes of links, plates of shells, and a rock contact for every shell.
+  /// Makes the collision objects of all links with collision shapes.
   void add_colliders();
+  /// Makes the collision objects of all shells.
   void add_steel();
+  /// Makes the constraint rows between each shell and the rock.
   void add_rock();
-  /// Makes the collider of one link's shape, stiff but not rigid.
+  /// Returns a new collision object with the shape `shape` of the link with index `link`. Its
+  /// contacts are stiff but not rigid.
   std::unique_ptr<btMultiBodyLinkCollider> make_collider(const LinkShape& shape, int link);
-  /// Moves all colliders to the present poses.
+  /// Moves all collision objects to the current poses.
   void place_colliders();
-  /// Computes the bounding box of the base link's shape.
+  /// Computes the bounding box of the base link's collision shapes in the world frame [m].
   void box(btVector3& low, btVector3& high) const;
-  /// Sets Bullet's activation state of all colliders.
+  /// Sets Bullet's activation state of the base link's collision object.
   void set_active(bool active);
 
-  // Each member refers to the members before it.
+  /// Scene data from which the machine was built. It must be declared first: each of the following
+  /// members refers to members before it.
   scene::Machine machine_;
+  /// Articulated tree.
   TreeBody tree_;
+  /// Joints with servos, brakes and hydraulics.
   MachineJoints joints_;
+  /// Wheels with tyres and tracks.
   MachineWheels wheels_;
+  /// Drive that turns and steers the wheels.
   MachineDrive drive_;
-  std::vector<std::unique_ptr<RockContact>> rock_;  // by shell
-  std::vector<LinkShape> shapes_;                   // by link
+  /// Constraint rows between shells and rock, indexed by shell.
+  std::vector<std::unique_ptr<RockContact>> rock_;
+  /// Collision shapes of the links, indexed by link.
+  std::vector<LinkShape> shapes_;
+  /// Collision objects of the links, indexed by link; null for a link without shapes.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-  std::vector<LinkShape> plates_;  // by shell
+  /// Collision shapes of the shells, indexed by shell.
+  std::vector<LinkShape> plates_;
+  /// Collision objects of the shells, indexed by shell.
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> steel_;
-  std::vector<Push> pushes_;  // for the next step
-  std::optional<Rest> rest_;  // of loose bodies of one link
-  // Impulses [N s]. The tyres' part belongs to the present step only.
+  /// Forces that act in the next step.
+  std::vector<Push> pushes_;
+  /// Sleep state; empty for a machine that never sleeps.
+  std::optional<Rest> rest_;
+  /// Impulse of the ground in the last step, the part of it from tyres and tracks, and the sum of
+  /// external impulses since the start, in the world frame [N s].
   Vec3 ground_impulse_ = Vec3::Zero(), tyre_impulse_ = Vec3::Zero(),
        external_impulse_ = Vec3::Zero();
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversions between Eigen and Bullet.
+// Conversions between the vector, rotation and pose types of Eigen and Bullet. They keep all
+// numbers and axes; no frame is rotated.
 #pragma once
 
 #include <LinearMath/btTransform.h>
@@ -8,24 +9,26 @@
 
 namespace navvy::vehicle {
 
-// Debian has Bullet in both widths; headers and library must use the same.
+// Debian packages Bullet in single and double precision; headers and library must match.
 static_assert(sizeof(btScalar) == sizeof(double), "link bullet-float64");
 
-// The same numbers in the same axes: no frame is rotated here.
+/// Returns the vector in Bullet's type.
 inline btVector3 to_bt(const Vec3& v) { return btVector3(v.x(), v.y(), v.z()); }
+/// Returns the vector in Eigen's type.
 inline Vec3 to_eigen(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
-/// Returns the normalised quaternion of a rotation; Bullet relies on the normalisation.
+/// Returns the rotation as a quaternion, normalised as Bullet requires.
 inline btQuaternion to_bt(const Mat3& R) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
   return btQuaternion(q.x(), q.y(), q.z(), q.w());
 }
+/// Returns the rotation matrix in Eigen's type.
 inline Mat3 to_eigen(const btMatrix3x3& m) {
   Mat3 R;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) R(r, c) = m[r][c];
   return R;
 }
-/// Returns a pose as position and rotation; Bullet's basis has the same columns.
+/// Returns the pose in Bullet's type, as position and rotation with the same axes.
 inline btTransform to_bt(const Pose& X) {
   return btTransform(to_bt(Mat3(X.linear())), to_bt(Vec3(X.translation())));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joints of a machine in the Bullet engine: servos, limits and their rows in the solver.
+// Joints of a machine in the Bullet engine: servos, brakes, limits, and their constraint rows in
+// the solver.
 #pragma once
 
 #include <memory>
@@ -13,94 +14,118 @@
 
 namespace navvy::vehicle {
 
-/// State of a joint between two steps.
+/// State of one joint between two steps, and its demand in the current step.
 struct Actuator {
+  /// Servo with the joint's command.
   JointServo servo;
-  bool spins_wheel = false;  // constant
-  // The drive commands it.
+  /// True for a joint on which a wheel spins. Constant.
+  bool spins_wheel = false;
+  /// True while the drive commands the joint.
   bool driven = false;
-  JointLimits limits;  // of this step
+  /// Limits of the joint in the current step.
+  JointLimits limits;
+  /// Motion that the solver should give the joint in the current step.
   JointServo::Demand demand;
-  // Velocity that the valve passes with enough oil.
+  /// Velocity that the valve passes with enough oil [rad/s|m/s].
   double opened = 0;
-  double effort = 0;  // in the last step
+  /// Effort on the joint in the last step [N m|N].
+  double effort = 0;
+  /// Velocity of the joint at the start of the step [rad/s|m/s].
   double speed_before = 0;
-  bool has_brake = false;  // constant
-  // Set by command, whatever the servo does.
+  /// True for a joint with a brake. Constant.
+  bool has_brake = false;
+  /// True while the brake is set.
   bool braked = false;
-  // Position at which the brake holds it [rad|m].
+  /// Position at which the brake holds the joint [rad|m].
   double held = 0;
 
-  /// Visits servo, effort and brake.
+  /// Saves, loads or hashes servo, effort and brake.
   void visit(Archive& a);
 };
 
-/// Converts commands into rows of the solver, and its impulses into efforts, work and oil.
+/// Converts joint commands to constraint rows of the solver, and the solver's impulses to efforts,
+/// work and oil flow.
 ///
-/// Joints are addressed by their index in scene::Machine. The drive sets row and torque of a
-/// wheel's joint that it turns (Actuator::demand); this class only adds its damping.
+/// Joints have the indices of scene::Machine. For the joint of a wheel that the drive turns, the
+/// drive itself sets row and torque (Actuator::demand); this class only adds the joint's damping.
 class MachineJoints {
  public:
-  /// Creates the rows. Every joint holds its initial position. Machine and tree must outlive this
-  /// object.
+  /// Allocates the constraint rows. Every joint holds its initial position. `machine` and `tree`
+  /// must exist as long as this object.
   MachineJoints(const scene::Machine& machine, TreeBody& tree);
 
-  /// Returns the state of a joint. @throws std::out_of_range.
+  /// Returns the state of a joint.
+  /// @throws std::out_of_range for an index without a joint.
   Actuator& operator[](int joint) { return actuators_.at(static_cast<std::size_t>(joint)); }
+  /// Returns the state of a joint.
+  /// @throws std::out_of_range for an index without a joint.
   const Actuator& operator[](int joint) const {
     return actuators_.at(static_cast<std::size_t>(joint));
   }
-  /// Returns the servos by joint; null for fixed and ball joints.
+  /// Returns the constraint rows of the servos, indexed by joint; null for fixed and ball joints.
   std::vector<std::unique_ptr<ServoConstraint>>& servos() { return constraints_; }
-  /// Returns the limits of ball joints that have any.
+  /// Returns the constraint rows of those ball joints that have limits.
   std::vector<std::unique_ptr<BallLimits>>& balls() { return balls_; }
-  /// Returns the servo of a joint that moves.
+  /// Returns the constraint rows of a revolute or prismatic joint.
   ServoConstraint& servo(int joint) { return *constraints_[static_cast<std::size_t>(joint)]; }
-  /// Returns the machine's pump, idle if it has none.
+  /// Returns the machine's pump, which stays idle in a machine without one.
   const HydraulicPump& pump() const { return hydraulics_.pump(); }
-  /// Sets the largest rate of joints that the drive commands by position [rad/s].
+  /// Sets the largest speed [rad/s] of joints that the drive commands by position, which are the
+  /// steering joints.
   void set_drive_rate(double rate) { drive_rate_ = rate; }
 
-  /// Sets or releases a joint's brake. Has no effect on a joint without one.
+  /// Sets or releases the brake of a joint. Does nothing for a joint without a brake.
   void set_brake(int joint, bool on);
 
-  /// Records the velocities before anything acts, from which work is computed.
+  /// Records all joint velocities, from which end_step() computes the work. Call it at the start of
+  /// a step, before any force acts.
   void note_speeds();
-  /// Moves valves, shares oil, sets rows and damping. Call it before the solver.
+  /// Moves the valves, distributes the oil, and sets constraint rows and damping for a step of `dt`
+  /// [s]. Call it before the solver.
   void begin_step(double dt);
-  /// Reads efforts, work and oil, and evaluates the linkages at the new positions. Call it after
-  /// the solver.
+  /// Computes efforts, work and oil flow from the solver's impulses of a step of `dt` [s], and
+  /// evaluates the cylinders at the new positions. Call it after the solver.
   void end_step(double dt);
 
-  /// Returns the state after the last step. Limits are those at the present position.
+  /// Returns the state of a joint after the last step, with the limits at its current position.
   JointState state(int joint) const;
-  double work() const { return work_; }  ///< mechanical, since the start [J]
+  /// Returns the mechanical work that all joints have done since the start [J]. Work that a load
+  /// does on a joint is not subtracted.
+  double work() const { return work_; }
 
-  /// Visits servos and pump. Visit the tree before: linkages follow its positions.
+  /// Saves, loads or hashes servos, brakes and pump. Call it after TreeBody::visit(), since loading
+  /// evaluates the cylinders at the tree's positions.
   void visit(Archive& a);
 
  private:
-  /// Evaluates the linkages at the joints' positions.
+  /// Evaluates all cylinders at the current joint positions.
   void placed();
-  /// Returns the effort and speed available in this step.
+  /// Returns the limits of a joint's effort and speed in this step.
   JointLimits limits(int joint) const;
-  /// Returns the demand of a set brake for the joint's row in this step.
+  /// Returns the demand with which a set brake holds the joint in a step of `dt` [s].
   JointServo::Demand hold(int joint, double dt);
-  /// Returns the share of its oil that every function gets.
+  /// Returns the share (0 to 1) of its demanded oil that every cylinder gets in this step.
   double share_oil(double dt);
-  /// Returns whether the drive turns this joint's wheel.
+  /// Returns true if the drive turns the wheel on this joint.
   bool is_drives(const Actuator& a) const { return a.driven && a.spins_wheel; }
 
-  // All vectors are by joint, except the cylinders inside `hydraulics_` and `demands_`, which has
-  // one entry per active cylinder.
+  /// Scene data of the machine.
   const scene::Machine& machine_;
+  /// Articulated tree of the machine.
   TreeBody& tree_;
+  /// Cylinders and pump of the machine.
   Hydraulics hydraulics_;
+  /// State of each joint.
   std::vector<Actuator> actuators_;
+  /// Constraint rows of the servos, indexed by joint; null for fixed and ball joints.
   std::vector<std::unique_ptr<ServoConstraint>> constraints_;
+  /// Constraint rows of those ball joints that have limits.
   std::vector<std::unique_ptr<BallLimits>> balls_;
-  std::vector<OilDemand> demands_;  // of the present step
+  /// Oil demands in the current step, one per cylinder whose joint can move.
+  std::vector<OilDemand> demands_;
+  /// Largest speed of joints that the drive commands by position [rad/s].
   double drive_rate_;
+  /// Work of all joints since the start [J].
   double work_ = 0;
 };
 

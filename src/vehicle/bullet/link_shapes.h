@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collision shapes for Bullet.
+// Makes Bullet's collision shapes for links and shells of a machine.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
@@ -13,28 +13,32 @@
 
 namespace navvy::vehicle {
 
-/// All collision shapes of a link in one compound. `compound` is null for a link without any.
+/// All collision shapes of one link, or all plates of one shell, combined into one compound shape.
 struct LinkShape {
-  /// Triangles that parts refer to.
+  /// Triangle meshes to which some of the `parts` refer.
   std::vector<std::unique_ptr<btStridingMeshInterface>> meshes;
+  /// Single shapes to which the compound refers.
   std::vector<std::unique_ptr<btCollisionShape>> parts;
+  /// Compound of all parts; null for a link without collision shapes.
   std::unique_ptr<btCompoundShape> compound;
-  /// Largest friction of the parts.
+  /// Largest friction coefficient of the parts [-], which applies to the whole compound.
   double friction = 0.8;
 };
 
-/// Returns a shell's plates as one compound in the link's own frame: each triangle swept by a ball
-/// of half the thickness.
+/// Returns the plates of a shell as one compound in the frame of the shell's link. Each triangle of
+/// the shell becomes a plate: the triangle swept by a ball of half the plate's thickness.
 ///
-/// Bullet cannot handle a moving triangle mesh against another one well, but it can handle convex
-/// pieces. A flat core with a round skin has a unique direction out of the plate as long as nothing
-/// reaches its middle.
+/// Bullet handles a collision of two moving triangle meshes poorly, but it handles convex pieces
+/// well. The direction out of a plate with a flat core and a rounded surface is unique as long as
+/// no other body reaches the core.
 LinkShape make_steel(const scene::Shell& shell);
 
-/// Returns the collision shapes of a link.
-/// @param X_IL the link in Bullet's frame
-/// @param stands the link never moves: meshes keep their triangles instead of their hull
-/// @throws InputError for a plane or a mesh without vertices, FileError.
+/// Returns all collision shapes of a link as one compound.
+/// @param X_IL pose of the link's own frame in Bullet's frame of the link
+/// @param stands true for a link that never moves: its meshes keep their triangles; other meshes
+/// are replaced by their convex hulls
+/// @throws InputError for a plane, or for a mesh without enough vertices or triangles; FileError
+/// for a mesh file that cannot be read
 LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands);
 
 }  // namespace navvy::vehicle

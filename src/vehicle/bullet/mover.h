@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Obstacle: a machine that another engine moves. It pushes, and nothing moves it.
+// Obstacle in the Bullet engine: a machine that another engine moves. It pushes other bodies, and
+// no force moves it.
 #pragma once
 
 #include <memory>
@@ -9,24 +10,26 @@
 
 namespace navvy::vehicle {
 
-/// Represents each link with collision shapes or a shell by a fixed body with a prescribed pose and
-/// velocity: a moving wall to contacts. Its wheels push nothing, since tyres are forces, and it
-/// receives none.
+/// Represents each link of an obstacle that has collision shapes or a shell by a fixed body with a
+/// prescribed pose and velocity, which acts like a moving wall. The obstacle's wheels push nothing,
+/// since tyres are modelled as forces.
 class Mover {
  public:
-  /// Builds the bodies.
-  /// @throws InputError, FileError for shapes that cannot be built.
+  /// Builds the fixed bodies for `machine`.
+  /// @throws InputError, FileError for collision shapes that cannot be built.
   explicit Mover(const scene::Machine& machine);
 
-  /// Returns one fixed body per link with shapes.
+  /// Returns the fixed bodies, one per link with collision shapes or a shell.
   const std::vector<std::unique_ptr<BulletMachine>>& bodies() const { return bodies_; }
-  /// Moves the bodies to these poses with these velocities, by link of the machine. A body at rest
-  /// wakes no other body.
+  /// Moves the bodies to the poses and velocities in `links`, which has one entry per link of the
+  /// obstacle. A body with zero velocity wakes no other body.
   void move(const std::vector<LinkState>& links);
 
  private:
+  /// Fixed bodies of the obstacle.
   std::vector<std::unique_ptr<BulletMachine>> bodies_;
-  std::vector<std::size_t> link_;  // link of each body
+  /// Link index of each fixed body.
+  std::vector<std::size_t> link_;
 };
 
 }  // namespace navvy::vehicle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors for machines that this engine cannot build.
+// Errors for machines that the Bullet engine cannot build.
 #pragma once
 
 #include <string>
@@ -8,9 +8,11 @@
 
 namespace navvy::vehicle {
 
-/// Throws InputError with the element of the machine ("wheel", "link[name]"), the offending value
-/// (may be empty) and the rule it breaks.
-/// @throws InputError always.
+/// Throws an InputError about one element of a machine.
+/// @param element the element, such as "wheel" or "link[name]"
+/// @param value the offending value; may be empty
+/// @param rule the rule that the value breaks
+/// @throws InputError always
 [[noreturn]] inline void refuse(const std::string& element, const std::string& value,
                                 const std::string& rule) {
   Fault fault;

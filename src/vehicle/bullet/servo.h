@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constraint rows on one joint of a multibody: a motor with unequal limits, and the joint's stops.
+// Constraint rows for one joint of a multibody: a motor whose limits may differ between both
+// directions, and the joint's stops.
 #pragma once
 
 #include "vehicle/bullet/multibody_rows.h"
 
 namespace navvy::vehicle {
 
-/// Motor of one revolute or prismatic joint. Reaches `velocity` with an impulse in [low, high], and
-/// keeps the joint between its stops with unlimited impulse. The impulses are read back after the
-/// solver ran.
+/// Motor of one revolute or prismatic joint. It brings the joint to a given velocity with a limited
+/// impulse, and keeps the joint between its stops with unlimited impulse. After the solver has run,
+/// the impulse of the motor can be read back.
 class ServoConstraint final : public MultibodyRows {
  public:
-  /// Adds the rows.
-  /// @param link Bullet's link of the joint
-  /// @param lower, upper stops [rad|m], used if `has_limits`
+  /// Allocates the rows for one joint.
+  /// @param link Bullet's index of the joint's child link
+  /// @param lower, upper positions of the stops [rad|m], used only if `has_limits`
   ServoConstraint(btMultiBody* body, int link, bool has_limits, double lower, double upper);
 
-  /// Sets the velocity to reach [rad/s|m/s] and the limits of the motor's impulse [N m s|N s] for
-  /// the coming step. With low = high there is no motor: the joint is free between its stops.
+  /// Sets the velocity to reach [rad/s|m/s] and the limits `low` and `high` of the motor's impulse
+  /// [N m s|N s] for the coming step. With equal limits there is no motor: the joint moves freely
+  /// between its stops.
   void command(double velocity, double low, double high) {
     velocity_ = velocity;
     low_ = low;
@@ -26,14 +28,19 @@ class ServoConstraint final : public MultibodyRows {
   /// Returns the impulse of the motor in the last step [N m s|N s].
   double motor_impulse() { return getAppliedImpulse(0); }
 
-  // Bullet calls these: Jacobians once, rows in every step.
+  /// Sets the Jacobians of all rows. Bullet calls it once.
   void finalizeMultiDof() override;
+  /// Adds the rows of the motor and of the stops to the solver. Bullet calls it in every step.
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
 
  private:
+  /// True if the joint has stops.
   bool has_limits_;
+  /// Positions of the stops [rad|m].
   double lower_, upper_;
+  /// Velocity to reach [rad/s|m/s] and limits of the motor's impulse [N m s|N s] in the coming
+  /// step.
   double velocity_ = 0, low_ = 0, high_ = 0;
 };
 
