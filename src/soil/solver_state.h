@@ -92,7 +92,8 @@ struct Solver::State {
   /// @throws SimulationError naming the soil when they differ.
   void check_masses();
   /// Checks that a tool motion can be simulated.
-  /// @throws SimulationError when a pose or velocity is not finite or is too large for any step.
+  /// @throws SimulationError when a value of it is not finite, when the tool is faster than waves
+  /// in the soil, or when it moves deep in the rock below the datum.
   void check_motion(const ToolMotion& motion) const;
   /// Returns the prefix of every error message of this solver, for example "soil step 12, t = 0.02
   /// s: ".

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact and node arithmetic of kernels/soil/contact_law.h and node.h compiled for doubles.
+// Contact and node arithmetic of kernels/soil/contact_law.h and node.h, compiled in double
+// precision for tests and for the reference solver.
 #pragma once
 
 #include "soil/reference/double_real.h"
@@ -9,8 +10,9 @@ namespace navvy::soil::reference {
 #include "soil/contact_law.h"  // NOLINT: on purpose inside the namespace
 #include "soil/node.h"         // NOLINT: the same
 
-/// Impulse [N s] on a node of a plate that moves with `speed` [m/s] against the resting ground,
-/// without turning.
+/// Returns the impulse [N s] on a node from a plate that moves with `speed` [m/s] relative to the
+/// resting ground and does not rotate. `opening`: separation speed above which adhesion has ended
+/// [m/s].
 inline Vec3 impulse_on(const ContactNode& node, double opening, const Vec3& speed = Vec3::Zero()) {
   ContactBranch branch;
   return contact_impulse(&node, Vec3::Zero(), speed, opening, &branch);

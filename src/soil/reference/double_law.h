@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Law and particle arithmetic of kernels/soil/law.h and point.h compiled for doubles.
+// Soil law and particle arithmetic of kernels/soil/law.h and point.h, compiled in double precision.
 #pragma once
 
 #include "scene/soil.h"
@@ -13,8 +13,8 @@ namespace navvy::soil::reference {
 #include "soil/point.h"  // NOLINT: on purpose inside the namespace
 #undef LAW_EXTENDED
 
-/// Returns the constants of the law in double precision. `cell` [m]. The kernels get the same
-/// numbers rounded to floats.
+/// Returns the constants of the soil law for one soil in double precision. `cell`: edge of a cell
+/// [m]. The kernels use the same constants rounded to floats.
 inline LawSoil law_soil(const scene::Soil& soil, double cell) {
   const LawConstants law = law_constants(soil, cell);
   LawSoil out;
