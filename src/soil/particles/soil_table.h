@@ -22,8 +22,8 @@ double most_mixing(double dt, const SchemeConstants& scheme = kScheme);
 /// `cell`: edge of a cell [m]. Soil lighter than the densest is corrected too little, never too
 /// much.
 double packed_mass(double densest, double cell, const SchemeConstants& scheme = kScheme);
-/// Returns the node mass, divided by the node's free fraction, from which soil with J = 1 counts as
-/// closed, i.e. without voids [kg] [docs/soil.md, opening]. Parameters as for packed_mass.
+/// Returns the node mass, divided by the node's free fraction, from which the nodes indicate closed
+/// soil (J <= J0) if J = 1 [kg] [docs/soil.md, opening]. Parameters as for packed_mass.
 double filled_mass(double densest, double cell, const SchemeConstants& scheme = kScheme);
 
 /// Returns true if the soil law must be compiled with LAW_EXTENDED (kernels/soil/law.h), because at

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact and node arithmetic of kernels/soil/contact_law.h and node.h, compiled in double
-// precision for tests and for the reference solver.
+// precision for the host.
 #pragma once
 
 #include "soil/reference/double_real.h"
