@@ -44,9 +44,10 @@ struct RestingContact {
   /// since the last call; `force`: force of the soil on the tool [N].
   bool has_settled(const scene::Shell& shell, const ToolMotion& motion, double seconds,
                    const Vec3& force);
-  /// Starts the contact if rigid feet can exert the present force and moment of the soil; otherwise
-  /// nothing changes. `force` [N]; `moment` about the tool's origin [N m]; `tangent`: friction
-  /// coefficient; `cell`: edge of a cell [m]; `normal`: unit normal of the ground below.
+  /// Starts the contact if rigid feet can exert the current force and moment of the soil on the
+  /// tool; otherwise nothing changes. `force` [N]; `moment` about the tool's origin [N m];
+  /// `tangent`: friction coefficient; `cell`: edge of a cell [m]; `normal`: unit normal of the
+  /// ground below.
   void start(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
              const Vec3& moment, double tangent, double cell, const Vec3& normal);
   /// Adds the impulse of the contact in a step of dt [s] to `impulse`, which must already contain
