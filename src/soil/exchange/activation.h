@@ -22,7 +22,8 @@ namespace navvy::soil {
 class Activator {
  public:
   /// Computes the elastic constants of the soils. `ground` must outlive this object; `grid`: offset
-  /// of the particle blocks relative to the columns; `gravity`: magnitude [m/s2].
+  /// of the particle blocks relative to the columns; `gravity`: downward acceleration of gravity
+  /// [m/s2].
   /// @throws InputError when a particle of one of the soils would exceed the range of its integer
   /// mass.
   Activator(heightfield::Ground& ground, PlanGrid grid, double gravity);

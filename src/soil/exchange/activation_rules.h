@@ -67,8 +67,9 @@ void activate_ahead_of_tools(const heightfield::Ground& ground, std::span<const 
                              ActivationPlan& plan);
 
 /// Returns the particle speed above which soil counts as moving [m/s]: 5 % of the speed of the
-/// slowest working tool, but at least 0.05 m/s, which is also the value without a working tool. A
-/// lower threshold would let the elastic ringing of new particles activate the whole site.
+/// slowest working tool, but at least 0.05 m/s, which is also the value if no tool is working. A
+/// tool is working if it is engaged and faster than 0.1 m/s. A lower threshold would let the
+/// elastic ringing of new particles activate the whole site.
 double motion_threshold(std::span<const ToolZone> zones);
 
 /// Applies rule B: a particle that has failed (large plastic shear) and is faster than `threshold`
@@ -76,8 +77,9 @@ double motion_threshold(std::span<const ToolZone> zones);
 /// added to `plan`.
 ///
 /// `may_activate(ix, iy)` returns true for columns to which this rule applies in this check. In the
-/// zone of a working tool, activation reaches at most three cells below the tool. Cost is linear in
-/// the number of particles, plus nine columns for each column with motion.
+/// zone of an engaged tool, activation reaches at most three cells (times the zone's scale) below
+/// the tool. Cost is linear in the number of particles, plus nine columns for each column with
+/// motion.
 template <class MayActivate>
 void activate_around_motion(const heightfield::Ground& ground, const ColumnIndex& index,
                             double threshold, std::span<const ToolZone> zones,

@@ -39,7 +39,8 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
 /// becomes one layer per column, with the mass-weighted mean j0 of its particles, limited to
 /// `densest` .. swell. Where particles crowd into a much smaller volume, the layer is made denser.
 /// The iso-surface of the soil (BlockShape) determines how the volume is distributed over the
-/// columns. Masses are divided in integers; the heaviest column receives the remainder.
+/// columns. Masses are divided in integers; the column with the largest share receives the
+/// remainder.
 ///
 /// Beside a cliff the iso-surface is rounded, so every activation and deposit would erode the edge
 /// a little. Columns at a cliff therefore keep the soil above each of them, if that soil is still
