@@ -40,9 +40,8 @@ INLINED scalar contact_near(scalar clearance, const Reach* r) {
 }
 
 // Returns the share of the plate's speed that a node must keep up with, 0 .. 1
-// [docs/tools.md, contact shares]. The weight along the plate is squared, because with its first
-// power a plate would push the wedge of soil at its edge, which is only half covered, with half the
-// share.
+// [docs/tools.md, contact shares]. The weight along the plate is squared. With its first power,
+// half of the share would act at the edge and push a wedge of soil that is only half there.
 INLINED scalar contact_share(scalar clearance, scalar inset, const Reach* r) {
   const scalar along = contact_along(inset, r);
   return contact_near(clearance, r) * along * along;
@@ -117,7 +116,8 @@ typedef struct ContactBranch {
   // acts: there is an impulse; pushing: the impulse has a normal component; sticking: the impulse
   // stops all slip.
   bool acts, pushing, sticking;
-  // Share of a small increase of the plate's normal speed that the node follows, when pushing.
+  // Part of a small increase of the plate's normal speed by which the normal speed of the node
+  // increases; valid if `pushing` is true.
   scalar held;
 } ContactBranch;
 

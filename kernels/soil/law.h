@@ -161,7 +161,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   state->s[5] = xz * stay;
 
   // Viscosity acts where the step was elastic, and on the volume of closed soil. It is only in the
-  // stress that the grid feels; the yield stress used the pressure without it
+  // stress that acts on the grid; the yield stress used the pressure without it
   // [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   const real damped = fmax(pressure - SCHEME(volume_damping) * soil->viscosity * trace, 0.0f);

@@ -18,7 +18,7 @@ static inline int3 neighbour_offset(int n) { return (int3)(n % 3 - 1, n / 3 % 3 
 
 // Destination of one particle.
 typedef struct Place {
-  // Destination code.
+  // Destination code, 0 .. LEFT_SITE.
   uchar code;
   // Cell of the particle's base node within the new block, 0 .. 63, x fastest.
   uchar cell;

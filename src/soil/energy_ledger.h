@@ -108,7 +108,8 @@ class EnergyLedger {
   EnergyAccount account_;
   /// Particles before the current step.
   Words before_;
-  /// Nodes of all active blocks: the front field of each node, then the back field of each node.
+  /// Nodes of all active blocks: first the front velocity field of every node, then the back
+  /// velocity field of every node, in the same order.
   std::vector<Node> nodes_;
   /// Kinetic energy of the particles after the last step [J].
   double moving_ = 0;

@@ -11,8 +11,9 @@
 // become registers, which a GPU cannot index.
 #define UNROLL _Pragma("unroll")
 
-// TILE_SIZE: number of nodes of a tile without padding. CELLS: number of cells in a tile that can
-// contain a particle, i.e. whose base node is in -1 .. 4 along each axis; x fastest.
+// TILE_SIZE: number of nodes of a tile (8 x 8 x 8 nodes around a block) without padding. CELLS:
+// number of cells of a tile that can contain the base node of a particle: -1 .. 4 along each axis,
+// x fastest.
 #define TILE_SIZE 512
 #define CELLS 216
 

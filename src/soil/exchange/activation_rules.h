@@ -12,10 +12,10 @@
 
 namespace navvy::soil {
 
-/// A tool as the columns see it: column rectangles around the tool, its height range and its speed.
-/// Rectangles are clipped to the site and may be empty; column indices start at the site's
-/// lower-left corner. A zone is computed at each check from the bounding box of the tool's shell,
-/// so it changes when the tool turns.
+/// A tool in the terms of the activation rules: column rectangles around the tool, the tool's
+/// height range and its speed. Rectangles are clipped to the site and may be empty; column indices
+/// start at the site's lower-left corner. A zone is computed at each check from the bounding box of
+/// the tool's shell, so it changes when the tool turns.
 struct ToolZone {
   /// Columns under the tool's bounding box.
   heightfield::CellRect box;

@@ -42,9 +42,10 @@ bool may_deposit(const heightfield::Ground& ground, const ColumnIndex& index,
 /// columns. Masses are divided in integers; the column with the largest share receives the
 /// remainder.
 ///
-/// Beside a cliff the iso-surface is rounded, so every activation and deposit would erode the edge
-/// a little. Columns at a cliff therefore keep the soil above each of them, if that soil is still
-/// bonded and forms a wall with its neighbours rather than a spike of loose soil.
+/// A column is at a cliff if its surface differs from that of a neighbouring column by more than
+/// 1.5 cells. There the iso-surface is rounded, so every activation and deposit would erode the
+/// edge a little. Columns at a cliff therefore keep the soil above each of them, if that soil is
+/// still bonded and forms a wall with its neighbours rather than a spike of loose soil.
 class Depositor {
  public:
   /// Prepares deposits onto `ground`. Ground and index must outlive this object. `index` describes

@@ -20,8 +20,9 @@ struct BlockShape {
 };
 
 /// Finds the surface of active soil over a block. It samples the volume fraction of columns and
-/// particles, smoothed with a quadratic B-spline one cell wide, at the column centres at every half
-/// cell of height. Particles are about half a cell apart; a finer grid would follow their noise.
+/// particles at the column centres, at every half cell of height, smoothed with a quadratic
+/// B-spline that reaches 1.5 cells to each side. Particles are about half a cell apart; a finer
+/// grid would follow their noise.
 ///
 /// Columns count as full below their surface, and particles with their volume in the density state,
 /// so that no seam appears between the two. Cost is linear in the number of particles in the block

@@ -10,7 +10,7 @@
 
 namespace navvy::soil {
 
-/// Sums over those of a set of particles that are of one soil.
+/// Sums over the particles of one soil within a set of particles.
 struct SoilShare {
   /// Index of the soil in the world's list.
   std::uint16_t soil = 0;

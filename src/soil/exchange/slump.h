@@ -34,8 +34,8 @@ class Slump {
   /// heights.
   void fail(const OverSteep& found);
   /// Runs the sweeps that are due after `elapsed` seconds. `blocked(ix, iy)` returns true for a
-  /// column that may neither give nor take soil in this check; its soil waits until the column is
-  /// no longer blocked. Returns the number of columns that changed.
+  /// column that may neither lose nor receive soil in this check; its soil starts to slide when the
+  /// column is no longer blocked. Returns the number of columns that changed.
   template <class Blocked>
   int run(double elapsed, const Blocked& blocked);
 

@@ -59,8 +59,8 @@ class StandingHeights {
 /// Searches tiles of 32 x 32 columns for drops that are too steep.
 ///
 /// A drop is the height of the resting surface of the high column above the low column including
-/// the soil on it. Two kinds of drops are accepted however steep they are: those that existed at
-/// the start, if the scene's ground holds steep slopes (`hold`), and those at which soil came to
+/// the soil on it. Two types of drops are accepted even if they are very steep: those that existed
+/// at the start, if the scene's ground holds steep slopes (`hold`), and those at which soil came to
 /// rest (StandingHeights). Such a drop is reported only if it has grown.
 ///
 /// Cost is linear in the number of columns of the tile and of a margin of SlumpTable::kReach around

@@ -6,8 +6,8 @@
 
 namespace navvy::soil {
 
-/// Returns the quadratic B-spline of width one cell at distance `t` [cells]; it is zero beyond 1.5
-/// cells [Steffen, Kirby & Berzins 2008].
+/// Returns the quadratic B-spline with a knot spacing of one cell at distance `t` from its centre
+/// [cells]; it is zero beyond 1.5 cells [Steffen, Kirby & Berzins 2008].
 inline double spline(double t) {
   t = std::abs(t);
   return t < 0.5 ? 0.75 - t * t : t < 1.5 ? 0.5 * (1.5 - t) * (1.5 - t) : 0.0;

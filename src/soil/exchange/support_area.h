@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Support areas: the wheels and tracks of machines, as the columns of the ground see them
+// Support areas: wheels and tracks of machines, and the columns of the ground under them
 // [docs/exchange.md, support areas].
 #pragma once
 

@@ -41,7 +41,7 @@ class GridToParticle {
   device::Device& device_;
   /// Constants of the particle scheme.
   SchemeConstants scheme_;
-  /// Compiled source of both kernels.
+  /// Compiled program of both kernels.
   device::KernelProgram program_;
   /// Kernels: kernel_ gathers, end_kernel_ moves the particles.
   device::Kernel kernel_, end_kernel_;

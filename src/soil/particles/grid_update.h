@@ -50,7 +50,7 @@ class GridUpdate {
  private:
   /// Device that runs the kernels.
   device::Device& device_;
-  /// Compiled source of both kernels.
+  /// Compiled program of both kernels.
   device::KernelProgram program_;
   /// Kernels: far_kernel_ for far blocks, near_kernel_ for near blocks.
   device::Kernel far_kernel_, near_kernel_;

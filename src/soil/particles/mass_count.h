@@ -39,7 +39,7 @@ class MassCount {
   device::Device& device_;
   /// Number of soils.
   std::size_t soils_;
-  /// Compiled source of the kernel.
+  /// Compiled program of the kernel.
   device::KernelProgram program_;
   /// Kernel that sums the masses of each block.
   device::Kernel kernel_;

@@ -42,7 +42,7 @@ class ParticleToGrid {
   device::Device& device_;
   /// Constants of the particle scheme.
   SchemeConstants scheme_;
-  /// Compiled source of the kernel.
+  /// Compiled program of the kernel.
   device::KernelProgram program_;
   /// Kernel of law and scatter.
   device::Kernel kernel_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Re-binning: sorts particles that drifted into their new blocks on the device, without atomics.
+// Re-binning: moves particles that have drifted out of their block into the block of their current
+// position, on the device and without atomics.
 #pragma once
 
 #include <array>
@@ -79,7 +80,7 @@ class Rebin {
  private:
   /// Device that runs the kernels.
   device::Device& device_;
-  /// Compiled source of the kernels.
+  /// Compiled program of the kernels.
   device::KernelProgram program_;
   /// Kernels in the order of their use: count_kernel_ finds destinations, gather_kernel_ finds the
   /// old slot of each new slot, move_kernel_ copies the fields.

@@ -32,7 +32,8 @@ using std::sqrt;
 inline double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
 /// Returns 0 if x < edge, else 1, like the OpenCL built-in.
 inline double step(double edge, double x) { return x < edge ? 0.0 : 1.0; }
-/// Returns the mean over the columns around a node. The twin has one column, so this is its value.
+/// Returns the mean over the columns around a node. The twin has one column, so the result is that
+/// column's value.
 inline double mean_of(columns t) { return t; }
 /// Returns true if the condition holds for all columns around a node. The twin has one column.
 inline bool all(bool of_columns) { return of_columns; }

@@ -31,17 +31,19 @@ double plate_area_factor(const ShellGeometry& geometry, double cell,
                          const SchemeConstants& scheme = kScheme);
 
 /// Computes the contact of any number of tools with the soil. Nodes beside a plate have two
-/// velocity fields, front and back. Each field must keep up with a share of the plate's speed
-/// [docs/tools.md, contact shares].
+/// velocity fields, one for the soil in front of the plate and one for the soil behind it (back).
+/// Each field must keep up with a share of the plate's speed [docs/tools.md, contact shares].
 ///
-/// The calls of a step come in this order: `set_motions` in the first step of a transfer, or
-/// `set_twists` in a later one; `classify` in the first step only; `solve` between the scatter and
-/// the gather of Transfer; `queue_read`; and, after Transfer::read_report, `sum_impulses` and
-/// `add_impulses`. `end_transfer` follows the last step of a transfer.
+/// A transfer is a group of consecutive steps in which particles keep their positions. The calls of
+/// a step come in this order: `set_motions` in the first step of a transfer, or `set_twists` in a
+/// later one; `classify` in the first step only; `solve` between the scatter and the gather of
+/// Transfer; `queue_read`; and, after Transfer::read_report, `sum_impulses` and `add_impulses`.
+/// `end_transfer` follows the last step of a transfer.
 ///
-/// Near lists contain the triangles that may touch each block. They reach farther than the contact,
-/// so that a tool may move by the scheme's contact_margin before they must be rebuilt. Cost per
-/// step is linear in the number of nodes and particles in near blocks.
+/// A block is near if the shell of a tool may touch its nodes or particles. Near lists contain the
+/// triangles that may touch each near block. They reach farther than the contact, so that a tool
+/// may move by the scheme's contact_margin before they must be rebuilt. Cost per step is linear in
+/// the number of nodes and particles in near blocks.
 class Contact {
  public:
   /// Builds the kernels. `cell`: edge of a cell [m]; `origin_W`: origin of the grid frame G in W
@@ -57,9 +59,10 @@ class Contact {
     return *tools_[static_cast<std::size_t>(tool)].geometry;
   }
 
-  /// Sets the poses and twists of the tools at the start of a transfer, and rebuilds the near lists
-  /// if `blocks_changed` or if a tool has moved too far. Returns true if the lists were rebuilt;
-  /// the caller must then assign tiles again, from near_particle_blocks() and near_slot().
+  /// Sets the poses and twists of the tools at the start of a transfer. Rebuilds the near lists
+  /// (triangles near each block) if `blocks_changed` is true or if a tool has moved too far.
+  /// Returns true if the lists were rebuilt; the caller must then call ParticleStore::set_near and
+  /// Transfer::set_blocks.
   bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table,
                    bool blocks_changed);
   /// Sets the poses and twists of the tools in a later step of a transfer. Near lists, node sides
@@ -111,7 +114,8 @@ class Contact {
   /// Returns the mean moment on tool `tool` that was last reported, about the origin of the tool's
   /// frame, axes of W [N m].
   const Vec3& moment(int tool) const { return tools_[static_cast<std::size_t>(tool)].moment_W; }
-  /// Ends a transfer: the mean forces over it become the reported forces.
+  /// Ends a transfer: the mean force and moment on each tool over that transfer become the reported
+  /// ones.
   void end_transfer();
 
   /// Visits the state of all tools. It includes the poses for which the near lists were built and
@@ -175,7 +179,7 @@ class Contact {
   void find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const;
   /// Uploads the triangles, free edges and tools of this step.
   void upload_tools();
-  /// Returns tool `index` as the kernels take it, with its current twist.
+  /// Returns tool `index` in the form that the kernels read, with the tool's current twist.
   Tool tool_now(std::size_t index) const;
   /// Queues a contact kernel over all near blocks. `only`: index of the tool whose nodes are
   /// processed, -1 for all tools; `tail`: further kernel arguments.
@@ -198,7 +202,7 @@ class Contact {
   std::vector<ToolMotion> motions_;
   /// Kernels that find node and particle sides.
   ShellQuery shells_;
-  /// Compiled source of the contact kernels.
+  /// Compiled program of the contact kernels.
   device::KernelProgram contact_program_;
   /// Contact kernels: sums_kernel_ sums impulses and stiffness over nodes, twist_kernel_ updates
   /// the twist of a tool, apply_kernel_ applies the impulses.

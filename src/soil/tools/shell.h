@@ -14,7 +14,7 @@
 
 namespace navvy::soil {
 
-/// Tools of one step as the kernels take them. A triangle's index counts through the triangles of
+/// Tools of one step in the form that the kernels read. Triangles are numbered consecutively over
 /// all tools.
 struct ToolShells {
   /// Triangles of all tools, tool by tool.
@@ -34,10 +34,11 @@ struct CandidateRows {
 };
 
 /// Kernels of kernels/soil/*/shell.cl, with their data of the tools and their results for near
-/// nodes.
+/// nodes: nodes of blocks that a tool's shell may touch (near blocks).
 ///
 /// Result arrays have BLOCK_NODES entries per near block, in the order of NearNodes::list. The
-/// kernels run in the first step of a transfer only.
+/// kernels run only in the first step of a transfer, i.e. of a group of steps in which particles
+/// keep their positions.
 class ShellQuery {
  public:
   /// Builds the kernels with the constants `scheme`.
@@ -74,7 +75,7 @@ class ShellQuery {
  private:
   /// Device that runs the kernels.
   device::Device& device_;
-  /// Compiled source of both kernels.
+  /// Compiled program of both kernels.
   device::KernelProgram program_;
   /// Kernels: nodes_kernel_ for near nodes, particles_kernel_ for particles in near blocks.
   device::Kernel nodes_kernel_, particles_kernel_;
@@ -88,9 +89,11 @@ class ShellQuery {
   device::Buffer<ShellRim> rims_;
   /// Tools, written by the host. The kernel contact_twist changes their twists.
   device::Buffer<Tool> tools_;
-  /// Candidate triangles of the near active blocks (the two arrays of CandidateRows).
+  /// Candidate triangles of the near active blocks: block_first_ holds CandidateRows::first,
+  /// block_triangles_ holds CandidateRows::triangles.
   device::Buffer<std::int32_t> block_first_, block_triangles_;
-  /// Candidate triangles of the near particle blocks (the two arrays of CandidateRows).
+  /// Candidate triangles of the near particle blocks: particle_first_ holds CandidateRows::first,
+  /// particle_triangles_ holds CandidateRows::triangles.
   device::Buffer<std::int32_t> particle_first_, particle_triangles_;
   /// Particle-block indices of the near particle blocks.
   device::Buffer<std::int32_t> particle_block_list_;

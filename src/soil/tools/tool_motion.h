@@ -56,7 +56,7 @@ struct ToolImpulse {
   double scale = 0, scale_moment = 0;
 };
 
-/// Region that a tool occupies, as the exchange sees it: soil ahead of the region becomes active,
+/// Region that a tool occupies, as input to the exchange: soil ahead of the region becomes active,
 /// and soil near it stays active.
 struct ToolRegion {
   /// Tool index that Solver::add_tool returned.
