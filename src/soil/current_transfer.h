@@ -37,9 +37,9 @@ class CurrentTransfer {
         length_(length),
         max_motion_(max_motion) {}
 
-  /// Returns the longest duration of a transfer [s].
+  /// Returns the longest allowed duration of a transfer [s].
   double length() const { return length_; }
-  /// Returns the longest displacement of a particle or a tool during a transfer [cells].
+  /// Returns the longest displacement that a particle or a tool may make during a transfer [cells].
   double max_motion() const { return max_motion_; }
   /// Returns true if a transfer is in progress and a step of dt [s] still fits into it. `cell`:
   /// edge of a cell [m]; `tool_speed`: speed of the fastest tool [m/s]; `gravity`: magnitude of
@@ -76,8 +76,8 @@ class CurrentTransfer {
   Transfer& transfer_;
   /// Contact of the tools, which owns the node velocities of the back field.
   Contact& contact_;
-  /// `length_`: longest duration of a transfer [s]. `max_motion_`: longest displacement during it
-  /// [cells].
+  /// `length_`: longest allowed duration of a transfer [s]. `max_motion_`: longest displacement
+  /// that a particle or a tool may make during it [cells].
   double length_, max_motion_;
   /// Time and displacements since the transfer began; reset by `end`.
   TransferInterval interval_;

@@ -73,7 +73,8 @@ struct Solver::State {
   /// Sorts the particles into new blocks if their drift requires it; records the mass of those that
   /// left the site.
   void rebin_if_due();
-  /// Updates near lists, tiles and floor heights for the tools' current poses.
+  /// Updates the lists of blocks near tools, the tiles and the heights of resting ground for the
+  /// tools' current poses.
   void update_lists(std::span<const ToolMotion> motions);
   /// Uploads the heights of the resting ground if the ground or the set of blocks has changed.
   void update_floor();

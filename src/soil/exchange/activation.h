@@ -49,9 +49,11 @@ class Activator {
     std::uint16_t soil;
     /// Mass [kMassQuantum].
     std::int64_t mass;
-    /// Height of the slice's bottom above the cut, and thickness of the slice [m].
+    /// `bottom`: height of the slice's bottom above the cut [m]. `thickness`: thickness of the
+    /// slice [m].
     double bottom, thickness;
-    /// Volume / bank volume, and plastic shear.
+    /// `specific_volume`: volume / bank volume of the soil. `shear`: plastic shear strain of the
+    /// soil.
     float specific_volume, shear;
   };
   /// Divides the layers [first, last) of `taken_`, which must be of one soil, into slices and
@@ -65,7 +67,7 @@ class Activator {
   heightfield::Ground& ground_;
   /// Offset of the particle blocks relative to the columns.
   PlanGrid grid_;
-  /// Gravity [m/s2] and edge of a cell [m].
+  /// `gravity_`: downward acceleration of gravity [m/s2]. `cell_`: edge of a cell [m].
   double gravity_, cell_;
   /// Constants of the soil law, by soil index.
   std::vector<LawConstants> law_;

@@ -37,7 +37,6 @@ class ShapeFinder {
   /// the result would depend on the order of the blocks.
   BlockShape find(const PlanKey& block);
 
-  // Returns true if particles over the column have a gap below them.
  private:
   /// Returns true if there is a gap below the particles over column (ix, iy).
   bool hangs(int ix, int iy);

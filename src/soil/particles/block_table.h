@@ -9,9 +9,9 @@
 
 namespace navvy::soil {
 
-/// Integer coordinates of a block in the grid frame G: the block spans the cells 4 x .. 4 x + 3
-/// along each axis. Keys are ordered by z, then y, then x, so that the order of sums does not
-/// depend on where on the site the soil is.
+/// Integer coordinates of a block in the grid frame G. Along x the block spans the cells 4 * x to 4
+/// * x + 3, and likewise along y and z. Keys are ordered by z, then y, then x, so that the order of
+/// sums does not depend on where on the site the soil is.
 struct BlockKey {
   /// Coordinates in blocks; they may be negative.
   std::int32_t x = 0, y = 0, z = 0;

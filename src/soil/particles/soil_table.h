@@ -32,7 +32,7 @@ bool needs_extended_law(const std::vector<scene::Soil>& soils);
 
 /// Returns the constants of each soil for the kernels, in the order of the world's soils. `cell`:
 /// edge of a cell [m].
-/// @throws InputError listing every property that the soil law cannot compute with.
+/// @throws InputError listing every soil property with which the soil law cannot compute.
 std::vector<SoilRow> soil_table(const std::vector<scene::Soil>& soils, double cell,
                                 const SchemeConstants& scheme = kScheme);
 
