@@ -87,8 +87,8 @@
 // Contact of soil and tools (contact_law.h, shell_side.h) [docs/tools.md, contact shares]
 // [docs/tools.md, stand-off] [docs/tools.md, adhesion].
 //
-// - contact_max_depth: the displacements of particle and tool in a transfer, 0.2 each, after a push
-//   that left the particle 0.2 behind the plate, and a tenth for rounding.
+// - contact_max_depth: sum of the longest displacements of particle and tool in a transfer (0.2
+//   each), the depth that may remain after a push (0.2), and 0.1 for rounding.
 // - contact_full: a node is full until its soil has expanded to 1.5 times its bank volume.
 // - contact_bearing_*: tuned with `navvy lab light-tool`. Below a plate, a node whose soil stands
 //   off by a quarter of a cell carries 0.8 of the load, and a node with a fill of 0.9 counts as
