@@ -25,7 +25,7 @@ std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1,
   const std::vector<char> bytes = saved(object, &map);
   const std::uint64_t hash = hash_of(object).digest();
   std::string report, last;
-  const auto tell = [&](const std::string& path, const char* what) {
+  const auto note_fault = [&](const std::string& path, const char* what) {
     if (path != last) report += path + ": " + what + "\n";
     last = path;
   };
@@ -42,11 +42,11 @@ std::string flip_every_byte(const T& object, T& target, std::size_t stride = 1,
       continue;
     }
     if (!field) {
-      tell("byte " + std::to_string(i), "is in no field and loads when flipped");
+      note_fault("byte " + std::to_string(i), "is in no field and loads when flipped");
     } else if (!field->hashed) {
-      if (field->reason.empty()) tell(field->path, "differs from the scene and loads");
+      if (field->reason.empty()) note_fault(field->path, "differs from the scene and loads");
     } else if (hash_of(target).digest() == hash) {
-      tell(field->path, "is saved but not hashed");
+      note_fault(field->path, "is saved but not hashed");
     }
   }
   return report;

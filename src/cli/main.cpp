@@ -42,8 +42,8 @@ void install_log_sink() {
       bare->warn(text);
       return;
     }
-    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::debug, spdlog::level::info,
-                                                     spdlog::level::warn, spdlog::level::err};
+    constexpr spdlog::level::level_enum kLevels[] = {spdlog::level::info, spdlog::level::warn,
+                                                     spdlog::level::err};
     logger->log(kLevels[static_cast<int>(level)], text);
   });
 }

@@ -20,7 +20,7 @@ class Activity;
 class ReachCheck;
 struct OperatorContext;
 
-/// Where a step opens the bucket.
+/// Position at which a step opens the bucket.
 struct DumpPoint {
   /// Position [m] in W.
   Vec2 at = Vec2::Zero();
@@ -31,7 +31,8 @@ struct DumpPoint {
 /// Description of one step: its values, and everything known about it before it runs.
 ///
 /// A kind of step is a class derived from this one in `activities/`, with `kElement`,
-/// `kText`, `describe` and `check` (scene::step_kind), and one row of `step_kinds()`. No other code knows it.
+/// `kText`, `describe` and `check` (scene::step_kind), and one row of `step_kinds()`. No other code
+/// knows it.
 class ActivityStep : public scene::Step {
  public:
   /// Returns true when the machine must have an arm (swing, boom, stick, bucket). The operator of a

@@ -9,9 +9,8 @@
 namespace navvy {
 
 /// Severity of a message. A warning says what was done instead of what was asked for. An error is a
-/// message only; the caller throws the exception that goes with it. Debug messages are for
-/// developers of the library.
-enum class LogLevel { kDebug, kInfo, kWarning, kError };
+/// message only; the caller throws the exception that goes with it.
+enum class LogLevel { kInfo, kWarning, kError };
 
 /// Takes one message, a line without its end. It is called from any thread that logs, so it must be
 /// thread-safe, and it must not log itself.

@@ -17,8 +17,6 @@ const char* word_for(NameKind kind) {
       return "element";
     case NameKind::kAttributeValue:
       return "value";
-    case NameKind::kOption:
-      return "option";
     case NameKind::kLayer:
       return "layer";
     case NameKind::kChannel:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that earlier releases used: elements of files, values, options, layers and channels.
+// Names that earlier releases used: elements of files, values, layers and channels.
 #pragma once
 
 #include <string>
@@ -11,7 +11,6 @@ namespace navvy {
 enum class NameKind {
   kElement,         ///< element of a scene file: "navvy:physics"
   kAttributeValue,  ///< "ELEMENT/ATTRIBUTE=VALUE" of a scene file: "navvy:drive/type=linkage"
-  kOption,          ///< option of the command line: "--duration"
   kLayer,           ///< layer of a map: "elevation"
   kChannel,         ///< channel of a controller; matches whole parts from its end: "drive/gear"
 };

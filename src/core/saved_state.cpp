@@ -165,11 +165,11 @@ std::vector<char> saved_state::save(const Visit& visit, ByteMap* map) {
   return archive.take();
 }
 
-void saved_state::load(std::vector<char> bytes, const Visit& visit, bool whole) {
+void saved_state::load(std::vector<char> bytes, const Visit& visit) {
   // If the visit throws, the object is half loaded; the caller discards it or loads it again.
   LoadArchive archive(std::move(bytes));
   visit(archive);
-  if (whole) archive.finish();
+  archive.finish();
 }
 
 }  // namespace navvy

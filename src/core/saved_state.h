@@ -52,8 +52,8 @@ using Visit = std::function<void(Archive&)>;
 void hash(StateHash& sum, const Visit& visit);
 /// Implements `saved`. A null `map` is not filled.
 std::vector<char> save(const Visit& visit, ByteMap* map);
-/// Implements load_saved (`whole`: all bytes must be read) and load_front.
-void load(std::vector<char> bytes, const Visit& visit, bool whole);
+/// Implements load_saved.
+void load(std::vector<char> bytes, const Visit& visit);
 
 /// Wraps the visit of a const object. Hashing and saving only read, which is the one promise of a
 /// visit that the compiler cannot check; the tests with flipped bytes find a visit that writes.
@@ -95,15 +95,7 @@ std::vector<char> saved(const T& object, ByteMap* map = nullptr) {
 /// loaded; load it again or discard it.
 template <class T>
 void load_saved(std::vector<char> bytes, T& object) {
-  saved_state::load(
-      std::move(bytes), [&object](Archive& archive) { object.visit(archive); }, true);
-}
-
-/// Loads an object that reads only the first sections of a longer state; the rest is left unread.
-template <class T>
-void load_front(std::vector<char> bytes, T& object) {
-  saved_state::load(
-      std::move(bytes), [&object](Archive& archive) { object.visit(archive); }, false);
+  saved_state::load(std::move(bytes), [&object](Archive& archive) { object.visit(archive); });
 }
 
 }  // namespace navvy

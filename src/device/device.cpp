@@ -64,13 +64,11 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
               : (type & CL_DEVICE_TYPE_GPU) ? Kind::kGpu
                                             : Kind::kOther;
   info.name = device_text(device, CL_DEVICE_NAME);
-  info.vendor = device_text(device, CL_DEVICE_VENDOR);
   info.platform = platform_text(platform, CL_PLATFORM_NAME);
   info.version = device_text(device, CL_DEVICE_VERSION);
   info.driver = device_text(device, CL_DRIVER_VERSION);
   info.compute_units = static_cast<int>(device_value<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS));
   info.memory = device_value<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
-  info.local_memory = device_value<cl_ulong>(device, CL_DEVICE_LOCAL_MEM_SIZE);
   info.max_work_group = device_value<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
   // True for CPUs and for graphics processors that are part of them; mapping costs no copy there.
   info.shares_memory = device_value<cl_bool>(device, CL_DEVICE_HOST_UNIFIED_MEMORY) == CL_TRUE;

@@ -22,13 +22,11 @@ struct DeviceInfo {
   /// Type by which kernels are scheduled.
   Kind kind = Kind::kOther;
   /// Texts as the driver reports them.
-  std::string name, vendor, platform, version, driver;
+  std::string name, platform, version, driver;
   /// Number of units that run work-groups in parallel, the cores of a CPU.
   int compute_units = 0;
   /// Global memory [bytes], or the limit from NAVVY_DEVICE_MEMORY_MIB if that is less.
   std::uint64_t memory = 0;
-  /// Local memory of one work-group [bytes].
-  std::uint64_t local_memory = 0;
   /// Largest work-group [work-items].
   std::size_t max_work_group = 0;
   /// True if the device shares the host's memory, so that mapping buffers costs no copy.

@@ -63,13 +63,4 @@ bool send_patch(const map::MapUpdate& update, const std::vector<MapLayer>& layer
   return true;
 }
 
-std::vector<char> patch_bytes(const map::MapUpdate& update, const std::vector<MapLayer>& layers) {
-  std::vector<char> out;
-  send_patch(update, layers, [&](const char* bytes, std::size_t count) {
-    out.insert(out.end(), bytes, bytes + count);
-    return true;
-  });
-  return out;
-}
-
 }  // namespace navvy::formats

@@ -19,8 +19,5 @@ using PatchSink = std::function<bool(const char* bytes, std::size_t count)>;
 /// when the sink ended the stream.
 bool send_patch(const map::MapUpdate& update, const std::vector<map::MapLayer>& layers,
                 const PatchSink& sink);
-/// Returns the whole patch at once.
-std::vector<char> patch_bytes(const map::MapUpdate& update,
-                              const std::vector<map::MapLayer>& layers);
 
 }  // namespace navvy::formats

@@ -21,9 +21,7 @@ std::vector<char> png_bytes(PixelKind kind, int width, int height,
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(width);
   png.height = static_cast<png_uint_32>(height);
-  constexpr png_uint_32 kFormats[] = {0, PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB,
-                                      PNG_FORMAT_RGBA};
-  png.format = kFormats[static_cast<int>(kind)];
+  png.format = kind == PixelKind::kGrayAlpha ? PNG_FORMAT_GA : PNG_FORMAT_RGBA;
   // libpng gives an upper bound for any content, so that one call suffices.
   std::vector<char> out(PNG_IMAGE_PNG_SIZE_MAX(png));
   png_alloc_size_t size = out.size();

@@ -8,7 +8,7 @@
 namespace navvy::formats {
 
 /// Channels of a pixel in the order of PNG; the value is their number.
-enum class PixelKind { kGray = 1, kGrayAlpha = 2, kRgb = 3, kRgba = 4 };
+enum class PixelKind { kGrayAlpha = 2, kRgba = 4 };
 
 /// Returns a PNG with 8 bits per channel, from rows without padding, top row first. @throws Error
 /// when the bytes do not fill the picture.

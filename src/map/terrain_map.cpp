@@ -110,18 +110,6 @@ bool LayerTiles::set(int ix, int iy, float value, std::uint64_t edition) {
   return true;
 }
 
-// Views have the size of a tile even at the edge of the site, so that callers need no special case.
-LayerTiles::View LayerTiles::view(int tx, int ty) const {
-  // All tiles of which nothing is known look at this one.
-  static const Values unknown = [] {
-    Values out{};
-    out.fill(kUnknown);
-    return out;
-  }();
-  const float* tile = values(tile_of(tx * kSide, ty * kSide));
-  return View(tile != nullptr ? tile : unknown.data());
-}
-
 void LayerTiles::copy(const CellRect& rect, float* out, std::size_t stride) const {
   // Four tiles a side at once: layers that look around compute as many columns beside them for one
   // tile as for sixteen.
@@ -175,12 +163,6 @@ std::vector<float> TerrainMap::copy(MapLayer layer, const CellRect& rect) const 
               out.data() + static_cast<std::size_t>(inside.y0 - rect.y0) * width +
                   static_cast<std::size_t>(inside.x0 - rect.x0),
               width);
-  return out;
-}
-
-TerrainMap TerrainMap::with(MapLayer layer, std::shared_ptr<const LayerSource> source) const {
-  TerrainMap out = *this;
-  out.tiles_[index_of(layer)] = LayerTiles(nx(), ny(), layer, std::move(source));
   return out;
 }
 

@@ -65,11 +65,6 @@ class LayerTiles {
     const float* tile = values(tile_of(ix, iy));
     return tile != nullptr ? tile + place(ix, iy) : nullptr;
   }
-  /// A tile in memory: rows along y, columns along x.
-  using View = Eigen::Map<const Eigen::Array<float, kSide, kSide, Eigen::RowMajor>>;
-  /// Returns tile (tx, ty), columns 64 tx to 64 tx + 63, without a copy. It is valid as long as a
-  /// map that holds it. Values beyond the edge of the site are unknown.
-  View view(int tx, int ty) const;
   /// Copies the values over `rect`, which lies within the site, x fastest, with `stride` values
   /// from row to row.
   void copy(const heightfield::CellRect& rect, float* out, std::size_t stride) const;
@@ -165,9 +160,6 @@ class TerrainMap {
   /// Returns this map with `values` (nx x ny, x fastest) as that layer. @throws Error when their
   /// number does not match.
   TerrainMap with(MapLayer layer, std::span<const float> values) const;
-  /// Returns this map with that layer computed by `source`; without a source it is unknown
-  /// everywhere.
-  TerrainMap with(MapLayer layer, std::shared_ptr<const LayerSource> source) const;
   /// Moves this map into one with another number.
   TerrainMap numbered(std::uint64_t sequence) &&;
 

@@ -12,6 +12,9 @@ template <class... F>
 struct Overloaded : F... {
   using F::operator()...;
 };
+// Clang 14 deduces no arguments of an aggregate.
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
 
 struct Suffix {
   std::string_view end;

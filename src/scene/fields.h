@@ -40,7 +40,7 @@ std::string short_text(double value, int digits = 9);
 std::string exact_text(double in_si, double factor = 1);
 
 /// Kind of object that the text of a field names.
-enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kMachine, kHitch };
+enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kHitch };
 
 /// Options of a field, joined by `|`.
 struct Mark {
@@ -272,7 +272,7 @@ struct NamedNumber {
 /// Returns the numbers that `describe` lists directly, without those of child elements. They refer
 /// to the described object.
 std::vector<NamedNumber> numbers_of(const std::function<void(Fields&)>& describe);
-/// Returns the name by which `describe` tells its object from others: the attribute `name`, else
+/// Returns the name by which `describe` identifies its object: the attribute `name`, else
 /// the first name of another object; empty without either.
 std::string name_of(const std::function<void(Fields&)>& describe);
 

@@ -276,7 +276,7 @@ struct Wheel {
   double damping = 1.5e4;
   double friction = 0.8;
   double rolling_resistance = 0.02;
-  /// Of a sprocket; stiffness and damping are then those of all rollers together.
+  /// Track of a sprocket; stiffness and damping are then those of all rollers together.
   std::optional<Track> track;
   std::string name;
 

@@ -40,7 +40,7 @@ struct Work {
 class Faults {
  public:
   /// Reports an error. `at` gives file, line and path; `value` was found, `rule` is allowed,
-  /// `remedy` tells how to correct it.
+  /// `remedy` says how to correct it.
   void error(const Element& at, const std::string& value, const std::string& rule,
              const std::string& remedy = "");
   void warning(const Element& at, const std::string& value, const std::string& rule,

@@ -4,12 +4,9 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/hash.h"
 #include "core/log.h"
 #include "core/saved_state.h"
-#include "core/sealed.h"
-#include "heightfield/make_ground.h"
 
 namespace navvy::sim {
 namespace {
@@ -78,41 +75,6 @@ void SnapshotStart::visit(Archive& a) {
     log_warning("resuming although the scene's parameters differ from the snapshot's: " +
                 differences);
   });
-}
-
-namespace {
-
-/// The ground's section is the first of all parts. The rest needs a device and is not read.
-struct Front {
-  SnapshotStart start;
-  SnapshotHead head;
-  heightfield::Ground ground;
-
-  void visit(Archive& a) {
-    a("start", start);
-    a("head", head);
-    a("ground", ground);
-  }
-};
-
-}  // namespace
-
-// Reads the head and the ground's section only.
-heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
-                                SnapshotHead* head) {
-  try {
-    heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
-    Front front{{start_of(scene, ground), scene.name}, {scene.name}, std::move(ground)};
-    // Snapshots are read as whole files everywhere.
-    load_front(unseal(read_file(snapshot_file)), front);
-    if (head != nullptr) *head = front.head;
-    return std::move(front.ground);
-  } catch (const InputError& error) {
-    // Sections do not know the file; add its name.
-    Fault fault = error.faults().front();
-    if (fault.file.empty() || fault.file == "snapshot") fault.file = snapshot_file;
-    throw InputError(fault);
-  }
 }
 
 }  // namespace navvy::sim

@@ -47,12 +47,4 @@ struct SnapshotStart {
   void visit(Archive& a);
 };
 
-/// Returns the ground when the snapshot was taken: the columns, without active soil. `scene` is the
-/// one that ran (a run's folder holds it as scene.sdf). Needs no OpenCL device; reads the heightmap
-/// that the scene names. Stores the snapshot's time in `head` if given.
-/// @throws FileError if the file cannot be read, InputError if it does not fit the scene; the
-/// message names the file.
-heightfield::Ground load_ground(const scene::Scene& scene, const std::string& snapshot_file,
-                                SnapshotHead* head = nullptr);
-
 }  // namespace navvy::sim

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "soil/host_law/double_law.h"
 #include "soil/particles/soil_table.h"
-#include "soil/reference/double_law.h"
 
 namespace navvy::soil {
 namespace {

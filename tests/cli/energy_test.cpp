@@ -32,10 +32,10 @@ TEST_F(Energy, OfADigIsInTheSummaryAndResultsAreBitIdentical) {
     spent += energy.at(term).get<double>();
   const double supplied = energy.at("tools").get<double>() + energy.at("gravity").get<double>() +
                           energy.at("exchanged").get<double>();
-  const double kept = energy.at("kinetic").get<double>() + energy.at("elastic").get<double>();
+  const double stored = energy.at("kinetic").get<double>() + energy.at("elastic").get<double>();
   EXPECT_GT(energy.at("tools").get<double>(), 0);
   EXPECT_LE(spent, supplied);
-  EXPECT_NEAR(energy.at("residual").get<double>(), supplied - kept - spent, 1e-6 * supplied);
+  EXPECT_NEAR(energy.at("residual").get<double>(), supplied - stored - spent, 1e-6 * supplied);
   EXPECT_LT(std::abs(energy.at("residual").get<double>()), 0.05 * supplied);
   EXPECT_TRUE(with.contains("energy_j")) << "the machine's own account remains";
   const nlohmann::json without = dig({});

@@ -100,10 +100,10 @@ class Alone {
   void follow(std::size_t j, double target) {
     vehicle::JointState& joint = seen.joints[j];
     const double rest = target - joint.position;
-    const double way =
+    const double travel =
         place.machine.joints[j].name == slow ? std::clamp(rest, -pace * kStep, pace * kStep) : rest;
-    joint.position += way;
-    joint.velocity = place.machine.joints[j].name == slow ? way / kStep : 0;
+    joint.position += travel;
+    joint.velocity = place.machine.joints[j].name == slow ? travel / kStep : 0;
   }
   std::uint64_t digest() const {
     StateHash hash;

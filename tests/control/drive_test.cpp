@@ -19,7 +19,7 @@ constexpr double kStep = Bicycle::kStep;
 
 struct Arrival {
   bool done = false;
-  double miss = 0, turned = 0, time = 0;
+  double distance = 0, turned = 0, time = 0;
   Bicycle bicycle;
 };
 
@@ -39,7 +39,7 @@ Arrival drive(const DriveTo& goal, const PlanePose& start) {
     if (command.drive) arrival.bicycle.step(*command.drive);
   }
   arrival.done = op.done();
-  arrival.miss = (arrival.bicycle.at.p - goal.target).norm();
+  arrival.distance = (arrival.bicycle.at.p - goal.target).norm();
   arrival.turned = std::remainder(arrival.bicycle.at.yaw - goal.heading, 2 * kPi);
   return arrival;
 }
@@ -57,7 +57,7 @@ TEST(Drive, StopsAtTheTargetFiveMetresAheadWithTheBrakeOn) {
   const Arrival a = drive(to(-4, 0, 0), {Vec2(-9, 0), 0});
   EXPECT_TRUE(a.done);
   // The drive's lag of 0.2 s at creeping speed, and braking 0.02 m short
-  EXPECT_LT(a.miss, 0.05);
+  EXPECT_LT(a.distance, 0.05);
   EXPECT_LT(std::abs(a.turned), 1e-6);
   EXPECT_TRUE(a.bicycle.braked);
   EXPECT_LT(a.bicycle.fastest, 1.2 + 1e-9);
@@ -70,7 +70,7 @@ TEST(Drive, StopsAtTheTargetFiveMetresAheadWithTheBrakeOn) {
 TEST(Drive, GoesBackwardsStraight) {
   const Arrival a = drive(to(-9, 0, 0, -1.0), {Vec2(-4, 0.1), radians(2)});
   EXPECT_TRUE(a.done);
-  EXPECT_LT(a.miss, 0.15);  // the scene's default tolerance
+  EXPECT_LT(a.distance, 0.15);  // the scene's default tolerance
   EXPECT_LT(std::abs(a.turned), radians(3));
   EXPECT_LT(a.time, 20);
 }
@@ -80,11 +80,11 @@ TEST(Drive, ArrivesBesideAndTurned) {
     for (const double x : {0.0, 300.0}) {  // far from the origin it is the same
       const Arrival shifted = drive(to(x + 12, side * 2, 0), {Vec2(x, 0), 0});
       EXPECT_TRUE(shifted.done);
-      EXPECT_LT(shifted.miss, 0.15) << side;  // the scene's default tolerance
+      EXPECT_LT(shifted.distance, 0.15) << side;  // the scene's default tolerance
       EXPECT_LT(std::abs(shifted.turned), radians(3)) << side;
       const Arrival turned = drive(to(x + 10, side * 9, side * kPi / 2), {Vec2(x, 0), 0});
       EXPECT_TRUE(turned.done);
-      EXPECT_LT(turned.miss, 0.15) << side;
+      EXPECT_LT(turned.distance, 0.15) << side;
       EXPECT_LT(std::abs(turned.turned), radians(3)) << side;
     }
 }
@@ -94,7 +94,7 @@ TEST(Drive, FollowsTheStraightLineToATargetWithoutHeading) {
   goal.target = Vec2(10, 4);
   const Arrival a = drive(goal, {Vec2(0, 0), 0});
   EXPECT_TRUE(a.done);
-  EXPECT_LT(a.miss, goal.tolerance);
+  EXPECT_LT(a.distance, goal.tolerance);
 }
 
 /// A machine that does not move whatever its command: the wheels' spin [rad/s] and the tyres' push

@@ -97,13 +97,13 @@ TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
       Path({Vec2(0, 0), 0.3}, {{-6, k}, {-4, 0}, {-6, -k}}),
       Path({Vec2(0, 0), 3.0}, {{5, k}, {5, -k}, {-7, k}, {-3, 0}, {8, -k}, {2, 0}}),
   };
-  double most = 0, miss = 0;
+  double most = 0, goal_distance = 0;
   for (const Path& path : paths)
     for (const double speed : {0.5, 1.0, 1.5}) {
       const Followed run = follow(path, path.start(), speed);
       const PlanePose end = path.at(path.length());
       most = std::max(most, run.aside);
-      miss = std::max(miss, (run.bicycle.at.p - end.p).norm());
+      goal_distance = std::max(goal_distance, (run.bicycle.at.p - end.p).norm());
       // From one lock to the other at 0.55 m/s; starting from rest, the drive's lag and creeping
       // cost only seconds.
       EXPECT_LT(run.time, path.length() / std::min(speed, 0.55) +
@@ -113,9 +113,9 @@ TEST(PathFollower, EndsAtTheGoalForwardsBackwardsAndOverCusps) {
           << speed;
     }
   print_value("largest distance from the path [m]", most, "<= 0.03", "a bicycle");
-  print_value("largest distance from the goal [m]", miss, "<= 0.12", "a bicycle");
+  print_value("largest distance from the goal [m]", goal_distance, "<= 0.12", "a bicycle");
   EXPECT_LT(most, 0.03);  // a plan keeps 0.2 m more than the required clearance
-  EXPECT_LT(miss, 0.12);
+  EXPECT_LT(goal_distance, 0.12);
 }
 
 TEST(PathFollower, ReturnsToItsPath) {

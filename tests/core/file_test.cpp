@@ -119,14 +119,14 @@ TEST_F(File, DoesNotReplacePipesDevicesOrFolders) {
   for (const auto& each : all) {
     // A lambda cannot capture a structured binding.
     const std::string &name = each.first, &what = each.second;
-    const std::string told = "cannot write '" + path(name) + "': it is " + what +
-                             ", and only a plain file can be replaced (name a file)";
-    EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), told);
-    EXPECT_EQ(message([&] { require_writable(path(name)); }), told);
+    const std::string expected = "cannot write '" + path(name) + "': it is " + what +
+                                 ", and only a plain file can be replaced (name a file)";
+    EXPECT_EQ(message([&] { write_file_atomically(path(name), std::string("x")); }), expected);
+    EXPECT_EQ(message([&] { require_writable(path(name)); }), expected);
     // Also when another library has already written the temporary file.
     if (name != "full") {
       std::ofstream(partial_name(path(name))) << "x";
-      EXPECT_EQ(message([&] { commit_file(path(name)); }), told);
+      EXPECT_EQ(message([&] { commit_file(path(name)); }), expected);
       EXPECT_FALSE(fs::exists(partial_name(path(name))));
     }
   }

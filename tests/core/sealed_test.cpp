@@ -72,7 +72,7 @@ TEST(Sealed, EveryFlippedBitIsRefused) {
 
 TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
   const std::vector<char> content = seal(saved(State()));
-  const auto told = [&](std::size_t byte) {
+  const auto message_of = [&](std::size_t byte) {
     std::vector<char> flipped = content;
     flipped[byte] = static_cast<char>(flipped[byte] ^ 0x80);
     try {
@@ -82,13 +82,14 @@ TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
     }
     return std::string();
   };
-  EXPECT_NE(told(content.size() - 1).find("section 3, 'part': the checksum does not match"),
+  EXPECT_NE(message_of(content.size() - 1).find("section 3, 'part': the checksum does not match"),
             std::string::npos)
-      << told(content.size() - 1);
+      << message_of(content.size() - 1);
   // The name itself is damaged: its leading letters are reported.
   const std::size_t name = 32 + 8;
-  EXPECT_NE(told(name + 2).find("section 1, 'pa': "), std::string::npos) << told(name + 2);
-  EXPECT_NE(told(name).find("section 1: "), std::string::npos) << told(name);
+  EXPECT_NE(message_of(name + 2).find("section 1, 'pa': "), std::string::npos)
+      << message_of(name + 2);
+  EXPECT_NE(message_of(name).find("section 1: "), std::string::npos) << message_of(name);
 }
 
 TEST(Sealed, RefusesEveryWrongLength) {

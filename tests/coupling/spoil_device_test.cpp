@@ -64,7 +64,7 @@ class Layer {
     for (int iy = area_.y0; iy < area_.y1; ++iy)
       for (int ix = area_.x0; ix < area_.x1; ++ix) loosen(ix, iy);
   }
-  void wake() { parts_.soil.activate(area_, foot_); }
+  void activate() { parts_.soil.activate(area_, foot_); }
   /// Reactivates every 0.05 s the soil that rested for 0.8 s and was deposited, except for columns
   /// within `around` [m] of a wheel's middle.
   void keep_active(double around) {
@@ -121,7 +121,7 @@ double sinks_where_it_stands(const std::string& soil, bool active) {
   sim::World world(yard("ew180", soil), shared_device());
   const Vec3 front = wheel_place(world, 0);
   Layer layer(world, {front.x() - 0.9, -1.9}, {front.x() + 0.9, 1.9});
-  if (active) layer.wake();
+  if (active) layer.activate();
   int most = 0;
   run(world, 2.5, [&] {
     if (active) layer.keep_active(0.7);
@@ -154,7 +154,7 @@ TEST(Spoil, AnExcavatorDrivesOverActiveSoilLikeOverColumns) {
     Layer layer(world, {x + 1.0, -1.9}, {x + 2.2, 1.9});
     world.commands().set(world.machines().at(0), {1.0, 0, false});
     while (wheel_place(world, 0).x() < x + 0.5) world.step();
-    if (active) layer.wake();
+    if (active) layer.activate();
     int count = 0, over_active = 0;
     while (wheel_place(world, 0).x() < x + 2.0) {
       world.step();
@@ -185,7 +185,7 @@ TEST(Spoil, ACrawlerStandsOnActiveSoilLikeOnColumns) {
     sim::World world(yard("ex180_tracked"), shared_device());
     const Vec3 base = base_place(world);
     Layer layer(world, {base.x() - 2.6, -1.8}, {base.x() + 2.6, 1.8});
-    if (active) layer.wake();
+    if (active) layer.activate();
     int most = 0;
     run(world, 1.0, [&] { most = std::max(most, layer.particles()); });
     EXPECT_EQ(most > 5000, active);
@@ -201,7 +201,7 @@ TEST(Spoil, ARunResumesFromASnapshotOnActiveSoil) {
   sim::World whole(yard("ew180"), shared_device()), resumed(yard("ew180"), shared_device());
   const double x = wheel_place(whole, 0).x();
   Layer layer(whole, {x + 0.3, -1.9}, {x + 1.3, 1.9});
-  layer.wake();
+  layer.activate();
   whole.commands().set(whole.machines().at(0), {1.0, 0, false});
   run(whole, 0.55);
   load_saved(saved(whole), resumed);

@@ -38,16 +38,17 @@ TEST(Fault, ARunReportsOrSurvivesAFailedCall) {
                              : call == "new" || call == "buffer" ? "ENOMEM"
                              : call == "write"                   ? "ENOSPC"
                                                                  : "EIO";
-    int told = 0;
+    int reported = 0;
     for (long i = 0; i < kSamples; ++i) {
       const long n = 1 + (2 * i + 1) * count / (2 * kSamples);
       const std::string fault = call + ":" + std::to_string(n) + ":" + code;
       const Outcome got =
           attack(folder.path().string(), arguments, with(folder, fault), sound.hash);
       EXPECT_EQ(got.broken, "") << fault << " ended with " << got.status << "\n" << got.said;
-      told += got.status != 0;
+      reported += got.status != 0;
     }
-    std::printf("%s: %ld calls, %ld failed, %d reported\n", call.c_str(), count, kSamples, told);
+    std::printf("%s: %ld calls, %ld failed, %d reported\n", call.c_str(), count, kSamples,
+                reported);
   }
 }
 

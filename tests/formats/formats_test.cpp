@@ -129,22 +129,22 @@ TEST(GeoTiff, IsReadByGdalWithPlacesNamesUnitsAndHoles) {
                   3e-5);
       ASSERT_NEAR(values[k + 1], hole(ix, iy) ? -9999 : static_cast<double>(good(ix, iy)), 1e-7);
     }
-  const nlohmann::json told = nlohmann::json::parse(
+  const nlohmann::json info = nlohmann::json::parse(
       output_of("gdalinfo -json '" + folder / "map.tif" + "'"), nullptr, false);
-  ASSERT_FALSE(told.is_discarded());
-  EXPECT_EQ(told["size"], (nlohmann::json{kNx, kNy}));
-  EXPECT_EQ(told["bands"][0]["description"], "elevation");
-  EXPECT_EQ(told["bands"][0]["unit"], "m");
-  EXPECT_EQ(told["bands"][1]["description"], "traversability");
-  EXPECT_EQ(told["bands"][1]["unit"], "-");
-  EXPECT_EQ(told["bands"][1]["type"], "Float32");
-  EXPECT_EQ(told["bands"][1]["noDataValue"], -9999.0);
-  EXPECT_EQ(told["metadata"][""]["AREA_OR_POINT"], "Area");
-  EXPECT_EQ(told["metadata"][""]["NAVVY_FILLED_SHARE"], "0.25");
-  EXPECT_EQ(told["metadata"][""]["NAVVY_FILLED_FROM_M"], "1.5");
-  EXPECT_NEAR(told["geoTransform"][0].get<double>(), 1540000.25, 1e-9);
-  EXPECT_NEAR(told["geoTransform"][3].get<double>(), 5150000.5 + 3.6, 1e-9);
-  EXPECT_NE(told["coordinateSystem"]["wkt"].get<std::string>().find("32632"), std::string::npos);
+  ASSERT_FALSE(info.is_discarded());
+  EXPECT_EQ(info["size"], (nlohmann::json{kNx, kNy}));
+  EXPECT_EQ(info["bands"][0]["description"], "elevation");
+  EXPECT_EQ(info["bands"][0]["unit"], "m");
+  EXPECT_EQ(info["bands"][1]["description"], "traversability");
+  EXPECT_EQ(info["bands"][1]["unit"], "-");
+  EXPECT_EQ(info["bands"][1]["type"], "Float32");
+  EXPECT_EQ(info["bands"][1]["noDataValue"], -9999.0);
+  EXPECT_EQ(info["metadata"][""]["AREA_OR_POINT"], "Area");
+  EXPECT_EQ(info["metadata"][""]["NAVVY_FILLED_SHARE"], "0.25");
+  EXPECT_EQ(info["metadata"][""]["NAVVY_FILLED_FROM_M"], "1.5");
+  EXPECT_NEAR(info["geoTransform"][0].get<double>(), 1540000.25, 1e-9);
+  EXPECT_NEAR(info["geoTransform"][3].get<double>(), 5150000.5 + 3.6, 1e-9);
+  EXPECT_NE(info["coordinateSystem"]["wkt"].get<std::string>().find("32632"), std::string::npos);
 }
 
 TEST(GeoTiff, WritesHeightsInFeetForASiteInFeet) {

@@ -180,13 +180,14 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportIgnores) {
                        for (int ix = 0; ix < view.nx(); ++ix) out.push_back(value(ix, iy));
                    }};
   };
-  write_geotiff(view, dir + "awake.tif",
-                {band("loose_depth", [&](int ix, int iy) { return view.loose_depth(ix, iy); }),
-                 band("active", [&](int ix, int iy) { return view.active(ix, iy) ? 1.0f : 0.0f; })});
+  write_geotiff(
+      view, dir + "active.tif",
+      {band("loose_depth", [&](int ix, int iy) { return view.loose_depth(ix, iy); }),
+       band("active", [&](int ix, int iy) { return view.active(ix, iy) ? 1.0f : 0.0f; })});
   write_geotiff(view, dir + "plain.tif");
   std::string report;
   const Ground read =
-      make_ground(testing::map_world(dir + "awake.tif", 0.1, Vec2(7.7, 4.5)), &report);
+      make_ground(testing::map_world(dir + "active.tif", 0.1, Vec2(7.7, 4.5)), &report);
   EXPECT_NE(report.find("3 bands"), std::string::npos) << report;
   const Ground plain = make_ground(testing::map_world(dir + "plain.tif", 0.1, Vec2(7.7, 4.5)));
   for (int iy = 0; iy < read.ny(); ++iy)
@@ -194,7 +195,7 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportIgnores) {
   if (!has_tool("gdallocationinfo") || !has_tool("gdalinfo")) GTEST_SKIP() << "gdal-bin is missing";
   // Returns a point's values, band after band.
   const std::vector<double> values =
-      located(dir + "awake.tif", {{100.55, 200.65}, {100.75, 200.65}});
+      located(dir + "active.tif", {{100.55, 200.65}, {100.75, 200.65}});
   ASSERT_EQ(values.size(), 6u);
   EXPECT_NEAR(values[0], top + 0.15, 1e-6);  // 1.5 l on 0.01 m2; half an ulp of a float at 1 m
   EXPECT_NEAR(values[1], 0.15, 1e-6);
@@ -202,7 +203,7 @@ TEST(Export, WritesMapLayersAsFurtherBandsThatAnImportIgnores) {
   EXPECT_NEAR(values[3], ground.height(7, 6), 1e-6);
   EXPECT_EQ(values[4], 0);
   EXPECT_EQ(values[5], 0);
-  EXPECT_NE(testing::output_of("gdalinfo '" + dir + "awake.tif'").find("loose_depth"),
+  EXPECT_NE(testing::output_of("gdalinfo '" + dir + "active.tif'").find("loose_depth"),
             std::string::npos);
 }
 #endif

@@ -110,8 +110,8 @@ TEST(MapMaker, StampsOnlyColumnsThatChanged) {
           differs = differs || before.at(each, ix, iy) != now.at(each, ix, iy);
         float& stamp = expected[static_cast<std::size_t>(iy) * ground.nx() + ix];
         if (differs) stamp = 0.25f * static_cast<float>(round);
-        const float told = now.at(MapLayer::kDisturbedAt, ix, iy);
-        ASSERT_TRUE(told == stamp || (told != told && stamp != stamp))
+        const float disturbed_at = now.at(MapLayer::kDisturbedAt, ix, iy);
+        ASSERT_TRUE(disturbed_at == stamp || (disturbed_at != disturbed_at && stamp != stamp))
             << ix << " " << iy << " in round " << round;
       }
     before = now;
@@ -351,20 +351,6 @@ TEST(Layers, HaveOneRuleEach) {
       EXPECT_NE(std::count(each.from.begin(), each.from.end(), MapLayer::kElevation), 0)
           << each.name;
   }
-}
-
-TEST(TerrainMap, ExposesItsTilesWithoutACopy) {
-  const TerrainMap map =
-      testing::map_of(testing::setup(), [](double x, double y) { return 0.1 * x - 0.2 * y; });
-  const LayerTiles& tiles = map.tiles(MapLayer::kElevation);
-  const LayerTiles::View view = tiles.view(1, 1);
-  // Column (64 + 5, 64 + 7): rows run along y.
-  EXPECT_EQ(view(7, 5), map.at(MapLayer::kElevation, 69, 71));
-  int count = 0;
-  EXPECT_EQ(view.data(), tiles.row(64, 64, count)) << "identical numbers";
-  // 148 x 84 columns: the rest of the last tile is off the site.
-  EXPECT_TRUE(std::isnan(tiles.view(2, 1)(0, 63)));
-  EXPECT_TRUE(std::isnan(map.tiles(MapLayer::kTarget).view(0, 0)(3, 3)));
 }
 
 }  // namespace

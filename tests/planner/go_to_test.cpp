@@ -58,7 +58,7 @@ struct Trip {
     const control::Command command = op.update(seen, time, Bicycle::kStep);
     if (command.drive) bicycle.step(*command.drive);
     time += Bicycle::kStep;
-    if (++steps % 20 == 0) way.push_back(bicycle.at);
+    if (++steps % 20 == 0) poses.push_back(bicycle.at);
   }
   void run(
       double until, const std::function<void()>& each = [] {}) {
@@ -74,11 +74,11 @@ struct Trip {
     const map::TerrainMap map = maker.map();
     const Footprint footprint = footprint_of(excavator());
     double least = 1;
-    for (const control::PlanePose& at : way)
+    for (const control::PlanePose& at : poses)
       least = std::min(least, clearance(map, footprint, at.p.x(), at.p.y(), at.yaw, 1));
     return least;
   }
-  double figure(const std::string& name) const {
+  double value_of(const std::string& name) const {
     for (const control::Measurement& each : op.reports().back().figures)
       if (each.name == name) return each.value;
     return NAN;
@@ -88,7 +88,7 @@ struct Trip {
   heightfield::Ground ground;
   Bicycle bicycle;
   control::Observation seen;
-  std::vector<control::PlanePose> way;
+  std::vector<control::PlanePose> poses;
   double time = 0;
   int steps = 0;
 };
@@ -106,7 +106,7 @@ void expect_arrived(const Trip& trip, const GoTo& goal) {
   EXPECT_LT((trip.bicycle.at.p - goal.target).norm(), 0.5);
   EXPECT_LT(std::abs(std::remainder(trip.bicycle.at.yaw - goal.heading, 2 * kPi)), radians(5));
   EXPECT_TRUE(trip.bicycle.braked);
-  print_value("distance from the goal [m]", trip.figure("goal_error_m"), "< 0.5", "tolerance");
+  print_value("distance from the goal [m]", trip.value_of("goal_error_m"), "< 0.5", "tolerance");
   print_value("least clearance [m]", trip.least_clearance(), ">= 0.3", "asked for");
   EXPECT_GE(trip.least_clearance(), 0.3);
 }
@@ -134,8 +134,8 @@ TEST_F(GoToStep, DrivesAroundATrenchDugAfterPlanning) {
     EXPECT_TRUE(crosses(trip.op.paths()[0].path));
     EXPECT_FALSE(crosses(trip.op.paths()[1].path));
     EXPECT_EQ(trip.op.paths()[0].time, 0);
-    EXPECT_EQ(trip.figure("plans"), 2);
-    EXPECT_GE(trip.figure("least_clearance_m"), 0.3);
+    EXPECT_EQ(trip.value_of("plans"), 2);
+    EXPECT_GE(trip.value_of("least_clearance_m"), 0.3);
   }
 }
 
@@ -147,7 +147,7 @@ TEST_F(GoToStep, ArrivesWithAnyHeadingOverCusps) {
     trip.run(300);
     expect_arrived(trip, goal);
     ASSERT_EQ(trip.op.paths().size(), 1u);
-    EXPECT_EQ(trip.figure("cusps"), trip.op.paths()[0].path.cusps());
+    EXPECT_EQ(trip.value_of("cusps"), trip.op.paths()[0].path.cusps());
   }
 }
 

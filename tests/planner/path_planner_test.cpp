@@ -85,20 +85,20 @@ TEST(ObstacleIndex, NeverReportsAnOccupiedPlaceAsClear) {
   const ObstacleIndex index(map);
   const Footprint footprint = footprint_of(excavator());
   Random random(3);
-  int clear = 0, told = 0;
+  int clear = 0, reported = 0;
   for (int i = 0; i < 20000; ++i) {
     const double x = random.uniform() * 40 - 20, y = random.uniform() * 28 - 14,
                  yaw = random.uniform() * 7;
     const bool is = clearance(map, footprint, x, y, yaw, 0.4) >= 0.4;
     const bool says = index.surely_clear(footprint, x, y, yaw, 0.4);
     ASSERT_TRUE(is || !says) << x << " " << y << " " << yaw;
-    clear += is, told += says;
+    clear += is, reported += says;
   }
   // Places that the index leaves undecided are queried in the map itself: few enough to be
   // worthwhile.
-  print_value("share of clear places that the index reports", static_cast<double>(told) / clear,
+  print_value("share of clear places that the index reports", static_cast<double>(reported) / clear,
               "> 0.6", "20 000 poses");
-  EXPECT_GT(told, 0.6 * clear);
+  EXPECT_GT(reported, 0.6 * clear);
 }
 
 class PathPlanner : public ::testing::Test {

@@ -162,10 +162,10 @@ void add_machine(TrenchScene& scene, const std::string& dir, const MachinePose& 
   const Vec3 pivot(2.084, 0, 0), pin = f.stick.inverse() * (f.bucket * Vec3(-0.2907, 0, 0.3294));
   const double reach = 0.697, coupler = 0.62, d = (pin - pivot).norm();
   const double along = (reach * reach - coupler * coupler + d * d) / (2 * d);
-  const Vec3 way = (pin - pivot) / d;
-  const Vec3 joint =
-      pivot + along * way +
-      std::sqrt(std::max(0.0, reach * reach - along * along)) * Vec3(-way.z(), 0, way.x());
+  const Vec3 direction = (pin - pivot) / d;
+  const Vec3 joint = pivot + along * direction +
+                     std::sqrt(std::max(0.0, reach * reach - along * along)) *
+                         Vec3(-direction.z(), 0, direction.x());
   add_cylinder(scene, f.stick * Vec3(-0.097, 0, 0.314), f.stick * joint, 0.065, 0.6);
   for (const double side : {0.20, -0.20}) {
     const Vec3 y(0, side, 0);

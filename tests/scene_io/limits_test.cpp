@@ -114,8 +114,8 @@ TEST(Limits, CountsEveryFaultEvenIfFewAreReported) {
   write_file_atomically(file, world_text(repeated("<thing/>\n", 10'000) +
                                          repeated("<light type=\"point\" name=\"l\"/>", 200)));
   FaultCount count;
-  const std::vector<Fault> told = check(file, control::step_kinds(), nullptr, {}, nullptr, &count);
-  EXPECT_LT(told.size(), 250u);
+  const std::vector<Fault> found = check(file, control::step_kinds(), nullptr, {}, nullptr, &count);
+  EXPECT_LT(found.size(), 250u);
   EXPECT_EQ(count.errors, 10'000u);
   EXPECT_GE(count.warnings, 200u);
 }

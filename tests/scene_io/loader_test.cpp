@@ -381,12 +381,12 @@ TEST(Overrides, SelectAMachineByItsWholeName) {
 
 TEST(Loader, ADirectionsFaultIsReportedOnce) {
   for (const char* direction : {"0 0 0", "0 0 x", "0 0"}) {
-    const std::string told = failure(
+    const std::string message = failure(
         "<navvy:soil ref=\"loam\"/><navvy:ground/><light name=\"sun\" "
         "type=\"directional\"><direction>" +
         std::string(direction) + "</direction></light>");
-    EXPECT_NE(told.find("direction"), std::string::npos) << told;
-    EXPECT_EQ(told.find('\n'), std::string::npos) << told;
+    EXPECT_NE(message.find("direction"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
 }
 

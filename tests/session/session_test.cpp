@@ -17,7 +17,6 @@
 #include "paths.h"
 #include "scene_io/loader.h"
 #include "sim/height_grid.h"
-#include "sim/snapshot.h"
 #include "sim/world_parts.h"
 
 namespace navvy::session {
@@ -205,17 +204,6 @@ TEST_F(SessionTest, ASensorIsAddedThroughSimAndSavedInSnapshots) {
   load_saved(bytes, *resumed);
   run_to(*resumed, 0.3);
   EXPECT_EQ(resumed->state_hash(), whole->state_hash());
-}
-
-TEST_F(SessionTest, TheGroundOfASnapshotIsReadWithoutASession) {
-  const test::Folder folder;
-  const scene::Scene description = load("bucket_path.sdf");
-  const auto session = make(description);
-  run_to(*session, kInSoil);
-  session->save(folder / "dug.snapshot");
-  const heightfield::Ground ground = sim::load_ground(description, folder / "dug.snapshot");
-  EXPECT_EQ(hash_of(ground).hex(), hash_of(session->world().ground()).hex());
-  EXPECT_GT(ground.touched_tiles(), 0u);
 }
 
 TEST_F(SessionTest, ADriveCommandByChannelsIsRestoredFromASnapshot) {

@@ -123,7 +123,7 @@ Result soak(device::Device& device, const Plan& plan) {
   return out;
 }
 
-std::string told(const Result& result, const Plan& plan) {
+std::string summary(const Result& result, const Plan& plan) {
   const auto hours = [](long cycles) { return static_cast<double>(cycles) * kCycle / 3600; };
   const auto kib = [](std::int64_t bytes) { return static_cast<double>(bytes) / 1024; };
   char text[512];

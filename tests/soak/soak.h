@@ -49,7 +49,7 @@ struct Result {
 Result soak(device::Device& device, const Plan& plan);
 
 /// Returns the result as text: hours reached, bytes, ledger, hashes, violated claims.
-std::string told(const Result& result, const Plan& plan);
+std::string summary(const Result& result, const Plan& plan);
 
 /// Returns bytes.svg: bytes in use over simulated hours, one strip per kind.
 std::string picture(const std::vector<Phase>& phases);

@@ -29,7 +29,7 @@ int run(const char* folder, double hours) {
   };
   device::Device device;
   const soak::Result result = soak::soak(device, plan);
-  std::printf("%s", soak::told(result, plan).c_str());
+  std::printf("%s", soak::summary(result, plan).c_str());
   if (!result.broken.empty()) return 1;
   return result.compared < plan.cycles ? 130 : 0;
 }

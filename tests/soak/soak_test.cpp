@@ -97,7 +97,7 @@ TEST(Soak, FourCyclesHaveFlatMemoryAndMatchFourResumedQuarters) {
   device::Device device;
   const Plan plan = few(folder / "soak", 4);
   const Result result = soak(device, plan);
-  std::printf("%s", told(result, plan).c_str());
+  std::printf("%s", summary(result, plan).c_str());
   EXPECT_TRUE(result.broken.empty()) << result.broken.front();
   EXPECT_EQ(result.reached, 4);
   EXPECT_EQ(result.compared, 4);
@@ -136,8 +136,8 @@ TEST(Soak, ResumesFromAnyPartAndReportsALeakPerCycle) {
   // A longer plan continues the folder; memory leaks in each of its cycles.
   plan.cycles = 8;
   plan.stop = [&] { return read_phases(folder / "pieces/phases.csv").back().cycle == 8; };
-  std::vector<std::unique_ptr<char[]>> kept;
-  plan.after_cycle = [&](long) { kept.push_back(std::make_unique<char[]>(200'000)); };
+  std::vector<std::unique_ptr<char[]>> leaks;
+  plan.after_cycle = [&](long) { leaks.push_back(std::make_unique<char[]>(200'000)); };
   const Result leaking = soak(device, plan);
   EXPECT_EQ(leaking.reached, 8);
   ASSERT_FALSE(leaking.broken.empty());

@@ -18,9 +18,9 @@ TEST_P(GranularLab, MeetsItsTolerances) { expect_tolerances(GetParam()); }
 TEST(FastPour, SpreadsByItsMomentum) {
   const lab::Report report = lab::run_rig("pour", {{"speed", 0.8}, {"drop", 4}});
   EXPECT_FALSE(report.find("repose after rest")->judged());
-  for (const char* figure : {"repose after pouring", "repose after rest"})
-    print_value("poured at 0.8 m/s from 4 cells, " + std::string(figure) + " [deg]",
-                lab::measured(report, figure), "no tolerance", "navvy lab pour");
+  for (const char* quantity : {"repose after pouring", "repose after rest"})
+    print_value("poured at 0.8 m/s from 4 cells, " + std::string(quantity) + " [deg]",
+                lab::measured(report, quantity), "no tolerance", "navvy lab pour");
   EXPECT_EQ(report.ledger_error, 0);
 }
 

@@ -42,7 +42,7 @@ scene::Machine ball(double radius) {
 
 /// Travel of a steel box that starts downhill with `speed` [m/s], in `time` [s] on a slope.
 struct Slid {
-  double way = 0, speed = 0;
+  double distance = 0, speed = 0;
 };
 Slid slid(const scene::Materials& materials, double angle, double speed, double time) {
   auto engine = make_bullet_engine(kDown, materials);
@@ -59,8 +59,8 @@ Slid slid(const scene::Materials& materials, double angle, double speed, double 
 TEST(BulletMaterials, ABlockStartsAtTheAngleOfStaticFriction) {
   // 1 deg on both sides of atan(0.6); a box of 1 m remains upright on either.
   const scene::Materials materials = table(0.6, 0.45);
-  EXPECT_LT(slid(materials, std::atan(0.6) - radians(1), 0, 3).way, 0.02);
-  EXPECT_GT(slid(materials, std::atan(0.6) + radians(1), 0, 3).way, 1);
+  EXPECT_LT(slid(materials, std::atan(0.6) - radians(1), 0, 3).distance, 0.02);
+  EXPECT_GT(slid(materials, std::atan(0.6) + radians(1), 0, 3).distance, 1);
 }
 
 TEST(BulletMaterials, ABlockThatSlidesStopsBelowTheAngleOfKineticFriction) {
@@ -69,11 +69,11 @@ TEST(BulletMaterials, ABlockThatSlidesStopsBelowTheAngleOfKineticFriction) {
   // It loses g sin(1 deg) / cos(angle) each second: 0.19 m/s of its 1.
   const Slid below = slid(materials, angle - radians(1), 1, 8);
   EXPECT_LT(below.speed, 0.01);
-  EXPECT_NEAR(below.way, 0.5 / (kGravity * std::sin(radians(1)) / std::cos(angle)), 0.3);
+  EXPECT_NEAR(below.distance, 0.5 / (kGravity * std::sin(radians(1)) / std::cos(angle)), 0.3);
   EXPECT_GT(slid(materials, angle + radians(1), 1, 8).speed, 2);
   // Between the two angles a body at rest stays, and a sliding one continues.
   const double between = std::atan(0.52);
-  EXPECT_LT(slid(materials, between, 0, 3).way, 0.02);
+  EXPECT_LT(slid(materials, between, 0, 3).distance, 0.02);
   EXPECT_GT(slid(materials, between, 1, 3).speed, 1);
 }
 

@@ -51,7 +51,7 @@ TEST(Hitch, PullsLikeAJointInTheMachine) {
   const auto engine = train(), joined = make_bullet_engine(Vec3(0, 0, -kGravity));
   const scene::Machine robot = shipped("robot"), whole = shipped("robot_with_trailer");
   joined->add_machine(whole, Pose::Identity());
-  double apart = 0, way = 0;
+  double apart = 0, deviation = 0;
   // Driven by the wheels' joints, since a governor uses the mass of its own machine. The brake,
   // which would also hold the trailer's wheels if they belong to the machine, is off.
   for (PhysicsEngine* one : {engine.get(), joined.get()}) one->set_drive(0, {0, 0, false});
@@ -70,14 +70,14 @@ TEST(Hitch, PullsLikeAJointInTheMachine) {
       const Vec3 here = engine->link(1, 0).X_WL.translation();
       const Vec3 there =
           joined->link(0, whole.link_index("robot_trailer::chassis")).X_WL.translation();
-      way = std::max(way, (here - there).norm());
+      deviation = std::max(deviation, (here - there).norm());
     }
   }
   print_value("eye from the hook [m]", apart, "below 0.01 mm", "[docs/machines.md, hitches]");
-  print_value("trailer from that of one tree [m]", way, "below 1 mm in 9 s",
+  print_value("trailer from that of one tree [m]", deviation, "below 1 mm in 9 s",
               "[docs/machines.md, hitches]");
   EXPECT_LT(apart, 1e-5);
-  EXPECT_LT(way, 1e-3);
+  EXPECT_LT(deviation, 1e-3);
 }
 
 TEST(Hitch, CarriesVerticalLoadAndDrawsARollingTrailer) {

@@ -21,11 +21,11 @@ constexpr double kStep = 1.0 / 600;
 /// A kinematic engine with one machine beside a Bullet engine that collides with it, stepped as the
 /// coupling does.
 struct BothEngines {
-  explicit BothEngines(scene::Machine told, const Pose& X_WM) {
-    told.kinematic = true;
-    links = told.links.size();
-    kinematic->add_machine(told, X_WM);
-    mover = bullet->obstacles()->add_obstacle(told);
+  explicit BothEngines(scene::Machine machine, const Pose& X_WM) {
+    machine.kinematic = true;
+    links = machine.links.size();
+    kinematic->add_machine(machine, X_WM);
+    mover = bullet->obstacles()->add_obstacle(machine);
   }
   void go(double duration, const GroundQuery& ground = flat()) {
     for (int i = 0; i < std::lround(duration / kStep); ++i) {

@@ -252,14 +252,14 @@ double radius_of(double left_speed, double right_speed, double left_angle, doubl
   command("rear_left_joint", JointMode::kVelocity, left_speed);
   command("rear_right_joint", JointMode::kVelocity, right_speed);
   Vec3 last = rig.engine->link(0, 0).v_WL;
-  double turned = 0, way = 0;
+  double turned = 0, travel = 0;
   run(*rig.engine, flat(), 10, kStep, [&](double t) {
     const LinkState at = rig.engine->link(0, 0);
     jump = std::max(jump, (at.v_WL - last).norm());
     last = at.v_WL;
-    if (t > 5) turned += at.w_WL.z() * kStep, way += rig.speed() * kStep;
+    if (t > 5) turned += at.w_WL.z() * kStep, travel += rig.speed() * kStep;
   });
-  return way / turned;
+  return travel / turned;
 }
 
 TEST(Ackermann, InputsThatDoNotFitUnderAndOversteerWithoutAJump) {

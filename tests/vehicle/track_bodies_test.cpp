@@ -203,13 +203,13 @@ TEST_P(TrackBodies, ATrackTouchesABodyBetweenTwoRollers) {
   auto engine = put(make_pose(0, 0, 2 * bar));
   engine->add_machine(block(Vec3(bar, 8, 4 * bar)),
                       make_pose(0.5 * (track.rollers[2].x() + track.rollers[3].x()), 0, 0));
-  double borne = 0;
+  double load = 0;
   run(*engine, flat(), 0.3, kStep, [&](double) {
     double now = 0;
     for (int w = 0; w < 2; ++w) now += engine->wheel(0, w).body_W.z();
-    borne = std::max(borne, now);
+    load = std::max(load, now);
   });
-  EXPECT_GT(borne, 0.5 * weight);
+  EXPECT_GT(load, 0.5 * weight);
   // A roller's spring under most of the weight.
   EXPECT_GT(height(*engine), bar);
 }

@@ -162,15 +162,12 @@ double bearing_nc(double phi) {
 // Zero dilatancy reduces the strength of a mechanism that would have to dilate.
 double davis_angle(double phi) { return std::atan(std::sin(phi)); }
 
-// All three heights scale alike and differ in the mechanism of failure.
+// Both heights scale alike and differ in the mechanism of failure.
 double cut_critical_height(double phi, double cohesion, double unit_weight) {
   return 3.83 * cohesion / unit_weight * tan_45_plus_half(phi);
 }
 double cut_no_tension_height(double phi, double cohesion, double unit_weight) {
   return 2 * cohesion / unit_weight * tan_45_plus_half(phi);
-}
-double culmann_height(double phi, double cohesion, double unit_weight) {
-  return 4 * cohesion / unit_weight * tan_45_plus_half(phi);
 }
 
 double lube_plane_run_out(double a) {

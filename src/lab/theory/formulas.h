@@ -95,9 +95,6 @@ double cut_critical_height(double phi, double cohesion, double unit_weight);
 /// Returns the height that needs no tension anywhere, the depth of the tension crack: 2 c / gamma
 /// tan(45 deg + phi / 2) [Terzaghi 1943].
 double cut_no_tension_height(double phi, double cohesion, double unit_weight);
-/// Returns the height at which a plane wedge slides [Culmann 1875]: 4 c / gamma tan(45 deg + phi /
-/// 2), an upper bound.
-double culmann_height(double phi, double cohesion, double unit_weight);
 
 // Granular collapse of a column of height H0: a = H0 / L0 (plane, released on one side) or H0 / R0
 // (axisymmetric). Run-out is (front - L0) / L0 with the front at rest; heights are those of the

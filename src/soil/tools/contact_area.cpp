@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "soil/reference/double_contact.h"
+#include "soil/host_law/double_contact.h"
 #include "soil/tools/contact.h"
 
 namespace navvy::soil {

@@ -25,8 +25,6 @@ class ServoConstraint final : public MultibodyRows {
   }
   /// Returns the impulse of the motor in the last step [N m s|N s].
   double motor_impulse() { return getAppliedImpulse(0); }
-  /// Returns the impulse of both stops, signed along the joint.
-  double limit_impulse() { return getAppliedImpulse(1) - getAppliedImpulse(2); }
 
   // Bullet calls these: Jacobians once, rows in every step.
   void finalizeMultiDof() override;

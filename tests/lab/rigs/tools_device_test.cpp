@@ -144,17 +144,17 @@ TEST(LabWall, ReportsTheResidualForceAfterTheWallStops) {
   std::map<std::string, double> small = {
       {"height", 0.4}, {"travel", 0.1}, {"wait", 0.05}, {"ahead", 1}};
   const auto coarse = [](lab::Setup& s) { s.cell = 0.1; };
-  const char* const kept = "force after the stop / force before it";
-  EXPECT_EQ(run_rig("wall", small, coarse).find(kept), nullptr);
+  const char* const residual = "force after the stop / force before it";
+  EXPECT_EQ(run_rig("wall", small, coarse).find(residual), nullptr);
   small["hold"] = 0.3;
   const Report report = run_rig("wall", small, coarse);
-  ASSERT_NE(report.find(kept), nullptr);
+  ASSERT_NE(report.find(residual), nullptr);
   // It stops; the soil loses some, but not all, of the force that moved it.
   const std::vector<double> travel = travel_of(report);
   ASSERT_FALSE(travel.empty());
   EXPECT_NEAR(travel.back(), 0.04, 1e-6);
-  EXPECT_GT(report.find(kept)->measured, 0.3);
-  EXPECT_LT(report.find(kept)->measured, 0.97);
+  EXPECT_GT(report.find(residual)->measured, 0.3);
+  EXPECT_LT(report.find(residual)->measured, 0.97);
   EXPECT_GT(report.simulated_time, 0.05 + 0.04 / 0.1 + 0.3);
 }
 

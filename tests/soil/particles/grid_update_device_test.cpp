@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "soil/host_law/double_contact.h"
 #include "soil/particles/floor.h"
 #include "soil/particles/stages.h"
-#include "soil/reference/double_contact.h"
 
 namespace navvy::soil {
 namespace {

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "core/math.h"
-#include "soil/reference/double_law.h"
+#include "soil/host_law/double_law.h"
+#include "soil/reference/law_soil.h"
 #include "soil/rig.h"
 
 namespace navvy::soil {

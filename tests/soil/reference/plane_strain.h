@@ -13,7 +13,7 @@
 
 #include "core/math.h"
 #include "scene/soil.h"
-#include "soil/reference/double_law.h"
+#include "soil/host_law/double_law.h"
 
 namespace navvy::soil::reference {
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soil/host_law/double_contact.h"
 #include "soil/particles/floor.h"
-#include "soil/reference/double_contact.h"
+#include "soil/reference/law_soil.h"
 
 namespace navvy::soil::reference {
 namespace {

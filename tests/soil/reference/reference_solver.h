@@ -10,9 +10,9 @@
 
 #include "core/math.h"
 #include "scene/soil.h"
+#include "soil/host_law/double_law.h"
 #include "soil/particles/interval.h"
 #include "soil/particles/particle.h"
-#include "soil/reference/double_law.h"
 
 namespace navvy::soil::reference {
 

@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "lab/rig_shapes.h"
-#include "soil/reference/double_contact.h"
+#include "soil/host_law/double_contact.h"
+#include "soil/reference/impulse_on.h"
 #include "soil/reference/reference_solver.h"
 #include "soil/rig.h"
 #include "soil/tools/contact.h"

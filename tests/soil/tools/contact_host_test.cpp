@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "soil/reference/double_contact.h"
+#include "soil/host_law/double_contact.h"
+#include "soil/reference/impulse_on.h"
 #include "soil/tools/contact.h"
 
 namespace navvy::soil {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact and node arithmetic of kernels/soil/contact_law.h and node.h, compiled in double
-// precision for the host.
+// Impulse of a plate on a node, computed by the double-precision twin.
 #pragma once
 
-#include "soil/reference/double_real.h"
+#include "core/math.h"
+#include "soil/host_law/double_contact.h"
 
 namespace navvy::soil::reference {
-
-#include "soil/contact_law.h"  // NOLINT: on purpose inside the namespace
-#include "soil/node.h"         // NOLINT: the same
 
 /// Returns the impulse [N s] on a node from a plate that moves with `speed` [m/s] relative to the
 /// resting ground and does not rotate. `opening`: separation speed above which adhesion has ended

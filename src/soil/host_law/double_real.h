@@ -11,7 +11,7 @@
 
 namespace navvy::soil::reference {
 
-// Types of the dialect.
+// Types of the dialect: values of a particle, uniform values, vectors, and integers or conditions.
 using real = double;
 using scalar = double;
 using scalar3 = Vec3;
@@ -21,7 +21,7 @@ using ints = int;
 using columns = double;
 #define INLINED inline
 
-// Built-ins of OpenCL for one double.
+// Built-in functions of OpenCL for one double.
 using std::fabs;
 using std::floor;
 using std::fmax;
