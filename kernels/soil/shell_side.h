@@ -53,14 +53,15 @@ typedef struct SideResult {
   int crossed;
 } SideResult;
 
-// Returns the new side and position of a particle of block `key`. feature, distance2, closest: the
-// closest point of the shells; old_side: previous side of the particle; band: distance from a plate
-// within which particles have a side [cells]; longest_push: largest push in one transfer [cells].
+// Returns the new side and position of a particle of block `key` whose position is x. feature,
+// distance2, closest: closest point of the shells, as in Closest; old_side: previous side of the
+// particle; band: distance from a plate within which particles have a side [cells]; longest_push:
+// largest push in one transfer [cells].
 //
 // A particle that has sunk into the plate is pushed back to the surface of the plate. A particle
-// that seems to be farther behind the plate than possible (contact_max_depth) has moved to another
-// plate of the tool, whose opposite side faces it (plates that meet in a T); it keeps its position
-// and gets the side of that plate.
+// that appears to be farther behind the plate than possible (contact_max_depth) is in fact beside
+// another plate of the same tool, which it faces from the other side (for example where plates meet
+// in a T). It keeps its position, and its new side is that relative to the other plate.
 static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature,
                                       float distance2, float3 closest, float band,
                                       float longest_push, global const ShellTriangle* triangles,
