@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact of one node with a tool, and the small linear system of the two-way solve. One source for
-// both schedules.
+// Contact of one node with a tool, and the small linear system for the twist of a tool that yields
+// to the soil. One source for both schedules (lanes and groups).
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 #define NAVVY_KERNELS_SOIL_CONTACT_NODE_H
 
@@ -8,15 +8,18 @@
 #include "soil/contact_law.h"
 #include "soil/node.h"
 
-// Returns the index of node n of near block `near` in the arrays of near nodes, and its offset from
-// the corner of its block [cells].
+// Returns the index of node n (0 .. 63) of near block `near` in the arrays of near nodes.
 static inline int near_node(int near, int n) { return near * BLOCK_NODES + n; }
+// Returns the offset of node n (0 .. 63) from the lower corner of its block [cells].
 static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4); }
 
-// Loads field s (0 front, 1 back) of one near node. Returns false when the node has no contact.
-// i: index of the node in the near arrays. place: the node [cells of G]. dx: cell [m]. field:
-// velocity [m/s] and mass [kg] of this field. only: index of the tool that is solved for, -1: all
-// tools. On success `node` holds everything that the impulse depends on except the tool's twist.
+// Loads the contact data of field s (0 front, 1 back) of one near node into `node`: everything that
+// its impulse depends on except the tool's twist. Returns false, with `node` incomplete, if the
+// node has no contact.
+//
+// i: index of the node in the near arrays. place: coordinates of the node in G. dx: edge of a cell
+// [m]. field: velocities [m/s] and masses [kg] of field s. only: index of the only tool to
+// consider, -1 for all tools. The other pointers are the near arrays of NearNodes and ShellQuery.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
                              global const float4* field, global const int* split,
                              global const int* node_tool, global const NodeShell* shell,
@@ -54,26 +57,33 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   return true;
 }
 
-// Arguments that the contact kernels share: the list of near blocks, and the arrays of near nodes.
+// Kernel arguments for the near blocks: their active-block indices, and the key of each active
+// block.
 #define BLOCK_ARGS global const int* restrict near_list, global const int4* restrict keys
+// Arguments of functions that load near nodes: the near arrays, the tools, and the parameters of
+// load_node.
 #define NODE_ARGS                                                                         \
   global const float4 *restrict before0, global const float4 *restrict before1,           \
       global const int *restrict split, global const int *restrict node_tool,             \
       global const NodeShell *restrict shell, global const ContactSoil *restrict surface, \
       global const Tool *restrict tools, const int only, const Reach reach, const float dx
+// The arguments of NODE_ARGS, to pass them on.
 #define NODE_SAME before0, before1, split, node_tool, shell, surface, tools, only, reach, dx
+// Calls load_node for field s of node n in block `key`, with the arguments of NODE_ARGS.
 #define LOAD_NODE(node)                                                                      \
   load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, \
             node_tool, shell, surface, tools, only)
 
-// Initial value of the sums.
+// Initial value of a ContactSums.
 #define NO_SUMS \
   { {0.0f}, {0.0f}, 0.0f }
 
-// Adds field s of node n of near block `near` to the sums: the wrench of its impulse J (moment
-// about the tool's origin, force) and the matrix G^T m P G. P is the part of the plate's velocity
-// that the contact passes on to the node: its share along the normal, and all of the slip when the
-// contact sticks [docs/tools.md, two-way solve].
+// Adds the contribution of field s of node n in near block `near` (with block coordinates `key`) to
+// the sums for the tool `only`. The contribution consists of the wrench of the node's impulse J
+// (moment about the tool's origin, force), and of the stiffness matrix G^T m P G. m is the node's
+// mass, G maps the tool's twist to the plate's velocity at the node, and P is the part of that
+// velocity which the contact transfers to the node: its share along the normal, and all of the slip
+// if the contact sticks [docs/tools.md, two-way solve].
 static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key, NODE_ARGS) {
   const int i = near_node(near, n);
   ContactNode node;
@@ -107,8 +117,9 @@ static inline void add_sums(ContactSums* sums, int s, int near, int n, int3 key,
   }
 }
 
-// Solves one Newton iteration of F(V) = V - V_start + W sum J(V) = 0 with slope 1 + W K. W is the
-// inverse mass of the tool.
+// Runs one Newton iteration for the twist V of a tool: solves F(V) = V - V_start + W sum J(V) = 0
+// with the derivative 1 + W K. W is the inverse mass of the tool; sum J and K are the wrench and
+// stiffness in `total`.
 static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   // Augmented matrix of the system; the sums hold the upper triangle of K only.
   float a[6][7], stiff[6][6];
@@ -140,18 +151,21 @@ static inline void solve_twist(global Tool* tool, const ContactSums* total) {
   for (int i = 0; i < 6; ++i) tool->twist[i] -= a[i][6] / a[i][i];
 }
 
-// Result of contact and resting ground for one near node, see contact_apply.
-// Everything in it is in the order front, back.
+// Result of contact and resting ground for one near node, from apply_contact. Arrays have one entry
+// per velocity field: [0] front, [1] back.
 typedef struct NodeResult {
-  // Velocity and mass per free volume that particles see, by field.
+  // Velocity that particles receive [m/s], and mass divided by the node's free fraction [kg].
   float4 seen[2];
+  // Velocities before and after contact, for the host.
   ContactRecord records[2];
+  // 1 if contact changed a field of the node, else 0.
   int changed;
 } NodeResult;
 
-// Applies the final impulses to both fields of a node, then the resting ground. near, n: as in
-// add_sums. ground: floor of the node's block. The record has velocities before and after contact,
-// but before the ground's hold, so that the host can sum the impulses on tools.
+// Applies the final contact impulses to both fields of a node, and then the hold of the resting
+// ground. near, n, key: as in add_sums; ground: heights of resting ground in the node's block. The
+// records contain the velocities before and after contact, but before the hold of the ground, so
+// that the host can sum the impulses on tools.
 static inline NodeResult apply_contact(int near, int n, int3 key, global const BlockFloor* ground,
                                        NODE_ARGS) {
   const int i = near_node(near, n);

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Soil law. One source for the kernels (sixteen lanes or one particle), the native loop and the
-// double twin.
+// Soil law: stress update of a particle. One source for the kernels (sixteen lanes or one particle
+// at a time), the native loop and the double-precision twin.
 //
-// Rate-form elasticity under the yield surface of [Matsuoka 1974], matched in plane strain
-// [docs/soil.md, yield], with
+// The law combines rate-form elasticity with the yield surface of [Matsuoka 1974], matched to
+// Mohr-Coulomb in plane strain [docs/soil.md, yield]. Its parts are:
 //   - a yield surface that equals Mohr-Coulomb in plane strain and is close to triaxial tests;
 //   - opening: a particle whose volume ratio J exceeds its density state J0 carries no stress;
-//   - cohesion in shear only, which fades with opening (opening_strain), remoulding (plastic shear)
-//     and loosening (density state);
-//   - swell: J0 grows with plastic shear from bank to loose density and stops there;
-//   - static friction: extra strength of soil that hardly shears;
+//   - cohesion in shear only, which decreases with opening (opening_strain), remoulding (plastic
+//         shear) and loosening (density state);
+//   - swell: J0 grows with plastic shear from bank density to loose density and stops there;
+//   - static friction: additional strength of soil that hardly shears;
 //   - viscosity of soil that does not yield, so that intact ground does not ring, and of the volume
-//     of closed soil;
-// and, if LAW_EXTENDED is defined (only scenes whose soils use them pay for them),
-//   - dilatancy: shear increases J0 even against pressure, less and less until the soil is loose;
-//   - compaction: pressure above the limit of the density state reduces J0 for good;
+//         of closed soil;
+// and, if LAW_EXTENDED is defined, so that only scenes that use them pay for them:
+//   - dilatancy: shear increases J0 even against pressure, at a decreasing rate until the soil is
+//         loose;
+//   - compaction: pressure above the limit of the density state reduces J0 permanently;
 //   - mu(I): friction grows with the inertial number of the flow.
 // The law uses only + - * / sqrt min max, so that builds without contraction agree bit for bit. NaN
-// inputs must stay visible, but min and max may drop them. Callers therefore check the whole state
-// and not only the stress (advance_state in point.h).
+// inputs must remain visible, but min and max may drop them. Callers therefore check the whole
+// state and not only the stress (advance_state in point.h).
 //
-// Written in the dialect of kernels/README.md: `real` is the type of computation, `scalar` its
-// element. Literals that a float represents exactly are written as floats. All others are cast to
-// scalar, so that the twin has them in double.
+// The source is written in the dialect of kernels/README.md: `real` is the type of computation,
+// `scalar` the type of one of its elements. Literals that a float represents exactly are written as
+// floats. All others are cast to scalar, so that the twin uses them in double precision.
 #ifndef NAVVY_KERNELS_SOIL_LAW_H
 #define NAVVY_KERNELS_SOIL_LAW_H
 
@@ -36,25 +37,29 @@
 #define LAW_CONSTANTS(X) BASIC_LAW_CONSTANTS(X)
 #endif
 
-// Constants of one soil, see law_constants.h.
 #define LAW_REAL(name) real name;
+// Constants of one soil; law_constants.h describes each of them.
 typedef struct LawSoil {
   LAW_CONSTANTS(LAW_REAL)
 } LawSoil;
 #undef LAW_REAL
 
-// State that the law advances, see particle_fields.h.
 #define STATE_REAL(NAME, member, rest) real member;
 #define STATE_REALS(NAME, member, count, rest) real member[count];
+// State of a particle that the law advances; particle_fields.h describes its members.
 typedef struct LawState {
   LAW_STATE_FIELDS(STATE_REAL, STATE_REALS)
 } LawState;
 #undef STATE_REAL
 #undef STATE_REALS
 
-// Returns the radius of the yield surface / its radius in plane strain: the root r of a r^3 - r^2 +
-// 1 = 0 for the determinant of the deviator and q [Matsuoka 1974] [docs/soil.md, yield]. Three
-// Newton steps from 1, of which the first is written out. 2 / sqrt(27) bounds the invariant.
+// Returns the radius of the yield surface in the direction of the stress, divided by its radius in
+// plane strain [Matsuoka 1974] [docs/soil.md, yield]. determinant: determinant of the deviatoric
+// stress s [Pa^3]; q: sqrt(s : s / 2) [Pa]; sin_phi: sine of the friction angle.
+//
+// The result is the root r of a r^3 - r^2 + 1 = 0, where a follows from the arguments. It is found
+// by three Newton steps from 1, of which the first is written out. 2 / sqrt(27) bounds the
+// invariant of s in exact arithmetic.
 INLINED real lode_radius(real determinant, real q, real sin_phi) {
   const real safe = fmax(q, (scalar)(1e-3));
   const real invariant =
@@ -66,8 +71,9 @@ INLINED real lode_radius(real determinant, real q, real sin_phi) {
   return r;
 }
 
-// Advances the state by dt [s] under the velocity gradient c [1/s]. sigma [Pa]: stress that the
-// grid feels, with pressure and viscosity, in the order of state->s. Positive in tension.
+// Advances the state by dt [s] under the velocity gradient c [1/s], row by row. sigma: output, the
+// stress that acts on the grid, including pressure and viscosity [Pa], in the order xx, yy, zz, xy,
+// yz, xz; positive in tension.
 INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState* state,
                         real* sigma) {
   const real* s = state->s;
@@ -155,7 +161,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   state->s[5] = xz * stay;
 
   // Viscosity acts where the step was elastic, and on the volume of closed soil. It is only in the
-  // stress that the grid feels; the yield stress used the pressure without it
+  // stress that acts on the grid; the yield stress used the pressure without it
   // [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
   const real damped = fmax(pressure - SCHEME(volume_damping) * soil->viscosity * trace, 0.0f);

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of the constants of a soil. The struct of the law, the table on the device, its loads in
-// both schedules, the table of the host and the double twin all follow from these lists. Adding
-// one: kernels/README.md.
+// Lists of the constants of a soil. Several definitions are generated from these lists: the struct
+// of the law, the constant table on the device, its loads in both schedules, the constants on the
+// host and the double-precision twin. kernels/README.md describes how to add a constant.
 #ifndef NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 #define NAVVY_KERNELS_SOIL_LAW_CONSTANTS_H
 
-// bulk, shear: elastic moduli K, G [Pa]
+// Constants that every soil uses.
 //
-// alpha: sin(friction angle)
+// bulk, shear: elastic bulk modulus K and shear modulus G [Pa]
 //
-// k_loose, k_dense, k_bond: cohesion at the loose density, residual minus loose cohesion, intact
-// minus residual cohesion, each times cos(friction angle) [Pa]
+// alpha: sine of the friction angle
 //
-// dense_offset, inv_range: the dense share is dense_offset - J0 inv_range, limited to 0 .. 1. They
-// are swell / (swell - 1) and 1 / (swell - 1), or 1 and 0 without swell
+// k_loose, k_dense, k_bond: terms of the cohesion, each times cos(friction angle) [Pa]: cohesion at
+// loose density; residual cohesion minus that; intact cohesion minus residual cohesion
+//
+// dense_offset, inv_range: give the dense share (1 in bank state, 0 when loose) as dense_offset -
+// J0 inv_range, limited to 0 .. 1. They are swell / (swell - 1) and 1 / (swell - 1), or 1 and 0 for
+// soil without swell
 //
 // inv_remould, inv_opening: 1 / remoulding strain, 1 / opening strain
 //
-// static_share: relative growth of the yield stress at rest [docs/soil.md, static friction]
+// static_share: relative increase of the yield stress at rest [docs/soil.md, static friction]
 //
 // viscosity: shear viscosity of soil that does not yield [Pa s] [docs/soil.md, viscosity]
 //
 // swell: largest J0
 //
-// loosening: growth of J0 per plastic shear, limited by J
+// loosening: increase of J0 per plastic shear; J0 is not raised above J
 #define BASIC_LAW_CONSTANTS(X) \
   X(bulk)                      \
   X(shear)                     \
@@ -40,21 +43,22 @@
   X(swell)                     \
   X(loosening)
 
-// Used only if LAW_EXTENDED is defined.
+// Constants that are used only if LAW_EXTENDED is defined.
 //
 // dilatancy: b, plastic volume strain per plastic shear in bank state
 //
-// matched: yield stress that plane strain needs at b / yield stress without dilatancy - 1
+// matched: relative increase of the yield stress by which soil with dilatancy b matches
+// Mohr-Coulomb in plane strain
 //
-// alpha_fast: growth of alpha from slow to fast flow
+// alpha_fast: increase of alpha from slow to fast flow
 //
-// grain: diameter x sqrt(density) of the grains
+// grain: grain diameter x sqrt(grain density) [kg^0.5 m^-0.5]
 //
-// inertial: inertial number at half that growth
+// inertial: inertial number at which half of alpha_fast is reached
 //
-// cap: mean pressure that bank soil carries without compaction [Pa]
+// cap: mean pressure that soil in bank state carries without compaction [Pa]
 //
-// cap_growth: relative growth of cap per volume strain
+// cap_growth: relative increase of cap per volume strain
 #define EXTENDED_LAW_CONSTANTS(X) \
   X(dilatancy)                    \
   X(matched)                      \
@@ -64,6 +68,7 @@
   X(cap)                          \
   X(cap_growth)
 
+// All constants of the extended law, basic ones first.
 #define ALL_LAW_CONSTANTS(X) \
   BASIC_LAW_CONSTANTS(X)     \
   EXTENDED_LAW_CONSTANTS(X)
@@ -74,13 +79,14 @@ namespace navvy::soil {
 
 // One soil in the constant table on the device.
 #define SOIL_ROW_FLOAT(name) float name;
+// Constants of one soil in the constant table on the device.
 typedef struct SoilRow {
   ALL_LAW_CONSTANTS(SOIL_ROW_FLOAT)
   // 1 / bank density [m3/kg].
   float inv_density;
-  // Tangent of the friction angle on tools.
+  // Friction coefficient between soil and tools.
   float tool_friction;
-  // Adhesion on tools [Pa].
+  // Adhesion of the soil to tools [Pa].
   float adhesion;
 } SoilRow;
 #undef SOIL_ROW_FLOAT

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arithmetic of one node: the fraction of its kernel that soil can fill, and the inverse of its
-// mass. One source for both schedules, the native loop and the double twin.
+// Arithmetic of one node: the free fraction, i.e. the fraction of the node's kernel that soil can
+// fill, and the inverse of the node's mass. One source for both schedules, the native loop and the
+// double-precision twin.
 //
-// Resting ground and plates occupy part of a node's kernel. Node masses divided by the free
-// fraction show how densely soil is packed right up to walls, where plain sums would show half
+// Resting ground and plates occupy a part of a node's kernel. Node masses divided by the free
+// fraction show how densely soil is packed right up to walls; plain sums would show half of that
 // [docs/soil.md, free volume]. `columns` holds one number for each of the four columns around a
-// node (float4). On the host, where the ground is level, it is one number.
+// node (a float4). On the host, where the ground is level around a node, it is a single number.
 #ifndef NAVVY_KERNELS_SOIL_NODE_H
 #define NAVVY_KERNELS_SOIL_NODE_H
 
 #include "soil/layout.h"
 
-// Returns the fraction of a node's quadratic B-spline on its side of a plane at distance t [cells]
-// (t < 0: the node is behind the plane).
+// Returns the fraction of a node's kernel, a quadratic B-spline, that is on the node's side of a
+// plane. t: distance of the node in front of the plane [cells]; negative if the node is behind it.
 INLINED columns kernel_share(columns t) {
   const columns a = clamp(t, -0.5f, 0.5f);
   const columns low = clamp(1.5f + t, 0.0f, 1.0f), high = clamp(1.5f - t, 0.0f, 1.0f);
@@ -20,20 +21,22 @@ INLINED columns kernel_share(columns t) {
          (low * low * low - high * high * high) * (scalar)(1.0 / 6.0);
 }
 
-// Returns the free fraction of a node whose four columns end `below` cells under it (above it if
-// negative), on its side of a plate at distance `beside` [cells]. At least
-// SCHEME(min_free_fraction).
+// Returns the free fraction of a node above ground and beside a plate, at least
+// SCHEME(min_free_fraction). below: height of the node above each of the four columns around it
+// [cells]; negative inside a column. beside: distance of the node from the plate [cells].
 INLINED scalar free_fraction_between(columns below, scalar beside) {
   return fmax(mean_of(kernel_share(below)) * mean_of(kernel_share((columns)(beside))),
               SCHEME(min_free_fraction));
 }
 
+// Returns the free fraction of a node without a plate; `below` as in free_fraction_between.
 INLINED scalar free_fraction_above(columns below) {
   return all(below >= 1.5f) ? 1.0f : free_fraction_between(below, 1.5f);
 }
 
-// 1 / m [1/kg] of a node, or of several nodes at once; 0 for a node lighter than a mass quantum,
-// which is empty. The velocity after gravity is p INVERSE_MASS(m) + g dt where m > MASS_QUANTUM.
+// Returns 1 / m [1/kg] for the mass of a node or of several nodes at once; 0 for a node lighter
+// than a mass quantum, which counts as empty. With momentum p, the velocity after gravity is p
+// INVERSE_MASS(m) + g dt where m > MASS_QUANTUM.
 #define INVERSE_MASS(m) ((m) > MASS_QUANTUM ? 1.0f / (m) : 0.0f)
 
 #endif  // NAVVY_KERNELS_SOIL_NODE_H

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of the fields of a particle. The words of the store, the state of the law, loads and stores
-// of the kernels, the records of the host and the double twin all follow from these lists.
+// Lists of the fields of a particle. Several definitions are generated from these lists: the words
+// of the particle store, the state of the soil law, the loads and stores of the kernels, the host
+// records and the double-precision twin.
 //
-// MANY(NAME, member, count, rest) is an array of floats, ONE(NAME, member, rest) a single one.
-// `rest` is the value in a lane without a particle: inside its tile, no mass, no stress. Adding a
-// field: kernels/README.md.
+// MANY(NAME, member, count, rest) describes an array of floats, ONE(NAME, member, rest) a single
+// float. `rest` is the value in an unused lane: a position inside the tile, no mass, no stress.
+// kernels/README.md describes how to add a field.
 #ifndef NAVVY_KERNELS_SOIL_PARTICLE_FIELDS_H
 #define NAVVY_KERNELS_SOIL_PARTICLE_FIELDS_H
 
+// Fields of the particle's motion.
+//
 // x: offset from the corner of the block at the last transfer [cells]
 //
 // v: velocity [m/s]
 //
-// c: velocity gradient, row major, c[3 * i + j] = dv_i/dx_j [1/s]
+// c: velocity gradient, row by row: c[3 * i + j] = dv_i/dx_j [1/s]
 //
-// moved: displacement since the last transfer; the next transfer adds it to x [cells]
+// moved: displacement since the last transfer, which the end of the transfer adds to x [cells]
 // [docs/soil.md, transfer]
 #define MOTION_FIELDS(ONE, MANY) \
   MANY(X, x, 3, 2.0f)            \
@@ -22,38 +25,41 @@
   MANY(C, c, 9, 0.0f)            \
   MANY(MOVED, moved, 3, 0.0f)
 
-// State that the law advances.
+// Fields that the soil law advances.
 //
-// s: deviatoric stress xx yy zz xy yz xz [Pa], positive in tension
+// s: deviatoric stress xx, yy, zz, xy, yz, xz [Pa], positive in tension
 //
-// j: volume / bank volume
+// j: volume ratio J = volume / bank volume
 //
-// j0: density state, the volume ratio without pressure
+// j0: density state J0, the volume ratio at which the soil carries no pressure
 //
-// shear: accumulated plastic shear
+// shear: accumulated plastic shear strain [-]
 #define LAW_STATE_FIELDS(ONE, MANY) \
   MANY(S, s, 6, 0.0f)               \
   ONE(J, j, 1.0f)                   \
   ONE(J0, j0, 1.0f)                 \
   ONE(SHEAR, shear, 0.0f)
 
+// All fields that are floats.
 #define FLOAT_FIELDS(ONE, MANY) \
   MOTION_FIELDS(ONE, MANY)      \
   LAW_STATE_FIELDS(ONE, MANY)
 
-// Index of a field: field f of slot i is word f * capacity + i. Three integer words follow the
-// floats.
+// Index FIELD_* of each field: the word of field f in slot i is at f * capacity + i. Three integer
+// words follow the floats.
 #define FIELD_ONE(NAME, member, rest) FIELD_##NAME,
 #define FIELD_MANY(NAME, member, count, rest) \
   FIELD_##NAME, FIELD_##NAME##_LAST = FIELD_##NAME + (count)-1,
 enum {
   FLOAT_FIELDS(FIELD_ONE, FIELD_MANY)  //
-  // int, mass quanta.
+  // Mass as an int [kMassQuantum].
   FIELD_MASS,
-  // int, soil | side << 16; side = 0: none, else 1 + 2 tool + (1 when behind).
+  // Soil and side as one int, soil | side << 16. side: 0 if no shell is near, else 1 + 2 * tool
+  // index, plus 1 if behind the shell.
   FIELD_TAG,
-  // int, unique for life.
+  // Particle ID as an int, unique in a run.
   FIELD_ID,
+  // Number of words of a particle.
   FIELD_COUNT
 };
 #undef FIELD_ONE

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of the particle scheme, once. Unlike the constants of a soil (law_constants.h) they
-// are the same for every soil and no scene sets them; `navvy lab constants` lists them and
-// `navvy lab RIG --set scheme.NAME=VALUE` changes one for an experiment.
+// Constants of the particle scheme, defined once for host and kernels. Unlike the constants of a
+// soil (law_constants.h) they are the same for every soil, and no scene sets them. `navvy lab
+// constants` lists them, and `navvy lab RIG --set scheme.NAME=VALUE` changes one for an experiment.
 //
-// Kernels, the native loop and the double twin write SCHEME(name). On the device the value is a
-// compile-time literal (soil::scheme_options passes it as -D), so changing one builds the kernels
-// again and costs nothing while they run. The host reads the members of soil::SchemeConstants.
-// Adding one: kernels/README.md.
+// Kernels, the native loop and the double-precision twin read a constant as SCHEME(name). On the
+// device its value is a compile-time literal (soil::scheme_options passes it as a -D option), so a
+// changed value causes the kernels to be rebuilt but costs nothing while they run. The host reads
+// the members of soil::SchemeConstants. kernels/README.md describes how to add a constant.
 #ifndef NAVVY_KERNELS_SOIL_SCHEME_CONSTANTS_H
 #define NAVVY_KERNELS_SOIL_SCHEME_CONSTANTS_H
 
-// X(name, default, unit, lowest, highest, description). "cells" is a length in units of the cell's
-// edge; the wave speed is that of pressure waves; "sqrt(g cell)" is a speed.
+// List of all constants as X(name, default, unit, lowest, highest, description). Units: "cells" is
+// a length relative to the edge of a cell; "cell / wave speed" is a time, with the speed of
+// compression waves; "sqrt(g cell)" is a speed.
 #define SCHEME_CONSTANTS(X) \
   SCHEME_LAW(X)             \
   SCHEME_VOLUME(X)          \
   SCHEME_TRANSFER(X)        \
   SCHEME_CONTACT(X)
 
-// Stress update (law.h) [docs/soil.md, viscosity] [docs/soil.md, opening].
+// Constants of the stress update (law.h) [docs/soil.md, viscosity] [docs/soil.md, opening].
 //
-// - min_density_state: limits compaction and the layers that columns take from particles. A tighter
-// limit there turns noise into volume [docs/exchange.md, decisions].
+// - min_density_state limits compaction, and the density of the layers that columns receive from
+//   particles. A tighter limit for these layers would turn noise into volume
+//   [docs/exchange.md, decisions].
 #define SCHEME_LAW(X)                                                                     \
   X(shear_damping, 0.05, "", 0, 0.5,                                                      \
     "shear viscosity of soil that does not yield / (density x wave speed x cell)")        \
@@ -32,25 +34,27 @@
   X(max_volume_ratio, 100, "", 1.5, 1e6, "highest J of soil that opens")                  \
   X(min_density_state, 0.88, "", 0.5, 1, "densest J0 that compaction and deposition reach")
 
-// Volume of a particle, corrected by its cell and by the nodes (point.h) [docs/soil.md, mixing]
-// [docs/soil.md, crowding] [docs/soil.md, opening].
+// Corrections of a particle's volume by the mean of its cell and by the nodes (point.h)
+// [docs/soil.md, mixing] [docs/soil.md, crowding] [docs/soil.md, opening].
 //
-// - mixing_strain: tuned by CohesiveBlade.MeetsTheFullStrengthAtAnyCohesion and
-// SoilSwell.DugAndDumpedSoilEndsAtItsSwell. A blade in clay of 150 kPa feels 0.85 of its strength
-// with 0.025, and 0.83 with 0.1.
-// - min_mixing_time: tuned by the same swell test. Without mixing a tipped load rests at 1.45 of
-// its bank volume instead of 1.23; mixing by time alone gives 1.27 with 0.1 s, 1.24 with 0.02 s
-// and 1.22 with 0.005 s.
-// - crowding_threshold: J is integrated and cannot see particles crowd. Loam that was scooped and
-// dumped lay at 0.97 of its bank volume while its J said 1.24. The correction is one-sided: beside
-// a free surface or a plate nodes hold less than the soil's density.
-// - crowding_strain: tuned in the plane-strain laboratory. 0.02 stirs heaps at rest, 0.2 leaves
-// their core at 1.23 of its density state.
-// - max_crowding_displacement: a tenth of the particles' spacing.
-// - closing_share: an opening closes over some twelve cells' travel of a wave. Tuned by
-// CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. A third lands thrown sand at 1.065
-// of its volume in cells of 0.05 m, all of it at 1.092 (1.5 if wide openings close, too); a blade
-// in clay of 150 kPa feels 0.87 of the strength with a third, 0.86 with a sixth, 0.66 with none.
+// - mixing_strain: tuned with CohesiveBlade.MeetsTheFullStrengthAtAnyCohesion and
+//   SoilSwell.DugAndDumpedSoilEndsAtItsSwell. The draft of a blade in clay of 150 kPa
+//   corresponds to 0.85 of the clay's strength with a value of 0.025, and to 0.83 with 0.1.
+// - min_mixing_time: tuned with the same swell test. Without mixing a dumped load comes to rest at
+//   1.45 of its bank volume instead of 1.23; mixing by time only gives 1.27 with 0.1 s, 1.24 with
+//   0.02 s and 1.22 with 0.005 s.
+// - crowding_threshold: J is integrated over time and cannot detect particles that crowd. Loam that
+//   was scooped and dumped had 0.97 of its bank volume while its J was 1.24. The correction only
+//   separates particles, because nodes beside a free surface or a plate contain less mass than the
+//   soil's density would give.
+// - crowding_strain: tuned with the plane-strain laboratory. A value of 0.02 stirs heaps at rest;
+//   0.2 leaves their core at 1.23 of its density state.
+// - max_crowding_displacement: a tenth of the distance between particles.
+// - closing_share: an opening closes while a wave travels about twelve cells. Tuned with
+//   CohesiveBlade.* and Rigs/GranularLab.MeetsItsGates/ThrowHalf. With a third, thrown sand lands
+//   at 1.065 of its volume in cells of 0.05 m; with 1 at 1.092 (1.5 if wide openings close as
+//   well). The draft of a blade in clay of 150 kPa corresponds to 0.87 of the clay's strength with
+//   a third, 0.86 with a sixth and 0.66 with 0.
 #define SCHEME_VOLUME(X)                                                                       \
   X(mixing_strain, 0.025, "", 1e-6, 1e6,                                                       \
     "strain over which J / J0 relaxes to the mean of its cell")                                \
@@ -64,14 +68,14 @@
     "share of a numerical opening that closes in a transfer where nodes show closed soil")     \
   X(max_closing_ratio, 1.1, "", 1, 100, "J / J0 up to which an opening counts as numerical")
 
-// Length of a transfer, and nodes beside ground and plates (node.h) [docs/soil.md, transfer]
+// Duration of a transfer, and nodes beside ground and plates (node.h) [docs/soil.md, transfer]
 // [docs/soil.md, free volume] [docs/soil.md, resting ground].
 //
-// - transfer_length: four steps at a Courant number of 0.5. A transfer damps short waves; with a
-// fixed length the damping is one per time, whatever the step.
-// - max_transfer_motion: weights and near nodes are those of the transfer's start. Tuned by
-// `navvy lab throw`: without a limit eight steps a transfer spoil thrown soil (volume 0.76 of its
-// density state).
+// - transfer_length: four steps at a Courant number of 0.5. Every transfer damps short waves; with
+//   a fixed length the damping per time does not depend on the step.
+// - max_transfer_motion: weights and near nodes stay those of the transfer's start. Tuned with
+//   `navvy lab throw`: without this limit, eight steps per transfer give thrown soil a wrong volume
+//   (0.76 of its density state).
 #define SCHEME_TRANSFER(X)                                                                     \
   X(transfer_length, 2, "cell / wave speed", 0, 16, "longest time between two transfers")      \
   X(max_transfer_motion, 0.2, "cells", 0, 0.25,                                                \
@@ -83,12 +87,13 @@
 // Contact of soil and tools (contact_law.h, shell_side.h) [docs/tools.md, contact shares]
 // [docs/tools.md, stand-off] [docs/tools.md, adhesion].
 //
-// - contact_max_depth: displacements of particle and tool in a transfer, 0.2 each, after a push
-// that left as much; a tenth for rounding.
-// - contact_full: soil half as large again as in the bank still fills a node.
-// - contact_bearing_*: tuned by `navvy lab light-tool`. Under a plate, a node of soil that stands
-// off by a quarter of a cell carries 0.8, and a fill of 0.9 counts as full.
-// - contact_touch: not tuned; 0.75 = 1 / 1.33, a large swell.
+// - contact_max_depth: sum of the longest displacements of particle and tool in a transfer (0.2
+//   each), the depth that may remain after a push (0.2), and 0.1 for rounding.
+// - contact_full: a node is full until its soil has expanded to 1.5 times its bank volume.
+// - contact_bearing_*: tuned with `navvy lab light-tool`. Below a plate, a node whose soil stands
+//   off by a quarter of a cell carries 0.8 of the load, and a node with a fill of 0.9 counts as
+//   full.
+// - contact_touch: not tuned; 0.75 = 1 / 1.33 is the fill at a large swell.
 #define SCHEME_CONTACT(X)                                                                         \
   X(contact_band, 2.5, "cells", 1.5, 3,                                                           \
     "distance from a plate within which particles have a side")                                   \
@@ -117,13 +122,14 @@
 #ifdef __cplusplus
 namespace navvy::soil {
 
-// The default values; see soil/scheme.h for names, units and ranges at run time.
+/// Default values of the constants; soil/scheme.h gives names, units and ranges at run time.
 #define SCHEME_MEMBER(name, value, unit, low, high, help) double name = value;
 struct SchemeConstants {
   SCHEME_CONSTANTS(SCHEME_MEMBER)
 };
 #undef SCHEME_MEMBER
 
+/// The default values of all constants.
 inline constexpr SchemeConstants kScheme{};
 
 }  // namespace navvy::soil

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest point on the triangles of shells, for one `real` of points at a time (soil/lanes/lanes.h
-// or soil/groups/group.h).
+// Closest point on the triangles of shells, for several points at a time: one `real` holds a
+// coordinate of all points that a work-item computes (soil/lanes/lanes.h or soil/groups/group.h).
 //
-// Lengths are in cells from the window corner of the triangle's tool (tool.h). The sign of the
-// distance comes from the pseudo-normal of the closest feature [Baerentzen 2005], which is correct
-// on convex and concave folds. With plain face normals, a point in front of an inner corner would
-// lie behind one of the faces.
+// Lengths are in cells from the window corner of the triangle's tool (tool.h). The sign of a
+// distance comes from the pseudo-normal of the closest face, edge or corner [Baerentzen 2005],
+// which is correct at convex and concave folds. With plain face normals, a point in front of an
+// inner corner would count as behind one of the faces.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 #define NAVVY_KERNELS_SOIL_SHELL_QUERY_H
 
 #include "soil/tool.h"
 
+// Closest point of the triangles examined so far, for each point.
 typedef struct Closest {
-  // Squared distance [cells^2].
+  // Squared distance [cells^2]; infinite if no triangle was close enough.
   real distance2;
-  // Closest point, from the window corner of its tool.
+  // Closest point, relative to the window corner of its tool [cells].
   real x, y, z;
-  // 8 * triangle + feature, -1: none.
+  // 8 * triangle index + feature index (0 face, 1 .. 3 edges, 4 .. 6 corners); -1 if no triangle
+  // was close enough.
   ints feature;
 } Closest;
 
-// Updates `best` with the edge from a to a + ab for the points p, all from the same corner [cells].
-// Features: `feature` inside the edge, `corner_a` and `corner_b` at its ends.
+// Updates `best` with the edge from a to a + ab. p: the points; all coordinates are relative to the
+// same corner [cells]. `feature`: value of Closest.feature for a closest point inside the edge;
+// `corner_a`, `corner_b`: values for its two ends.
 static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, int feature,
                                 int corner_a, int corner_b, Closest* best) {
   const float inv = 1.0f / dot(ab, ab);
@@ -42,9 +45,9 @@ static inline void closest_edge(real px, real py, real pz, float3 a, float3 ab, 
   best->feature = select(best->feature, which, nearer);
 }
 
-// Updates `best` with triangle t for the points p (from the window corner of the tool). Skips the
-// triangle when all points are farther than `far` from its plane, or farther than `far` plus its
-// radius from its centre.
+// Updates `best` with triangle t for the points p (relative to the window corner of the triangle's
+// tool) [cells]. Skips the triangle if all points are farther than `far` from its plane, or farther
+// than `far` plus its radius from its centre.
 static inline void closest_triangle(real px, real py, real pz,
                                     global const ShellTriangle* triangles, int t, float far,
                                     Closest* best) {
@@ -73,7 +76,7 @@ static inline void closest_triangle(real px, real py, real pz,
   closest_edge(px, py, pz, c, a - c, 8 * t + 3, 8 * t + 6, 8 * t + 4, best);
 }
 
-// Returns the squared distance of points to a segment [cells^2].
+// Returns the squared distance of the points p to the segment from a to a + ab [cells^2].
 static inline real segment_distance2(real px, real py, real pz, float3 a, float3 ab) {
   const float inv = 1.0f / dot(ab, ab);
   const real t =
@@ -82,8 +85,9 @@ static inline real segment_distance2(real px, real py, real pz, float3 a, float3
   return dx * dx + dy * dy + dz * dz;
 }
 
-// Returns the squared distance along the plate to its free edge [cells^2]. Only rims of the same
-// tool count.
+// Returns the squared distance of the points p to the nearest free edge of their tool [cells^2];
+// infinite if the tool has no free edge. tool: index of the tool of each point; count: number of
+// `rims`.
 static inline real inset2_of(real px, real py, real pz, ints tool, global const ShellRim* rims,
                              int count) {
   // A tool without free edges, such as a closed body, has an infinite inset.
@@ -96,12 +100,14 @@ static inline real inset2_of(real px, real py, real pz, ints tool, global const 
   return inset2;
 }
 
-// Returns the block whose corner is the origin of the tool's coordinates.
+// Returns the block whose lower corner is the origin of the tool's coordinates.
 static inline int3 window_of(global const Tool* tools, int tool) {
   return vload3(0, tools[tool].window);
 }
 
-// Finds the closest of the candidate triangles list[begin..end) for points of block `key`.
+// Finds the closest of the triangles list[begin] .. list[end - 1] to the points (x, y, z), which
+// are relative to the lower corner of block `key` [cells], and stores it in `best`. Triangles
+// farther than `far` [cells] may be skipped.
 static inline void query(real x, real y, real z, int3 key, global const ShellTriangle* triangles,
                          global const Tool* tools, global const int* list, int begin, int end,
                          float far, Closest* best) {

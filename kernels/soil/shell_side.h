@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signed distance, normal and side of one node or particle from the closest feature of a shell
-// (soil/shell_query.h).
+// Signed distance, normal and side of one node or particle relative to the closest feature (face,
+// edge or corner) of a shell, as soil/shell_query.h finds it.
 #ifndef NAVVY_KERNELS_SOIL_SHELL_SIDE_H
 #define NAVVY_KERNELS_SOIL_SHELL_SIDE_H
 
 #include "soil/shell_query.h"
 
-// Finds the signed distance phi [cells] and the normal of one point from its closest feature. The
-// normal always points to the front of the plate. Returns false without a feature.
+// Computes signed distance and normal of a point from its closest feature. Returns false if there
+// is none (feature = -1).
+//
+// feature: Closest.feature; away: vector from the closest point to the point; distance2: its
+// squared length; phi: output, signed distance, positive in front of the plate [cells]; normal:
+// output, unit normal towards the front of the plate; rim: output, true if the closest feature is
+// on a free edge.
 static inline bool resolve(global const ShellTriangle* triangles, int feature, float3 away,
                            float distance2, float* phi, float3* normal, bool* rim) {
   if (feature < 0) return false;
@@ -22,34 +27,41 @@ static inline bool resolve(global const ShellTriangle* triangles, int feature, f
   return true;
 }
 
-// Returns the velocity field that a node belongs to: 0 unsplit, 1 split and in front, 2 split and
-// behind.
+// Returns the velocity fields of a node: 0 one field; 1 two fields, the node is in front of the
+// plate; 2 two fields, the node is behind it. rim, phi: from `resolve`; band: distance from a plate
+// within which nodes are split [cells].
 static inline int split_of(bool rim, float phi, float band) {
   return rim || fabs(phi) >= band ? 0 : phi >= 0.0f ? 1 : 2;
 }
 
-// Returns the data of a near node for the contact: normal to the front, signed distance and inset
-// [cells].
+// Returns the position of a near node relative to the plate for the contact: normal towards the
+// front, signed distance phi and inset [cells].
 static inline NodeShell node_shell_of(float3 normal, float phi, float inset) {
   const NodeShell out = {{normal.x, normal.y, normal.z}, phi, inset, {0.0f, 0.0f, 0.0f}};
   return out;
 }
 
-// New state of one particle near a shell. side = 1 + 2 tool + behind, 0: none
-// [docs/tools.md, sides].
+// New state of one particle near a shell [docs/tools.md, sides].
 typedef struct SideResult {
-  // Position [cells from the corner of its block].
+  // Position relative to the corner of the particle's block [cells].
   float3 x;
+  // Side: 0 if no shell is near, else 1 + 2 * tool index, plus 1 if behind the shell.
   int side;
-  // Push out of the plate [cells].
+  // Length by which the particle was pushed out of the plate [cells].
   float push;
+  // 1 if the particle is on the wrong side of the plate, else 0.
   int crossed;
 } SideResult;
 
-// Returns the side of a particle of block `key` whose closest feature is `feature` at `closest`. A
-// particle that has sunk into the plate returns to its surface. A particle that seems farther
-// behind than possible (contact_max_depth) has come to another plate of the tool, which shows its
-// other face to it (plates that meet in a T). It keeps its position.
+// Returns the new side and position of a particle of block `key` whose position is x. feature,
+// distance2, closest: closest point of the shells, as in Closest; old_side: previous side of the
+// particle; band: distance from a plate within which particles have a side [cells]; longest_push:
+// largest push in one transfer [cells].
+//
+// A particle that has sunk into the plate is pushed back to the surface of the plate. A particle
+// that appears to be farther behind the plate than possible (contact_max_depth) is in fact beside
+// another plate of the same tool, which it faces from the other side (for example where plates meet
+// in a T). It keeps its position, and its new side is that relative to the other plate.
 static inline SideResult enforce_side(float3 x, int old_side, int3 key, int feature,
                                       float distance2, float3 closest, float band,
                                       float longest_push, global const ShellTriangle* triangles,

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs of tools and of the contact with them, shared by host and kernels. They hold scalars and
-// arrays of scalars only.
+// Structs of tools and of the contact with them, shared by host and kernels. They contain only
+// scalars and arrays of scalars.
 //
-// Coordinates of a tool are relative to the corner of its window, the block that contains its
-// origin, so that floats are as precise a kilometre from the site's origin. Lengths are in cells,
-// directions along the axes of W.
+// The coordinates of a tool are relative to its window corner: the lower corner of the block that
+// contains the origin of the tool's frame. Floats are then equally precise a kilometre from the
+// site's origin. Lengths are in cells; directions are along the axes of W.
 #ifndef NAVVY_KERNELS_SOIL_TOOL_H
 #define NAVVY_KERNELS_SOIL_TOOL_H
 
-// Parameters of the contact; lengths in cells.
+// Parameters of the contact; lengths are in cells.
 //
-// h: clearance from the plate's face at which a node has half of the share
+// h: clearance from the plate's face at which a node gets half of the contact share
 //
-// ramp: length over which that share falls to zero
+// ramp: length over which that share falls from 1 to 0
 //
-// edge, edge_ramp: the same along the plate, from its free edge
+// edge, edge_ramp: the same two lengths along the plate, measured from a free edge
 //
-// patch: face of a cell x dt [m2 s]
+// patch: area of a cell's face x dt [m2 s]
 //
 // opening: separation speed above which adhesion has ended [m/s]
 //
 // settling: speed at which soil at the end of the reach settles towards a plate that does not
 // advance [m/s]
 //
-// falling: speed at which a plate falls onto soil through nodes that carry hardly any load [m/s]
+// falling: speed at which a plate falls onto soil through nodes that carry almost no load [m/s]
 //
-// down_x, down_y, down_z: unit vector of gravity, or zero
+// down_x, down_y, down_z: unit vector of gravity in W; zero without gravity
 #define REACH_FIELDS(X) \
   X(h)                  \
   X(ramp)               \
@@ -43,7 +43,8 @@
 #include <cstddef>
 namespace navvy::soil {
 
-/// REACH_FIELDS as kernel arguments. The arithmetic of contact_law.h has them in its own precision.
+/// The parameters of REACH_FIELDS as a kernel argument. contact_law.h defines the same struct in
+/// the precision of its arithmetic (Reach).
 #define REACH_FLOAT(name) float name;
 struct ContactReach {
   REACH_FIELDS(REACH_FLOAT)
@@ -51,86 +52,104 @@ struct ContactReach {
 #undef REACH_FLOAT
 #endif
 
-// One tool in this step.
+// One tool in the current step.
 typedef struct Tool {
-  // Block whose corner is the origin of its coordinates.
+  // Block whose lower corner is the origin of the tool's coordinates.
   int window[3];
-  // 1 when the tool takes part in this step.
+  // 1 if the tool takes part in this step, else 0.
   int active;
-  // Origin of the tool's frame, from the window's corner [cells].
+  // Origin of the tool's frame, relative to the window corner [cells].
   float origin[3];
-  // Half of the thickness of its plates [cells].
+  // Half the thickness of the tool's plates [cells].
   float half_thickness;
-  // Angular velocity [rad/s] and velocity of the origin [m/s]; the two-way solve changes it.
+  // Current twist: angular velocity [rad/s], then velocity of the tool's origin [m/s]. The contact
+  // solve changes it.
   float twist[6];
-  // Twist before soil acts.
+  // Twist before the soil acts in this step.
   float start[6];
-  // Change of twist per impulse (moment about the origin, impulse), row major. 0: scripted.
+  // Change of the twist per unit of impulse (angular impulse about the origin, then impulse), row
+  // by row. Zero for a scripted tool, which does not yield.
   float inverse_mass[36];
-  // Factor on the soil's tool friction (its tangent).
+  // Factor on the friction coefficient between soil and tool.
   float friction;
-  // Factor on the soil's adhesion x plate area / sum of the areas that its nodes stand for.
+  // Factor on the soil's adhesion. It includes plate area / sum of the areas that the tool's nodes
+  // represent.
   float adhesion;
 } Tool;
 
-// Direction that separates front and back at the closest point, and whether the plate ends there.
+// A face, edge or corner of a shell.
 typedef struct ShellFeature {
+  // Pseudo-normal, which separates front and back for points closest to this feature.
   float normal[3];
-  // 1 on a free edge.
+  // 1 if the feature is on a free edge, where the plate ends; else 0.
   float free;
 } ShellFeature;
 
-// One triangle of a tool's shell. The face is feature 0, the edges ab bc ca are 1..3, the corners a
-// b c are 4..6.
+// One triangle of a tool's shell, with corners a, b, c relative to the tool's window corner
+// [cells].
 typedef struct ShellTriangle {
+  // Corner a.
   float a[3];
+  // Index of the tool.
   int tool;
+  // Corner b.
   float b[3];
-  // Distance of the farthest corner from the centre.
+  // Distance from the triangle's centre to its farthest corner [cells].
   float radius;
+  // Corner c.
   float c[3];
+  // Padding to 16 bytes.
   float unused;
+  // Features: [0] the face; [1] .. [3] the edges ab, bc, ca; [4] .. [6] the corners a, b, c.
   ShellFeature feature[7];
 } ShellTriangle;
 
-// One free edge of a shell.
+// One free edge of a shell, relative to the tool's window corner [cells].
 typedef struct ShellRim {
+  // Start point of the edge.
   float start[3];
+  // Index of the tool.
   int tool;
+  // Vector from the start point to the end point.
   float along[3];
+  // Padding to 16 bytes.
   float unused;
 } ShellRim;
 
-// Position of a node near a shell.
+// Position of a near node relative to the closest plate.
 typedef struct NodeShell {
-  // Normal, towards the node if the node is in front.
+  // Unit normal of the plate at the closest point, towards its front.
   float normal[3];
-  // Distance from the plate's middle, positive in front [cells].
+  // Distance from the middle surface of the plate, positive in front [cells].
   float distance;
-  // Distance along the plate to its free edge [cells].
+  // Distance along the plate to its nearest free edge [cells]; infinite without free edges.
   float inset;
+  // Padding to 32 bytes.
   float unused[3];
 } NodeShell;
 
-// Change of one field of a node by contact.
+// Change of one velocity field of a node by contact.
 typedef struct ContactRecord {
   // Velocity before contact [m/s].
   float before[3];
-  // Mass [kg].
+  // Mass of the field [kg].
   float mass;
-  // Velocity after contact and before resting ground acts [m/s].
+  // Velocity after contact, before the hold of the resting ground [m/s].
   float after[3];
-  // Normal impulse [N s].
+  // Normal impulse on the node [N s].
   float push;
 } ContactRecord;
 
-// Sums of the two-way solve over the nodes of a near block. Added word by word.
+// Number of words of ContactSums, which kernels add word by word.
 #define CONTACT_SUM_WORDS 28
+// Sums over the nodes of a near block, for the solve of a tool's twist.
 typedef struct ContactSums {
-  // Moment about the tool's origin [N m s], impulse [N s].
+  // Impulse on the soil: moment about the tool's origin [N m s], then impulse [N s].
   float wrench[6];
-  // Upper triangle of the slope of the wrench against the twist, row by row.
+  // Derivative of the wrench with respect to the tool's twist: upper triangle of the symmetric 6 x
+  // 6 matrix, row by row.
   float stiffness[21];
+  // Padding, so that the struct has 28 words.
   float unused;
 } ContactSums;
 

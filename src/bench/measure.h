@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Common procedure of all benches: warm up, restore, repeat, take minimum and median; and the peak
-// rates of a device, which results are compared with.
+// Measurement procedure shared by all benches (warm up, restore, repeat, take minimum and median),
+// and measurement of a device's peak rates, to which results are compared.
 #pragma once
 
 #include <cstddef>
@@ -15,40 +15,43 @@ class Device;
 
 namespace navvy::bench {
 
-/// Runs `restore` then `work` once to warm up and `runs` times for the clock. Only `work` is timed,
-/// up to the end of what it queued on the device. Processor time is counted, too, as it is
-/// meaningful on a busy machine. The number of runs is small, so best, median and spread are kept,
-/// not a mean.
+/// Measures `work` on a device: runs `restore` then `work` once to warm up, and then `runs` more
+/// times with the clock. Returns the times of those runs.
+///
+/// Only `work` is timed, until everything that it queued on the device has finished. Processor time
+/// is measured as well, because it remains meaningful on a busy machine. The result contains best,
+/// median and spread rather than a mean, because the number of runs is small.
 Timing measure(device::Device& device, const std::function<void()>& restore,
                const std::function<void()>& work, int runs = 5);
 
-/// Does the same for work of the host, without a warm-up.
+/// Measures `work` that runs on the host only, in the same way but without a warm-up run.
 Timing measure(int runs, const std::function<void()>& restore, const std::function<void()>& work);
 
-/// Returns the processor time of all threads of this process [s], which includes the kernels of a
-/// CPU driver.
+/// Returns the processor time that all threads of this process have used so far [s]. It includes
+/// kernels of an OpenCL driver that runs on the CPU.
 double processor_seconds();
 
-/// Returns best, median and spread of runs with these wall times, in any order, and the least of
-/// their processor times (0 where none was taken) [s].
-/// @throws Error without a run.
+/// Returns the statistics of a series of runs. `wall`: wall time of each run, in any order [s];
+/// `processor`: processor time of each run [s], or empty if it was not measured; the result then
+/// contains 0.
+/// @throws Error when `wall` is empty.
 Timing timing_of(std::vector<double> wall, const std::vector<double>& processor);
 
-/// Returns the least time that the device's kernels take in one of `runs` runs of `work`, summed by
-/// its own clock: no launches, no copies, no host [s]. The clock slows a run down a little, so
-/// `measure` never uses it.
+/// Returns the shortest total time of the device's kernels in one of `runs` runs of `work` [s],
+/// measured by the device's own clock, without launches, copies and host code. `restore` runs
+/// before each run. Profiling slows a run down slightly, so `measure` does not use it.
 double kernel_seconds(device::Device& device, const std::function<void()>& restore,
                       const std::function<void()>& work, int runs = 3);
 
-/// Returns bytes read plus written per second by a plain copy kernel over `bytes` of memory, the
-/// bound for a schedule's traffic.
+/// Returns the memory bandwidth of a plain copy kernel over `bytes` bytes: bytes read plus bytes
+/// written per second. It is the upper bound for kernels that mainly move memory.
 double copy_bandwidth(device::Device& device, std::size_t bytes = std::size_t{1} << 28);
 
-/// Returns single-precision operations per second of a kernel that only does fused multiply-adds in
-/// registers, the bound for schedules that compute rather than move memory.
+/// Returns the single-precision operations per second of a kernel that only computes fused
+/// multiply-adds in registers. It is the upper bound for kernels that mainly compute.
 double fma_peak(device::Device& device);
 
-/// Measures both.
+/// Measures copy_bandwidth and fma_peak of a device.
 Peak measure_peak(device::Device& device);
 
 }  // namespace navvy::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One result of a bench, and files of results: CSV to compare, JSON for programs.
+// One benchmark result, and files of results: CSV for comparison, JSON for programs.
 #pragma once
 
 #include <cstdint>
@@ -8,67 +8,69 @@
 
 namespace navvy::bench {
 
-/// Wall times of the runs of one bench after its warm-up.
+/// Run times of one bench, without its warm-up run.
 struct Timing {
-  /// [s].
+  /// Wall time of the fastest run [s].
   double best = 0;
-  /// [s]; 0: equal to best.
+  /// Median wall time [s]; 0 means equal to `best`.
   double median = 0;
-  /// (slowest - best) / best.
+  /// Relative spread of the wall times: (slowest - best) / best.
   double spread = 0;
-  /// Number of runs.
+  /// Number of timed runs.
   int runs = 0;
-  /// Least processor time of a run, over all threads of this program [s].
+  /// Smallest processor time of a run, summed over all threads of this program [s]; 0 means not
+  /// measured.
   double processor = 0;
 };
 
-/// Peak rates of a device, measured on it; 0 = not measured.
+/// Measured peak rates of a device; 0 means not measured.
 struct Peak {
-  /// Bytes read plus written per second by a plain copy.
+  /// Bytes read plus bytes written per second by a plain copy kernel.
   double copy_bandwidth = 0;
-  /// Single-precision operations per second; a fused multiply-add counts as two.
+  /// Single-precision operations per second; a fused multiply-add counts as two operations.
   double flops = 0;
 };
 
-/// One result. Zero in a column that does not apply prints as an empty field.
+/// Result of one bench: one line of a result file. A numeric member of 0 means that it does not
+/// apply; its field is then empty in the output.
 struct Row {
-  /// Name, with the size after a colon where one name has several.
+  /// Name of the bench; a size follows after a colon if the bench runs in several sizes.
   std::string bench;
-  /// Number of particles or elements.
+  /// Number of particles, or of elements in a bench without particles.
   std::uint64_t particles = 0;
-  /// Steps of one run.
+  /// Number of time steps in one run.
   std::uint64_t steps = 0;
   /// Times of the runs.
   Timing timing;
-  /// Least time of the device's kernels alone in a run, by its own clock [s].
+  /// Shortest total time of the device's kernels in one run, by the device's own clock [s].
   double kernels = 0;
-  /// Traffic of one step, counted from the kernel's arguments.
+  /// Memory traffic per particle and step, counted from the kernels' arguments [bytes].
   double bytes_per_particle = 0;
-  /// Operations of one step, counted from the kernel's lines.
+  /// Arithmetic operations per particle and step, counted from the kernels' source.
   double flops_per_particle = 0;
-  /// Simulated time [s], for the real-time factor.
+  /// Simulated time of one run [s], for the real-time factor.
   double simulated = 0;
-  /// State hash of the result.
+  /// Hash of the state after the run, to detect changed results.
   std::string hash;
-  /// Edge of the square site [m], where it matters.
+  /// Side length of the square site [m], if the site's size matters.
   double site = 0;
-  /// Texts of DeviceInfo.
+  /// Names of the device and of its driver, from DeviceInfo.
   std::string device, driver;
-  /// Peak rates of the device, for the shares.
+  /// Peak rates of the device; the row states its own rates as shares of these.
   Peak peak;
 };
 
-/// Returns the names of the columns, in the order of `cells`.
+/// Returns the column names of a result file, in the order of the fields that `cells` returns.
 const std::vector<std::string>& columns();
-/// Returns the row's fields as text, empty where they do not apply.
+/// Returns the fields of one row as text; a field that does not apply is empty.
 std::vector<std::string> cells(const Row& row);
 
-/// Returns the first line of a CSV file, without its end.
+/// Returns the header line of a CSV file, without a line end.
 std::string csv_header();
-/// Returns one line without its end; text is quoted.
+/// Returns one row as a line of CSV, without a line end; text fields are quoted.
 std::string csv_line(const Row& row);
-/// Returns an array with one object per row, keys as the columns, numbers as numbers; empty fields
-/// are left out.
+/// Returns a JSON array with one object per row. The keys are the column names; numeric fields are
+/// JSON numbers, and empty fields are omitted.
 std::string json(const std::vector<Row>& rows);
 
 }  // namespace navvy::bench

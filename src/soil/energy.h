@@ -4,50 +4,51 @@
 
 namespace navvy::soil {
 
-/// Sums since the account was opened [J], except `kinetic` and `elastic`, which are current values.
-/// All of them refer to particles: ground at rest has no account. docs/soil.md says how each is
-/// computed [docs/soil.md, energy].
+/// Energies of the particle soil [J]. All members are sums since recording began, except `kinetic`
+/// and `elastic`, which are current values. They cover particles only; resting columns have no
+/// energy account. [docs/soil.md, energy] defines how each member is computed.
 struct EnergyAccount {
-  // Supplied.
-  /// Work of tools on soil.
+  /// Supplied: work done by tools on the soil.
   double tools = 0;
-  /// Work of gravity.
+  /// Supplied: work done by gravity on the particles.
   double gravity = 0;
-  /// Kinetic and elastic energy of soil that was activated or put in, minus that of soil that left.
+  /// Supplied: kinetic and elastic energy of soil that was activated or inserted, minus that of
+  /// soil that was deposited or left the site.
   double exchanged = 0;
-  // Stored.
-  /// Kinetic energy of the nodes.
+  /// Stored: current kinetic energy of the nodes.
   double kinetic = 0;
-  /// Elastic energy of shear and volume.
+  /// Stored: current elastic energy of shear and of compression.
   double elastic = 0;
-  // Dissipated.
-  /// Yield, and volume that compaction keeps.
+  /// Dissipated: plastic work, by yielding in shear and by permanent compaction.
   double plastic = 0;
-  /// The viscosities of the law.
+  /// Dissipated: work of the shear and bulk viscosities of the soil law.
   double viscous = 0;
-  /// Sliding along tools, and impacts of tools.
+  /// Dissipated: friction of soil that slides along tools, and impacts of tools.
   double contact = 0;
-  /// Velocity components that the transfer between particles and nodes filters out.
+  /// Dissipated: kinetic energy of the velocity components that are lost when velocities pass from
+  /// particles to nodes and back.
   double transfer = 0;
-  /// Volume that mixing evens out in cells with open particles.
+  /// Dissipated: elastic energy lost when the volume ratios of the particles in a cell are
+  /// averaged, in cells with open particles (J > J0).
   double mixing = 0;
-  // Outside the balance.
-  /// Potential energy gained by separating crowded particles; no force does that work.
+  /// Outside the balance: potential energy gained when crowded particles are moved apart. No force
+  /// does this work.
   double apart = 0;
 
-  /// Returns the energy that came in [J].
+  /// Returns the energy supplied to the particles since recording began [J].
   double supplied() const { return tools + gravity + exchanged; }
-  /// Returns the energy that was spent [J].
+  /// Returns the energy dissipated since recording began [J].
   double dissipated() const { return plastic + viscous + contact + transfer + mixing; }
-  /// Returns what the sums do not explain: stresses and velocities of a step belong to different
-  /// moments.
+  /// Returns the error of the balance, supplied - stored - dissipated [J]. It is not zero because
+  /// stresses and velocities of a step belong to slightly different times.
   double residual() const { return supplied() - kinetic - elastic - dissipated(); }
 
-  /// Adds another account, as of a second site.
+  /// Adds the members of another account, for example that of a second site.
   EnergyAccount& operator+=(const EnergyAccount& other);
 };
 
-/// Calls visit(name, member pointer) for every member.
+/// Calls visit(name, member pointer) for each member of EnergyAccount, in the order of their
+/// declaration.
 template <class Visit>
 void each_energy(const Visit& visit) {
   visit("tools", &EnergyAccount::tools);
@@ -63,8 +64,8 @@ void each_energy(const Visit& visit) {
   visit("apart", &EnergyAccount::apart);
 }
 
-/// Reports the account as people and files get it: report(name, [J]) for every member, then for the
-/// residual.
+/// Reports the account for output: calls report(name, value [J]) for each member and then for
+/// "residual".
 template <class Sink>
 void report_energy(const EnergyAccount& account, const Sink& report) {
   each_energy(
@@ -72,6 +73,7 @@ void report_energy(const EnergyAccount& account, const Sink& report) {
   report("residual", account.residual());
 }
 
+/// Adds member by member, through each_energy.
 inline EnergyAccount& EnergyAccount::operator+=(const EnergyAccount& other) {
   each_energy([&](const char*, double EnergyAccount::*member) { this->*member += other.*member; });
   return *this;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides when the exchange between columns and particles is checked next.
+// Clock that decides when the exchange between columns and particles is checked next.
 #pragma once
 
 #include <cmath>
@@ -9,40 +9,42 @@
 
 namespace navvy::soil {
 
-/// Time and tool travel since the last check of the exchange.
+/// Measures time, steps and tool travel since the last check of the exchange.
 ///
-/// A check is due before the fastest tool has gone a third of a cell, and after some steps when no
-/// tool moves. Checks wait for the end of a transfer.
+/// A check is due before the fastest tool has moved 0.3 cells, and at the latest after kSteps
+/// steps. The check itself can only run between two transfers.
 ///
-/// Rules of the exchange are written in simulated time, so a check that comes a little earlier or
-/// later changes little; one that comes too late lets a tool run into ground that is still columns.
+/// The rules of the exchange are written in simulated time, so a check that comes slightly earlier
+/// or later changes little. A check that comes far too late would let a tool enter ground that is
+/// still columns.
 class ExchangeClock {
  public:
   /// Largest number of steps between two checks.
   static constexpr std::uint32_t kSteps = 25;
 
-  /// Returns true when the next chance, `ahead` [m] of tool travel later, would be too late.
+  /// Returns true if a check must run now. `ahead`: distance that the fastest tool travels until
+  /// the next opportunity for a check [m]; `cell`: edge of a cell [m].
   bool due(double ahead, double cell) const {
     return first_ || steps_ >= kSteps || travel_ + ahead > kTravel * cell;
   }
-  /// Returns the time since the last check [s].
+  /// Returns the simulated time since the last check [s].
   double elapsed() const { return elapsed_; }
-  /// Counts a step of dt [s] in which the fastest tool moves at `tool_speed` [m/s].
+  /// Adds a step of dt [s] in which the fastest tool moves at `tool_speed` [m/s].
   void advance(double dt, double tool_speed) {
     elapsed_ += dt;
     travel_ += tool_speed * dt;
     ++steps_;
   }
-  /// Starts anew after a check.
+  /// Resets the clock after a check.
   void restart() {
     first_ = false;
     elapsed_ = travel_ = 0;
     steps_ = 0;
   }
-  /// Makes the next check due at once.
+  /// Makes a check due at the next opportunity.
   void hurry() { first_ = true; }
 
-  /// Visits all of it: equal clocks check at the same time.
+  /// Visits the whole clock, so that a resumed run checks at the same steps.
   void visit(Archive& a) {
     a("since_check", elapsed_);
     a("travel", travel_);
@@ -53,14 +55,16 @@ class ExchangeClock {
   }
 
  private:
-  /// Tool travel between two checks [cells].
+  /// Longest tool travel between two checks [cells].
   static constexpr double kTravel = 0.3;
 
-  /// Time [s].
+  /// Simulated time since the last check [s].
   double elapsed_ = 0;
-  /// Distance of the fastest tool [m].
+  /// Distance travelled by the fastest tool since the last check [m].
   double travel_ = 0;
+  /// Number of steps since the last check.
   std::uint32_t steps_ = 0;
+  /// True when the next check is due at once: before the first check, and after `hurry`.
   bool first_ = true;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Position of a solver's grid in W.
+// Position of a solver's grid relative to the world frame W.
 #pragma once
 
 #include "core/math.h"
@@ -11,16 +11,19 @@ namespace navvy::soil {
 
 /// The grid frame G (particle.h) of one site.
 ///
-/// Axes are those of W, lengths are in cells, and the height is counted from the ground's datum.
-/// All particles, blocks and nodes of a solver count in it.
+/// The axes of G are those of W, lengths in G are in cells, and heights in G start at the ground's
+/// datum. The positions of all particles, blocks and nodes of a solver are coordinates in G.
 struct GridFrame {
+  /// Derives the frame from the ground's origin, cell and datum, and from the start position of the
+  /// world's first machine (plan_grid).
   GridFrame(const scene::Scene& world, const heightfield::Ground& ground)
       : cell(ground.cell()),
         grid(plan_grid(world, ground)),
         origin(ground.origin().x() + grid.x * cell, ground.origin().y() + grid.y * cell,
                ground.datum()) {}
 
-  /// Returns the position of a particle at the last transfer in W [m].
+  /// Returns the position of a particle in W at the last transfer [m]. It does not include
+  /// Particle::moved.
   Vec3 position(const Particle& p) const {
     Vec3 out;
     for (int a = 0; a < 3; ++a)
@@ -30,7 +33,7 @@ struct GridFrame {
 
   /// Edge of a cell [m].
   double cell;
-  /// Position of blocks among the columns.
+  /// Offset of the particle blocks relative to the site's columns.
   PlanGrid grid;
   /// Origin of G in W [m].
   Vec3 origin;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masses that entered and left the particles of a solver, for its ledger.
+// Record of the masses that entered and left the particles of a solver, for its mass ledger.
 #pragma once
 
 #include <cstdint>
@@ -17,40 +17,47 @@ namespace navvy::soil {
 
 struct Ledger;
 
-/// Entries of the ledger that are not counted from particles, in kMassQuantum per soil, and the ids
-/// of particles.
+/// Records inserted and lost masses, the total mass of the particles, and the next free particle
+/// ID. All masses are integers, one entry per soil, in units of kMassQuantum.
 ///
-/// The ledger is balanced when the change of the columns, plus the particles, plus what left the
-/// site, minus what was inserted, is zero for every soil. All of these are integers, so the balance
-/// is exact.
+/// The ledger is balanced when, for every soil, the change of the columns + the mass of the
+/// particles + the mass that left the site - the mass inserted is zero. All terms are integers, so
+/// the balance is exact.
 class MassRecord {
  public:
-  /// Starts without particles on this ground, which must outlive the record. `soils`: their number.
+  /// Starts without particles. `ground` must outlive the record; `soils`: number of soils of the
+  /// scene.
   MassRecord(const heightfield::Ground& ground, std::size_t soils);
 
-  /// Returns an id that no particle had before.
+  /// Returns an ID that no particle had before.
   std::uint32_t new_id() { return next_id_++; }
-  /// Adds particles that come from outside.
-  /// @throws std::out_of_range for a soil that does not exist.
+  /// Records the mass of particles that are inserted from outside the simulation.
+  /// @throws std::out_of_range for a soil index that does not exist.
   void record_inserted(std::span<const Particle> particles);
-  /// Subtracts particles that left the site.
+  /// Records the mass of particles that left the site, and subtracts it from in_particles().
   void record_left_site(std::span<const Particle> particles);
-  /// Replaces the masses that all particles together must have.
+  /// Sets in_particles() to the sum over all particles.
   void set_particles(std::span<const Particle> all);
+  /// Sets in_particles() to these masses, one entry per soil.
   void set_particles(std::vector<std::int64_t> masses) { in_particles_ = std::move(masses); }
-  /// Returns the masses that every count of the particles must give, one per soil.
+  /// Returns the mass that all particles together must have. check_masses compares it with the
+  /// masses counted on the device.
   const std::vector<std::int64_t>& in_particles() const { return in_particles_; }
 
-  /// Returns the ledger with these masses of particles.
+  /// Returns the complete ledger. `particles`: counted particle mass, one entry per soil.
   Ledger ledger(std::vector<std::int64_t> particles) const;
 
-  /// Visits ids, masses that left and masses that came. The masses in particles follow from the
-  /// particles.
+  /// Visits the next ID and the masses that left and were inserted. in_particles() is not saved,
+  /// because it follows from the particles.
   void visit(Archive& a);
 
  private:
+  /// Ground whose mass change enters the ledger.
   const heightfield::Ground& ground_;
+  /// ID of the next new particle.
   std::uint32_t next_id_ = 1;
+  /// Masses per soil [kMassQuantum]: left_site_ went over the site's edge, inserted_ came from
+  /// outside, in_particles_ is what all particles must sum to.
   std::vector<std::int64_t> left_site_, inserted_, in_particles_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of the particle scheme at run time: names, units, ranges, and build options of kernels.
+// Constants of the particle scheme at run time: names, units, allowed ranges, and the build options
+// that pass them to kernels.
 #pragma once
 
 #include <string>
@@ -9,32 +10,34 @@
 
 namespace navvy::soil {
 
-/// One row of kernels/soil/scheme_constants.h.
+/// Description of one scheme constant: one row of the table in kernels/soil/scheme_constants.h.
 struct SchemeConstant {
-  /// Name in the table, without the prefix "scheme.".
+  /// Name without the prefix "scheme.", for example "held_margin".
   const char* name;
-  /// Member that holds the value.
+  /// Member of SchemeConstants that holds the value.
   double SchemeConstants::*value;
-  /// "" for a pure number.
+  /// Unit of the value; an empty string for a dimensionless number.
   const char* unit;
-  /// Both allowed.
+  /// Lowest and highest allowed value; both are allowed themselves.
   double low, high;
-  /// Noun phrase without a full stop.
+  /// Description for listings: a noun phrase without a full stop.
   const char* help;
 
   /// Returns the default value.
   double standard() const { return kScheme.*value; }
 };
 
-/// Returns all rows, in the order of the table.
+/// Returns the descriptions of all scheme constants, in the order of the table in
+/// kernels/soil/scheme_constants.h.
 const std::vector<SchemeConstant>& scheme_constants();
 
-/// Sets one constant by its name.
-/// @throws InputError naming the nearest constant for an unknown name, or the range for a value
-/// outside it (NaN included).
+/// Sets the constant `name` of `scheme` to `value`.
+/// @throws InputError for an unknown name (the message suggests the most similar one) and for a
+/// value outside the allowed range, NaN included.
 void set_scheme_constant(SchemeConstants& scheme, const std::string& name, double value);
 
-/// Returns the build options that hand all constants to a kernel, as SCHEME(name) reads them.
+/// Returns the compiler options that define all constants for a kernel build. Kernels read them as
+/// SCHEME(name).
 std::vector<std::string> scheme_options(const SchemeConstants& scheme);
 
 }  // namespace navvy::soil

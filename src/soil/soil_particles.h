@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particles of a solver: the store on the device, and the drift since its last re-bin.
+// The particles of a solver: the store on the device, and the drift of the particles since their
+// last re-bin.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +14,21 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Drift that calls for a re-bin before the next transfer [cells]. The margin of a tile is one
-/// cell, minus one push.
+/// Drift of the particles since the last re-bin above which they are re-binned before the next
+/// transfer [cells]. The tile of a block has a margin of one cell; the difference covers one push
+/// out of a plate.
 inline constexpr double kMaxDrift = 0.75;
 
-/// Returns the particle with the block that contains its cell, instead of the block it is stored
-/// in.
+/// Returns the particle assigned to the block that contains its position. The store assigns
+/// particles to the block of their base node instead, half a cell lower.
 Particle in_cell_block(Particle p);
 
-/// Particles on the device. If the device runs out of memory the run is over; the particles then
-/// stay on the host, so that ledger and snapshot remain complete.
+/// All particles of a solver, on the device. If the device has no memory for them, the run ends
+/// with an error, but the particles remain available on the host, so that ledger and snapshot stay
+/// complete.
 ///
-/// `assign`, `rebin` and a load change the set of blocks. `blocks_changed` then stays true until
-/// the solver has made its lists anew.
+/// `assign`, `rebin` and loading a state change the set of blocks. blocks_changed() then returns
+/// true until the solver has rebuilt its lists and called clear_blocks_changed().
 class SoilParticles {
  public:
   /// Creates an empty set. `site`, `soils`: see ParticleStore. `budget`: number of particles above
@@ -35,46 +38,55 @@ class SoilParticles {
 
   /// Returns the particles on the device.
   ParticleStore& store() { return store_; }
+  /// Returns the particles on the device.
   const ParticleStore& store() const { return store_; }
   /// Returns the number of particles on the device.
   int count() const { return store_.count(); }
 
-  /// Returns all particles in stored order.
+  /// Returns host copies of all particles, in stored order.
   std::vector<Particle> records() const;
-  /// Returns the particles of the device, each with the block that its cell lies in.
+  /// Returns host copies of the particles on the device, in stored order, each assigned to the
+  /// block that contains its position (in_cell_block).
   std::vector<Particle> by_cell() const;
-  /// Returns the particles in a box of G [cells], and some around it.
+  /// Returns the current positions and masses of all particles inside the box `low` .. `high` of G
+  /// [cells], and of some outside it.
   std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
-  /// Counts the mass of each soil [kMassQuantum].
+  /// Returns the total particle mass, one entry per soil [kMassQuantum].
   std::vector<std::int64_t> masses() const;
 
-  /// Replaces all particles.
-  /// @throws device::DeviceError when the device has no memory for them.
+  /// Replaces all particles. Logs a warning when their number first exceeds the budget.
+  /// @throws device::DeviceError when the device has no memory for them; they are then kept on the
+  /// host.
   void assign(const std::vector<Particle>& particles);
-  /// Sorts the particles into new blocks; returns those that left the site.
+  /// Sorts the particles into the blocks of their current positions. Removes those that left the
+  /// site and returns them.
   std::vector<Particle> rebin();
-  /// Returns true when particles may leave the margin of their tiles in the next transfer.
+  /// Returns true if particles may leave the tile of their block during the next transfer.
   bool rebin_due() const { return drift_ > kMaxDrift; }
-  /// Adds a displacement [cells] that particles may have made.
+  /// Adds an upper bound of a displacement of the particles to their drift [cells].
   void add_drift(double cells) { drift_ += cells; }
-  /// Returns true while lists of blocks must be made anew.
+  /// Returns true if the lists that depend on the set of blocks must be rebuilt.
   bool blocks_changed() const { return blocks_changed_; }
-  /// Notes that all lists are up to date.
+  /// Records that all lists that depend on the set of blocks are up to date.
   void clear_blocks_changed() { blocks_changed_ = false; }
 
-  /// Visits the particles, and whether the next step makes lists anew.
+  /// Visits all particles, blocks_changed() and the drift.
   void visit(Archive& a);
 
  private:
+  /// Particles on the device.
   ParticleStore store_;
+  /// Number of soils of the scene.
   std::size_t soils_;
+  /// Number of particles above which a warning is logged.
   int budget_;
-  /// All particles, once the device has no memory for them.
+  /// All particles, after the device had no memory for them; empty otherwise.
   std::vector<Particle> unplaced_;
-  /// The warning has been logged.
+  /// True if the number of particles exceeds the budget and the warning has been logged.
   bool over_budget_ = false;
+  /// True if lists that depend on the set of blocks must be rebuilt.
   bool blocks_changed_ = true;
-  /// Cells that particles may have moved since the last re-bin.
+  /// Upper bound of the displacement of any particle since the last re-bin [cells].
   double drift_ = 0;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools that stand on the ground: start and end of their contact [docs/tools.md, resting contact].
+// Tools that stand on the ground: when their resting contact starts and ends
+// [docs/tools.md, resting contact].
 #pragma once
 
 #include <span>
@@ -16,52 +17,61 @@ class Archive;
 
 namespace navvy::soil {
 
-/// The resting contacts of all tools of a solver.
+/// Manages the resting contacts of all tools of a solver.
 ///
-/// A contact starts when a tool that yields has stood still for long enough on particles that carry
-/// it, and no soil lies on it. From then on the ground under it may become columns, which do not
-/// push on tools. It ends when the tool moves, is overloaded, gets soil on top, or the ground below
-/// becomes particles again.
+/// A resting contact starts when a tool that is not scripted has stood still long enough on
+/// particles that carry it, with no soil on top of it. From then on the ground under the tool may
+/// become columns, which exert no force on tools; the contact carries the tool instead. The contact
+/// ends when the tool moves, is overloaded or gets soil on top, or when the ground under it becomes
+/// particles again.
 class StandingTools {
  public:
-  /// Observes the ground; all arguments must outlive it.
+  /// Starts without tools. All arguments are only read and must outlive this object.
   StandingTools(const scene::Scene& world, const heightfield::Ground& ground,
                 const GridFrame& frame, const Contact& contact)
       : world_(world), ground_(ground), frame_(frame), nodal_contact_(contact) {}
 
-  /// Adds one more tool, in the order of Contact::add_tool.
+  /// Adds one tool. Tools must be added in the same order as with Contact::add_tool.
   void add_tool() { contacts_.emplace_back(); }
-  /// Begins the contact of tools that have come to rest, and ends it where soil lies on the tool.
-  /// `elapsed`: since the last call [s]; `regions` parallel to the motions; `all`: every particle,
-  /// by cell.
+  /// Starts the contact of tools that have come to rest, and ends the contact of tools with soil on
+  /// top. `elapsed`: simulated time since the last call [s]; `regions`: parallel to `motions`;
+  /// `all`: all particles, each in the block that contains its position.
   void update(double elapsed, std::span<const ToolMotion> motions,
               std::span<const ToolRegion> regions, std::span<const Particle> all);
-  /// Returns true while the ground supports the tool.
+  /// Returns true while the resting contact of tool `tool` is engaged.
   bool supports(int tool) const { return contacts_[static_cast<std::size_t>(tool)].engaged; }
-  /// Ends the contact of tools under which ground became particles (`born`).
+  /// Ends the contact of every supported tool whose box contains, in plan, one of the new particles
+  /// `born`.
   void release(std::span<const ToolRegion> regions, std::span<const Particle> born);
-  /// Adds the impulses of the contacts to `impulses`, after all else has acted in a step of dt [s].
-  /// Returns true when a contact ended, so that the exchange must be checked at once.
+  /// Adds the impulses of the resting contacts in a step of dt [s] to `impulses`. Call it after the
+  /// impulses of the soil have been added. Returns true when a contact ended; the exchange must
+  /// then be checked as soon as possible.
   bool apply(double dt, std::span<const ToolMotion> motions, std::span<ToolImpulse> impulses);
 
-  /// Visits the contacts, one per tool.
+  /// Visits the resting contact of each tool.
   void visit(Archive& a);
 
  private:
-  /// Returns the normal of the ground under a tool: columns, and soil on them.
+  /// Returns the unit normal in W of the ground under a tool. The ground is the surface of the
+  /// columns with the particles on them.
   Vec3 ground_normal(const scene::Shell& shell, const ToolMotion& motion, const ToolRegion& region,
                      std::span<const Particle> all) const;
-  /// Returns the gradient of the plane that fits the ground best in a rectangle of the plan.
+  /// Returns the gradient (dz/dx, dz/dy) of the plane that best fits the ground in the rectangle
+  /// `from` .. `to` of W [m].
   Vec2 ground_gradient(const Vec2& from, const Vec2& to, std::span<const Particle> all) const;
-  /// Returns true if a particle lies on the tool, seen along the normal `up`.
+  /// Returns true if a particle is on top of the tool, as seen along the ground normal `up`.
   bool soil_on_tool(const scene::Shell& shell, const ToolMotion& motion, const Vec3& up,
                     std::span<const Particle> all) const;
 
+  /// Scene, for the friction of soil on tools.
   const scene::Scene& world_;
+  /// Columns of the site.
   const heightfield::Ground& ground_;
+  /// Grid frame of the particles.
   const GridFrame& frame_;
+  /// Contact with the soil's nodes, for shells and reported forces.
   const Contact& nodal_contact_;
-  /// Contacts by tool.
+  /// One resting contact per tool, by tool index.
   std::vector<RestingContact> contacts_;
 };
 

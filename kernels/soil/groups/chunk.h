@@ -1,29 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chunk of a block's particles in local memory, sorted by cell, and the sums of one cell.
+// Processing of a block's particles in chunks that fit local memory: sorts the particles of a chunk
+// by cell, and sums what the particles of one cell give to the nodes.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 #define NAVVY_KERNELS_SOIL_GROUPS_CHUNK_H
 
 #include "soil/groups/group.h"
 #include "soil/point.h"
 
-// Particles at a time, a multiple of NAVVY_LANES and at most CELLS.
+// Number of particles in a chunk: a multiple of NAVVY_LANES and at most CELLS.
 #define CHUNK 208
 
-// Staged words of a particle, word f of slot i at f * CHUNK + i: momentum at the base node, change
-// of momentum per node along x, y, z, mass [SI], offset from the base node [cells].
+// Words that are staged in local memory for each particle; word f of particle i is at f * CHUNK +
+// i. Words 0 .. 2 (STAGED_P): momentum at the base node. Words 3 .. 11 (STAGED_A): change of that
+// momentum per node along x, y and z. STAGED_MASS: mass [kg]. Words 13 .. 15 (STAGED_F): offset
+// from the base node [cells]. STAGED is the number of words.
 #define STAGED_P 0
 #define STAGED_A 3
 #define STAGED_MASS 12
 #define STAGED_F 13
 #define STAGED 16
 
-// Returns the index of the cell of a particle's base node.
+// Returns the index (x fastest, 0 .. CELLS - 1) of the cell of a particle's base node, from the
+// particle's position relative to the corner of its block [cells].
 static inline int cell_of(float x, float y, float z) {
   return (int)base_node(x) + 1 + 6 * ((int)base_node(y) + 1) + 36 * ((int)base_node(z) + 1);
 }
 
-// Returns the place of this work-item's particle among the `count` particles of the chunk, by cell,
-// then in stored order. first, counts (zero before): range of each cell's particles.
+// Returns the position of this work-item's particle when the `count` particles of the chunk are
+// sorted by cell and, within a cell, by stored order.
+//
+// cells: cell of each particle; cell: that of this work-item's particle. first, counts: output, for
+// each cell the position of its first particle and the number of its particles; counts must be zero
+// before the call.
 static inline int place_in_chunk(local const int* cells, int count, int cell, local int* first,
                                  local int* counts) {
   const int me = get_local_id(0);
@@ -39,11 +47,15 @@ static inline int place_in_chunk(local const int* cells, int count, int cell, lo
   return lower + earlier;
 }
 
-// Returns the index in the tile of the base node of a cell.
+// Returns the index in the tile (8 x 8 x 8 nodes) of the base node of a cell (6 x 6 x 6).
 static inline int tile_node(int cell) { return cell % 6 + 8 * (cell / 6 % 6) + 64 * (cell / 36); }
 
-// Adds the momentum and mass that the `count` particles from slot `first` on give to the nine nodes
-// of one layer (0..2 above the base node), x fastest. Counts particles that belong to tile t only.
+// Sums the momentum [kg m/s] and mass [kg] that the particles of one cell give to the nine nodes of
+// one layer; sums: output, x fastest, one float4 (momentum, mass) per node.
+//
+// stage: staged words of the chunk; sides: tile of each particle; first, count: range of the cell's
+// particles; t: tile whose particles are summed, others are skipped; layer: 0, 1 or 2 nodes above
+// the base node.
 static inline void add_layer(local const float* stage, local const int* sides, int first, int count,
                              int t, int layer, float4* sums) {
   UNROLL

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// One particle or node per work-item: the scalar counterpart of soil/lanes/lanes.h for the schedule
-// of work-groups. Law and shell queries are the same sources in both.
+// Basis of the kernels in kernels/soil/groups, in which each work-item computes one particle or
+// node: the scalar counterpart of soil/lanes/lanes.h. Soil law and shell queries are the same
+// sources in both schedules.
 #ifndef NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 #define NAVVY_KERNELS_SOIL_GROUPS_GROUP_H
 
 #include "soil/scalar.h"
 
-// Loops over a work-item's own small arrays are unrolled: only then are they registers, which a GPU
-// cannot index.
+// Unrolls the loop that follows. Loops over small private arrays are unrolled so that the arrays
+// become registers, which a GPU cannot index.
 #define UNROLL _Pragma("unroll")
 
-// Tile nodes without padding, and cells of the base nodes -1..4 in a tile, x fastest.
+// TILE_SIZE: number of nodes of a tile (8 x 8 x 8 nodes around a block) without padding. CELLS:
+// number of cells of a tile that can contain the base node of a particle: -1 .. 4 along each axis,
+// x fastest.
 #define TILE_SIZE 512
 #define CELLS 216
 
-// Field of `slot`, in kernels that name their arguments state and capacity, and all fields of a
-// list (particle_fields.h) into or out of a struct.
+// Access to particle fields, for kernels that name their arguments `state` and `capacity` and have
+// a variable `slot`. LOAD and STORE read and write one field. LOAD_ONE, LOAD_MANY, STORE_ONE and
+// STORE_MANY are the arguments of a field list (particle_fields.h) and copy all of its fields to or
+// from the struct `soil_state`.
 #define LOAD(field) state[(size_t)(field)*capacity + (slot)]
 #define STORE(field, value) state[(size_t)(field)*capacity + (slot)] = (value)
 #define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
@@ -25,8 +30,9 @@
 #define STORE_MANY(NAME, member, count, rest) \
   UNROLL for (int k_ = 0; k_ < (count); ++k_) STORE(FIELD_##NAME + k_, soil_state.member[k_]);
 
-// Raises `largest` to `value` if that is larger, for values >= 0 or infinite: the order of such
-// floats is the order of their bits, and integers have atomics.
+// Raises `largest`, which holds the bits of a float, to `value` if that is larger. Both must be >=
+// 0 or infinite: such floats have the same order as their bits, and atomics exist for integers
+// only.
 static inline void atomic_max_nonnegative(local int* largest, float value) {
   atomic_max(largest, as_int(value));
 }

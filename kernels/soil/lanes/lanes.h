@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen lanes at a time: loads, weights, and the transpose between "one component of 16
-// particles" and "4 components of one particle". PoCL's vectoriser fails on kernels like these, so
-// float16 is written out. It maps to AVX-512 registers or to pairs of AVX2 registers; other devices
-// split it as they like.
+// Basis of the kernels in kernels/soil/lanes, in which each work-item computes sixteen particles at
+// a time: loads, weights, and the transpose between "one component of 16 particles" and "4
+// components of one particle".
+//
+// PoCL's vectoriser fails on kernels like these, so float16 is written out. It maps to AVX-512
+// registers or to pairs of AVX2 registers; other devices split it as they like.
 #ifndef NAVVY_KERNELS_SOIL_LANES_H
 #define NAVVY_KERNELS_SOIL_LANES_H
 
@@ -12,14 +14,16 @@
 #include "common/portable.h"
 #include "soil/layout.h"
 
-// The dialect of kernels/README.md: the type of computation is sixteen lanes.
+// Types of the dialect of kernels/README.md: real and ints hold one value for each of sixteen
+// particles, scalar and scalar3 one value for all of them, columns one value for each of the four
+// columns around a node.
 typedef float16 real;
 typedef int16 ints;
 typedef float scalar;
 typedef float3 scalar3;
 typedef float4 columns;
 
-// Loops over a particle's rows of nodes are unrolled by hand, so that the rows stay in registers.
+// Unrolls the loop that follows, so that a particle's rows of nodes stay in registers.
 #define UNROLL _Pragma("unroll")
 #define INLINED static inline __attribute__((always_inline))
 
@@ -38,8 +42,9 @@ typedef float4 columns;
 #define PICK_LOW2(a, b) PICK(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29)
 #define PICK_HIGH2(a, b) PICK(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31)
 
-// Transposes rows r0..r3, which hold components 0..3 of 16 particles. Afterwards o0..o3 hold
-// float4s: that of particle 4 q + i is part q of o_i. It is its own inverse.
+// Transposes the rows r0 .. r3, which hold components 0 .. 3 of 16 particles. Afterwards o0 .. o3
+// hold float4s with the components of one particle each: particle 4 q + i is the q-th float4 of
+// o_i. The operation is its own inverse.
 #define TRANSPOSE4(r0, r1, r2, r3, o0, o1, o2, o3)                 \
   do {                                                             \
     const float16 t0_ = PICK_LOW(r0, r1), t1_ = PICK_HIGH(r0, r1); \
@@ -50,8 +55,10 @@ typedef float4 columns;
     o3 = PICK_HIGH2(t1_, t3_);                                     \
   } while (0)
 
-// Fields of the 16 slots from `slot` on, in kernels that name their arguments state and capacity,
-// and all fields of a list (particle_fields.h) into or out of a struct.
+// Access to the fields of the 16 particles from `slot` on, for kernels that name their arguments
+// `state` and `capacity` and have a variable `slot`. LOAD and STORE read and write one field.
+// LOAD_ONE, LOAD_MANY, STORE_ONE and STORE_MANY are the arguments of a field list
+// (particle_fields.h) and copy all of its fields to or from the struct `soil_state`.
 #define LOAD(field) vload16(0, state + (size_t)(field)*capacity + slot)
 #define STORE(field, value) vstore16(value, 0, state + (size_t)(field)*capacity + slot)
 #define LOAD_ONE(NAME, member, rest) soil_state.member = LOAD(FIELD_##NAME);
@@ -74,7 +81,8 @@ typedef float4 columns;
 #define SOON(field)
 #endif
 
-// Transposes four rows into 16 float4s in `part`, and back.
+// TURN transposes four rows a .. d into 16 float4s and stores them in `part`; UNTURN does the
+// reverse.
 #define TURN(part, a, b, c, d)                  \
   do {                                          \
     float16 o0_, o1_, o2_, o3_;                 \
@@ -91,28 +99,31 @@ typedef float4 columns;
     TRANSPOSE4(i0_, i1_, i2_, i3_, a, b, c, d);                   \
   } while (0)
 
-// Returns true if any lane of a comparison is true. any() of PoCL tests one lane after the other.
+// Returns true if the comparison `lanes` is true in any lane. It replaces any(), which PoCL
+// evaluates one lane after another.
 static inline bool some(int16 lanes) {
   const int8 eight = lanes.lo | lanes.hi;
   const int4 four = eight.lo | eight.hi;
   return ((four.x | four.y) | (four.z | four.w)) != 0;
 }
 
-// Nine rows of four nodes around the particles of one cell. Particles are sorted by cell, so the
-// rows stay in registers until the cell changes.
+// Velocities or momenta at the 3 x 3 x 4 nodes around the particles of one cell. Particles are
+// sorted by cell, so the rows stay in registers until the cell changes.
 typedef struct Rows {
+  // Row 3 k + j holds four nodes along x, at j nodes above the base node along y and k along z.
   float16 row[9];
 } Rows;
 
-// Returns the slot of particle l among the float4s of a transposed pack.
+// Returns the position of particle l (0 .. 15) among the float4s that TURN stores.
 static inline int turned(int l) { return (l & 3) * 4 + (l >> 2); }
 
-// Returns the index in the tile of a base node from base_node().
+// Returns the index in the tile (8 x 8 x 8 nodes) of the base node with coordinates (bx, by, bz)
+// from base_node().
 static inline int16 tile_node(real bx, real by, real bz) {
   return convert_int16(bx) + 1 + 8 * (convert_int16(by) + 1) + 64 * (convert_int16(bz) + 1);
 }
 
-// Returns the mean over the four columns around a node.
+// Returns the mean of a value over the four columns around a node.
 static inline float mean_of(float4 t) { return 0.25f * ((t.x + t.y) + (t.z + t.w)); }
 
 #endif  // NAVVY_KERNELS_SOIL_LANES_H

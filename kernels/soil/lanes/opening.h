@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean opening J / J0 of the soil in a cell, for sixteen lanes.
+// Mean opening J / J0 of the soil in each cell, for sixteen particles at a time.
 #ifndef NAVVY_KERNELS_SOIL_LANES_OPENING_H
 #define NAVVY_KERNELS_SOIL_LANES_OPENING_H
 
 #include "soil/lanes/lanes.h"
 #include "soil/point.h"
 
-// Cells of base nodes -1..4 in a block, x fastest.
+// Number of cells in a block that can contain a base node: -1 .. 4 along each axis, x fastest.
 #define CELLS 216
-// Returns the cells of 16 particles from their positions [cells from the corner of the block].
+// Returns the cells of the base nodes of 16 particles (x fastest, 0 .. CELLS - 1), from the
+// positions relative to the corner of their block [cells].
 static inline int16 cell_of(real x, real y, real z) {
   return convert_int16(base_node(x)) + 1 + 6 * (convert_int16(base_node(y)) + 1) +
          36 * (convert_int16(base_node(z)) + 1);
 }
 
-// Sums per cell into float4s: volume, bank volume, open particles, 0. Returns false, without sums,
-// when no particle is open.
+// Sums over the particles in slots start .. end - 1, cell by cell, into `openings`: one float4 per
+// cell with volume, volume in the density state (both in mass quanta), number of open particles (J
+// > J0), and 0. Returns false and leaves `openings` undefined if no particle is open.
 INLINED bool cell_openings(global const float* state, int capacity, int start, int end,
                            float* openings) {
   // Most blocks have no open particle. This test reads two fields; the sums read six.
@@ -50,7 +52,8 @@ INLINED bool cell_openings(global const float* state, int capacity, int start, i
   return true;
 }
 
-// Returns the mean J / J0 of the cells of 16 particles, 0 where none is open.
+// Returns the mean J / J0 of the cells in which 16 particles are; 0 for a cell without open
+// particles. openings: from cell_openings; cell: from cell_of.
 INLINED real opening_of(const float* openings, int16 cell) {
   int cells[16];
   float parts[64];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface of active soil: the 0.5 iso-surface of its smoothed volume fraction.
+// Surface of active soil: the iso-surface at 0.5 of its smoothed volume fraction.
 #pragma once
 
 #include <array>
@@ -9,49 +9,59 @@
 
 namespace navvy::soil {
 
-/// Surface over the 16 columns of a block, x fastest. Heights are in cells above the datum, as
-/// everywhere in the exchange.
+/// Surface over the 16 columns of a block; arrays are ordered with x fastest.
 struct BlockShape {
-  /// Surface of the columns [cells above datum].
+  /// Height of each column [cells above datum].
   std::array<double, 16> ground;
-  /// Iso-surface, at least `ground` [cells above datum].
+  /// Height of the iso-surface over each column, at least `ground` [cells above datum].
   std::array<double, 16> surface;
-  /// A gap of a cell or more lies below the surface, or soil hangs above it.
+  /// True if there is a gap of a cell or more below the surface, or soil that hangs above one.
   bool hollow = false;
 };
 
-/// Samples the volume fraction of columns and particles, smoothed with a quadratic B-spline of the
-/// cell, at column centres every half cell. Half a cell is the spacing of particles; a finer grid
-/// would follow their noise. Cost is linear in the particles of the block and its neighbourhood.
+/// Finds the surface of active soil over a block. It samples the volume fraction of columns and
+/// particles at the column centres, at every half cell of height, smoothed with a quadratic
+/// B-spline that reaches 1.5 cells to each side. Particles are about half a cell apart; a finer
+/// grid would follow their noise.
 ///
-/// Columns count as full below their surface and particles as their volume in the density state, so
-/// that the seam between both does not show.
+/// Columns count as full below their surface, and particles with their volume in the density state,
+/// so that no seam appears between the two. Cost is linear in the number of particles in the block
+/// and around it.
 class ShapeFinder {
  public:
-  /// Reads ground and index, which must outlive it. One finder serves many blocks, one after the
-  /// other, and reuses its arrays.
+  /// Reads `ground` and `index`, which must outlive this object. One finder can process many blocks
+  /// one after another; it reuses its arrays.
   ShapeFinder(const heightfield::Ground& ground, const ColumnIndex& index)
       : ground_(ground), index_(index) {}
-  /// Returns the shape of one block. The ground must not change between the blocks of one check, or
-  /// their order would matter.
+  /// Returns the shape of one block. During one check, the ground must not change between calls, or
+  /// the result would depend on the order of the blocks.
   BlockShape find(const PlanKey& block);
 
-  // Returns true if particles over the column have a gap below them.
  private:
+  /// Returns true if there is a gap below the particles over column (ix, iy).
   bool hangs(int ix, int iy);
-  // Add the contribution of each kind of soil to the samples over a column, in `fraction_`.
+  /// Adds the volume fraction of the columns around column (ix, iy) to the samples in `fraction_`.
   void sample_columns(int ix, int iy);
+  /// Adds the volume fraction of the particles around column (ix, iy) to the samples in
+  /// `fraction_`.
   void sample_particles(int ix, int iy);
-  // Finds the surface of column c of the block in the samples, and gaps below it.
+  /// Finds the surface of column c (0 .. 15) in the samples and stores it in `shape`; sets `hollow`
+  /// if there is a gap below it.
   void read(BlockShape& shape, std::size_t c) const;
 
+  /// Columns of the site.
   const heightfield::Ground& ground_;
+  /// Active particles.
   const ColumnIndex& index_;
-  // Current block: its columns with a margin of one, and the samples of one column from `bottom_`
-  // up.
+  /// Heights of the current block's columns with a margin of one column, 6 x 6, x fastest
+  /// [cells above datum].
   std::array<double, 36> around_{};
+  /// Lower-left column of the current block.
   int x0_ = 0, y0_ = 0;
+  /// Height of the lowest sample [cells above datum].
   double bottom_ = 0;
+  /// `fraction_`: samples of the volume fraction over one column, from `bottom_` upwards.
+  /// `heights_`: scratch memory for particle heights.
   std::vector<double> fraction_, heights_;
 };
 

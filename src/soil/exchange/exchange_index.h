@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Particles grouped by the column below them, for all rules of the exchange.
+// Index of the particles by the column below them, which all rules of the exchange use.
 #pragma once
 
 #include <cstdint>
@@ -14,77 +14,95 @@
 
 namespace navvy::soil {
 
-/// Returns the height of a particle above the datum [cells].
+/// Returns the height of a particle's centre above the datum [cells].
 inline double height_in_cells(const Particle& p) {
   return static_cast<double>(kBlockCells) * p.block[2] + static_cast<double>(p.x[2]);
 }
 
-/// Particles that rest on one another on a column, without a gap below them. A pile is the loose
-/// soil over a column wherever a rule needs the height of the ground with everything on it.
+/// Loose soil on one column: particles that rest on the column and on one another, without a gap.
+/// Rules use it to find the height of the ground including the soil on it.
 struct Pile {
-  /// Height above the column [cells]: the larger of their volume in their density state and of the
-  /// top of the highest one. The number of particles over one column scatters by 6 cm and would
-  /// show slopes that do not exist [docs/exchange.md, deposit].
+  /// Height of the pile above the column's surface [cells]. It is the larger of the height that the
+  /// particles' volume in the density state gives, and the top of the highest particle. A height
+  /// from the number of particles would scatter by 6 cm from column to column and show slopes that
+  /// do not exist [docs/exchange.md, deposit].
   double height = 0;
-  /// [kMassQuantum].
+  /// Mass of the pile [kMassQuantum].
   std::int64_t mass = 0;
-  /// Centre of the highest one, or the column's surface without any [cells above datum].
+  /// Centre of the highest particle or, without particles, the surface of the column
+  /// [cells above datum].
   double top = 0;
 };
 
-/// Particles sorted by block, column and height, whatever their order. Time and memory are linear
-/// in the particles. An index is made for each check and refers to the particles and the ground,
-/// which must outlive it. Columns change while a check deposits soil; piles then still refer to the
-/// ground before.
+/// Particles sorted by block, column and height, independent of their order in the input.
 ///
-/// Every rule of the exchange reads the particles through it: rest and deposit by block, slopes and
-/// support areas by column, activation by height within a column.
+/// An index is built for each check. It refers to the particles and the ground, which must outlive
+/// it. While a check deposits soil the columns change; piles still describe the state before.
+///
+/// All rules of the exchange read particles through it: rest and deposit by block, slopes and
+/// support areas by column, activation by height within a column. Time and memory are linear in the
+/// number of particles.
 class ColumnIndex {
  public:
   /// Sorts the particles. A particle outside the site is listed under the column that would be
-  /// below it. `grid`: position of blocks; tests that do not care leave it out.
+  /// below it. `grid`: offset of the blocks relative to the columns; the default places a block at
+  /// the site's corner.
   ColumnIndex(std::span<const Particle> particles, const heightfield::Ground& ground,
               PlanGrid grid = {});
 
-  /// Returns the position of blocks among the columns.
+  /// Returns the offset of the blocks relative to the columns.
   const PlanGrid& grid() const { return grid_; }
 
-  /// Returns the blocks with particles, ascending.
+  /// Returns the keys of the blocks that contain particles, ascending.
   const std::vector<PlanKey>& blocks() const { return keys_; }
-  /// Returns the position in `blocks`, or -1 without particles. Costs one hash lookup.
+  /// Returns the position of `block` in blocks(), or -1 if it contains no particles. Costs one hash
+  /// look-up.
   int find(const PlanKey& block) const;
 
-  /// Return the indices of the particles over a column (from the lowest up) or a block. The spans
-  /// live as long as the index. They are empty where there are no particles.
+  /// Returns the indices of the particles over column (ix, iy), from bottom to top; empty if there
+  /// are none. The span is valid as long as the index.
   std::span<const std::uint32_t> column(int ix, int iy) const;
+  /// Returns the indices of the particles over the block at position `b` of blocks(), column by
+  /// column. The span is valid as long as the index.
   std::span<const std::uint32_t> block(int b) const;
-  /// Returns the pile on a column of the site. Without one, its top is the column's surface.
+  /// Returns the pile on column (ix, iy). Without particles its height and mass are 0, and its top
+  /// is the surface of the column.
   Pile pile(int ix, int iy) const;
-  /// Returns the height of the pile [cells], 0 without particles.
+  /// Returns the height of the pile on column (ix, iy) [cells]; 0 without particles.
   double pile_height(int ix, int iy) const;
 
-  /// Returns the particle of an index from `column` or `block`.
+  /// Returns the particle with index i, as `column` and `block` return it.
   const Particle& operator[](std::uint32_t i) const { return particles_[i]; }
+  /// Returns the particles given to the constructor, in their original order.
   std::span<const Particle> particles() const { return particles_; }
 
  private:
-  // Steps of the constructor: particles into columns, columns by height, and piles.
+  /// Groups the particles by block and column.
   void group();
+  /// Sorts the particles of each column by height.
   void sort_columns();
+  /// Computes the pile on each column of the blocks.
   void build_piles();
-  // Returns the index of a column in `begin_` and `piles_`, or -1 when its block holds no particle.
+  /// Returns the position of column (ix, iy) in `begin_` and `piles_`, or -1 if its block contains
+  /// no particles.
   int slot(int ix, int iy) const;
 
+  /// Particles given to the constructor.
   std::span<const Particle> particles_;
+  /// Columns of the site.
   const heightfield::Ground& ground_;
+  /// Offset of the blocks relative to the columns.
   PlanGrid grid_;
+  /// Keys of the blocks with particles, ascending.
   std::vector<PlanKey> keys_;
-  // Looked up only, never iterated.
+  /// Position in `keys_`, keyed by the packed block key. It is only looked up and never iterated,
+  /// because its order is not repeatable.
   std::unordered_map<std::uint64_t, int> place_;
-  // 16 per block and one end.
+  /// Start of each column's particles in `order_`: 16 entries per block and a final end.
   std::vector<std::uint32_t> begin_;
+  /// Particle indices, column by column and from bottom to top.
   std::vector<std::uint32_t> order_;
-  // 16 per block.
+  /// Piles, 16 per block.
   std::vector<Pile> piles_;
 };
 

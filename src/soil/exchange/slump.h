@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slumping of over-steep resting columns without particles: exact exchange between neighbours.
+// Slumping: over-steep resting columns slide without becoming particles, by exact exchange of soil
+// between neighbouring columns.
 #pragma once
 
 #include <map>
@@ -11,68 +12,76 @@
 
 namespace navvy::soil {
 
-/// Columns that slide, and the sweeps that move them.
+/// The columns that are sliding, and the sweeps that move their soil.
 ///
-/// A column that failed slides down to the height of the column it failed over. The soil that it
-/// sheds lies loose and remoulded on its neighbours and slides on. Pairs of neighbours exchange
-/// soil in four colours, in integers, until no sliding pair is steeper than phi - 1 deg
-/// [docs/exchange.md, slump]. Sweeps follow simulated time, so that nothing jumps. Cost is linear
-/// in the sliding columns.
+/// A column that failed sheds soil until it is as low as the column that it was too high above. The
+/// soil that it sheds comes to lie loose and remoulded on the neighbouring columns, which may then
+/// slide as well. In each sweep, pairs of neighbours exchange soil in integer masses. Pairs are
+/// processed in four groups (colours) that do not share a column, until no sliding pair is steeper
+/// than the friction angle minus 1 degree [docs/exchange.md, slump]. The number of sweeps follows
+/// simulated time, so that nothing jumps. Cost is linear in the number of sliding columns.
 ///
-/// Usage: `fail` once for each finding of SlumpScan, then `run` at every check. Soil never moves
-/// below the height at which its column failed, so a cut in bonded soil keeps its foot.
+/// Call `fail` once for each result of SlumpScan, then `run` at every check. Soil never moves below
+/// the height of the low column at the time of failure, so a cut in bonded soil keeps its foot.
 class Slump {
  public:
-  /// Moves soil of `ground`; ground and table must outlive it.
+  /// Starts without sliding columns. `ground`, whose soil is moved, and `table` must outlive this
+  /// object.
   Slump(heightfield::Ground& ground, const SlumpTable& table) : ground_(ground), table_(table) {}
 
-  /// Starts the sliding of the columns from the high to the low one, with the next `run`. Columns
-  /// that slide already continue, down to the lower of the two heights.
+  /// Makes the high column of `found`, and those between it and the low column, slide with the next
+  /// `run`. A column that is already sliding continues, down to the lower of its two target
+  /// heights.
   void fail(const OverSteep& found);
-  /// Runs the sweeps of `elapsed` seconds. `blocked` returns true for a column that must stay as it
-  /// is now: it neither gives nor takes soil. Soil above it waits until it is free or at rest.
-  /// Returns the number of columns that changed.
+  /// Runs the sweeps that are due after `elapsed` seconds. `blocked(ix, iy)` returns true for a
+  /// column that may neither lose nor receive soil in this check; its soil starts to slide when the
+  /// column is no longer blocked. Returns the number of columns that changed.
   template <class Blocked>
   int run(double elapsed, const Blocked& blocked);
 
-  /// Returns true when nothing slides; `run` then costs nothing.
+  /// Returns true if no column is sliding; `run` then costs nothing.
   bool idle() const { return sliding_.empty(); }
 
-  /// Visits the sliding columns in their order. The owner opens the section.
+  /// Visits the sliding columns in their order. The caller must have opened the archive section.
   /// @throws InputError for columns outside the site.
   void visit(Archive& a);
 
  private:
-  // A column that sheds soil while it is steep. A few sweeps without motion end it.
+  /// State of a sliding column. It ends after a few sweeps in which the column does not move.
   struct Sliding {
-    /// Soil above this height in W slides [m].
+    /// Soil of the column above this height in W slides [m].
     double base = 0;
-    /// Sweeps since it last moved.
+    /// Number of sweeps since the column last moved.
     std::int32_t still = 0;
+    /// Visits both members.
     void visit(Archive& a);
   };
-  /// Returns the number of whole sweeps that are due. Carries the remainder over; drops it while
-  /// nothing slides.
+  /// Returns the number of whole sweeps that are due after `elapsed` seconds. The fraction of a
+  /// sweep is carried over to the next call, unless nothing is sliding.
   int due(double elapsed);
-  /// Moves soil from the higher of two neighbours to the lower. Returns false when none had to
-  /// move.
+  /// Moves soil from the higher to the lower of two neighbouring columns, if the higher one is
+  /// sliding and the drop is too steep. Returns true if soil was moved.
   bool exchange(const PlanKey& a, const PlanKey& b);
-  /// Drops columns that have not moved for some sweeps.
+  /// Removes columns that have not moved for some sweeps.
   void forget_still();
 
+  /// Columns of the site.
   heightfield::Ground& ground_;
+  /// Heights at which soil starts and stops sliding.
   const SlumpTable& table_;
-  // Ordered by column, so that hash and snapshot do not depend on when columns failed.
+  /// Sliding columns, keyed by (y, x). The map is ordered so that hash and snapshot do not depend
+  /// on when columns failed.
   std::map<PlanKey, Sliding> sliding_;
-  /// Share of a sweep that is carried to the next check.
+  /// Fraction of a sweep that is carried over to the next check.
   double debt_ = 0;
-  // Scratch memory.
+  /// Scratch memory: layers being moved.
   std::vector<heightfield::SoilLayer> taken_;
 };
 
-// The four colours separate the pairs of one colour, so a sweep does not depend on the order within
-// a colour; the order of colours is fixed. A column that starts to slide during a sweep joins the
-// next one, as `keys` are those at the start.
+// The columns of a pair belong to no other pair of the same colour, so the result of a sweep does
+// not depend on the order within a colour; the order of the colours is fixed. A column that starts
+// to slide during a sweep takes part from the next sweep on, because `keys` holds the columns that
+// slide at the start.
 template <class Blocked>
 int Slump::run(double elapsed, const Blocked& blocked) {
   std::set<PlanKey> changed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds resting columns that stand too high above their neighbourhood (rule C).
+// Finds resting columns that are too high above their neighbourhood (rule C).
 #pragma once
 
 #include <array>
@@ -12,95 +12,114 @@
 
 namespace navvy::soil {
 
-/// A resting column that stands too high above another one `steps` columns away along (dx, dy). It
-/// is only a finding: the exchange decides whether the columns become active or slide.
+/// A resting column that is too high above another column, `steps` columns away in direction (dx,
+/// dy). SlumpScan only reports it: the exchange decides whether the columns become active or slide.
 struct OverSteep {
-  /// The high column.
+  /// Indices of the high column.
   int ix = 0, iy = 0;
-  /// Direction of the low one.
+  /// Direction towards the low column: each -1, 0 or 1, along an axis or a diagonal.
   int dx = 0, dy = 0;
-  /// Distance of the two columns [columns along the direction].
+  /// Number of steps (dx, dy) from the high to the low column.
   int steps = 0;
-  /// Surface of the low one, with the soil on it [cells above datum].
+  /// Height of the low column, including the soil on it [cells above datum].
   double low = 0;
 };
 
-/// Heights at which soil has stood: where particles came to rest, and what lay around them. A drop
-/// that stood is not over-steep until it grows. Otherwise soil that the law holds a little steeper
-/// than the slope rule would become active and be deposited again for ever. Memory grows with the
-/// area on which soil came to rest, 16 floats per block; nothing is forgotten.
+/// Heights at which soil has come to rest: columns where particles were deposited, and the columns
+/// around them at that time.
+///
+/// A drop between two such columns is not over-steep unless it has grown since. Otherwise soil that
+/// the soil law holds a little steeper than the slope rule would be activated and deposited again
+/// and again. Memory grows with the area on which soil came to rest, 16 floats per block; entries
+/// are never removed.
 class StandingHeights {
  public:
-  /// Starts empty. `grid`: position of blocks, as in the index.
+  /// Creates an empty record. `grid`: offset of the blocks relative to the columns, as in the
+  /// ColumnIndex.
   explicit StandingHeights(PlanGrid grid) : grid_(grid) {}
-  /// Stores the columns of the blocks just `deposited`, and those of the blocks around them as they
-  /// are now. `index` is from before the deposit.
+  /// Stores the current heights of the blocks `deposited`, and of the blocks around them including
+  /// the particles on these. `index` must describe the particles before the deposit.
   void remember(const heightfield::Ground& ground, const ColumnIndex& index,
                 const std::set<PlanKey>& deposited);
-  /// Finds the stored height [cells above datum]. Returns false when there is none.
+  /// Looks up the stored height of column (ix, iy). Sets `height` [cells above datum] and returns
+  /// true; returns false if no height is stored.
   bool find(int ix, int iy, double& height) const;
 
-  /// Visits all heights. They are saved with the exchange and hashed: runs that differ in them
-  /// activate other columns.
+  /// Visits all heights. They are saved and hashed with the exchange, because they influence which
+  /// columns are activated.
   void visit(Archive& a);
 
  private:
+  /// Offset of the blocks relative to the columns.
   PlanGrid grid_;
+  /// Heights of the columns of each block, x fastest [cells above datum].
   std::map<PlanKey, std::array<float, kBlockCells * kBlockCells>> blocks_;
 };
 
-/// Examines tiles of 32 x 32 columns.
+/// Searches tiles of 32 x 32 columns for drops that are too steep.
 ///
-/// The high column counts with its resting surface, the low one with the soil on it as well. On
-/// ground that holds (`hold`), a drop that was there at the start is no reason, however steep.
-/// Nowhere is a drop at which soil came to rest; only its growth is. Cost is linear in the tile and
-/// a margin of SlumpTable::kReach; a tile without a relevant drop costs only the reading of its
-/// heights.
+/// A drop is the height of the resting surface of the high column above the low column including
+/// the soil on it. Two types of drops are accepted even if they are very steep: those that existed
+/// at the start, if the scene's ground holds steep slopes (`hold`), and those at which soil came to
+/// rest (StandingHeights). Such a drop is reported only if it has grown.
+///
+/// Cost is linear in the number of columns of the tile and of a margin of SlumpTable::kReach around
+/// it. For a tile without a large drop only the heights are read.
 class SlumpScan {
  public:
-  // Side of a tile of the ground [columns], so that changed tiles are scanned whole.
+  /// Side of a tile [columns]. It is the size of the ground's tiles, so that tiles that changed are
+  /// scanned as a whole.
   static constexpr int kTile = 32;
 
-  /// Reads ground, table and heights, which must outlive the scan. `hold`: steep ground of the
-  /// start stands, whatever the law says.
+  /// Reads ground, table and standing heights, which must outlive this object. `hold`: true if
+  /// steep slopes that exist at the start are stable, whatever the soil law says.
   SlumpScan(const heightfield::Ground& ground, const SlumpTable& table,
             const StandingHeights& standing, bool hold)
       : ground_(ground), table_(table), standing_(standing), hold_(hold) {}
 
-  /// Appends what is over-steep in tile (tx, ty), or against it from outside, to `out`: for each
-  /// column and direction the nearest drop. Leaves out drops across a tool that holds them. (tx,
-  /// ty) counts tiles from the site's corner. `zones`: present positions of tools.
+  /// Appends to `out` the over-steep columns in tile (tx, ty), and those outside it whose low
+  /// column is in the tile: for each column and direction the nearest drop. Drops across a tool
+  /// that supports them are left out. (tx, ty): tile indices from the site's corner; `zones`:
+  /// current zones of the tools.
   void scan(int tx, int ty, const ColumnIndex& index, std::span<const ToolZone> zones,
             std::vector<OverSteep>& out);
 
  private:
-  // Reads the heights of the tile and its margin, with and without the soil on them, inside the
-  // site.
+  /// Reads the heights of the tile and its margin, with and without the soil on the columns.
   void read_window(int tx, int ty, const ColumnIndex& index);
-  // Examines one pair of columns. Returns true when it was appended.
+  /// Tests the drop from column (ix, iy) to the column `steps` away in direction (dx, dy). If it is
+  /// too steep, appends it to `out` and returns true.
   bool look(int ix, int iy, int dx, int dy, int steps, std::span<const ToolZone> zones,
             std::vector<OverSteep>& out);
-  /// Returns the index of a column of the window.
+  /// Returns the position of column (ix, iy) in `rest_` and `top_`.
   std::size_t at(int ix, int iy) const {
     return static_cast<std::size_t>((iy - y0_) * kSide + ix - x0_);
   }
-  // Returns true if the same drop stood at the start, or when soil came to rest there.
+  /// Returns true if a drop of this size [cells] between (ix, iy) and (lx, ly) existed at the start
+  /// or when soil came to rest there.
   bool stood_before(int ix, int iy, int lx, int ly, double drop) const;
-  // Returns true if a tool stands between the two columns, at the height of the drop.
+  /// Returns true if a tool is between the two columns at the height of the drop. `high`: height of
+  /// the high column [cells above datum].
   bool held_by_tool(const OverSteep& found, std::span<const ToolZone> zones, double high) const;
 
-  // Columns along one side of a window: the tile and the reach of drops.
+  /// Side of the window, i.e. of the tile with its margin [columns].
   static constexpr int kSide = kTile + 2 * SlumpTable::kReach;
+  /// Columns of the site.
   const heightfield::Ground& ground_;
+  /// Heights at which soil starts to slide.
   const SlumpTable& table_;
+  /// Heights at which soil came to rest.
   const StandingHeights& standing_;
+  /// True if steep slopes that exist at the start are stable.
   bool hold_;
-  // Lowest column of the window.
+  /// Lower-left column of the window.
   int x0_ = 0, y0_ = 0;
-  // Surface without and with the soil on it [cells above datum].
+  /// Heights of the window's columns, x fastest [cells above datum]: rest_ without, top_ with the
+  /// soil on the columns.
   std::vector<float> rest_, top_;
+  /// Scratch memory: layers of one column.
   std::vector<heightfield::SoilLayer> layers_;
-  // Smallest relevant drop, [diagonal][steps] [cells].
+  /// Smallest drop that may be too steep [cells], indexed by [diagonal][steps].
   double limit_[2][SlumpTable::kReach + 1] = {};
 };
 

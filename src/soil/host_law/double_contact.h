@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact and node arithmetic of kernels/soil/contact_law.h and node.h compiled for doubles.
+// Contact and node arithmetic of kernels/soil/contact_law.h and node.h, compiled in double
+// precision for the host.
 #pragma once
 
 #include "soil/host_law/double_real.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The dialect of kernels/README.md in doubles: what law, particle and node arithmetic of
-// kernels/soil need to compile as the double twin.
+// The kernel dialect of kernels/README.md in double precision: the types and built-in functions
+// with which kernels/soil headers compile on the host as the double-precision twin.
 #pragma once
 
 #include <cmath>
@@ -11,28 +11,35 @@
 
 namespace navvy::soil::reference {
 
-// Types of the dialect.
+// Types of the dialect: values of a particle, uniform values, vectors, and integers or conditions.
 using real = double;
 using scalar = double;
 using scalar3 = Vec3;
 using ints = int;
-// The twin's ground is level around a node.
+/// Values for the columns around a node: one number, because the twin's ground is level around a
+/// node.
 using columns = double;
 #define INLINED inline
 
-// Built-ins of OpenCL for one double.
+// Built-in functions of OpenCL for one double.
 using std::fabs;
 using std::floor;
 using std::fmax;
 using std::fmin;
 using std::isfinite;
 using std::sqrt;
+/// Returns x limited to low .. high, like the OpenCL built-in.
 inline double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
+/// Returns 0 if x < edge, else 1, like the OpenCL built-in.
 inline double step(double edge, double x) { return x < edge ? 0.0 : 1.0; }
-// The twin has one column around a node, so the mean is the column itself.
+/// Returns the mean over the columns around a node. The twin has one column, so the result is that
+/// column's value.
 inline double mean_of(columns t) { return t; }
+/// Returns true if the condition holds for all columns around a node. The twin has one column.
 inline bool all(bool of_columns) { return of_columns; }
+/// Returns the scalar product, like the OpenCL built-in.
 inline double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
+/// Returns the vector product, like the OpenCL built-in.
 inline Vec3 cross(const Vec3& a, const Vec3& b) { return a.cross(b); }
 
 }  // namespace navvy::soil::reference

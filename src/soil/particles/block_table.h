@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sparse table of blocks: those that hold particles, those that hold nodes, and their neighbours.
+// Sparse table of particle blocks: blocks that contain particles, blocks whose nodes particles can
+// reach, and the neighbours of both.
 #pragma once
 
 #include <array>
@@ -8,54 +9,68 @@
 
 namespace navvy::soil {
 
-/// Integer coordinates of a block in the grid frame G. Ordered by z, then y, then x, so that the
-/// order of sums does not depend on where on the site the soil lies.
+/// Integer coordinates of a block in the grid frame G. Along x the block spans the cells 4 * x to 4
+/// * x + 3, and likewise along y and z. Keys are ordered by z, then y, then x, so that the order of
+/// sums does not depend on where on the site the soil is.
 struct BlockKey {
+  /// Coordinates in blocks; they may be negative.
   std::int32_t x = 0, y = 0, z = 0;
+  /// Compares all three coordinates.
   bool operator==(const BlockKey&) const = default;
-  /// Orders by z, then y, then x.
+  /// Compares z first, then y, then x.
   bool operator<(const BlockKey& other) const {
     return z != other.z ? z < other.z : y != other.y ? y < other.y : x < other.x;
   }
+  /// Returns the key shifted by `d` blocks.
   BlockKey operator+(const BlockKey& d) const { return {x + d.x, y + d.y, z + d.z}; }
 };
 
-/// Returns the offset of neighbour n of 27 (x fastest, -1..1 on each axis), numbered as in the
-/// kernels.
+/// Returns the offset of neighbour n, 0 .. 26, from a block: x varies fastest, each coordinate is
+/// -1, 0 or 1, and n = 13 is the block itself. Kernels use the same numbering.
 inline BlockKey neighbour_offset(int n) { return {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}; }
 
-/// Finds the index of a key in a list, by open addressing. It is only looked up, never iterated.
+/// Hash table that finds the index of a block key in a list. It supports look-up only, no
+/// iteration.
 class BlockIndex {
  public:
-  /// Replaces the list of keys, which must be unique.
+  /// Replaces the list of keys. The keys must be unique.
   void build(const std::vector<BlockKey>& keys);
-  /// Returns -1 when absent.
+  /// Returns the index of `key` in the list given to `build`, or -1 if it is not in the list.
   int find(const BlockKey& key) const;
 
  private:
+  /// Keys in the order of the list.
   std::vector<BlockKey> keys_;
+  /// Hash slots (open addressing): index into keys_, or -1 for a free slot.
   std::vector<int> slots_;
+  /// Number of slots - 1; the number of slots is a power of two.
   std::size_t mask_ = 0;
 };
 
-/// Particle blocks (with particles) and active blocks (particle blocks and their 26 neighbours: all
-/// nodes that particles can reach).
+/// Table of particle blocks and active blocks. A particle block contains particles. The active
+/// blocks are the particle blocks and their 26 neighbours: together they contain all nodes that
+/// particles can reach before the next re-bin.
 ///
-/// A particle of a block can reach nodes of that block and of its 26 neighbours before the next
-/// re-bin. The table changes only when blocks appear or vanish. Building it costs the number of
-/// particle blocks x 27.
+/// The table changes only when a particle block appears or vanishes. Building it costs 27 look-ups
+/// per particle block.
 struct BlockTable {
-  /// Sorted.
+  /// Keys of the particle blocks, ascending. The position in this list is the block's
+  /// particle-block index.
   std::vector<BlockKey> particle_blocks;
-  /// Sorted.
+  /// Keys of the active blocks, ascending. The position in this list is the block's active-block
+  /// index.
   std::vector<BlockKey> active;
-  /// 27 per particle block: index of the neighbour among the active blocks.
+  /// 27 entries per particle block: active-block index of neighbour n (neighbour_offset). Every
+  /// neighbour exists.
   std::vector<int> neighbours;
-  /// 27 per active block: index of the neighbour among the particle blocks, or -1.
+  /// 27 entries per active block: particle-block index of neighbour n, or -1 if that neighbour
+  /// contains no particles.
   std::vector<int> around;
+  /// Indices of the two lists: particle_block_index finds a key in `particle_blocks`, active_index
+  /// in `active`.
   BlockIndex particle_block_index, active_index;
 
-  /// Builds the table from sorted, unique keys.
+  /// Rebuilds the table from the keys of the particle blocks, which must be ascending and unique.
   void build(std::vector<BlockKey> sorted_keys);
 };
 

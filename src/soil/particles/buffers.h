@@ -9,9 +9,10 @@
 
 namespace navvy::soil {
 
-/// Grows a buffer to at least `size` values and keeps its contents; never shrinks it.
+/// Grows a buffer to at least `size` values and preserves its contents; never shrinks it.
 ///
-/// Growing costs a copy on the device; half as much memory again is allocated to make it rare.
+/// Growing copies the contents on the device. To make that rare, half as much memory again is
+/// allocated.
 template <class T>
 void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
   if (buffer.empty()) {
@@ -21,19 +22,20 @@ void fit(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
   }
 }
 
-/// Grows a buffer to at least `size` values with undefined contents. Kernel arguments must be set
-/// again afterwards.
+/// Grows a buffer to at least `size` values; the contents are undefined afterwards. If the buffer
+/// was reallocated, kernel arguments that refer to it must be set again.
 ///
-/// Use it for arrays that a kernel rewrites as a whole.
+/// Use it for arrays that a kernel rewrites completely.
 template <class T>
 void ensure(device::Device& device, device::Buffer<T>& buffer, std::size_t size) {
   if (buffer.size() < size || buffer.empty())
     buffer = device::Buffer<T>(device, size + size / 2 + 1);
 }
 
-/// Grows a buffer if needed and writes the values; waits.
+/// Grows a buffer if needed and writes all `values` to it; waits for the copy.
 ///
-/// Use it for lists that the host computes when blocks change, not for data of every step.
+/// Use it for lists that the host computes when blocks change, not for data that changes in every
+/// step.
 template <class T>
 void upload(device::Device& device, device::Buffer<T>& buffer, const std::vector<T>& values) {
   ensure(device, buffer, values.size());

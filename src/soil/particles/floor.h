@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes held by resting ground: those at or below the highest of the four columns around them, plus
-// a quarter of a cell.
+// Nodes held by resting ground. A node is held if it is no higher than the highest of the four
+// columns around it plus a margin of a quarter of a cell; soil does not move at held nodes.
 #pragma once
 
 #include <map>
@@ -14,34 +14,45 @@
 
 namespace navvy::soil {
 
-/// Heights of held nodes per block. The ground is read only where it, or the set of blocks, has
-/// changed.
+/// Computes the heights of resting ground for every active block. The ground is read again only
+/// where it, or the set of active blocks, has changed.
 ///
-/// Four columns meet at a node, so a node is held if any of them reaches it. All blocks of one
-/// column of blocks share a patch of 4 x 4 heights; memory is 320 bytes per active block.
+/// Four columns meet at a node, so a node is held if any of the four reaches it. All active blocks
+/// above one another share a patch of heights for 4 x 4 node columns. Memory is 320 bytes per
+/// active block.
 class Floor {
  public:
-  /// Starts without blocks. `held_margin` [cells]: nodes up to this far above the columns are held
-  /// [docs/soil.md, resting ground].
+  /// Starts without blocks. `ground` must outlive this object; `grid`: offset of the blocks
+  /// relative to the columns; `held_margin`: nodes up to this height above the columns are held
+  /// [cells] [docs/soil.md, resting ground].
   Floor(const heightfield::Ground& ground, PlanGrid grid, double held_margin = kScheme.held_margin)
       : ground_(&ground), grid_(grid), held_margin_(held_margin) {}
 
-  /// Updates the list for these active blocks. Returns true when it changed since the last call.
+  /// Recomputes the list for the keys `active` of the active blocks, if the ground has changed or
+  /// `blocks_changed` is true. Returns true if the list was recomputed.
   bool update(const std::vector<BlockKey>& active, bool blocks_changed);
-  /// Returns one entry per active block, in its order; heights from the block's corner [cells].
+  /// Returns the heights of resting ground, one entry per active block, in the order of the last
+  /// `update`. Heights are relative to the block's lower corner [cells].
   const std::vector<BlockFloor>& blocks() const { return blocks_; }
 
  private:
-  /// Computes one column of blocks, with heights from the datum.
+  /// Returns the heights for the column of blocks at block coordinates (bx, by), relative to the
+  /// datum [cells].
   BlockFloor make_patch(int bx, int by) const;
 
+  /// Columns of the site.
   const heightfield::Ground* ground_;
+  /// Offset of the blocks relative to the columns.
   PlanGrid grid_;
+  /// Height above the columns up to which nodes are held [cells].
   double held_margin_;
-  /// Patches by (bx, by).
+  /// Heights relative to the datum [cells], keyed by the block coordinates (bx, by).
   std::map<std::pair<int, int>, BlockFloor> patches_;
+  /// Sequence number of the ground's last change that patches_ includes.
   std::uint64_t sequence_ = 0;
+  /// True until the first `update`.
   bool first_ = true;
+  /// Result of the last `update`.
   std::vector<BlockFloor> blocks_;
 };
 

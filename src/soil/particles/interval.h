@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Length of a transfer, over which weights, masses, lists and sides are held
-// [docs/soil.md, transfer].
+// Duration of a transfer, during which particle weights, node masses, block lists and particle
+// sides stay fixed [docs/soil.md, transfer].
 #pragma once
 
 #include <cmath>
@@ -10,25 +10,28 @@
 
 namespace navvy::soil {
 
-/// The current transfer. Solver and double twin share its rules.
+/// Time and displacements since the current transfer began. Solver and double-precision twin share
+/// its rules.
 ///
-/// A transfer ends when its length is reached, rounded to whole steps, or when the fastest particle
-/// or tool could go farther than `most_motion` in one more step. Bounds of displacements are sums
-/// of speed x time, so they never underestimate.
+/// A transfer ends when its length, rounded to whole steps, is reached, or when the fastest
+/// particle or tool could move farther than `most_motion` in one more step. Displacements are
+/// bounded by sums of speed x time, so they are never underestimated.
 struct TransferInterval {
-  /// A step was done since the last transfer ended.
+  /// True while a transfer is in progress, from its first step on.
   bool open = false;
-  /// Time since its start [s].
+  /// Time since the transfer began [s].
   double time = 0;
-  /// Upper bound of a particle's displacement since then [cells].
+  /// Upper bound of the displacement of any particle since the transfer began [cells].
   double motion = 0;
-  /// Upper bound of a tool's displacement since then [cells].
+  /// Upper bound of the displacement of any tool since the transfer began [cells].
   double travel = 0;
   /// Largest velocity component of any particle after the last step [m/s].
   double speed = 0;
 
-  /// Returns true if one more step of dt [s] fits. `length` in s, `tool_speed` in m/s, `gravity` in
-  /// m/s2, `most_motion`: longest displacement of a particle or a tool in a transfer [cells].
+  /// Returns true if a transfer is in progress and one more step of dt [s] fits into it. `length`:
+  /// intended duration [s]; `cell`: edge of a cell [m]; `tool_speed`: speed of the fastest tool
+  /// [m/s]; `gravity`: magnitude [m/s2]; `most_motion`: longest displacement of a particle or tool
+  /// during a transfer [cells].
   bool holds(double dt, double length, double cell, double tool_speed, double gravity,
              double most_motion = kScheme.max_transfer_motion) const {
     // Rounded to whole steps: half a step more would be closer to the length than none.
@@ -37,7 +40,8 @@ struct TransferInterval {
     if (motion + dt * (speed + dt * gravity) / cell > most_motion) return false;
     return travel + dt * tool_speed / cell <= most_motion;
   }
-  /// Counts a step of dt [s] after which the fastest particle moves at `fastest` [m/s].
+  /// Adds a step of dt [s], after it has run. `fastest`: largest velocity component of any particle
+  /// after the step [m/s]; `tool_speed`: speed of the fastest tool [m/s].
   void count_step(double dt, double cell, double fastest, double tool_speed) {
     open = true;
     time += dt;
@@ -46,7 +50,7 @@ struct TransferInterval {
     speed = fastest;
   }
 
-  /// Visits all of it: held steps depend on it.
+  /// Visits all members: they decide when the transfer ends.
   void visit(Archive& a) {
     a("open", open);
     a("time", time);

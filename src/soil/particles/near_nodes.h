@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Node data that exists only in active blocks near shells.
+// Node data that exists only in near blocks: the active blocks whose nodes a tool's shell may
+// touch.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +11,30 @@
 
 namespace navvy::soil {
 
-/// Data shared by transfer and contact, BLOCK_NODES per near active block unless stated otherwise.
-/// Names in parentheses say what writes an array.
+/// Node data of the near blocks, shared by transfer and contact. Unless stated otherwise an array
+/// has BLOCK_NODES entries per near block, in the order of `list`. Parentheses name the writer of
+/// an array: the host or a kernel.
 struct NearNodes {
-  /// Number of near active blocks.
+  /// Number of near blocks.
   int count = 0;
-  /// Their active-block indices, ascending (host).
+  /// Active-block index of each near block, ascending (host).
   device::Buffer<std::int32_t> list;
-  /// Index into the near arrays or -1, per active block (host).
+  /// One entry per active block: the block's index in the near arrays, or -1 if the block is not
+  /// near (host).
   device::Buffer<std::int32_t> slot;
-  /// 0 unsplit, 1 in front, 2 behind (shell_nodes).
+  /// Velocity fields of each node: 0 one field; 1 two fields, the node itself is in front of the
+  /// plate; 2 two fields, the node is behind the plate (kernel shell_nodes).
   device::Buffer<std::int32_t> split;
-  /// float4 per node: v after gravity [m/s], m [kg] (grid_update_near).
+  /// Four floats per node: velocity after gravity and before contact [m/s], and mass [kg]. before0
+  /// holds the front field (or the only one), before1 the back field (kernel grid_update_near).
   device::Buffer<float> before0, before1;
-  /// Mean by mass of the particle blocks around (grid_update_near).
+  /// Contact properties of the soil at each node: the mass-weighted mean over the particle blocks
+  /// around it (kernel grid_update_near).
   device::Buffer<ContactSoil> surface;
-  /// float4: velocity that particles behind a shell see (contact_apply).
+  /// Four floats per node, like GridUpdate::velocity: the velocity that particles behind a shell
+  /// receive (kernel contact_apply).
   device::Buffer<float> velocity1;
-  /// Returns the number of floats in an array of float4s.
+  /// Returns the number of floats in an array with four floats per near node.
   std::size_t values() const { return static_cast<std::size_t>(count) * 4 * BLOCK_NODES; }
 };
 

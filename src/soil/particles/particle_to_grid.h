@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stress update of particles and scatter of their mass and momentum to the tiles of their blocks.
+// Stress update of the particles, and scatter of their mass and momentum to the tiles of their
+// blocks.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +13,42 @@ namespace navvy::soil {
 
 /// Kernel of kernels/soil/*/particle_to_grid.cl and its results.
 ///
-/// Every block scatters into tiles of its own, one or, near a shell, three. Nothing is shared
-/// between blocks, so sums have one order and results repeat. Memory is 8 KiB per tile.
+/// Every particle block scatters into tiles of its own: one tile, or three near a shell (neutral,
+/// front and back particles). A tile holds the nodes that particles of the block can reach. Blocks
+/// share no memory, so every sum has a fixed order and results are repeatable. Memory is 8 KiB per
+/// tile.
 class ParticleToGrid {
  public:
-  /// Builds the kernel. `extended_law`: see needs_extended_law.
+  /// Builds the kernel with the constants `scheme`. `extended_law`: true to compile the extensions
+  /// of the soil law, see needs_extended_law.
   ParticleToGrid(device::Device& device, bool extended_law,
                  const SchemeConstants& scheme = kScheme);
 
-  /// Allocates memory for this many blocks and tiles.
+  /// Allocates memory for this number of particle blocks and tiles.
   void set_blocks(std::size_t particle_blocks, int tiles);
-  /// Queues law and scatter of a step of dt [s] on cells of `cell` [m]. In a `hold` step only
-  /// stress adds to the momentum of the nodes. Writes Report.broken of every block.
+  /// Queues soil law and scatter of a step of dt [s]; `cell`: edge of a cell [m]. With `hold`
+  /// (every step of a transfer except the first) only the impulse of the stresses is scattered,
+  /// because the nodes still have their momentum. Writes Report.broken of every particle block.
   void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
                bool hold);
 
+  /// Returns the scattered sums, TILE_NODES x 4 floats per tile: momentum [kg m/s] and mass [kg].
   device::Buffer<float>& tiles() { return tiles_; }
+  /// Returns one bit mask per particle block: bit t is set if tile t of the block was written.
   device::Buffer<std::int32_t>& used() { return used_; }
 
  private:
+  /// Device that runs the kernel.
   device::Device& device_;
+  /// Constants of the particle scheme.
   SchemeConstants scheme_;
+  /// Compiled program of the kernel.
   device::KernelProgram program_;
+  /// Kernel of law and scatter.
   device::Kernel kernel_;
-  /// TILE_NODES float4s per tile: p [kg m/s], m [kg].
+  /// TILE_NODES x 4 floats per tile: momentum [kg m/s] and mass [kg].
   device::Buffer<float> tiles_;
-  /// Bits of the tiles that were written, per block.
+  /// Bit mask of the tiles that were written, one per particle block.
   device::Buffer<std::int32_t> used_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Re-binning: sorts particles that drifted into their new blocks on the device, without atomics.
+// Re-binning: moves particles that have drifted out of their block into the block of their current
+// position, on the device and without atomics.
 #pragma once
 
 #include <array>
@@ -13,69 +14,86 @@
 
 namespace navvy::soil {
 
-/// Number of destinations of a block's particles: codes 0..26 into that neighbour, 27 off the site
+/// Number of destination codes of a particle: codes 0 .. 26 mean neighbour n of the particle's
+/// block (neighbour_offset; 13 is the block itself), code 27 means outside the site
 /// (kernels/soil/place.h).
 inline constexpr std::size_t kRebinCodes = 28;
 
-/// New blocks that follow from a count.
+/// Particle blocks after a re-bin, and where their particles come from.
 struct RebinPlan {
-  /// Sorted.
+  /// Keys of the new blocks, ascending.
   std::vector<BlockKey> keys;
-  /// Particles per new block.
+  /// Number of particles in each new block.
   std::vector<int> counts;
-  /// 27 per new block: old block from which code n leads here, -1: none.
+  /// 27 entries per new block: index of the old block whose particles with destination code n move
+  /// into this block, or -1 if there is no such block.
   std::vector<int> sources;
 };
 
-/// Returns the new blocks: those that any particle goes to. `counts`: kRebinCodes per block of the
-/// table. Particles that left the site are in none.
+/// Returns the blocks that particles move into. `table`: the old blocks; `counts`: kRebinCodes
+/// entries per old block, the number of particles with each destination code. Particles that left
+/// the site are in no new block.
 RebinPlan plan_rebin(const BlockTable& table, const std::vector<int>& counts);
 
-/// One state of the particles on the device, as the kernels take it.
+/// References to one set of stored particles on the device, as arguments of the kernels.
 struct StoredParticles {
-  /// FIELD_COUNT x capacity words.
+  /// State array: FIELD_COUNT x capacity words.
   device::Buffer<float>& state;
-  /// Number of slots.
+  /// Number of slots of the state array.
   int capacity;
+  /// Slots and count of each particle block.
   device::Buffer<ParticleBlock>& particle_blocks;
 };
 
-/// Kernels of kernels/soil/*/rebin.cl. Calls come in the order count, move; `move` may be left out.
+/// Kernels of kernels/soil/*/rebin.cl, which sort particles into new blocks. Call `count` first,
+/// then `move`; `move` may be skipped.
 ///
-/// Cost is linear in the particles: three passes over their codes and one copy of all fields into
-/// the other state array.
+/// Cost is linear in the number of particles: three passes over their destination codes, and one
+/// copy of all fields into the other state array.
 class Rebin {
  public:
   /// Builds the kernels.
   explicit Rebin(device::Device& device);
 
-  /// Counts where particles go, kRebinCodes per block; waits. `site`: x and y of its lower left and
-  /// its upper right corner in G [cells]. Without blocks there are no counts.
+  /// Finds the destination of every particle and returns the number of particles per old block and
+  /// destination code, kRebinCodes entries per block; waits for the device.
+  ///
+  /// `particle_blocks`: number of blocks; `keys`: their keys; `site`: x and y of the site's
+  /// lower-left corner, then of its upper-right corner, in G [cells]. Returns an empty list if
+  /// there are no blocks.
   std::vector<int> count(const StoredParticles& now, std::size_t particle_blocks,
                          const device::Buffer<std::array<std::int32_t, 4>>& keys,
                          const std::array<std::int32_t, 4>& site);
-  /// Returns the code of every slot from the last count; waits. Slots without a particle have none.
+  /// Returns the destination code of every slot from the last `count`; waits for the device.
+  /// Entries of slots without a particle are undefined.
   std::vector<std::uint8_t> codes() const { return codes_.read(); }
-  /// Reserves memory for a plan of this many blocks and slots. Throws before anything has changed
-  /// when there is none.
+  /// Allocates memory for a plan with this number of new blocks and slots.
+  /// @throws DeviceError when the device has no memory; nothing has changed then.
   void reserve(std::size_t particle_blocks, std::size_t slots);
-  /// Queues the move of the counted particles into their new blocks (`next.particle_blocks`), by
-  /// cell and in the order of arrival, and the blocks' mean surfaces.
+  /// Queues the copy of the counted particles from `now` into their new blocks in `next`, whose
+  /// block list must already be that of the plan. Within a block particles are ordered by cell,
+  /// within a cell in the order of arrival. Also writes the mean contact properties of each new
+  /// block to `block_surface`.
   void move(const StoredParticles& now, const StoredParticles& next, const RebinPlan& plan,
             const device::Buffer<SoilRow>& soils, device::Buffer<ContactSoil>& block_surface);
 
  private:
+  /// Device that runs the kernels.
   device::Device& device_;
+  /// Compiled program of the kernels.
   device::KernelProgram program_;
+  /// Kernels in the order of their use: count_kernel_ finds destinations, gather_kernel_ finds the
+  /// old slot of each new slot, move_kernel_ copies the fields.
   device::Kernel count_kernel_, gather_kernel_, move_kernel_;
-  // From the last count and move.
-  /// Per old slot (rebin_count).
+  /// One entry per old slot, from the last `count`: codes_ holds the destination code, cells_ the
+  /// cell of the base node within the new block, 0 .. 63.
   device::Buffer<std::uint8_t> codes_, cells_;
-  /// kRebinCodes per old block (rebin_count).
+  /// kRebinCodes entries per old block: number of particles with each destination code (kernel
+  /// rebin_count).
   device::Buffer<std::int32_t> counts_;
-  /// 27 per new block (host).
+  /// RebinPlan::sources on the device: 27 entries per new block.
   device::Buffer<std::int32_t> sources_;
-  /// Old slot of each new slot (rebin_gather).
+  /// Old slot of the particle in each new slot (kernel rebin_gather).
   device::Buffer<std::int32_t> from_;
 };
 

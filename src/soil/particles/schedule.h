@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choice of kernels for a device: law, transfers and contact are written for two kinds of hardware.
+// Choice of the kernel variant for a device: soil law, transfers and contact are written for two
+// kinds of hardware.
 #pragma once
 
 #include <string>
@@ -8,21 +9,23 @@
 
 namespace navvy::soil {
 
-/// Kind of kernels.
+/// Variant of the kernels: how the work of a step is distributed over the device.
 enum class Schedule {
-  /// One work-item per block, sixteen lanes at a time: processors (kernels/soil/lanes).
+  /// One work-item per block, which computes sixteen particles at a time in vector lanes. For CPUs
+  /// (kernels/soil/lanes).
   kLanes,
-  /// One work-group per block, a particle, cell or node per work-item: GPUs (kernels/soil/groups).
+  /// One work-group per block, with one particle, cell or node per work-item. For GPUs
+  /// (kernels/soil/groups).
   kGroups,
 };
 
-/// Returns the schedule that the environment variable NAVVY_SOIL_SCHEDULE names (lanes or groups);
-/// without it, groups on GPUs and lanes elsewhere.
-/// @throws InputError for any other word.
+/// Returns the schedule named by the environment variable NAVVY_SOIL_SCHEDULE ("lanes" or
+/// "groups"). If the variable is not set: kGroups for GPUs, kLanes for all other devices.
+/// @throws InputError for any other value of the variable.
 Schedule schedule_for(const device::Device& device);
 
-/// Returns the path of a stage's kernels in the device's schedule, e.g. "soil/groups/rebin.cl" for
-/// "rebin".
+/// Returns the path of a stage's kernel source for the device's schedule, for example
+/// "soil/groups/rebin.cl" for the stage "rebin".
 std::string kernel_path(const device::Device& device, const std::string& stage);
 
 }  // namespace navvy::soil

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tools in the soil: near lists, sides of particles, and the nodal contact solved together with the
-// tool.
+// Contact of tools with the soil: lists of blocks near tools, particle sides, and contact impulses
+// at nodes, solved together with the motion of the tools.
 #pragma once
 
 #include <memory>
@@ -24,160 +24,206 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Returns the area of a shell / the area that nodes along it stand for (contact_inner of
-/// kernels/soil/contact_law.h): above 1 for plates with corners, at most 2.
+/// Returns the area of a shell divided by the area that the nodes along it stand for (contact_inner
+/// in kernels/soil/contact_law.h): above 1 for plates with corners, at most 2. `cell`: edge of a
+/// cell [m].
 double plate_area_factor(const ShellGeometry& geometry, double cell,
                          const SchemeConstants& scheme = kScheme);
 
-/// Contact of all tools with the soil: two nodal fields beside a plate, each of which keeps up with
-/// its share of the plate's speed [docs/tools.md, contact shares]. Any number of tools.
+/// Computes the contact of any number of tools with the soil. Nodes beside a plate have two
+/// velocity fields, one for the soil in front of the plate and one for the soil behind it (back).
+/// Each field must keep up with a share of the plate's speed [docs/tools.md, contact shares].
 ///
-/// Calls of a step come in this order: set_motions in the first step of a transfer or set_twists in
-/// a held one; classify in the first step; solve between scatter and gather; queue_read; and, after
-/// the report has been read, sum_impulses and add_impulses. end_transfer follows the last step of a
-/// transfer.
+/// A transfer is a group of consecutive steps in which particles keep their positions. The calls of
+/// a step come in this order: `set_motions` in the first step of a transfer, or `set_twists` in a
+/// later one; `classify` in the first step only; `solve` between the scatter and the gather of
+/// Transfer; `queue_read`; and, after Transfer::read_report, `sum_impulses` and `add_impulses`.
+/// `end_transfer` follows the last step of a transfer.
 ///
-/// Near lists name the triangles that may touch each block. They reach farther than the contact, so
-/// that a tool may move by contact_margin before they are built again. Cost per step is linear in
-/// the nodes and particles of near blocks.
+/// A block is near if the shell of a tool may touch its nodes or particles. Near lists contain the
+/// triangles that may touch each near block. They reach farther than the contact, so that a tool
+/// may move by the scheme's contact_margin before they must be rebuilt. Cost per step is linear in
+/// the number of nodes and particles in near blocks.
 class Contact {
  public:
-  /// Builds the kernels. `gravity` [m/s2] decides which plates lie on soil.
+  /// Builds the kernels. `cell`: edge of a cell [m]; `origin_W`: origin of the grid frame G in W
+  /// [m]; `gravity` in W [m/s2]: its direction decides which plates rest on soil below them.
   Contact(device::Device& device, double cell, const Vec3& origin_W, const Vec3& gravity,
           const SchemeConstants& scheme = kScheme);
 
-  /// Registers a shell and returns its tool index.
+  /// Registers a tool with this shell. Returns the tool's index: 0 for the first tool, then 1, 2,
+  /// ...
   int add_tool(const scene::Shell& shell);
-  /// Returns the geometry of a tool.
+  /// Returns the geometry of the shell of tool `tool`.
   const ShellGeometry& geometry(int tool) const {
     return *tools_[static_cast<std::size_t>(tool)].geometry;
   }
 
-  /// Sets the tools' poses for the step and updates the near lists. Returns true when the lists
-  /// changed: the caller then assigns tiles anew (near_particle_blocks, near_slot).
+  /// Sets the poses and twists of the tools at the start of a transfer. Rebuilds the near lists
+  /// (triangles near each block) if `blocks_changed` is true or if a tool has moved too far.
+  /// Returns true if the lists were rebuilt; the caller must then call ParticleStore::set_near and
+  /// Transfer::set_blocks.
   bool set_motions(std::span<const ToolMotion> motions, const BlockTable& table,
                    bool blocks_changed);
-  /// Sets the tools' twists and poses for a held step. Lists, sides of nodes and plates remain
-  /// those of the transfer's start; lever arms are current.
+  /// Sets the poses and twists of the tools in a later step of a transfer. Near lists, node sides
+  /// and plate positions remain those of the transfer's start; only lever arms follow the current
+  /// poses.
   void set_twists(std::span<const ToolMotion> motions);
-  /// Returns true if these are motions of the tools of the last `set_motions`.
+  /// Returns true if `motions` belong to the same tools as in the last `set_motions`.
   bool moves_same(std::span<const ToolMotion> motions) const;
-  /// Queues what an open transfer knows of the shells, after `visit` has loaded and the lists are
-  /// built.
+  /// Recomputes on the device the node sides and distances of a transfer in progress, after `visit`
+  /// has loaded a state and `list_near` has built the lists.
   void resume(Transfer& transfer);
-  /// Builds the near lists for the poses of their last build (after `visit` has loaded).
+  /// Builds the near lists for the poses for which they were last built, as `visit` has loaded
+  /// them.
   void list_near(const BlockTable& table);
-  /// Returns 1 for each particle block near a shell, else 0.
+  /// Returns one flag per particle block: 1 if the block is near a shell, else 0.
   const std::vector<std::uint8_t>& near_particle_blocks() const { return near_particle_blocks_; }
-  /// Returns the index of each active block in the near arrays, or -1.
+  /// Returns one entry per active block: its index in the near arrays, or -1 if the block is not
+  /// near a shell.
   const std::vector<int>& near_slot() const { return near_slot_; }
-  /// Returns the arrays of near nodes.
+  /// Returns the arrays of the near nodes.
   NearNodes& nodes() { return nodes_; }
-  /// Returns the change of near nodes in the last step, two entries per node, valid in touched
-  /// blocks.
+  /// Returns the changes of the near nodes by contact in the last step: for each node the record of
+  /// the front field, then that of the back field. Records are valid only in blocks that touched()
+  /// flags.
   const device::Buffer<ContactRecord>& records() const { return records_; }
+  /// Returns one flag per near block: not 0 if contact changed a node of the block in the last
+  /// step.
   const device::Buffer<std::int32_t>& touched() const { return touched_; }
 
-  /// Queues signed distances of nodes, sides of particles, and pushes of particles out of plates
-  /// (push and crossings go into the transfer's report).
+  /// Queues the kernels that find signed distances of near nodes and sides of particles, and that
+  /// push particles out of plates. Push distances and crossings are added to the transfer's report.
   void classify(ParticleStore& store, Transfer& transfer);
-  /// Queues the two-way solve and the impulses on the nodes. The recorded impulse of the tool is
-  /// minus the change of the nodes, exact up to rounding; tests Momentum.* measure that the machine
-  /// receives it.
+  /// Queues the solve for the motion of tools that are not scripted, and then the contact impulses
+  /// on the nodes in a step of dt [s]. The impulse on a tool is minus the momentum change of its
+  /// nodes, exact up to rounding; the tests Momentum.* check that the machine receives it.
   void solve(Transfer& transfer, double dt);
-  /// Queues reading the results.
+  /// Queues the transfer of the contact records to the host; does not wait.
   void queue_read();
-  /// Sums the impulses on the tools, after a wait that follows read_later; `impulses` parallel to
-  /// the motions.
+  /// Adds the contact records of the last step to the impulses on the tools. Before the call, the
+  /// host must have waited for the device after `queue_read`. `impulses` is parallel to the
+  /// motions.
   void sum_impulses(std::span<ToolImpulse> impulses);
 
-  /// Adds the impulses of a step of dt [s] to the current transfer and sets the mean force in
-  /// `impulses`.
+  /// Adds the impulses of a step of dt [s] to the sums of the current transfer, and writes the
+  /// reported mean force and moment of each tool to `impulses`.
   void add_impulses(double dt, std::span<ToolImpulse> impulses);
-  /// Return the mean force [N] and the moment about its origin [N m] that a tool last reported.
+  /// Returns the mean force on tool `tool` that was last reported, in W [N].
   const Vec3& force(int tool) const { return tools_[static_cast<std::size_t>(tool)].force_W; }
+  /// Returns the mean moment on tool `tool` that was last reported, about the origin of the tool's
+  /// frame, axes of W [N m].
   const Vec3& moment(int tool) const { return tools_[static_cast<std::size_t>(tool)].moment_W; }
-  /// Ends a transfer: its mean force becomes the reported one.
+  /// Ends a transfer: the mean force and moment on each tool over that transfer become the reported
+  /// ones.
   void end_transfer();
 
-  /// Visits the tools. Near lists depend on the poses when they were made, sides of nodes on those
-  /// at the start of the transfer: both are state, and the rest follows (`list_near`, `resume`).
-  /// @throws InputError for another number of tools than registered, or an impossible pose.
+  /// Visits the state of all tools. It includes the poses for which the near lists were built and
+  /// the poses at the start of the transfer, because lists and node sides depend on them.
+  /// `list_near` and `resume` recompute the rest after loading.
+  /// @throws InputError for a different number of tools than registered, and for an impossible
+  /// pose.
   void visit(Archive& a);
 
  private:
-  /// Results of contact_apply and shell_nodes, mapped for the host.
+  /// Contact results of a step, mapped for the host.
   struct Results {
+    /// `touched`: one flag per near block. `tool_of`: tool index of each near node, -1 if no tool
+    /// is near.
     device::Mapped<const std::int32_t> touched, tool_of;
+    /// Two records per near node: front field, back field.
     device::Mapped<const ContactRecord> records;
   };
-  /// A tool: geometry, lists, poses and mean force.
+  /// State of one registered tool.
   struct Registered {
+    /// Geometry of the tool's shell.
     std::unique_ptr<ShellGeometry> geometry;
+    /// Index of the tool's first triangle in the list of the triangles of all tools.
     int first_triangle = 0;
-    /// Area of the plates / area that nodes stand for.
+    /// Area of the plates divided by the area that nodes stand for (plate_area_factor).
     double area_factor = 1;
-    /// Has a motion in this transfer.
+    /// True if the tool takes part in the current transfer.
     bool present = false;
-    /// The near lists contain it.
+    /// True if the near lists include the tool.
     bool listed = false;
-    /// Pose when the lists were made.
+    /// Pose of the tool in W when the near lists were built.
     Pose X_listed = Pose::Identity();
-    /// Pose at the start of the transfer.
+    /// Pose of the tool in W at the start of the transfer.
     Pose X = Pose::Identity();
-    /// Pose at the start of the step.
+    /// Pose of the tool in W at the start of the step.
     Pose X_now = Pose::Identity();
-    /// Block whose corner is the origin of its float coordinates.
+    /// Block whose lower corner is the origin of the tool's coordinates on the device.
     BlockKey window;
-    // Sums over the current transfer, and means over the previous one; before there is one, over
-    // the steps so far.
+    /// Sums over the current transfer: impulse J_W [N s] and angular impulse L_W about the tool's
+    /// origin [N m s].
     Vec3 J_W = Vec3::Zero(), L_W = Vec3::Zero();
-    /// Duration of the sums [s].
+    /// Time over which J_W and L_W were summed [s].
     double summed_time = 0;
-    /// There is a previous transfer.
+    /// True if force_W and moment_W are means over a complete previous transfer.
     bool has_mean = false;
+    /// Reported mean force [N] and moment [N m]: means over the previous transfer or, before there
+    /// is one, over the steps so far.
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
+    /// Visits poses, sums and means of the tool.
     void visit(Archive& a);
   };
-  /// Returns a position in G [cells].
+  /// Returns a position in G [cells] from a position in W [m].
   Vec3 to_grid(const Vec3& p_W) const { return (p_W - origin_) / cell_; }
-  /// Returns true if a tool has left the margin of its lists.
+  /// Returns true if a tool has moved by more than the margin of the near lists, or if a tool was
+  /// added to or removed from the step.
   bool moved_far() const;
-  /// Sets the block whose corner is the origin of the tool's float coordinates.
+  /// Sets the tool's window to the block that contains the origin of the tool's frame.
   void set_window(Registered& tool) const;
-  /// Marks the triangles near each active block and each particle block.
+  /// Marks the triangles near each block: `nodes` has one row per active block, `particle_blocks`
+  /// one row per particle block; columns are triangle indices.
   void find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const;
-  /// Uploads triangles, rims and tools of this step.
+  /// Uploads the triangles, free edges and tools of this step.
   void upload_tools();
-  /// Returns a tool as the kernels take it, with its present twist.
+  /// Returns tool `index` in the form that the kernels read, with the tool's current twist.
   Tool tool_now(std::size_t index) const;
-  /// Queues a contact kernel over the near blocks; `only`: tool whose nodes count, -1: all.
+  /// Queues a contact kernel over all near blocks. `only`: index of the tool whose nodes are
+  /// processed, -1 for all tools; `tail`: further kernel arguments.
   template <class... Tail>
   void launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail);
 
+  /// Device that runs the kernels.
   device::Device& device_;
+  /// Edge of a cell [m].
   double cell_;
+  /// Origin of the grid frame G in W [m].
   Vec3 origin_;
-  /// Unit vector of gravity, or 0 without.
+  /// Unit vector of gravity in W; zero without gravity.
   Vec3 down_;
+  /// Constants of the particle scheme.
   SchemeConstants scheme_;
+  /// Registered tools, by tool index.
   std::vector<Registered> tools_;
+  /// Motions of the current step.
   std::vector<ToolMotion> motions_;
+  /// Kernels that find node and particle sides.
   ShellQuery shells_;
+  /// Compiled program of the contact kernels.
   device::KernelProgram contact_program_;
+  /// Contact kernels: sums_kernel_ sums impulses and stiffness over nodes, twist_kernel_ updates
+  /// the twist of a tool, apply_kernel_ applies the impulses.
   device::Kernel sums_kernel_, twist_kernel_, apply_kernel_;
+  /// One flag per particle block: 1 if near a shell.
   std::vector<std::uint8_t> near_particle_blocks_;
+  /// One entry per active block: its index in the near arrays, or -1.
   std::vector<int> near_slot_;
+  /// Key of each near block.
   std::vector<BlockKey> near_keys_;
+  /// Arrays of the near nodes.
   NearNodes nodes_;
+  /// Contact parameters of the current step.
   ContactReach reach_{};
-  // Results of the kernels of contact.cl.
-  /// Two per near node, one per field (contact_apply).
+  /// Two records per near node, front and back field (kernel contact_apply).
   device::Buffer<ContactRecord> records_;
-  /// One per near block (contact_sums).
+  /// One entry per near block: sums for the solve of a tool's motion (kernel contact_sums).
   device::Buffer<ContactSums> sums_;
-  /// One per near block: contact changed a node (contact_apply).
+  /// One flag per near block: not 0 if contact changed a node (kernel contact_apply).
   device::Buffer<std::int32_t> touched_;
+  /// Results between `queue_read` and `sum_impulses`; empty otherwise.
   std::optional<Results> results_;
 };
 

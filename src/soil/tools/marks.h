@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of bits: which columns are marked in which rows.
+// Bit table that records which columns are marked in which rows.
 #pragma once
 
 #include <bit>
@@ -9,18 +9,19 @@
 
 namespace navvy::soil {
 
-/// Set of pairs (row, column). They arrive in any order and more than once, and are read sorted and
-/// once. Cheaper than sorting them where columns are few.
+/// Set of pairs (row, column). Pairs may be added in any order and repeatedly; each is read once,
+/// in ascending order. This is faster than sorting the pairs if there are few columns.
 ///
-/// Memory is one bit per pair. Marking costs one memory access, reading a row costs its columns /
-/// 64 plus the marks. A row is a block, a column a triangle, so that candidate lists come out in
-/// ascending order without a sort.
+/// Memory is one bit per pair. Marking a pair costs one memory access; reading a row costs columns
+/// / 64 steps plus one per mark. For near lists a row is a block and a column is a triangle, so the
+/// triangles of each block come out in ascending order.
 class Marks {
  public:
+  /// Creates a table without marks.
   Marks(std::size_t rows, std::size_t columns)
       : words_((columns + 63) / 64), bits_(rows * words_, 0) {}
 
-  /// Marks a pair.
+  /// Marks the pair (row, column).
   void set(std::size_t row, std::size_t column) {
     bits_[row * words_ + column / 64] |= std::uint64_t{1} << (column % 64);
   }
@@ -30,7 +31,7 @@ class Marks {
       if (bits_[row * words_ + w] != 0) return true;
     return false;
   }
-  /// Calls `use` with every marked column of the row, ascending.
+  /// Calls `use(column)` for every marked column of the row, in ascending order.
   template <class Use>
   void each(std::size_t row, Use use) const {
     for (std::size_t w = 0; w < words_; ++w)
@@ -39,7 +40,9 @@ class Marks {
   }
 
  private:
+  /// Number of 64-bit words per row.
   std::size_t words_;
+  /// Bits of all rows; bit c % 64 of word c / 64 is column c.
   std::vector<std::uint64_t> bits_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Positions of nodes and particles relative to the shells of tools, on the device.
+// Positions of nodes and particles relative to the shells of tools, computed on the device.
 #pragma once
 
 #include <cstdint>
@@ -14,73 +14,93 @@
 
 namespace navvy::soil {
 
-/// Tools as the kernels take them in one step. Triangles are numbered over all tools.
+/// Tools of one step in the form that the kernels read. Triangles are numbered consecutively over
+/// all tools.
 struct ToolShells {
-  /// Triangles of all tools.
+  /// Triangles of all tools, tool by tool.
   std::vector<ShellTriangle> triangles;
-  /// Free edges of all tools.
+  /// Free edges of all tools, tool by tool.
   std::vector<ShellRim> rims;
-  /// One per tool.
+  /// One entry per registered tool.
   std::vector<Tool> tools;
 };
 
-/// Compressed rows: the candidates of row r are first[r] .. first[r + 1] - 1.
+/// List of candidate triangles for each of several blocks, in compressed rows: the candidates of
+/// block r are triangles[first[r]] .. triangles[first[r + 1] - 1].
 struct CandidateRows {
+  /// `first`: one entry per block and a final end. `triangles`: triangle indices, ascending within
+  /// each block.
   std::vector<std::int32_t> first, triangles;
 };
 
-/// Kernels of kernels/soil/*/shell.cl, their data of tools, and their results for near nodes.
+/// Kernels of kernels/soil/*/shell.cl, with their data of the tools and their results for near
+/// nodes: nodes of blocks that a tool's shell may touch (near blocks).
 ///
-/// Arrays of near nodes have BLOCK_NODES entries per near active block, in the order of
-/// NearNodes::list. Kernels write them in the first step of a transfer only.
+/// Result arrays have BLOCK_NODES entries per near block, in the order of NearNodes::list. The
+/// kernels run only in the first step of a transfer, i.e. of a group of steps in which particles
+/// keep their positions.
 class ShellQuery {
  public:
-  /// Builds the kernels with these constants.
+  /// Builds the kernels with the constants `scheme`.
   explicit ShellQuery(device::Device& device, const SchemeConstants& scheme = kScheme);
 
-  /// Uploads the triangles that may be near the near active blocks and the near particle blocks,
-  /// whose indices are `near_particle_blocks`.
+  /// Uploads the triangles that may be near each near active block (`node_candidates`) and each
+  /// near particle block (`particle_candidates`). `near_particle_blocks`: particle-block indices of
+  /// the latter.
   void set_near(const CandidateRows& node_candidates, const CandidateRows& particle_candidates,
                 const std::vector<std::int32_t>& near_particle_blocks);
-  /// Uploads the tools of the step without waiting. The two-way solve changes their twists on the
-  /// device.
+  /// Uploads triangles, free edges and tools of the step without waiting. The contact solve later
+  /// changes the twists of the tools on the device.
   void set_tools(ToolShells shells);
-  /// Uploads new twists and positions of the same tools without waiting; the plates stay.
+  /// Uploads new twists and origins of the same tools without waiting. Triangles and free edges
+  /// stay as they are.
   void set_twists(std::vector<Tool> tools);
-  /// Queues split, tool and NodeShell of near nodes.
+  /// Queues the kernel for near nodes: writes NearNodes::split, node_tool() and node_shell().
+  /// `band`: distance from a plate within which nodes and particles have a side [cells].
   void enqueue_nodes(Transfer& transfer, NearNodes& near, double band);
-  /// Queues both kernels: split, tool and NodeShell of near nodes, then side and position of
-  /// particles, with Report.push and Report.crossed of near blocks. `band`, `longest_push` [cells]:
-  /// contact_band and contact_max_push of the scheme.
+  /// Queues the kernels for near nodes, as enqueue_nodes, and for particles: the latter writes
+  /// sides and positions of the particles, and Report.push and Report.crossed of near blocks.
+  /// `band`, `longest_push` [cells]: the scheme constants contact_band and contact_max_push.
   void enqueue(ParticleStore& store, Transfer& transfer, NearNodes& near, double band,
                double longest_push);
 
+  /// Returns the tools on the device, by tool index.
   device::Buffer<Tool>& tools() { return tools_; }
+  /// Returns the index of the tool closest to each near node, -1 if none is near.
   device::Buffer<std::int32_t>& node_tool() { return node_tool_; }
+  /// Returns the position of each near node relative to the closest plate; valid only where
+  /// node_tool() is not -1.
   device::Buffer<NodeShell>& node_shell() { return node_shell_; }
 
  private:
+  /// Device that runs the kernels.
   device::Device& device_;
+  /// Compiled program of both kernels.
   device::KernelProgram program_;
+  /// Kernels: nodes_kernel_ for near nodes, particles_kernel_ for particles in near blocks.
   device::Kernel nodes_kernel_, particles_kernel_;
-  /// The device may still be reading it.
+  /// Uploaded tools. Uploads do not wait, so the device may still be reading this memory.
   ToolShells now_;
+  /// Number of near particle blocks.
   std::size_t near_particle_blocks_ = 0;
-  // Written by the host.
+  /// Triangles of all tools, written by the host.
   device::Buffer<ShellTriangle> triangles_;
+  /// Free edges of all tools, written by the host.
   device::Buffer<ShellRim> rims_;
-  /// contact_twist writes the twists, too.
+  /// Tools, written by the host. The kernel contact_twist changes their twists.
   device::Buffer<Tool> tools_;
-  /// CandidateRows of near active blocks.
+  /// Candidate triangles of the near active blocks: block_first_ holds CandidateRows::first,
+  /// block_triangles_ holds CandidateRows::triangles.
   device::Buffer<std::int32_t> block_first_, block_triangles_;
-  /// CandidateRows of near particle blocks.
+  /// Candidate triangles of the near particle blocks: particle_first_ holds CandidateRows::first,
+  /// particle_triangles_ holds CandidateRows::triangles.
   device::Buffer<std::int32_t> particle_first_, particle_triangles_;
-  /// Indices of the near particle blocks.
+  /// Particle-block indices of the near particle blocks.
   device::Buffer<std::int32_t> particle_block_list_;
-  // Written by shell_nodes, BLOCK_NODES per near active block.
-  /// Tool of the closest triangle, -1: none.
+  /// Tool of the triangle closest to each near node, -1 if none is near (kernel shell_nodes).
   device::Buffer<std::int32_t> node_tool_;
-  /// Valid where there is a tool.
+  /// Position of each near node relative to that triangle; valid where node_tool_ is not -1 (kernel
+  /// shell_nodes).
   device::Buffer<NodeShell> node_shell_;
 };
 

@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface between soil and whatever moves its tools: poses and twists in, impulses out. Axes of
-// W, SI units.
+// Interface between the soil and the machines that move its tools: poses and twists in, impulses
+// out. Vectors have the axes of W; units are SI.
 #pragma once
 
 #include "core/math.h"
 
 namespace navvy::soil {
 
-/// Motion of a tool during the coming step. T is the link frame of its shell.
+/// Motion of a tool during the coming step. T is the link frame of the tool's shell.
 struct ToolMotion {
-  /// Index from add_tool.
+  /// Tool index that Solver::add_tool returned.
   int tool = -1;
+  /// Pose of T in W at the start of the step.
   Pose X_WT = Pose::Identity();
-  /// Velocity of T's origin before soil acts [m/s].
+  /// Velocity of T's origin before the soil acts [m/s].
   Vec3 v_WT = Vec3::Zero();
-  /// Angular velocity [rad/s].
+  /// Angular velocity before the soil acts [rad/s].
   Vec3 w_WT = Vec3::Zero();
-  /// Inverse of the link's effective (articulated) mass at T's origin, order (angular, linear),
-  /// axes of W: the change of (w, v) per unit of (angular impulse about T's origin, impulse). Zero:
-  /// scripted, the tool does not yield.
+  /// Inverse of the link's effective (articulated) mass: the change of (angular velocity, velocity
+  /// of T's origin) per unit of (angular impulse about T's origin, impulse). Zero for a scripted
+  /// tool, whose motion the soil does not change.
   Mat6 inverse_mass = Mat6::Zero();
 };
 
-/// Pose of a tool.
+/// A tool and its pose.
 struct PlacedTool {
-  /// Index from add_tool.
+  /// Tool index that Solver::add_tool returned.
   int tool = -1;
+  /// Pose of T in W.
   Pose X_WT = Pose::Identity();
 };
 
@@ -33,33 +35,37 @@ struct PlacedTool {
 struct ToolImpulse {
   /// Impulse on the tool [N s].
   Vec3 J_W = Vec3::Zero();
-  /// Angular impulse about p_W [N m s].
+  /// Angular impulse on the tool about p_W [N m s].
   Vec3 L_W = Vec3::Zero();
-  /// Origin of T [m].
+  /// Origin of T in W at the start of the step [m].
   Vec3 p_W = Vec3::Zero();
-  /// Mean force and moment about T's origin [N, N m] over the last completed transfer, for display
-  /// and sensors. The impulses of single steps show a saw-tooth of that period
+  /// Mean force [N] and mean moment about T's origin [N m] over the last completed transfer, for
+  /// display and sensors. The impulses of single steps vary like a saw-tooth within a transfer
   /// [docs/tools.md, force].
   Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
-  /// Sum of |normal impulses| [N s].
+  /// Sum of the magnitudes of the normal impulses at all nodes [N s].
   double normal = 0;
-  /// Sum of |tangential impulses| [N s].
+  /// Sum of the magnitudes of the tangential impulses at all nodes [N s].
   double friction = 0;
-  // Momentum check of the nodal solve, summed in double: J_W + sum of nodal momentum changes, and
-  // its scale.
+  /// Momentum check of the contact at the nodes, zero up to rounding: `residual` = J_W + momentum
+  /// change of the nodes [N s]; `residual_moment` = L_W + change of their angular momentum about
+  /// p_W [N m s].
   Vec3 residual = Vec3::Zero(), residual_moment = Vec3::Zero();
+  /// Sums of magnitudes over all nodes, to which the residuals are compared: `scale` of impulses
+  /// [N s], `scale_moment` of angular impulses [N m s].
   double scale = 0, scale_moment = 0;
 };
 
-/// Region of a tool: soil ahead of it becomes active, and soil near it stays active.
+/// Region that a tool occupies, as input to the exchange: soil ahead of the region becomes active,
+/// and soil near it stays active.
 struct ToolRegion {
-  /// Index from add_tool.
+  /// Tool index that Solver::add_tool returned.
   int tool = -1;
-  /// The ground supports it: it keeps no soil active.
+  /// True if a resting contact supports the tool; the tool then keeps no soil active.
   bool supported = false;
-  /// Box of the shell in W [m].
+  /// Lowest and highest corner of the axis-aligned bounding box of the shell in W [m].
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();
-  /// Velocity of the box centre [m/s].
+  /// Velocity of the centre of the box [m/s].
   Vec3 velocity = Vec3::Zero();
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Impulse of a plate on a node of the double twin.
+// Impulse of a plate on a node, computed by the double-precision twin.
 #pragma once
 
 #include "core/math.h"
@@ -7,8 +7,9 @@
 
 namespace navvy::soil::reference {
 
-/// Returns the impulse [N s] on a node of a plate that moves with `speed` [m/s] against the resting
-/// ground, without turning.
+/// Returns the impulse [N s] on a node from a plate that moves with `speed` [m/s] relative to the
+/// resting ground and does not rotate. `opening`: separation speed above which adhesion has ended
+/// [m/s].
 inline Vec3 impulse_on(const ContactNode& node, double opening, const Vec3& speed = Vec3::Zero()) {
   ContactBranch branch;
   return contact_impulse(&node, Vec3::Zero(), speed, opening, &branch);

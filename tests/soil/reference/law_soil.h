@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of the law for the double twin.
+// Constants of the soil law for the double-precision twin.
 #pragma once
 
 #include "scene/soil.h"
@@ -8,8 +8,8 @@
 
 namespace navvy::soil::reference {
 
-/// Returns the constants of the law in double precision. `cell` [m]. The kernels get the same
-/// numbers rounded to floats.
+/// Returns the constants of the soil law for one soil in double precision. `cell`: edge of a cell
+/// [m]. The kernels use the same constants rounded to floats.
 inline LawSoil law_soil(const scene::Soil& soil, double cell) {
   const LawConstants law = law_constants(soil, cell);
   LawSoil out;
