@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function per rig. A new rig is a file in this folder, a line here and a line in rigs.cpp. The
-// command, its help and the checks of its parameters follow from the returned description.
+// One function per rig; each returns the description of its rig. To add a rig, put a file into this
+// folder, a line into this header and a line into rigs.cpp. The command line, its help and the
+// parameter checks follow from the description.
 #pragma once
 
 #include "lab/rig.h"
