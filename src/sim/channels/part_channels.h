@@ -53,8 +53,8 @@ void add_steering_channels(const MachineChannels& out);
 void add_shaft_channels(const MachineChannels& out);
 /// Declares inputs for the target pose of a kinematic machine's base link.
 void add_base_channels(const MachineChannels& out);
-/// Declares outputs for pose, velocity and angular velocity of a link. `prefix` is the start of the
-/// channel names; `link_name` is the name of the link in the channel descriptions.
+/// Declares outputs for pose and velocity of a link. `prefix` is the start of the channel names;
+/// `link_name` is the name of the link in the channel descriptions.
 void add_pose_channels(const LinkHandle& link, const std::string& prefix,
                        const std::string& link_name, Outputs& outputs);
 /// Declares outputs for spin, slip and load of every wheel.
