@@ -28,6 +28,7 @@ class FrameBuilder {
   const scene::Frame& build();
   /// Returns the current pose of a scene camera. A camera that chases a machine follows the
   /// machine's position and heading, but not its pitch and roll.
+  /// @throws InputError if the camera's machine does not exist.
   scene::FrameCamera camera(const scene::Camera& camera) const;
 
  private:
