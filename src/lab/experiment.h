@@ -19,7 +19,7 @@ namespace navvy::lab {
 /// A command-line option that changes one value of the soil.
 struct SoilOption {
   /// Option name without dashes; most end in the unit of the value, as in "phi-deg".
-  const char* name;  ///< of the option, ends in its unit: "phi-deg"
+  const char* name;
   /// One-line help text that ends with the unit in brackets.
   const char* help;
   /// Soil member that the option sets; null if setting it takes more than an assignment (soil_of

@@ -203,17 +203,23 @@ class Site {
   /// `dt` [s].
   static void move_tool(Tool& tool, double dt);
 
+  /// Device of the solver; not owned.
   device::Device* device_;
+  /// Soils, gravity and solver settings from which the solver is created.
   scene::Scene world_;
+  /// Ground columns, which the solver exchanges soil with.
   heightfield::Ground ground_;
   /// SiteOptions::crowding, and whether the energy account is computed.
   bool crowding_, energy_;
+  /// SiteOptions::scheme.
   soil::SchemeConstants scheme_;
   /// Sum of the energy accounts of solvers that set_gravity replaced.
   soil::EnergyAccount energy_before_;
+  /// Soil solver; never null.
   std::unique_ptr<soil::Solver> solver_;
   /// Shells of all tools, in the order of `tools_`.
   std::vector<scene::Shell> shells_;
+  /// Tools in the order in which they were added.
   std::vector<Tool> tools_;
   /// Motions of all tools in the current step, in the order of `tools_`; passed to the solver.
   std::vector<soil::ToolMotion> motions_;

@@ -25,8 +25,10 @@ struct Trace {
   std::vector<Vec3> moment;
 };
 
-/// One shell on a prescribed path. All tools of the site move with every step. Each driver keeps
-/// its own trace, so only one of two drivers may step. The site must outlive it.
+/// Moves one tool of a site along a prescribed path and records the forces on it.
+///
+/// A step of the driver is a step of the whole site, in which all tools move. If a site has two
+/// drivers, only one of them may call its stepping functions; the other one records nothing.
 class ToolDriver {
  public:
   /// Adds a tool with this shell to `site`, at rest at the pose `X_WT`. The site must outlive the
@@ -74,6 +76,7 @@ class ToolDriver {
   void write(Report& report, double cutoff = 0, const std::string& prefix = "") const;
 
  private:
+  /// Site of the driven tool; not owned.
   Site* site_;
   /// Index of the driven tool in the site.
   int tool_;
@@ -81,6 +84,7 @@ class ToolDriver {
   std::vector<int> carried_;
   /// Path length covered so far [m].
   double travelled_ = 0;
+  /// Forces recorded so far.
   Trace trace_;
 };
 

@@ -55,6 +55,7 @@ class ArrayFile {
   /// Writes the buffered records to the file, then the header with the new record count.
   void append();
 
+  /// Path of the file.
   std::string path_;
   /// Type of a record in NumPy's notation.
   std::string descr_;

@@ -37,6 +37,7 @@ class CrashSummary {
   /// The parts of a summary before and after the entry `"status": "running"`, which a crash
   /// replaces.
   struct Text {
+    /// Text before the status entry, and text after it.
     std::string before, after;
   };
   /// Writes the stored text with this status and message and renames the file to the target.

@@ -49,6 +49,7 @@ class RowFile {
   static constexpr std::size_t kMostWaiting = std::size_t{1} << 20;
 
  private:
+  /// Path of the file.
   std::string path_;
   /// Buffered rows with their line ends; before the first write, also the header.
   std::string waiting_;

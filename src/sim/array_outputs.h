@@ -101,6 +101,7 @@ class ArrayView {
   void require(ElementType type) const;
   const ArrayChannel* channel_ = nullptr;
   const Pose* X_WF_ = nullptr;
+  /// Storage of the array's elements, owned by ArrayOutputs.
   std::span<const std::byte> bytes_;
   std::uint64_t sequence_ = 0;
   double time_ = 0;
@@ -156,6 +157,7 @@ class ArrayOutputs {
     /// Pose of the array's frame F in W at that time.
     Pose X_WF = Pose::Identity();
   };
+  /// Descriptions of all arrays, in the order of their indices.
   std::vector<ArrayChannel> channels_;
   /// Latest value of each array, in the order of `channels_`.
   std::vector<Value> values_;

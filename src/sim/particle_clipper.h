@@ -38,6 +38,7 @@ class ParticleClipper {
   };
 
   const World& world_;
+  /// Shells of all machines, machine by machine.
   std::vector<Tool> tools_;
 };
 

@@ -71,7 +71,9 @@ class Publisher {
   /// @throws InputError if it is not.
   void require(int array, ElementType type) const;
 
+  /// List that receives the scalar outputs.
   Outputs& outputs_;
+  /// List that receives the arrays.
   ArrayOutputs& arrays_;
   /// Publication rate of the sampler's arrays [1/s]; 0 for every step.
   double rate_;
@@ -86,12 +88,13 @@ class Publisher {
   std::vector<std::unique_ptr<double>> numbers_;
 };
 
-/// Sensor, map or measuring instrument. Reads the world and changes nothing in it.
+/// Base class of sensors, maps and measuring instruments. A sampler reads the world and publishes
+/// values; it must not change the world.
 ///
-/// Look up handles and channel indices once, in the constructor or in declare, and read through
-/// them in sample. A sampler is deterministic: what it publishes is a function of the world and of
-/// its own state, which it visits (a random generator, a delay line). A resumed run is then
-/// bit-identical.
+/// Implementations should look up handles and channel indices once, in the constructor or in
+/// `declare`, and use them in `sample`. A sampler must be deterministic: the published values may
+/// depend only on the world and on the sampler's own state (a random generator, a delay line),
+/// which `visit` must cover. A resumed run is then bit-identical.
 ///
 ///   class Inclinometer final : public sim::Sampler {
 ///    public:
