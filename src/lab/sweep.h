@@ -28,7 +28,7 @@ struct SweepAxis {
 struct SweepRun {
   /// Value of the run on each axis, in the order of Sweep::axes.
   std::vector<double> at;
-  /// Results of the run.
+  /// Results that the rig reported for the run.
   Report report;
 };
 

@@ -23,7 +23,7 @@ class CameraPictures {
   /// Function that receives each picture as soon as it is drawn.
   using Receiver = std::function<void(const scene::Camera& camera, const render::Image& image)>;
 
-  /// Keeps a reference to `world`, which must outlive this object.
+  /// Creates an object that draws `world`, which must outlive it. Draws nothing yet.
   explicit CameraPictures(const sim::World& world);
   ~CameraPictures();
   CameraPictures(const CameraPictures&) = delete;

@@ -30,7 +30,7 @@ class HashLog {
   void finish();
 
  private:
-  /// Appends a row for the current state.
+  /// Appends a row with the hashes of the current state and writes it to the file.
   void row();
 
   const session::Session& session_;

@@ -87,7 +87,7 @@ class Recorder {
   render::Image draw(const std::string& camera);
 
  private:
-  /// Session, files and status of the recording.
+  /// All data of the recording: session, options, open files and status.
   struct State;
   std::unique_ptr<State> state_;
 };

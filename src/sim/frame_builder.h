@@ -21,7 +21,7 @@ class ParticleClipper;
 /// of its width of its edge.
 class FrameBuilder {
  public:
-  /// Prepares frames of `world`, which must outlive this object.
+  /// Creates a builder for frames of `world`, which must outlive this object.
   explicit FrameBuilder(const World& world);
   ~FrameBuilder();
   /// Returns a frame of the world's current state. It is valid until the next call.

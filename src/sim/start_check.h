@@ -26,7 +26,8 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
 std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
                                 const heightfield::Terrain& ground);
 
-/// Result of check_start.
+/// Result of check_start: the errors found at the start of a scene, and the state of each machine
+/// after the first second.
 struct StartCheck {
   /// Stability of each machine of the scene after the first second; empty if a machine starts
   /// inside the ground.

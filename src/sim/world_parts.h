@@ -49,7 +49,7 @@ struct WorldParts {
   /// Visits all state that determines the future of a run, to hash, save or load it (World::visit).
   void visit(Archive& a);
 
-  /// Returns the simulated time [s].
+  /// Returns the simulated time since the start of the simulation [s].
   double time() const { return static_cast<double>(steps) * dt; }
 
   /// Scene that the world was built from.

@@ -72,8 +72,8 @@ std::vector<scene::Soil> chute_soils(const scene::Soil& soil);
 /// m/s, the force on a rough blade per width is the same with 5, 8 and 16 cells within 2 %; in slow
 /// motion 4 cells are too few.
 double chute_width(double cell);
-/// Returns half the thickness of a chute's plates [m]: a quarter of `cell`, which is half the
-/// particle spacing.
+/// Returns half the thickness of a chute's plates [m]: a quarter of the cell size `cell` [m], which
+/// is half the particle spacing.
 double chute_half(double cell);
 /// Returns the options of a site with a pit for the bed. The pit is as long and deep as `bed` and
 /// two cells wider than the chute's width `gap` [m] on each side.

@@ -73,7 +73,7 @@ BladeForce reece_wedge(const BladeCase& blade);
 /// adhesion term. For w >> d the result is that of the planar wedge.
 BladeForce mckyes_ali(const BladeCase& blade);
 /// Returns the force of dry sand on a blade whose face has the given `length` from edge to edge
-/// [m], as an upper estimate in plane strain without inertia [Miedema 2014, chapter 5].
+/// [m]: an estimate of the peak force in plane strain, without inertia [Miedema 2014, chapter 5].
 ///
 /// The cut layer has the thickness t = d sin(alpha + beta) / sin(beta). It slides up the whole
 /// blade and rises above it by the cutting depth without support: P = gamma w t (length + d + d
