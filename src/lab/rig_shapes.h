@@ -27,11 +27,11 @@ scene::Shell plate(double length, double width);
 /// The plates are the smooth side walls of a plane-strain test, so the soil should have no tool
 /// friction.
 scene::Shell channel(double length, double gap, double bottom, double top, bool back);
-/// Returns an upright tube about the z axis that is open at both ends: `radius`, z from `bottom` to
-/// `top` [m], made of `sides` flat facets. The front faces the inside.
+/// Returns an upright tube of the given radius [m] about the z axis, from z = `bottom` to z = `top`
+/// [m] and open at both ends. It consists of `sides` flat facets, whose front faces the inside.
 scene::Shell tube(double radius, double bottom, double top, int sides = 32);
-/// Returns a wheel: a closed drum about the y axis, with `radius` and `width` [m], whose tread has
-/// `sides` flat facets. The front faces the outside.
+/// Returns a wheel: a closed drum of the given radius and width [m] about the y axis, whose tread
+/// consists of `sides` flat facets. The front of all triangles faces the outside.
 scene::Shell drum(double radius, double width, int sides = 48);
 
 }  // namespace navvy::lab

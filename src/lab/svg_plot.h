@@ -13,7 +13,7 @@ namespace navvy::lab {
 
 /// One line of a chart. Points with a coordinate that is not finite are left out.
 struct PlotLine {
-  /// Line name in the legend.
+  /// Name of the line, as the legend shows it.
   std::string name;
   /// Coordinates of the line's points, in the units of the axes, in the order in which they are
   /// joined. Both lists have the same length.

@@ -36,7 +36,7 @@ class ArrayRecorder {
   void checkpoint(bool end);
 
  private:
-  /// File of one array.
+  /// Output file of one array, and the last value that was written to it.
   struct Stream {
     /// Open file that receives the array's values.
     std::unique_ptr<ArrayFile> file;

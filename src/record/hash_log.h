@@ -20,8 +20,8 @@ class HashLog {
   /// gets a row for its start; a resumed run gets its first row at the next multiple of the
   /// interval.
   HashLog(const session::Session& session, std::string path, double every);
-  /// Appends a row if the current step is the first one at or after a multiple of the interval.
-  /// Must be called after each step.
+  /// Appends a row if the simulated time has reached the next multiple of the table's interval
+  /// since the last call. Must be called after each step.
   /// @throws FileError if the row cannot be written.
   void observe();
   /// Appends a row for the final state, unless it has one already, and waits until the file is

@@ -57,13 +57,13 @@ class MapRecorder {
   struct Stream;
   /// Opens a new bag for the record, if its format is that of a bag.
   void open(Stream& stream);
-  /// Writes those array samples to the record's bag that are not in it yet.
+  /// Writes to the record's bag all array samples that the bag does not contain yet.
   void write_arrays(Stream& stream);
   const session::Session& session_;
   RunFolder& folder_;
   /// One entry per navvy:record element, in the scene's order.
   std::vector<std::unique_ptr<Stream>> streams_;
-  /// File names in use by the records, without number and extension.
+  /// Names that files of the scene's records use or have used, without number and extension.
   std::set<std::string> taken_;
 };
 

@@ -109,8 +109,8 @@ class ArrayView {
 
 /// All arrays of a world. Clients read them; samplers fill them through a Publisher.
 ///
-/// The storage of an array is allocated once and never moves. Arrays that are not published cost no
-/// time. Not thread-safe.
+/// The storage of an array is allocated once and never moves. An array costs time only when it is
+/// published. Not thread-safe.
 class ArrayOutputs {
  public:
   /// Returns the descriptions of all arrays in the order of their indices.

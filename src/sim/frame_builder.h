@@ -35,7 +35,7 @@ class FrameBuilder {
   /// Moves the window when the machines approach its edge. After a move, the next frame contains
   /// all of the ground again.
   void place_window();
-  /// Copies into the window the ground that has changed since the last frame.
+  /// Copies the ground that has changed since the last frame into the drawn window.
   void update_ground();
   /// Copies heights and soils of the ground columns in `rect` (column indices of the site) into the
   /// window.

@@ -75,7 +75,7 @@ class Publisher {
   Outputs& outputs_;
   /// List that receives the arrays.
   ArrayOutputs& arrays_;
-  /// Publication rate of the sampler's arrays [1/s]; 0 for every step.
+  /// Publication rate of the sampler's arrays [1/s]; 0 means one publication after every step.
   double rate_;
   /// Simulated time of the current sample [s].
   double time_ = 0;

@@ -26,21 +26,25 @@ struct WallStress {
   /// wall upwards.
   double normal = 0, shear = 0;
 };
-/// Returns the passive stress of weightless soil under a surcharge q, an exact solution along slip
-/// lines [Sokolovskii 1965].
+/// Returns the passive stress on a rough upright wall in weightless soil under a surcharge, an
+/// exact solution along slip lines [Sokolovskii 1965]. phi is the soil's friction angle, delta that
+/// of soil on the wall [rad]; c is the cohesion, a the adhesion and q the surcharge [Pa]; sigma_n
+/// and tau are the normal stress and the shear stress on the wall.
 ///
-/// All pressures are counted from -c cot phi, so the pressure at the ground is p0 = (q + c cot
-/// phi) / (1 - sin phi). From the ground to the wall the principal axes rotate by an angle t: p =
-/// p0 exp(2 t tan phi), sigma_n = p (1 + sin phi cos 2t) - c cot phi, tau = p sin phi sin 2t. t is
-/// the angle at which tau = a + sigma_n tan delta, with the adhesion a. If the wall is rougher than
-/// the soil, the wall itself is a slip line and t = pi/4 + phi/2. (t = pi/4 - phi/2 would be too
-/// small: the stress at phi = delta = 30 deg would be 6.19 c instead of 6.72 c.)
+/// All pressures are counted from -c cot phi, so the pressure at the ground is p0 = (q + c cot phi)
+/// / (1 - sin phi). From the ground to the wall the principal axes rotate by an angle t: p = p0
+/// exp(2 t tan phi), sigma_n = p (1 + sin phi cos 2t) - c cot phi, tau = p sin phi sin 2t. t is the
+/// angle at which tau = a + sigma_n tan delta. If the wall is rougher than the soil, the wall
+/// itself is a slip line and t = pi/4 + phi/2. (t = pi/4 - phi/2 would be too small: the stress at
+/// phi = delta = 30 deg would be 6.19 c instead of 6.72 c.)
 WallStress passive_slip_line(double phi, double delta, double cohesion, double adhesion,
                              double surcharge);
-/// Returns the coefficient of passive earth pressure on a rough wall, normal stress / (gamma z) at
-/// depth z, for soil without cohesion. It is a lower bound in closed form [Lancellotta 2002]: K =
-/// cos delta (cos delta + sqrt(sin^2 phi - sin^2 delta)) / (1 - sin phi) exp(2 theta tan phi), 2
-/// theta = asin(sin delta / sin phi) + delta. `delta` must be at most `phi`.
+/// Returns the coefficient of passive earth pressure on a rough wall for soil without cohesion:
+/// normal stress on the wall / (gamma z), where gamma is the unit weight and z the depth. phi is
+/// the soil's friction angle and delta that of soil on the wall [rad]; `delta` must be at most
+/// `phi`. The result is a lower bound in closed form [Lancellotta 2002]: K = cos delta (cos delta +
+/// sqrt(sin^2 phi - sin^2 delta)) / (1 - sin phi) exp(2 theta tan phi), 2 theta = asin(sin delta /
+/// sin phi) + delta.
 double passive_lancellotta(double phi, double delta);
 /// Returns the same coefficient as passive_lancellotta from a log-spiral mechanism: the spiral
 /// rises from the wall's toe and merges into Rankine's zone [Terzaghi 1943]. The equilibrium of
