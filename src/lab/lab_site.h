@@ -189,9 +189,10 @@ class Site {
   soil::EnergyAccount energy() const;
   /// Returns the hash of the soil's current state [hex], for Report::state_hash.
   std::string digest() const;
-  /// Adds the properties of this site's run to `report`: steps, simulated time, wall time, ledger
-  /// error and energy account, which are added to the values in the report, the peak number of
-  /// particles, and the state hash, which replaces that in the report.
+  /// Adds the general properties of this site's run to `report`. Steps, simulated time, wall time,
+  /// ledger error and energy account are added to the values in the report, because a rig may run
+  /// several sites. The peak number of particles becomes the maximum over the sites. The state hash
+  /// replaces that in the report.
   void finish(Report& report) const;
 
  private:

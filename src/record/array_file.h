@@ -23,7 +23,7 @@ namespace navvy::record {
 /// can be loaded and that lacks at most the latest records.
 class ArrayFile {
  public:
-  /// Size of the buffered records from which on `add` writes them to the file [bytes].
+  /// Size of the buffer [bytes] at which `add` writes the buffered records to the file.
   static constexpr std::size_t kMaxWaiting = std::size_t{1} << 20;
 
   /// Prepares the file `path` for values of the array `channel`, without writing to it.

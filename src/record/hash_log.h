@@ -37,7 +37,7 @@ class HashLog {
   RowFile file_;
   /// Interval of simulated time [s].
   double every_;
-  /// Number of the next interval to record, counted from 0 at time zero.
+  /// Index of the next interval: the next row is due at the simulated time next_ x every_.
   std::uint64_t next_ = 0;
   /// Step number of the last row.
   std::uint64_t last_step_ = 0;

@@ -45,7 +45,7 @@ class RowFile {
   /// Returns the size of the buffered rows, which are not in the file yet [bytes].
   std::size_t waiting() const { return waiting_.size(); }
 
-  /// Size of the buffered rows from which on `add` writes them to the file [bytes].
+  /// Size of the buffer [bytes] at which `add` writes the buffered rows to the file.
   static constexpr std::size_t kMostWaiting = std::size_t{1} << 20;
 
  private:

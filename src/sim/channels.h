@@ -43,7 +43,7 @@ class ChannelList {
   const Channel& operator[](std::size_t i) const { return channels_[i]; }
   /// Returns an iterator to the first channel; iteration follows the order of the indices.
   auto begin() const { return channels_.begin(); }
-  /// Returns the iterator behind the last channel.
+  /// Returns the iterator past the last channel.
   auto end() const { return channels_.end(); }
   /// Returns the index of the channel with this name, or -1 if there is none.
   int find(const std::string& name) const {

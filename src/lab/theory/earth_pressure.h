@@ -67,9 +67,9 @@ struct PassiveBand {
   /// it.
   double vertical = 0;
 };
-/// Returns the bounds of the passive force on an upright blade; the rake in `blade` is ignored. A
-/// friction angle on the blade above phi counts as phi, because the soil then slips within itself
-/// first.
+/// Returns the bounds of the passive force on an upright blade; the rake in `blade` is ignored. If
+/// the friction angle on the blade is above phi, phi is used instead, because the soil then fails
+/// internally before it slips on the blade.
 PassiveBand rough_passive(const BladeCase& blade);
 
 /// Returns the friction angle phi_t [rad] in triaxial compression and extension of a soil whose
