@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is asked of a rig, and the runs that follow from it.
+// An experiment as a user requests it (soil, changes and parameter lists), and the plan of runs
+// that carries it out.
 #pragma once
 
 #include <functional>
@@ -15,56 +16,71 @@
 
 namespace navvy::lab {
 
-/// A soil value that an experiment may change by itself.
+/// A command-line option that changes one value of the soil.
 struct SoilOption {
-  const char* name;            ///< of the option, ends in its unit: "phi-deg"
-  const char* help;            ///< one line, with the unit in brackets
-  double scene::Soil::*value;  ///< null for an option that sets more than one number
-  double factor = 1;           ///< SI value = given value x factor
+  /// Option name without dashes; most end in the unit of the value, as in "phi-deg".
+  const char* name;
+  /// One-line help text that ends with the unit in brackets.
+  const char* help;
+  /// Soil member that the option sets; null if setting it takes more than an assignment (soil_of
+  /// does it).
+  double scene::Soil::*value;
+  /// Factor from the option's unit to SI units: SI value = given value x factor.
+  double factor = 1;
 };
 
-/// Returns every such value, in the order of the help.
+/// Returns all command-line options that change the soil, in the order of the help.
 const std::vector<SoilOption>& soil_options();
 
-/// The request of a person: a soil, changes to it, and values of the rig. Everything that may be a
-/// list is an axis of a sweep when it has more than one value.
+/// An experiment as the user requests it: a soil, changes to the soil, and parameter values of the
+/// rig. Where more than one value is given for a quantity, the quantity becomes an axis of a sweep.
 struct Experiment {
-  std::optional<scene::Soil> soil;  ///< none: the rig's own
-  /// Values by SoilOption::name, in the unit of the option.
+  /// Soil to start from; if empty, the rig's default soil.
+  std::optional<scene::Soil> soil;
+  /// Values of soil options, keyed by SoilOption::name, in the unit of the option. More than one
+  /// value makes a sweep axis.
   std::map<std::string, std::vector<double>> soil_values;
-  /// Numbers of the soil by their names in scene files (scene/soil_values.h), in that unit, or
-  /// constants of the particle scheme as "scheme.NAME" (soil/scheme.h). They win over
-  /// `soil_values`.
+  /// Pairs of name and number, both as text. The name is either a soil value as scene files call it
+  /// (scene/soil_values.h), with the number in the unit of scene files, or "scheme.NAME" for a
+  /// constant of the particle method (soil/scheme.h). These settings override `soil_values`.
   std::vector<std::pair<std::string, std::string>> settings;
-  /// Parameter values as written, keyed by Parameter::name; a list is separated by commas.
+  /// Texts of the rig's parameters, keyed by Parameter::name. A list of values, separated by
+  /// commas, makes a sweep axis.
   std::map<std::string, std::string> geometry;
-  /// Edges of the soil cells [m]; none: the rig's own.
+  /// Cell sizes to run with [m]; if empty, the rig's default cell size.
   std::vector<double> cells;
-  bool energy = false;                         ///< report the soil's energy account
-  std::function<void(double share)> progress;  ///< as Setup::progress
+  /// If true, every report includes the soil's energy account.
+  bool energy = false;
+  /// Callback for progress reports within a run, as Setup::progress. May be empty.
+  std::function<void(double share)> progress;
 };
 
-/// One run of a plan.
+/// One run of an experiment plan.
 struct PlannedRun {
-  std::vector<double> at;  ///< its value on each axis
+  /// Value of the run on each sweep axis, in the order of ExperimentPlan::axes.
+  std::vector<double> at;
+  /// Complete and checked inputs of the run.
   Setup setup;
 };
 
-/// The axes of an experiment and a run for each combination of their values; without a list one
-/// run.
+/// All runs of an experiment: one for each combination of the axis values. Without axes, there is
+/// one run.
 struct ExperimentPlan {
+  /// Quantities that have more than one value, with these values.
   std::vector<SweepAxis> axes;
+  /// Runs in the order of `combinations`: the last axis varies fastest.
   std::vector<PlannedRun> runs;
 };
 
-/// Makes the soil of an experiment: `soil` with the first of each list of values, then the
-/// settings. Values that follow others by default (residual and loose cohesion, stiffness) follow
-/// the changes unless they are given. @throws InputError for an unknown name or text that is no
-/// number.
+/// Returns `soil` with the changes of `experiment`: first `soil_values`, of which only the first
+/// value of each list counts, then `settings`. Values that depend on others by default are updated,
+/// unless they are given: residual cohesion, loose cohesion and Young's modulus.
+/// @throws InputError for an unknown name or a text that is not a number.
 scene::Soil soil_of(const Experiment& experiment, scene::Soil soil);
 
-/// Makes and checks all runs, so that a fault of the last one shows before the first one runs.
-/// @throws InputError naming the option, the value and the nearest that is allowed.
+/// Returns the plan of all runs of `experiment` on `rig`. All runs are checked here, so an error in
+/// the last run is reported before the first run starts.
+/// @throws InputError with option, value and the most similar allowed value.
 ExperimentPlan plan_of(const Rig& rig, const Experiment& experiment, device::Device& device);
 
 }  // namespace navvy::lab

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Default soils of rigs.
+// Soils that rigs use by default.
 #pragma once
 
 #include "scene/soil.h"
 
 namespace navvy::lab {
 
-/// Returns dry sand without cohesion and swell: 1600 kg/m3, E 1 MPa, tool friction 20 degrees. phi
-/// in degrees.
+/// Returns a dry sand with the friction angle `phi_degrees` [deg]: bank density 1600 kg/m3, no
+/// cohesion, no swell, and a friction angle of 20 degrees on tools.
 scene::Soil clean_sand(double phi_degrees);
-/// Returns the same soil with a cohesion [Pa] that remoulding does not reduce.
+/// Returns the soil of clean_sand with a constant `cohesion` [Pa]: remoulding does not reduce it.
 scene::Soil cohesive(double phi_degrees, double cohesion);
-/// Returns the soil against smooth walls, without friction and adhesion on tools, for the side
-/// plates of plane-strain rigs.
+/// Returns `soil` without friction and adhesion on tools, for the smooth side plates of
+/// plane-strain rigs.
 scene::Soil without_tool_friction(scene::Soil soil);
-/// Returns the plane-strain friction angle of a soil of which only the angle of repose is known,
-/// both [rad]. Flowing soil mobilises tau / sigma_n = sin phi, so sin phi = tan repose.
-/// @throws InputError above 45 degrees.
+/// Returns the friction angle in plane strain [rad] of a soil whose angle of repose is `repose`
+/// [rad]. On a flowing slope, shear stress / normal stress is sin phi, so sin phi = tan repose.
+/// @throws InputError unless `repose` is between 0 and 45 degrees.
 double friction_from_repose(double repose);
 
-/// Returns true if remoulding reduces the cohesion. Formulas for a constant cohesion do not apply
-/// to such a soil.
+/// Returns true if remoulding reduces the soil's cohesion, that is, if the residual cohesion is
+/// below the cohesion. Formulas for a constant cohesion do not apply to such a soil.
 bool softens(const scene::Soil& soil);
 
 }  // namespace navvy::lab

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Line chart as SVG text, written by `navvy lab RIG --plot FILE.svg`.
+// Line charts as SVG text, which `navvy lab RIG --plot FILE.svg` writes.
 //
-// A chart of a few lines needs no library: axes with round ticks, one colour and marker per line,
-// dashed lines for expected values, a grey band for a tolerance. Texts are escaped; the file has no
-// external references.
+// A chart has axes with round tick values, one colour and marker shape per line, dashed lines
+// for expected values and grey bands for tolerances. Texts are escaped, and the SVG refers to no
+// external files.
 #pragma once
 
 #include <string>
@@ -11,33 +11,34 @@
 
 namespace navvy::lab {
 
-/// One line of a chart. Points that are not numbers are left out.
+/// One line of a chart. Points with a coordinate that is not finite are left out.
 struct PlotLine {
-  /// Name in the legend.
+  /// Name of the line, as the legend shows it.
   std::string name;
-  /// Coordinates, of equal length, in the order in which points are joined.
+  /// Coordinates of the line's points, in the units of the axes, in the order in which they are
+  /// joined. Both lists have the same length.
   std::vector<double> x, y;
 };
 
-/// Contents of a chart. Labels include units.
+/// Contents of a line chart.
 struct Plot {
-  /// Texts of the chart.
+  /// Title of the chart and labels of its x and y axes, with units.
   std::string title, x_label, y_label;
-  /// Lines, in the order of the legend.
+  /// Lines of the chart, in the order of the legend.
   std::vector<PlotLine> lines;
-  /// Heights of dashed lines.
+  /// Expected values, drawn as dashed horizontal lines at these y values.
   std::vector<double> expected;
-  /// Bands from .first to .second.
+  /// Tolerances, drawn as grey horizontal bands from y = .first to y = .second.
   std::vector<std::pair<double, double>> tolerances;
 };
 
-/// Returns the chart, 760 x 480 units. The x axis is logarithmic when the values are positive and
-/// span a factor of five; the y axis includes zero when that costs little. A plot without a point
-/// is an empty frame.
+/// Returns the chart as the text of an SVG file of 760 x 480 pixels. The x axis is logarithmic if
+/// all x values are positive and the largest is more than five times the smallest. The y axis
+/// starts at zero unless all values are far above zero. A plot without points gives an empty frame.
 std::string svg_of(const Plot& plot);
 
-/// Returns about `count` round numbers that cover low .. high: steps of 1, 2 or 5 times a power of
-/// ten.
+/// Returns tick values for an axis from `low` to `high`: all multiples of a step within that range.
+/// The step is 1, 2 or 5 times a power of ten, chosen so that there are about `count` ticks.
 std::vector<double> round_ticks(double low, double high, int count);
 
 }  // namespace navvy::lab

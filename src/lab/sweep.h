@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rig run at all combinations of several speeds, steps, cells or cohesions, in one table and one
-// plot.
+// Sweeps: a rig is run at every combination of several speeds, steps, cell sizes or cohesions, and
+// the results are shown in one table and one plot.
 //
-// A force that depends on the step or the cell is not a result, and one run does not show the
-// dependence. A list of values on the command line makes an axis; all axes together make the runs.
+// A sweep shows whether a result depends on the time step or the cell size, which a single run
+// cannot show. A list of values on the command line makes one axis of the sweep.
 #pragma once
 
 #include <string>
@@ -15,49 +15,55 @@
 
 namespace navvy::lab {
 
-/// One varied quantity.
+/// One quantity that a sweep varies.
 struct SweepAxis {
-  /// Texts as on the command line; "" for a pure number.
+  /// Name of the quantity as on the command line, and its unit as text ("" for a dimensionless
+  /// number).
   std::string name, unit;
-  /// Values, in the order of the command line.
+  /// Values of the quantity in `unit`, in the order of the command line.
   std::vector<double> values;
 };
 
-/// One run and its values, in the order of the axes.
+/// One completed run of a sweep.
 struct SweepRun {
-  /// One value per axis.
+  /// Value of the run on each axis, in the order of Sweep::axes.
   std::vector<double> at;
-  /// Results of the run.
+  /// Results that the rig reported for the run.
   Report report;
 };
 
-/// All axes and runs of a sweep.
+/// The axes of a sweep and its completed runs.
 struct Sweep {
+  /// Varied quantities; empty for a single run.
   std::vector<SweepAxis> axes;
+  /// Completed runs, in the order in which they were made.
   std::vector<SweepRun> runs;
 };
 
-/// Splits a list, "0.05,0.15,0.3"; a single value is a list of one.
-/// @throws InputError for an empty part.
+/// Returns the parts of a text that are separated by commas: "0.05,0.15" gives two parts, a single
+/// value gives one. `option` is the option name for the error message.
+/// @throws InputError if a part is empty.
 std::vector<std::string> listed(const std::string& option, const std::string& written);
 
-/// Returns every combination of the axes' values, the last axis fastest. Without axes, the one
-/// empty combination.
+/// Returns every combination of the axes' values. Each combination has one value per axis, and the
+/// last axis varies fastest. Without axes, the result is one empty combination.
 std::vector<std::vector<double>> combinations(const std::vector<SweepAxis>& axes);
 
-/// Returns the results that table and plot show: those of the rig's headline that the report has,
-/// else its first.
+/// Returns the names of the results that table and plot show: those of Rig::headline that `report`
+/// contains. If there is none, the result is the name of the report's first result.
 std::vector<std::string> shown_results(const Rig& rig, const Report& report);
 
-/// Returns rows of cells, the heading first: the axes, the shown results, and missed tolerances.
+/// Returns a table of the sweep as rows of cell texts. The first row holds the headings; each
+/// further row holds one run: its axis values, its shown results, its steps, its wall time [s], and
+/// "MISS" if a result is outside its tolerance.
 std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& sweep);
 
-/// Returns the table as text with right-aligned columns.
+/// Returns the table as text with right-aligned columns. `table` holds rows of cell texts.
 std::string text_of(const std::vector<std::vector<std::string>>& table);
 
-/// Returns a plot of the first shown result over the first axis of more than one value, with a line
-/// for each combination of the others. Expectations and tolerances are drawn if all runs share
-/// them.
+/// Returns a plot of the first shown result as a function of the first axis that has more than one
+/// value. Each combination of the other axes' values makes one line. The expected value and the
+/// tolerance are drawn only if they are the same in all runs.
 Plot plot_of(const Rig& rig, const Sweep& sweep);
 
 }  // namespace navvy::lab

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves one shell along a prescribed twist and records the forces on it.
+// Moves a tool (a rigid shell) along a prescribed path through the soil and records the forces on
+// it.
 #pragma once
 
 #include <vector>
@@ -8,70 +9,94 @@
 
 namespace navvy::lab {
 
-/// Forces on a tool, one entry per step; all four have one length. Vectors in W.
+/// Recorded forces on a tool. All four lists have one entry per time step. Vectors have the axes of
+/// the world frame W.
 struct Trace {
-  /// Time at the end of the step [s].
+  /// Simulated time at the end of each step [s].
   std::vector<double> time;
-  /// Path length of the frame's origin since the driver was created [m].
+  /// Path length that the origin of the tool's frame has covered since the driver was created, at
+  /// the end of each step [m].
   std::vector<double> travel;
-  /// Force of the soil on the tool, mean over the last completed transfer [N].
+  /// Force of the soil on the tool, averaged over the last completed transfer between particles and
+  /// grid [N].
   std::vector<Vec3> force;
-  /// About the frame's origin [N m].
+  /// Moment of the soil on the tool about the origin of the tool's frame, averaged like `force`
+  /// [N m].
   std::vector<Vec3> moment;
 };
 
-/// One shell on a prescribed path. All tools of the site move with every step. Each driver keeps
-/// its own trace, so only one of two drivers may step. The site must outlive it.
+/// Moves one tool of a site along a prescribed path and records the forces on it.
+///
+/// A step of the driver is a step of the whole site, in which all tools move. If a site has two
+/// drivers, only one of them may call its stepping functions; the other one records nothing.
 class ToolDriver {
  public:
-  /// Adds the shell to the site, at rest.
+  /// Adds a tool with this shell to `site`, at rest at the pose `X_WT`. The site must outlive the
+  /// driver.
   ToolDriver(Site& site, const scene::Shell& shell, const Pose& X_WT);
 
+  /// Returns the site that the tool was added to.
   Site& site() { return *site_; }
-  /// Returns its number in the site.
+  /// Returns the index of the driven tool in its site, for Site::tool.
   int tool() const { return tool_; }
-  /// Returns the present pose of the shell.
+  /// Returns X_WT, the current pose of the tool.
   const Pose& pose() const;
-  /// Sets the twist until the next call; w turns about the frame's origin [m/s], [rad/s].
+  /// Sets the tool's velocity `v_W` [m/s] and angular velocity `w_W` [rad/s], both in axes of W; it
+  /// keeps them until the next call. The tool rotates about the origin of its frame.
   void set_twist(const Vec3& v_W, const Vec3& w_W = Vec3::Zero());
 
-  /// Makes another tool of the site follow every twist: a second shell of the same rig.
+  /// Makes the tool with the index `other` of the same site follow every twist that is set from now
+  /// on, as a second shell rigidly joined to the driven one.
   void carry(int other) { carried_.push_back(other); }
 
-  /// Advances by dt [s] and extends the trace.
+  /// Advances the site by one step of `dt` [s] and appends an entry to the trace.
   void step(double dt);
-  /// Advances by `seconds` with the step limit or at most `dt`. Returns the mean force of that
-  /// interval [N].
+  /// Advances the site by `seconds` in equal steps, which are at most Site::step_limit and, if `dt`
+  /// is above 0, at most `dt` [s]. Returns the mean force on the tool over that time [N], axes of
+  /// W.
   Vec3 run(double seconds, double dt = 0);
-  /// Moves along v for a path of `distance` [m]. Returns the mean force of that interval [N].
+  /// Sets the velocity `v_W` [m/s] without rotation and advances the site until the tool has moved
+  /// by `distance` [m]; `dt` as in `run`. Returns the mean force on the tool over that time [N],
+  /// axes of W.
   Vec3 advance(double distance, const Vec3& v_W, double dt = 0);
 
-  /// Accelerates from rest to v over `ramp` [m] of path at a constant rate (0: at once), then moves
-  /// on at v until `distance` is done. A tool that starts at once sends a wave of rho c_p v through
-  /// the soil. Returns the mean force of the whole [N].
+  /// Accelerates the tool at a constant rate from rest to `v_W` [m/s] within the first `ramp` [m]
+  /// of its path (0: at once), then moves it at `v_W` until `distance` [m] is covered. Returns the
+  /// mean force over the whole path [N], axes of W.
+  ///
+  /// A ramp avoids the pressure wave rho c_p v that a tool sends through the soil if it starts
+  /// at once.
   Vec3 start(double distance, const Vec3& v_W, double ramp);
 
-  /// Returns the forces recorded so far.
+  /// Returns the forces recorded since the driver was created.
   const Trace& trace() const { return trace_; }
-  /// Adds time, travel and the components of the force (low-passed when `cutoff` [Hz] > 0) to the
-  /// report's series.
+  /// Appends the trace to the series of `report`: time, travel and the three force components in W.
+  /// The forces are low-pass filtered if `cutoff` [Hz] is above 0. `prefix` is put before each
+  /// series name.
   void write(Report& report, double cutoff = 0, const std::string& prefix = "") const;
 
  private:
+  /// Site of the driven tool; not owned.
   Site* site_;
+  /// Index of the driven tool in the site.
   int tool_;
+  /// Indices of the tools that follow the twist of the driven tool.
   std::vector<int> carried_;
+  /// Path length covered so far [m].
   double travelled_ = 0;
+  /// Forces recorded so far.
   Trace trace_;
 };
 
-/// Returns the mean force while travel was in [from, to) [N]; NaN when no step lies there.
+/// Returns the mean of the recorded forces whose travel is at least `from` and below `to` [m], per
+/// axis of W [N]; NaN if the trace has no entry there.
 Vec3 mean_force(const Trace& trace, double from, double to);
-/// Returns the root mean square of the force about its mean while travel was in [from, to), per
-/// axis [N].
+/// Returns the standard deviation of the recorded forces whose travel is at least `from` and below
+/// `to` [m], per axis of W [N]; NaN if the trace has no entry there.
 Vec3 force_scatter(const Trace& trace, double from, double to);
-/// Returns values after a first-order low-pass, forward and backward (no lag). `cutoff` [Hz];
-/// samples may be unevenly spaced in `time` [s].
+/// Returns `values` after a first-order low-pass filter with the cut-off frequency `cutoff` [Hz].
+/// The filter runs forwards and backwards, so it causes no lag. `time` [s] has one entry per value;
+/// its spacing may be uneven.
 std::vector<double> low_pass(const std::vector<double>& time, const std::vector<double>& values,
                              double cutoff);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A NumPy file that grows by one record for each published value of an array.
+// A NumPy file to which one record is appended for each published value of an array.
 #pragma once
 
 #include <cstddef>
@@ -12,51 +12,65 @@ namespace navvy::record {
 
 /// Appends the published values of one array to a .npy file.
 ///
-/// `rows = numpy.load(path)` gives a structured array of one record per value: `sequence` (uint64),
-/// `time_s` [s], `position_m` (3) and `quaternion_wxyz` (4) of the array's frame in W, and
-/// `values`, which has the shape and type of the array. Records come in the order in which they
-/// were published.
+/// `rows = numpy.load(path)` returns a structured array with one record per value. The fields are
+/// `sequence` (uint64), `time_s` [s], `position_m` (3 numbers) and `quaternion_wxyz` (4 numbers)
+/// for the pose of the array's frame in W, and `values` with the shape and element type of the
+/// array. Records are in the order of publication.
 ///
-/// Each record is written once and at most 1 MiB of them (or one record) waits in memory, so the
-/// cost does not grow with the run. The record count in the file's header is updated after the
-/// records themselves: a kill at any moment leaves a file that loads and lacks at most the latest
-/// records.
+/// Each record is written once. At most about 1 MiB of records, or one record if it is larger, is
+/// buffered in memory, so the memory use does not grow with the run. The record count in the file
+/// header is updated after the records have been written: a kill at any moment leaves a file that
+/// can be loaded and that lacks at most the latest records.
 class ArrayFile {
  public:
-  /// Size of the waiting records at which `add` writes them to the file [bytes].
+  /// Size of the buffer [bytes] at which `add` writes the buffered records to the file.
   static constexpr std::size_t kMaxWaiting = std::size_t{1} << 20;
 
-  /// Prepares a file for values of `channel`. Writes nothing yet.
+  /// Prepares the file `path` for values of the array `channel`, without writing to it.
   ArrayFile(std::string path, const sim::ArrayChannel& channel);
-  /// Closes the file. Records that were not flushed are lost.
+  /// Closes the file. Buffered records that were not written with `flush` or `sync` are lost.
   ~ArrayFile();
   ArrayFile(const ArrayFile&) = delete;
   ArrayFile& operator=(const ArrayFile&) = delete;
 
-  /// Adds the present value of the array. Flushes when kMaxWaiting is reached. @throws FileError
-  /// then.
+  /// Appends the current value of the array to the buffer. Calls `flush` when the buffer has
+  /// reached kMaxWaiting bytes.
+  /// @throws FileError if that call fails.
   void add(const sim::ArrayView& value);
-  /// Appends the waiting records and updates the header; the first call replaces an existing file.
-  /// @throws FileError; the waiting records stay and the next call tries again.
+  /// Writes the buffered records to the file and updates the header. The first call replaces an
+  /// existing file.
+  /// @throws FileError if writing fails; the records stay in the buffer, and the next call writes
+  /// them again.
   void flush();
-  /// Flushes and waits until the disk has the file. @throws FileError.
+  /// Writes the buffered records and waits until the file is stored on the disk.
+  /// @throws FileError if writing fails.
   void sync();
-  /// Number of records added.
+  /// Returns the number of records that were added.
   std::uint64_t records() const { return records_; }
 
  private:
+  /// Throws a FileError for a failed system call; `code` is its errno and `action` the verb for the
+  /// message ("open").
   [[noreturn]] void fail(const char* action, int code) const;
-  /// Writes the waiting records, then the header with their number.
+  /// Writes the buffered records to the file, then the header with the new record count.
   void append();
 
+  /// Path of the file.
   std::string path_;
-  std::string descr_;    ///< type of a record, as NumPy writes it
-  std::string waiting_;  ///< records that are not in the file
+  /// Type of a record in NumPy's notation.
+  std::string descr_;
+  /// Buffered records, which are not in the file yet.
+  std::string waiting_;
+  /// Size of one record [bytes].
   std::size_t record_bytes_ = 0;
+  /// Size of the file header [bytes]; 0 before the first write.
   std::size_t header_bytes_ = 0;
-  std::uint64_t records_ = 0;  ///< added
-  std::uint64_t written_ = 0;  ///< in the file
-  int file_ = -1;              ///< open after the first flush
+  /// Number of records that were added.
+  std::uint64_t records_ = 0;
+  /// Number of records in the file.
+  std::uint64_t written_ = 0;
+  /// File descriptor, open after the first write; -1 before.
+  int file_ = -1;
 };
 
 }  // namespace navvy::record

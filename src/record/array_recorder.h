@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arrays that samplers publish, in the run's folder.
+// Records the arrays that samplers publish as NumPy files in the run's folder.
 #pragma once
 
 #include <cstddef>
@@ -15,33 +15,41 @@ namespace navvy::record {
 
 /// Records every published value of every array of a world.
 ///
-/// An array named "excavator/lidar" goes to `arrays/excavator/lidar.npy` (array_file.h);
-/// `arrays/index.json` lists file, type, shape, unit, frame, rate and meaning of each array. A
-/// world without arrays gets neither, and costs nothing.
+/// An array named "excavator/lidar" is written to `arrays/excavator/lidar.npy` (array_file.h). The
+/// file `arrays/index.json` lists file, element type, shape, unit, frame, rate and meaning of each
+/// array. Neither is written for a world without arrays.
 class ArrayRecorder {
  public:
-  /// Keeps references to both, which must outlive this object.
+  /// Keeps references to `session` and `folder`, which must outlive this object.
   ArrayRecorder(const session::Session& session, RunFolder& folder);
 
-  /// Records the values that are new since the last call. Call after each step.
-  /// @throws FileError; Error for an array whose name cannot be the name of a file.
+  /// Records the values that were published since the last call. Must be called after each step.
+  /// @throws FileError if a file cannot be written; Error for an array whose name cannot be a file
+  /// name.
   void observe();
-  /// Continues after the world was put into another state: a value that is shown there already is
-  /// not recorded again.
+  /// Continues after the world was put into another state, for example by loading a snapshot. Array
+  /// values that are part of the loaded state are not recorded again.
   void restart();
-  /// Writes the waiting records; with `end` also waits for the disk. @throws FileError.
+  /// Writes the buffered records to the files. If `end` is true, also waits until they are stored
+  /// on the disk.
+  /// @throws FileError if writing fails.
   void checkpoint(bool end);
 
  private:
+  /// Output file of one array, and the last value that was written to it.
   struct Stream {
+    /// Open file that receives the array's values.
     std::unique_ptr<ArrayFile> file;
-    std::uint64_t sequence = 0;  ///< of the last recorded value
+    /// Sequence number of the last recorded value; 0 if none was recorded.
+    std::uint64_t sequence = 0;
   };
+  /// Opens files for arrays that were added to the world since the last call, and updates the
+  /// index.
   void open_new();
 
   const session::Session& session_;
   RunFolder& folder_;
-  /// One stream per array, in the order of the world.
+  /// One entry per array, in the order of the world's arrays.
   std::vector<Stream> streams_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a running world as the cameras of its scene see it.
+// Draws pictures of a running world as the cameras of its scene see it.
 #pragma once
 
 #include <functional>
@@ -13,31 +13,35 @@
 
 namespace navvy::record {
 
-/// Draws what the cameras of one world see.
+/// Draws pictures from the cameras of one world.
 ///
-/// The drawing context is made by the first picture, so a run without pictures needs none. A
-/// process may hold one such context at a time (render::Renderer). Draws on the calling thread.
+/// The first picture creates the drawing context, so a run without pictures needs none. A process
+/// may have only one drawing context at a time (render::Renderer). Pictures are drawn on the
+/// calling thread.
 class CameraPictures {
  public:
-  /// Receives each picture as soon as it is drawn.
+  /// Function that receives each picture as soon as it is drawn.
   using Receiver = std::function<void(const scene::Camera& camera, const render::Image& image)>;
 
-  /// Keeps a reference to `world`, which must outlive this object.
+  /// Creates an object that draws `world`, which must outlive it. Draws nothing yet.
   explicit CameraPictures(const sim::World& world);
   ~CameraPictures();
   CameraPictures(const CameraPictures&) = delete;
   CameraPictures& operator=(const CameraPictures&) = delete;
 
-  /// Draws one picture for each of `cameras`, all of the same instant. Filling the frame to draw is
-  /// the expensive part and happens once. Does nothing for an empty list. @throws Error when no
-  /// drawing context can be made.
+  /// Draws one picture of the world's current state for each camera in `cameras` and passes it to
+  /// `receiver`. All pictures share one frame, because preparing the frame takes most of the time.
+  /// Does nothing if `cameras` is empty.
+  /// @throws Error if no drawing context can be created.
   void draw(const std::vector<const scene::Camera*>& cameras, const Receiver& receiver);
-  /// Returns what the named camera of the scene sees now.
-  /// @throws InputError that names the nearest camera; Error when no drawing context can be made.
+  /// Returns a picture of the world's current state from the scene camera called `camera`.
+  /// @throws InputError if there is no such camera; the message names the most similar one. Error
+  /// if no drawing context can be created.
   render::Image draw(const std::string& camera);
 
  private:
-  struct Context;  ///< made by the first picture
+  /// Drawing context and frame builder; created by the first picture.
+  struct Context;
   const sim::World& world_;
   std::unique_ptr<Context> context_;
 };

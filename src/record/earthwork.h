@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes and masses of moved earth, from a comparison of the ground with its start.
+// Volumes and masses of moved earth, from a comparison of the current ground with the initial
+// ground.
 #pragma once
 
 #include <vector>
@@ -9,30 +10,32 @@
 
 namespace navvy::record {
 
-/// Moved mass of one soil [kg].
+/// Masses of one soil that were dug and dumped [kg].
 struct SoilMoved {
-  /// Mass that left columns.
+  /// Sum of the losses of all columns that contain less of this soil than at the start [kg].
   double dug = 0;
-  /// Mass that came to other columns.
+  /// Sum of the gains of all columns that contain more of this soil than at the start [kg].
   double spoil = 0;
 };
 
-/// Earth moved by digging and dumping, without wheel ruts: columns whose mass changed. Active soil
-/// on a column counts as part of it. Soil in the air, a bucket or a bed was dug and is not spoil
-/// yet.
+/// Earth moved by digging and dumping. Only columns whose mass has changed count, so wheel ruts are
+/// not included. Active soil that lies on a column counts as part of the column. Soil in the air,
+/// in a bucket or in a bed counts as dug, but not yet as spoil.
 struct Earthwork {
-  /// Mass taken out of columns / bank density [m3].
+  /// Volume that was dug, in bank state: mass lost by columns divided by bank density [m3].
   double bank_volume = 0;
-  /// Rise of the columns that gained mass, never negative [m3].
+  /// Volume of the spoil: rise of the surface, never negative, summed over the columns that gained
+  /// mass [m3].
   double loose_volume = 0;
-  /// Masses by soil, in the order of the scene.
+  /// Moved masses of each soil, in the order of the scene's soils.
   std::vector<SoilMoved> soils;
 };
 
-/// Measures the moved earth on the surface that maps show. Costs a pass over the changed columns,
-/// and one over the particles unless `lying` (sim::active_places) is given.
+/// Returns the earth moved since the start. `lying` is the active soil that lies on columns
+/// (ActivePlaces::lying of sim::active_places). Costs a pass over the changed columns.
 Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
-/// Measures with the loose soil of the particles, at the cost of a pass over them.
+/// Returns the earth moved since the start. Determines the active soil that lies on columns itself,
+/// which costs a pass over all particles.
 Earthwork measure_earthwork(const sim::World& world);
 
 }  // namespace navvy::record

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hashes.csv: hashes of all parts of the state, at fixed intervals of simulated time.
+// hashes.csv: a table of hashes of all parts of the state, at regular intervals of simulated time.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,37 @@
 
 namespace navvy::record {
 
-/// Writes a row per interval: step, time [s], the hash of the whole state, then those of its parts.
-/// A comparison of two files line by line shows when two runs diverged, and which part diverged
-/// first. Each row costs a pass over the whole state.
+/// Writes the table hashes.csv, one row per interval: step number, time [s], the hash of the whole
+/// state, and the hash of each part of the state. A line-by-line comparison of the tables of two
+/// runs shows when the runs diverged and which part diverged first. Each row costs a pass over the
+/// whole state.
 class HashLog {
  public:
-  /// Begins the file; `every` is the interval [s]. A new run has a row at its start, a resumed run
-  /// continues with the next interval.
+  /// Begins the table in the file `path`; `every` is the interval of simulated time [s]. A new run
+  /// gets a row for its start; a resumed run gets its first row at the next multiple of the
+  /// interval.
   HashLog(const session::Session& session, std::string path, double every);
-  /// Appends a row if one is due, at most one per step. Call it after each step. @throws FileError.
+  /// Appends a row if the simulated time has reached the next multiple of the table's interval
+  /// since the last call. Must be called after each step.
+  /// @throws FileError if the row cannot be written.
   void observe();
-  /// Appends a row for the final state and waits for the disk. @throws FileError.
+  /// Appends a row for the final state, unless it has one already, and waits until the file is
+  /// stored on the disk.
+  /// @throws FileError if the file cannot be written.
   void finish();
 
  private:
-  /// Appends a row for the present state.
+  /// Appends a row with the hashes of the current state and writes it to the file.
   void row();
 
   const session::Session& session_;
   RowFile file_;
-  double every_;                 ///< interval [s]
-  std::uint64_t next_ = 0;       ///< number of the next interval
-  std::uint64_t last_step_ = 0;  ///< step of the last row
+  /// Interval of simulated time [s].
+  double every_;
+  /// Index of the next interval: the next row is due at the simulated time next_ x every_.
+  std::uint64_t next_ = 0;
+  /// Step number of the last row.
+  std::uint64_t last_step_ = 0;
 };
 
 }  // namespace navvy::record

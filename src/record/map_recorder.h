@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps and bags that a scene asks for (navvy:record), written while it runs.
+// Records the maps and bags that a scene asks for (navvy:record elements) during a run.
 #pragma once
 
 #include <memory>
@@ -13,49 +13,57 @@
 
 namespace navvy::record {
 
-/// Returns the faults in a scene's navvy:record elements that its reader cannot know, such as
-/// unknown formats and layers, with their lines.
+/// Returns the errors in a scene's navvy:record elements that the scene reader cannot find, such as
+/// unknown formats and layers. Each error gives file and line.
 std::vector<Fault> check_records(const scene::Scene& scene);
 
-/// Writes each record of the scene at its rate into the folder of the run.
+/// Writes the maps and bags that the scene asks for into the run's folder.
 ///
-/// A format of one instant becomes `maps/<name>_<number>.<extension>` (`terra`: a folder); the
-/// number counts periods from time zero. `mcap` and `bag` become one file `<name>.mcap` or one
-/// folder `<name>/` for the whole run. They hold the maps, and at a rate of their own the clock,
-/// tf, odometry and joint states of all machines, and every sample of the typed arrays of the
-/// world.
+/// Each navvy:record element of the scene has a format and a rate. A format for single maps gives
+/// one file `maps/<name>_<number>.<extension>` per map (for `terra`, a folder); <number> is the
+/// number of periods since time zero. The formats `mcap` and `bag` give one file `<name>.mcap` or
+/// one folder `<name>/` for the whole run. It contains the maps and, at a rate of its own, the
+/// clock and the transforms (tf), odometry and joint states of all machines. It also contains every
+/// sample of the world's arrays.
 ///
-/// After each `restart` the files are called `<name>_2`, `<name>_3` and so on (skipping names of
-/// other records), so that no file holds two states of one time and none is overwritten. Costs
-/// nothing in steps in which no record is due, otherwise a map update and the file.
+/// After each call of `restart`, the files are named `<name>_2`, `<name>_3` and so on, where names
+/// of other records are skipped. No file then contains two states of the same time, and none is
+/// overwritten. A step in which no record is due costs nothing; otherwise the cost is an update of
+/// the map and writing the file.
 class MapRecorder {
  public:
-  /// @throws InputError as check_records, FileError.
+  /// Prepares all records of the session's scene and opens their bags. `session` and `folder` must
+  /// outlive this object.
+  /// @throws InputError with the errors of check_records; FileError if a file cannot be created.
   MapRecorder(const session::Session& session, RunFolder& folder);
   ~MapRecorder();
   MapRecorder(const MapRecorder&) = delete;
   MapRecorder& operator=(const MapRecorder&) = delete;
 
-  /// Writes what is due. Must be called at the start, after each step and after `restart`. @throws
-  /// FileError.
+  /// Writes the maps, machine states and array samples that are due. Must be called at the start of
+  /// the run, after each step and after `restart`.
+  /// @throws FileError if a file cannot be written.
   void observe();
-  /// Closes open bags and begins new ones. Must be called when the world was put into another
-  /// state. @throws FileError.
+  /// Closes the open bags and begins new ones. Must be called after the world was put into another
+  /// state, for example by loading a snapshot.
+  /// @throws FileError if a file cannot be written.
   void restart();
-  /// Closes open bags, once. @throws FileError.
+  /// Closes the open bags.
+  /// @throws FileError if a file cannot be written.
   void finish();
 
  private:
-  /// One record of the scene.
+  /// One navvy:record element of the scene with its current files.
   struct Stream;
-  /// Opens the bag of a stream, if its format has one.
+  /// Opens a new bag for the record, if its format is that of a bag.
   void open(Stream& stream);
-  /// Writes the samples of arrays that are newer than those in the stream's bag.
+  /// Writes to the record's bag all array samples that the bag does not contain yet.
   void write_arrays(Stream& stream);
   const session::Session& session_;
   RunFolder& folder_;
+  /// One entry per navvy:record element, in the scene's order.
   std::vector<std::unique_ptr<Stream>> streams_;
-  // Names of files in use, without number and extension.
+  /// Names that files of the scene's records use or have used, without number and extension.
   std::set<std::string> taken_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths that the operators of a run planned, as a table and as lines to draw.
+// The paths that the operators of a run have planned, as a table and as lines to draw.
 #pragma once
 
 #include <string>
@@ -10,15 +10,17 @@
 
 namespace navvy::record {
 
-/// Returns the first line of the table, without its end.
+/// Returns the first line of the path table, which holds the column names, without a line end.
 std::string path_header();
-/// Returns the rows of one machine's paths, each with its line end: a place every 0.1 m and the end
-/// of each path. Plans are counted from 1 in each step.
+/// Returns the rows of the path table for the planned paths of the machine called `machine`, each
+/// with a line end. Each path has a row every 0.1 m and one at its end. The column `plan` counts
+/// the paths of each program step from 1.
 std::string path_rows(const std::string& machine, const std::vector<control::PlannedPath>& paths);
 
-/// Reads such a table: a line per path, with the number of the plan within its step, in the order
-/// of the table. @throws FileError when the file does not exist, InputError with file and line for
-/// a row that is not one of such a table.
+/// Reads a path table from `file`. Returns one line per path in the order of the table, each with
+/// the value of the column `plan`.
+/// @throws FileError if the file does not exist; InputError with file and line number for a row in
+/// another form.
 std::vector<map::MapLine> read_paths(const std::string& file);
 
 }  // namespace navvy::record

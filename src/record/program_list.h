@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of summary.json that reports how each program ended.
+// The part of summary.json that reports how each operator program ended.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,9 +9,11 @@
 
 namespace navvy::record {
 
-/// Returns an entry for each program, in the order of the machines: machine, step, state, reason,
-/// time, place, and the same for each step with its measurements. `status` is that of the run:
-/// programs that still ran when it was interrupted or failed are reported as interrupted.
+/// Returns a JSON array with one entry per program, in the order of the machines. An entry holds
+/// machine, state, reason, end time and position of the program's latest step, and a list of all
+/// steps with their states and measurements. `status` is the status of the run (RunStatus::status).
+/// If it is not "running", programs that have not ended are reported as interrupted, with the
+/// reason.
 nlohmann::json program_list(const session::Session& session, const std::string& status);
 
 }  // namespace navvy::record

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Message about rates that the base step of a run does not divide.
+// Message about sampling rates whose period is not a whole number of base steps.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace navvy::record {
 
-/// Returns a line about all rates that differ from the request: a base step that the control rate
-/// made shorter, telemetry and cameras that use the nearest step, and rates above the step rate.
-/// Empty if all rates are as requested. `control_rate` [1/s] is that of a controller outside; 0
-/// means none.
+/// Returns a one-line message about all rates that the run cannot meet exactly: a base step that
+/// the control rate has shortened, telemetry and cameras that are sampled in the nearest step, and
+/// rates above the step rate. Returns an empty text if all rates are exact. `control_rate` is the
+/// rate of an external controller [1/s]; 0 if there is none.
 std::string rates_note(const sim::World& world, double control_rate);
 
 }  // namespace navvy::record

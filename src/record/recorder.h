@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results of a run, written so that a kill at any moment leaves either the old or the new file.
+// Records the results of a run. Every file is written so that a kill at any moment leaves a valid
+// file, either the old or the new one.
 #pragma once
 
 #include <cstdint>
@@ -17,62 +18,76 @@ namespace navvy::record {
 
 /// Options of a recording. The defaults are those of `navvy run`.
 struct Options {
-  /// Folder of the results. The results of an earlier run in it move to "<directory>.previous".
+  /// Folder for the results. The results of an earlier run in this folder are moved to
+  /// "<directory>.previous".
   std::string directory;
-  /// Draws pictures at the rates of the scene's cameras.
+  /// If true, pictures are drawn at the rates of the scene's cameras.
   bool render = true;
-  /// Simulated time between rows of hashes.csv [s]; 0: no such file.
+  /// Interval of simulated time between two rows of hashes.csv [s]; 0 means that the file is not
+  /// written.
   double hash_every = 0;
-  /// Wall time between updates of telemetry and summary [s].
+  /// Minimum wall time between two updates of the telemetry and summary files [s].
   double checkpoint = 2;
-  /// The scene as scene_io::load_scene resolved it, for scene.sdf. Empty: no such file, and the
-  /// folder cannot be run again.
+  /// Text of the scene with all included files inserted, as scene_io::load_scene returns it, for
+  /// scene.sdf. If empty, scene.sdf is not written and the run cannot be repeated from its folder.
   std::string scene_text;
-  /// Command line that started the run, for run.json.
+  /// Command line that started the run, beginning with the program, for run.json.
   std::vector<std::string> command;
 };
 
-/// Returns the wall time [s] that `simulated` more seconds take at `real_time_factor`. The result
-/// is never negative, and 0 while the factor is still unknown (0).
+/// Returns the estimated wall time [s] for `simulated` more seconds of simulated time at the speed
+/// `real_time_factor` (simulated time / wall time). Returns 0 if the factor is not known yet (0) or
+/// `simulated` is negative.
 double wall_time_left(double simulated, double real_time_factor);
 
-/// Records a session into a folder.
+/// Records the results of a session into a folder.
 ///
-/// Writes scene.sdf and run.json (run_info.h), summary.json (with the state's hash at the start and
-/// at the end only), telemetry.csv, terrain_start.tif and terrain_end.tif; on request hashes.csv,
-/// pictures frames/<camera>_<n>.png, arrays/<name>.npy of each array output (array_recorder.h) and
-/// the records of the scene (map_recorder.h); after a failure failed.snapshot. Memory does not grow
-/// with the run. Not thread-safe; draws on the calling thread.
+/// It writes scene.sdf and run.json (run_info.h), summary.json, telemetry.csv, terrain_start.tif
+/// and terrain_end.tif. The summary contains the hash of the state only at the start and at the end
+/// of the run. On request it also writes hashes.csv, pictures frames/<camera>_<n>.png, each array
+/// output as arrays/<name>.npy (array_recorder.h), and the maps and bags that the scene asks for
+/// (map_recorder.h). If operators have planned paths, it writes paths.csv, and after a failure
+/// failed.snapshot. The memory use does not grow with the run. Not thread-safe; pictures are drawn
+/// on the calling thread.
 class Recorder {
  public:
-  /// Makes the folder and writes the files of the start. Uses `folder`, if given, which was locked
-  /// before. Keeps a reference to `session`.
-  /// @throws FileError, and InputError as RunFolder does.
+  /// Creates the folder and writes the files for the start of the run. `folder` is a run folder
+  /// that was locked before, or null to lock Options::directory. Keeps a reference to `session`,
+  /// which must outlive this object.
+  /// @throws FileError if a file cannot be written; InputError if the folder cannot be used
+  /// (RunFolder).
   Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder = nullptr);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Samples, draws and writes all that is due. Call it after each step. @throws FileError, e.g. on
-  /// a full disk.
+  /// Records everything that is due in the current step: telemetry, arrays, pictures, hashes and
+  /// maps. Must be called after each step.
+  /// @throws FileError if a file cannot be written, for example on a full disk.
   void observe();
-  /// Continues after the session was put into another state. Recorded maps and bags begin new files
-  /// (map_recorder.h), tables continue. @throws FileError.
+  /// Continues the recording after the session was put into another state, for example by loading a
+  /// snapshot. Recorded maps and bags begin new files (map_recorder.h); tables continue in the same
+  /// files.
+  /// @throws FileError if a file cannot be written.
   void restart();
-  /// Writes the final files, once. `status` is one of RunStatus::status except "running"; "failed"
-  /// also saves failed.snapshot. If a file cannot be written, the others still are, and the summary
-  /// reports the run as failed. @throws FileError for that file, unless the run had failed before.
+  /// Writes the final files; only the first call has an effect. `status` is a value of
+  /// RunStatus::status other than "running", and `message` is the cause of a failure or
+  /// interruption. With the status "failed", failed.snapshot is written as well. If a file cannot
+  /// be written, the others still are, and the summary reports the run as failed.
+  /// @throws FileError for the first file that could not be written, unless `status` is "failed".
   void finish(const std::string& status, const std::string& message = "");
-  /// Returns the text of summary.json as it would be now. The state's hash costs a pass over the
-  /// state; without it `state_hash` is null.
+  /// Returns the text that summary.json would have now. The hash of the state costs a pass over the
+  /// whole state; if `with_hash` is false, `state_hash` is null.
   std::string summary(bool with_hash) const;
-  /// Returns the status of the run: its wall times and the number of pictures so far.
+  /// Returns the status of the run so far, with its wall times and the number of pictures.
   const RunStatus& status() const;
-  /// Returns what a camera of the scene sees now; the picture is not written and not counted.
-  /// @throws InputError for an unknown camera, Error when nothing can be drawn.
+  /// Returns a picture of the world's current state from the scene camera called `camera`. The
+  /// picture is neither written to a file nor counted.
+  /// @throws InputError if there is no such camera; Error if no picture can be drawn.
   render::Image draw(const std::string& camera);
 
  private:
+  /// All data of the recording: session, options, open files and status.
   struct State;
   std::unique_ptr<State> state_;
 };

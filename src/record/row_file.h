@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A text file that grows by rows for as long as a run lasts.
+// A text file to which rows are appended during a run.
 #pragma once
 
 #include <cstddef>
@@ -9,46 +9,54 @@
 
 namespace navvy::record {
 
-/// Appends rows to a text file. Each row is written once, and at most 1 MiB of them waits in
-/// memory, so the cost does not grow with the run.
+/// Appends rows to a text file. Each row is written once. At most about 1 MiB of rows is buffered
+/// in memory, so the memory use does not grow with the run.
 ///
-/// Readers find whole rows. Only a kill during an append may leave a last row that is cut short and
-/// lacks its line end; readers must leave it out. After an error or at the end of a run the file
-/// ends with a whole row. Renaming the folder does no harm.
+/// Readers find complete rows. Only if the process is killed during a write, the last row may be
+/// incomplete: it then has no line end, and readers must ignore it. After an error or at the end of
+/// a run, the file ends with a complete row. The folder may be renamed while the file is open.
 class RowFile {
  public:
-  /// Prepares the file and writes nothing yet. `header` is the first row, without its line end.
+  /// Prepares the file `path` without writing to it. `header` is the first row, without a line end.
   RowFile(std::string path, std::string header);
-  /// Closes the file. Rows that were not flushed are lost.
+  /// Closes the file. Buffered rows that were not written with `flush` or `sync` are lost.
   ~RowFile();
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
-  /// Adds a row, given without its line end. Flushes when kMostWaiting is reached. @throws
-  /// FileError then.
+  /// Appends a row, given without a line end, to the buffer. Calls `flush` when the buffer has
+  /// reached kMostWaiting bytes.
+  /// @throws FileError if that call fails.
   void add(std::string_view row);
-  /// Appends the waiting rows. The first call replaces an existing file as a whole, header first.
-  /// Returns when the operating system has the rows. @throws FileError; the file then ends with a
-  /// whole row, and the next call tries the waiting rows again.
+  /// Writes the buffered rows to the end of the file. The first call replaces an existing file as a
+  /// whole and writes the header first. Returns as soon as the operating system has accepted the
+  /// rows.
+  /// @throws FileError if writing fails; the file then ends with a complete row, and the next call
+  /// writes the buffered rows again.
   void flush();
-  /// Flushes and waits until the disk has the rows. @throws FileError.
+  /// Writes the buffered rows and waits until they are stored on the disk.
+  /// @throws FileError if writing fails.
   void sync();
 
-  /// Returns the number of rows added, without the header.
+  /// Returns the number of rows that were added, without the header.
   std::uint64_t rows() const { return rows_; }
-  /// Returns the size of the file with its header [bytes].
+  /// Returns the size of the rows in the file, including the header [bytes].
   std::uint64_t written() const { return on_disk_; }
-  /// Returns the size of the rows that are not in the file yet [bytes].
+  /// Returns the size of the buffered rows, which are not in the file yet [bytes].
   std::size_t waiting() const { return waiting_.size(); }
 
-  /// Size of the waiting rows at which `add` flushes [bytes].
+  /// Size of the buffer [bytes] at which `add` writes the buffered rows to the file.
   static constexpr std::size_t kMostWaiting = std::size_t{1} << 20;
 
  private:
+  /// Path of the file.
   std::string path_;
+  /// Buffered rows with their line ends; before the first write, also the header.
   std::string waiting_;
+  /// Number of rows that were added, and size of the file [bytes].
   std::uint64_t rows_ = 0, on_disk_ = 0;
-  int file_ = -1;  ///< open for appending after the first flush
+  /// File descriptor, open for appending after the first write; -1 before.
+  int file_ = -1;
 };
 
 }  // namespace navvy::record

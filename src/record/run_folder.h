@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose files are in a run's folder: a run removes and replaces what runs wrote, nothing else.
+// The folder that a run writes its results to, with a list of the files that runs have written
+// there. A run removes and replaces only files on that list.
 #pragma once
 
 #include <set>
@@ -8,63 +9,88 @@
 
 namespace navvy::record {
 
-/// A folder of results that one run at a time owns.
+/// A folder for results, which only one run at a time may use.
 ///
-/// The file `navvy.run` in it is lock and list: it is locked while the run exists, and names every
-/// file before that file is written. When a run begins, the files that the previous run listed move
-/// to "<folder>.previous", and those that were there before are removed. Files that no list names
-/// are never touched.
+/// The marker file `navvy.run` in the folder is a lock and a list: it is locked while the run
+/// exists, and the name of every result file is added to it before that file is written. When a run
+/// begins, the files that the previous run listed are moved to "<folder>.previous", and the older
+/// results that were listed there are removed. Files that are on no list are never changed.
 class RunFolder {
  public:
-  /// Locks the folder; makes it and its parents if necessary. Changes nothing but the marker file.
-  /// `reads` are files that the run reads, such as its scene. @throws InputError when another run
-  /// owns the folder, when the folder or "<folder>.previous" holds a file of another origin where
-  /// this run would write, or when one of `reads` would be removed; FileError when the folder
-  /// cannot be made or written.
+  /// Locks the folder `directory`, which is created with its parent folders if necessary. Changes
+  /// no file except the marker file. `reads` holds the paths of files that the run reads, such as
+  /// its scene.
+  /// @throws InputError if another run uses the folder; if the folder or "<folder>.previous"
+  /// contains a file that this run would write but no run has listed; or if one of the files in
+  /// `reads` would be removed.
+  /// @throws FileError if the folder cannot be created or written to.
   explicit RunFolder(const std::string& directory, const std::vector<std::string>& reads = {});
-  /// Unlocks the folder. If no run began, removes the marker file and the folders that the
-  /// constructor made.
+  /// Unlocks the folder. If `begin` was not called, also removes the marker file and the folders
+  /// that the constructor created.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  /// Moves the results of the previous run to "<folder>.previous" and starts a new list. After a
-  /// kill in between, the next run continues the move. @throws FileError.
+  /// Moves the results of the previous run to "<folder>.previous" and starts a new list. If the
+  /// process is killed during the move, the next run completes it.
+  /// @throws FileError if a file cannot be moved or removed.
   void begin();
-  /// Adds a file to the list and returns its path. `name` is relative to the folder:
-  /// "summary.json", "frames/left_00001.png". Makes folders for it. @throws FileError when a file
-  /// of another origin exists there, or the list cannot be written; Error for a name that leads out
-  /// of the folder.
+  /// Adds a result file to the list, creates the folders in which it lies, and returns its path.
+  /// `name` is relative to the run's folder: "summary.json", "frames/left_00001.png".
+  /// @throws FileError if a file of that name exists that this run has not listed, or if the list
+  /// cannot be written; Error for a name that leads out of the folder.
   std::string path(const std::string& name);
   /// Returns the path of the folder, without a slash at its end.
   const std::string& directory() const { return directory_; }
 
-  /// Returns true if runs write a file of this name into their folder.
+  /// Returns true if `name` is one of the file names that every run writes directly into its
+  /// folder, such as "summary.json", or the name of the marker file.
   static bool writes(const std::string& name);
 
   /// Name of the marker file.
   static constexpr const char* kMarker = "navvy.run";
 
  private:
+  /// An open marker file with the names that it lists.
   struct Marker;
+  /// Checks that `folder` contains no file with the name of a result that is missing from the list
+  /// in `marker`.
+  /// @throws InputError if it does.
   void require_free(const Marker& marker, const std::string& folder) const;
+  /// Checks that none of the files in `reads` is a listed result in `folder`, which would be
+  /// removed.
+  /// @throws InputError if one is.
   void require_unread(const Marker& marker, const std::string& folder,
                       const std::vector<std::string>& reads) const;
+  /// Replaces the contents of the marker file of `folder`, open as the descriptor `file`, by the
+  /// list `names`. `moving` marks that results are being moved into the folder.
   void write_list(const std::string& folder, int file, const std::set<std::string>& names,
                   bool moving) const;
-  /// Opens and locks the list of `folder`. @throws InputError when a run holds it, FileError.
+  /// Opens and locks the marker file of `folder` and reads its list. If the file does not exist, it
+  /// is created if `make` is true; otherwise the result has no open file.
+  /// @throws InputError if another run has locked it or it has an unknown format; FileError if it
+  /// cannot be opened.
   Marker open_marker(const std::string& folder, bool make) const;
+  /// Closes and unlocks the marker file of "<folder>.previous", if it is open.
   void close_previous();
-  /// Unlocks. If no run began, also removes what this object made.
+  /// Unlocks the folder. If `begin` was not called, also removes what this object created.
   void leave();
 
+  /// Path of the folder, and path of "<folder>.previous".
   std::string directory_, previous_;
-  std::vector<std::string> made_;  ///< folders that the constructor made, innermost first
-  bool unused_ = false;            ///< no run has written to the marker file
-  bool begun_ = false;             ///< `begin` was called
+  /// Folders that the constructor created, innermost first.
+  std::vector<std::string> made_;
+  /// True if the marker file was empty when it was opened: no run has written to it.
+  bool unused_ = false;
+  /// True if `begin` was called.
+  bool begun_ = false;
+  /// Descriptors of the locked marker files of the folder and of "<folder>.previous"; -1 if not
+  /// open.
   int lock_ = -1, previous_lock_ = -1;
+  /// Listed result files of the folder and of "<folder>.previous", relative to these folders.
   std::set<std::string> listed_, previous_listed_;
-  bool previous_moving_ = false;  ///< an earlier move was interrupted
+  /// True if an earlier move to "<folder>.previous" was interrupted.
+  bool previous_moving_ = false;
 };
 
 }  // namespace navvy::record

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// run.json: what made a run's folder, so that the run can be made again.
+// run.json: the version, command, scene and device that produced a run's folder, so that the run
+// can be repeated.
 #pragma once
 
 #include <string>
@@ -7,32 +8,35 @@
 
 namespace navvy::record {
 
-/// Format of run folders. It grows when the meaning of a file changes.
+/// Version of the run folder's format. It increases when the meaning of a file changes.
 inline constexpr int kRunFormat = 1;
 
-/// Description of a run in its folder. The scene itself is scene.sdf, with all overrides and
-/// included files written out, so `navvy run FOLDER/scene.sdf` repeats the run.
+/// Contents of run.json. The scene itself is in the file scene.sdf of the same folder, with all
+/// overrides applied and all included files inserted, so `navvy run FOLDER/scene.sdf` repeats the
+/// run.
 struct RunInfo {
-  /// Format of the folder.
+  /// Version of the folder's format.
   int format = kRunFormat;
-  /// Version of Navvy.
+  /// Version of Navvy that wrote the folder.
   std::string version;
-  /// Command line as typed, the program first. Empty if no command line started the run.
+  /// Command line as typed, beginning with the program. Empty if the run was not started from a
+  /// command line.
   std::vector<std::string> command;
-  /// Scene file that the user named.
+  /// Path of the scene file that the user named.
   std::string scene;
-  /// OpenCL device of the run.
+  /// Name of the OpenCL device that the run used.
   std::string device;
 };
 
-/// Returns the version of this library, e.g. "0.1.0".
+/// Returns the version of this library, such as "0.1.0".
 std::string navvy_version();
 
-/// Returns the text of run.json, with sorted keys.
+/// Returns `info` as the text of run.json, with sorted keys.
 std::string run_json(const RunInfo& info);
 
-/// Reads FOLDER/run.json of any format up to kRunFormat. @throws FileError when it is missing,
-/// InputError when it is another file or has a later format.
+/// Returns the contents of run.json in `folder`. Reads every format version up to kRunFormat.
+/// @throws FileError if the file is missing; InputError if it is not such a file or has a later
+/// format version.
 RunInfo read_run_info(const std::string& folder);
 
 }  // namespace navvy::record

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time-stamped arrays by name: scans, images, grids. Names and look-ups work as for scalar channels
-// (sim/channels.h).
+// Named arrays with time stamps: scans, images, grids. Names and look-ups work as for scalar
+// channels (sim/channels.h).
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,12 @@
 
 namespace navvy::sim {
 
-/// Type of one element. Five types cover scans, images, grids and labels; each further type would
-/// need a reader in every client.
+/// Type of an array's elements. These five types are enough for scans, images, grids and labels;
+/// each additional type would have to be supported by every client.
 enum class ElementType { kUint8, kUint16, kInt32, kFloat32, kFloat64 };
 
-/// Returns the element type of a C++ type; other types do not compile.
+/// Returns the element type that corresponds to the C++ type T. Does not compile for types without
+/// one.
 template <class T>
 constexpr ElementType element_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>)
@@ -37,48 +38,56 @@ constexpr ElementType element_type() {
   }
 }
 
-/// Returns the size of one element [bytes], or its name in numpy ("float32").
+/// Returns the size of one element of this type [bytes].
 std::size_t size_of(ElementType type);
+/// Returns the name of the element type in NumPy, such as "float32".
 const char* name_of(ElementType type);
 
-/// Description of an array, fixed from its declaration on. Names, units and frames are texts for
-/// people and other languages; nothing here interprets them.
+/// Description of an array. It does not change after the array was declared. Name, unit, meaning
+/// and frame are texts for people and for other programs; Navvy does not interpret them.
 struct ArrayChannel {
-  /// Name, e.g. "excavator/height_grid".
+  /// Name of the array, such as "excavator/height_grid".
   std::string name;
-  /// Unit of every element: "m", "1".
+  /// Unit of the elements as text; "1" for dimensionless numbers.
   std::string unit;
-  /// Description in one line.
+  /// One-line description of the array.
   std::string meaning;
-  /// Frame F of its values or nodes: "world", "excavator/boom", or one of its own.
+  /// Name of the frame F that values or grid points refer to: "world", a link such as
+  /// "excavator/boom", or a frame of the sampler.
   std::string frame;
+  /// Type of the elements.
   ElementType type = ElementType::kFloat32;
-  /// Shape, row major, slowest first: {rows, columns} of a grid, {height, width, 3} of an image.
+  /// Lengths of the dimensions in row-major order, the slowest dimension first: {rows, columns} of
+  /// a grid, {height, width, 3} of a colour image.
   std::vector<int> shape;
-  /// Publication rate [1/s] in simulated time; 0: every step.
+  /// Publication rate in publications per second of simulated time; 0 means one after every step.
   double rate = 0;
 
-  /// Returns the number of elements.
+  /// Returns the number of elements; 0 if the shape is empty or contains a length that is not
+  /// positive.
   std::size_t count() const;
-  /// Returns type and shape in one word, "float32[64,48]", as `navvy channels` prints it.
+  /// Returns element type and shape as one word: "float32[64,48]".
   std::string type_text() const;
 };
 
-/// Latest value of an array, read in place. Valid until the world steps, loads or is destroyed.
+/// Read-only view of an array's latest value, without a copy. It is valid until the world takes a
+/// step, loads a snapshot, gets another sampler or is destroyed.
 class ArrayView {
  public:
-  /// Returns unit, frame and shape. Refers to the list of the world.
+  /// Returns the description of the array: unit, frame and shape.
   const ArrayChannel& channel() const { return *channel_; }
-  /// Returns the number of publications so far; 0: none, all elements are zero.
+  /// Returns the number of values published so far. It is 0 before the first one; all elements are
+  /// then zero.
   std::uint64_t sequence() const { return sequence_; }
-  /// Returns the simulated time of the value [s].
+  /// Returns the simulated time at which the value was published [s].
   double time() const { return time_; }
-  /// Returns the pose of frame F at that time.
+  /// Returns the pose of the array's frame F in W at the time of the value.
   const Pose& X_WF() const { return *X_WF_; }
-  /// Returns the raw bytes, row major, in the byte order of this machine: for bindings and files.
+  /// Returns the elements as raw bytes in row-major order and native byte order, for language
+  /// bindings and files.
   std::span<const std::byte> bytes() const { return bytes_; }
-  /// Returns the elements, channel().count() of them. @throws InputError if T is not the channel's
-  /// type.
+  /// Returns all elements in row-major order.
+  /// @throws InputError if T is not the element type of the array.
   template <class T>
   std::span<const T> values() const {
     require(element_type<T>());
@@ -87,54 +96,70 @@ class ArrayView {
 
  private:
   friend class ArrayOutputs;
-  /// @throws InputError if `type` is not the channel's type.
+  /// Checks that `type` is the element type of the array.
+  /// @throws InputError if it is not.
   void require(ElementType type) const;
   const ArrayChannel* channel_ = nullptr;
   const Pose* X_WF_ = nullptr;
+  /// Storage of the array's elements, owned by ArrayOutputs.
   std::span<const std::byte> bytes_;
   std::uint64_t sequence_ = 0;
   double time_ = 0;
 };
 
-/// Arrays of a world. Clients read them; samplers fill them through their Publisher.
+/// All arrays of a world. Clients read them; samplers fill them through a Publisher.
 ///
-/// The storage of an array never moves. Costs nothing while nothing is published. Not thread-safe.
+/// The storage of an array is allocated once and never moves. An array costs time only when it is
+/// published. Not thread-safe.
 class ArrayOutputs {
  public:
-  /// Returns all arrays in the order of their declaration.
+  /// Returns the descriptions of all arrays in the order of their indices.
   const std::vector<ArrayChannel>& channels() const { return channels_; }
-  /// Returns the index of an array, -1 if there is none of this name.
+  /// Returns the index of the array with this name, or -1 if there is none.
   int find(const std::string& name) const;
-  /// Returns the index of an array. @throws InputError that names the nearest array.
+  /// Returns the index of the array with this name.
+  /// @throws InputError if there is none; the message names the most similar array.
   int index(const std::string& name) const;
-  /// Returns a view of an array without copying. @throws InputError for an index that does not
-  /// exist.
+  /// Returns a view of the latest value of the array with the index `array`.
+  /// @throws InputError for an index that does not exist.
   ArrayView view(int array) const;
-  /// Looks the array up by its name first.
+  /// Returns a view of the latest value of the array with this name. Searches for the name in each
+  /// call.
+  /// @throws InputError if there is none.
   ArrayView view(const std::string& name) const { return view(index(name)); }
 
-  /// Checks the shape. @throws InputError for a shape without elements.
+  /// Checks that the shape of an array has at least one element.
+  /// @throws InputError if it has none.
   static void require_elements(const ArrayChannel& channel);
-  /// Adds an array of zeros and returns its index. @throws InputError for a shape without elements
-  /// or a name in use.
+  /// Adds an array whose elements are zero and returns its index.
+  /// @throws InputError for a shape without elements or a name that is in use.
   int add(ArrayChannel channel);
-  /// Returns the storage of the next value, stamped `time` [s], with its frame at `X_WF`. The
-  /// caller fills all of it at once.
+  /// Starts a new value of the array with the index `array` and returns its storage, which the
+  /// caller must fill completely before anyone reads it. `time` is the simulated time [s] and
+  /// `X_WF` the pose in W of the array's frame at that time.
+  /// @throws InputError for an index that does not exist.
   std::span<std::byte> publish(int array, double time, const Pose& X_WF);
 
-  /// Visits sequence, time stamp, frame and bytes of every array: everything that a reader can see
-  /// is state. Loads only into the same list of arrays.
+  /// Visits sequence number, time stamp, frame pose and bytes of every array: everything that
+  /// readers can see is part of the state. Loading requires a list of arrays with the same names,
+  /// types and shapes.
   void visit(Archive& a);
 
  private:
-  /// Storage and stamp of one array.
+  /// Latest value of one array.
   struct Value {
+    /// Elements in row-major order and native byte order.
     std::vector<std::byte> bytes;
+    /// Number of values published so far.
     std::uint64_t sequence = 0;
+    /// Simulated time of the value [s].
     double time = 0;
+    /// Pose of the array's frame F in W at that time.
     Pose X_WF = Pose::Identity();
   };
+  /// Descriptions of all arrays, in the order of their indices.
   std::vector<ArrayChannel> channels_;
+  /// Latest value of each array, in the order of `channels_`.
   std::vector<Value> values_;
 };
 

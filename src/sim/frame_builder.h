@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the state of a world into a Frame to draw, and scene cameras into poses.
+// Converts the current state of a world into a frame (all data that a renderer needs for one
+// picture), and scene cameras into camera poses.
 #pragma once
 
 #include <memory>
@@ -12,39 +13,49 @@ namespace navvy::sim {
 
 class ParticleClipper;
 
-/// Fills frames of one world. Keeps the dense ground between calls and rewrites only what changed.
+/// Builds frames to draw of one world. Keeps the ground data between calls and rewrites only the
+/// ground that has changed.
 ///
-/// The ground window holds at most 1024 x 1024 columns: the whole of a small site, otherwise the
-/// part around the machines, which moves when a machine comes within a quarter of its edge.
+/// A frame shows a window of at most 1024 x 1024 ground columns: the whole of a small site,
+/// otherwise the area around the machines. The window moves when the machines come within a quarter
+/// of its width of its edge.
 class FrameBuilder {
  public:
-  /// Reads the constants of a world, which must outlive this object.
+  /// Creates a builder for frames of `world`, which must outlive this object.
   explicit FrameBuilder(const World& world);
   ~FrameBuilder();
-  /// Returns the present frame, valid until the next call.
+  /// Returns a frame of the world's current state. It is valid until the next call.
   const scene::Frame& build();
-  /// Returns the present pose of a scene camera. A chasing camera follows the heading only.
+  /// Returns the current pose of a scene camera. A camera that chases a machine follows the
+  /// machine's position and heading, but not its pitch and roll.
+  /// @throws InputError if the camera's machine does not exist.
   scene::FrameCamera camera(const scene::Camera& camera) const;
 
  private:
-  /// Moves the window where machines approach its edge. The next ground is then complete.
+  /// Moves the window when the machines approach its edge. After a move, the next frame contains
+  /// all of the ground again.
   void place_window();
-  /// Copies the changes since the last frame into the window.
+  /// Copies the ground that has changed since the last frame into the drawn window.
   void update_ground();
-  /// Copies the columns of one rectangle, relative to the window.
+  /// Copies heights and soils of the ground columns in `rect` (column indices of the site) into the
+  /// window.
   void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
-  /// Adds the poses of all visuals and cylinders.
+  /// Adds all visual shapes of the machines with their poses, and all cylinders.
   void add_machines();
-  /// Returns a cylinder of machine m, with the bars of its bucket linkage.
+  /// Adds a hydraulic cylinder of the machine with index `m` to the frame, and the bars of its
+  /// bucket linkage if it has one.
   void add_cylinder(int m, const scene::Cylinder& cylinder);
-  /// Adds the active particles, kept off the plates of tools.
+  /// Adds the active particles, moved away from the plates of tools.
   void add_particles();
 
   const World& world_;
+  /// Frame that `build` fills and returns.
   scene::Frame frame_;
-  // Columns of the site that are drawn, and the changes among them.
+  /// Ground columns that are drawn, as column indices of the site.
   heightfield::CellRect window_;
+  /// Keeps track of the ground that has changed since the last frame.
   heightfield::ChangeFollower changes_;
+  /// Moves drawn particles away from the plates of tools.
   std::unique_ptr<ParticleClipper> plates_;
 };
 

@@ -7,38 +7,49 @@
 
 namespace navvy::sim {
 
-/// Drives the machines of a world. Every command holds until it is replaced.
+/// Commands the machines of a world: joints, drives, bases, brakes and hitches. A command remains
+/// in effect until another one replaces it.
 ///
-/// A view of one pointer: copy it freely. Valid as long as its world lives. Every function throws
-/// InputError for a handle of another world or a value that is not finite, and then changes
-/// nothing.
+/// An object of this class is a pointer to its world: it is cheap to copy and valid as long as the
+/// world exists. Every function throws InputError for a handle of another world or a value that is
+/// not finite; the world is then unchanged.
 class MachineCommands {
  public:
-  /// Largest distance of a base from the origin along any axis [m].
+  /// Maximum absolute value of each coordinate of a commanded base position [m].
   static constexpr double kFarthest = 1e6;
 
-  /// Refers to the parts of a world; World::commands makes it.
+  /// Creates commands for the world that owns `parts`. Clients call World::commands instead.
   explicit MachineCommands(WorldParts& parts) : parts_(&parts) {}
 
-  /// Commands a joint. A joint that a drive also moves returns to the drive with the drive's
-  /// next command.
+  /// Commands a joint. If the machine's drive moves the joint as well, the joint follows the drive
+  /// again as soon as the drive receives its next command.
   void set(const JointHandle& joint, const vehicle::JointInput& input);
-  /// Commands a drive. Has no effect on a machine without one.
+  /// Commands the drive of a machine: speed, steering, brake and gear. Has no effect on a machine
+  /// without a drive.
   void set(const MachineHandle& machine, const vehicle::DriveInput& input);
-  /// Moves the base of a kinematic machine. @throws InputError also for a dynamic machine.
+  /// Commands a kinematic machine's base link to move to a target pose.
+  /// @throws InputError for a dynamic machine or a fixed base.
   void set(const MachineHandle& machine, const vehicle::BaseInput& input);
-  /// Sets or releases a joint's brake; while it is set, the joint does not follow its command.
+  /// Sets (`on` is true) or releases the brake of a joint. While the brake is set, the joint does
+  /// not follow commands.
   /// @throws InputError for a joint without a brake.
   void set_brake(const JointHandle& joint, bool on);
-  /// Opens or closes a hitch of the scene, by its index there.
-  /// @throws InputError for a hitch that does not exist, and for an eye out of the hook's reach.
+  /// Closes (`closed` is true) or opens a hitch. `hitch` is an index into scene::Scene::hitches.
+  /// @throws InputError for a hitch that does not exist, or if the eye is too far from the hook to
+  /// close.
   void set_hitch(int hitch, bool closed);
 
-  /// Throws what `set` would throw, and changes nothing.
+  /// Checks a joint command without changing anything.
+  /// @throws InputError if `set` would throw for these arguments.
   void require_valid(const JointHandle& joint, const vehicle::JointInput& input) const;
+  /// Checks a drive command without changing anything.
+  /// @throws InputError if `set` would throw for these arguments.
   void require_valid(const MachineHandle& machine, const vehicle::DriveInput& input) const;
+  /// Checks a base command without changing anything.
+  /// @throws InputError if `set` would throw for these arguments.
   void require_valid(const MachineHandle& machine, const vehicle::BaseInput& input) const;
-  /// Throws what `set_brake` would throw.
+  /// Checks that a joint has a brake, without changing anything.
+  /// @throws InputError if `set_brake` would throw for this joint.
   void require_brake(const JointHandle& joint) const;
 
  private:

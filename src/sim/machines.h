@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machines of a world, to read from.
+// Access to the machines of a world, for reading.
 #pragma once
 
 #include <string>
@@ -10,24 +10,28 @@
 
 namespace navvy::sim {
 
-/// Finds the machines of a world, in the order of World::description().machines.
+/// Gives access to the machines of a world, in the order of World::description().machines. Only for
+/// reading; sim::MachineCommands sends commands.
 ///
-/// A view of one pointer: copy it freely. Valid as long as its world lives. Reads only;
-/// sim::MachineCommands drives.
+/// An object of this class is a pointer to its world: it is cheap to copy and valid as long as the
+/// world exists.
 class Machines {
  public:
-  /// Refers to the parts of a world; World::machines makes it.
+  /// Creates access to the machines of the world that owns `parts`. Clients call World::machines
+  /// instead.
   explicit Machines(const WorldParts& parts) : parts_(&parts) {}
 
-  /// Returns the number of machines; 0 for a scene of soil alone.
+  /// Returns the number of machines; 0 for a scene that contains only soil.
   int count() const;
-  /// Returns a handle to a machine.
-  /// @throws InputError that names the nearest machine, or says how many there are.
+  /// Returns a handle to the machine with this name.
+  /// @throws InputError if there is none; the message names the most similar one.
   MachineHandle at(const std::string& name) const;
+  /// Returns a handle to the machine with this index, counted from 0.
+  /// @throws InputError if there is none; the message gives the number of machines.
   MachineHandle at(int index) const;
-  /// Returns every shell of every machine, machine by machine.
+  /// Returns handles to the tools (shells) of all machines, machine by machine.
   std::vector<ToolHandle> tools() const;
-  /// Returns the state of a hitch, by its index in the scene.
+  /// Returns the current state of a hitch. `index` is an index into scene::Scene::hitches.
   /// @throws InputError for a hitch that does not exist.
   vehicle::HitchState hitch(int index) const;
 

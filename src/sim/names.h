@@ -8,16 +8,19 @@
 
 namespace navvy::sim {
 
-/// Throws InputError: there is no `kind` called `name`; did you mean the nearest of `known`?
+/// Throws an InputError which says that there is no part of type `kind` ("joint", "machine") called
+/// `name`, and which suggests the most similar name in `known`.
 [[noreturn]] void throw_unknown(const std::string& kind, const std::string& name,
                                 const std::vector<std::string>& known);
 
-/// @throws InputError if `index` is not in 0 .. count - 1. `kind` names what is counted.
+/// Checks that `index` is in the range 0 to `count` - 1. `kind` is the type of the indexed parts
+/// for the message: "joint", "machine".
+/// @throws InputError if the index is out of range.
 void require_index(const std::string& kind, int index, std::size_t count);
 
-/// Returns the index in `list` of the entry whose `key(entry)` is `name`. `kind` is the word for
-/// the message: "joint", "machine".
-/// @throws InputError as throw_unknown.
+/// Returns the index of the first entry in `list` for which `key(entry)` equals `name`. `kind` is
+/// the type of the entries for the message: "joint", "machine".
+/// @throws InputError if there is no such entry; the message suggests the most similar name.
 template <class List, class Key>
 int index_of(const std::string& kind, const List& list, const std::string& name, Key&& key) {
   for (std::size_t i = 0; i < list.size(); ++i)

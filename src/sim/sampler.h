@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samplers: sensors and maps that read a world after a step and publish values. The world knows
-// them by this interface only; a new one is a class of its own and one `world.add(...)`.
+// Samplers: sensors and maps that read a world after a step and publish values. The world uses them
+// only through the interface Sampler; `world.add(...)` adds one.
 #pragma once
 
 #include <cstdint>
@@ -18,31 +18,35 @@ namespace navvy::sim {
 
 class World;
 
-/// Gives a sampler access to the outputs of its world. Channels are declared once; each sample then
-/// sets them.
+/// Gives a sampler write access to its outputs in the world. The sampler declares each output once
+/// and then sets its value in every sample.
 class Publisher {
  public:
-  /// Refers to both lists, which must outlive it. `rate` [1/s] is written into every array's
-  /// channel.
+  /// Creates a publisher that adds scalar outputs to `outputs` and arrays to `arrays`; both lists
+  /// must outlive it. `rate` [1/s] is stored as the publication rate of every array.
   Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate)
       : outputs_(outputs), arrays_(arrays), rate_(rate) {}
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
-  /// Declares a scalar output of the world, 0 until set. Telemetry records it like any other.
-  /// Returns the number to set it by.
+  /// Declares a scalar output, which is 0 until it is set; telemetry records it like any other
+  /// output. Returns the index of the output for `set`. The output becomes part of the world with
+  /// `commit`.
   /// @throws InputError if the name is in use.
   int declare(Channel channel);
-  /// Declares an array and returns the number to fill it by. @throws InputError if the name is in
-  /// use or the shape is empty.
+  /// Declares an array and returns its index for `fill`. The array becomes part of the world with
+  /// `commit`.
+  /// @throws InputError if the name is in use or the shape has no elements.
   int declare(ArrayChannel channel);
 
-  /// Sets the value that the output shows from now on. `number` comes from declare. @throws
-  /// std::out_of_range for another number.
+  /// Sets the value that a scalar output has from now on. `number` is the index that `declare`
+  /// returned.
+  /// @throws std::out_of_range for any other index.
   void set(int number, double value) { *numbers_.at(static_cast<std::size_t>(number)) = value; }
-  /// Returns the storage of the array's next value, stamped with the time of this sample. Fill all
-  /// of it before `sample` returns. `X_WF` is the present pose of its frame. @throws InputError if
-  /// T is not the array's type.
+  /// Publishes a new value of an array and returns its storage; the caller must fill all elements
+  /// before `sample` returns. `array` is the index that `declare` returned; `X_WF` is the current
+  /// pose in W of the array's frame F. The value is stamped with the time of the current sample.
+  /// @throws InputError if T is not the array's element type.
   template <class T>
   std::span<T> fill(int array, const Pose& X_WF = Pose::Identity()) {
     require(array, element_type<T>());
@@ -50,36 +54,47 @@ class Publisher {
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
-  /// Adds the declared channels to the world, all or none: a declaration that throws leaves no
-  /// trace.
+  /// Adds all declared outputs to the world. Until then a failed declaration leaves the world
+  /// unchanged.
   void commit();
-  /// Sets the time of the present sample [s]. The world calls it.
+  /// Sets the simulated time of the current sample [s]. Only the world calls this.
   void stamp(double time) { time_ = time; }
-  /// Visits all numbers in the order of their declaration; the world visits the arrays. Loads the
-  /// same number of values only.
+  /// Visits the values of all scalar outputs in the order of their declaration; the world visits
+  /// the arrays. Loading requires the same number of scalar outputs.
   void visit(Archive& a);
 
  private:
-  /// @throws InputError if an output or array of this name exists.
+  /// Checks that no output or array of this name exists or was declared.
+  /// @throws InputError if one does.
   void require_new(const std::string& name) const;
-  /// @throws InputError if `type` is not the array's type.
+  /// Checks that `type` is the array's element type.
+  /// @throws InputError if it is not.
   void require(int array, ElementType type) const;
 
+  /// List that receives the scalar outputs.
   Outputs& outputs_;
+  /// List that receives the arrays.
   ArrayOutputs& arrays_;
+  /// Publication rate of the sampler's arrays [1/s]; 0 means one publication after every step.
   double rate_;
+  /// Simulated time of the current sample [s].
   double time_ = 0;
-  std::vector<Channel> new_numbers_;  ///< declared, not yet added to the world
+  /// Scalar outputs that are declared but not yet part of the world.
+  std::vector<Channel> new_numbers_;
+  /// Arrays that are declared but not yet part of the world.
   std::vector<ArrayChannel> new_arrays_;
-  std::vector<std::unique_ptr<double>> numbers_;  ///< one address each, which the output reads
+  /// Values of all scalar outputs in the order of declaration. Each has a fixed address, from which
+  /// the world's output reads it.
+  std::vector<std::unique_ptr<double>> numbers_;
 };
 
-/// Sensor, map or measuring instrument. Reads the world and changes nothing in it.
+/// Base class of sensors, maps and measuring instruments. A sampler reads the world and publishes
+/// values; it must not change the world.
 ///
-/// Look up handles and channel indices once, in the constructor or in declare, and read through
-/// them in sample. A sampler is deterministic: what it publishes is a function of the world and of
-/// its own state, which it visits (a random generator, a delay line). A resumed run is then
-/// bit-identical.
+/// Implementations should look up handles and channel indices once, in the constructor or in
+/// `declare`, and use them in `sample`. A sampler must be deterministic: the published values may
+/// depend only on the world and on the sampler's own state (a random generator, a delay line),
+/// which `visit` must cover. A resumed run is then bit-identical.
 ///
 ///   class Inclinometer final : public sim::Sampler {
 ///    public:
@@ -100,39 +115,45 @@ class Publisher {
 class Sampler {
  public:
   virtual ~Sampler() = default;
-  /// Returns its name for messages and snapshots, unique in its world.
+  /// Returns the sampler's name for messages and snapshots. It must be unique in the world.
   virtual std::string name() const = 0;
-  /// Returns the samples per second of simulated time; 0: after every step. Called once.
+  /// Returns the number of samples per second of simulated time; 0 means one sample after every
+  /// step. Called once.
   virtual double rate() const = 0;
-  /// Declares its channels. Called once, when it is added.
+  /// Declares all outputs of the sampler in `out`. Called once, when the sampler is added to a
+  /// world.
   virtual void declare(Publisher& out) = 0;
-  /// Takes a sample. Called when it is added and after each step in which a sample is due.
+  /// Takes a sample: reads `world` and sets the outputs through `out`. Called when the sampler is
+  /// added, and after each step in which a sample is due.
   virtual void sample(const World& world, Publisher& out) = 0;
-  /// Visits its own state, if any. The world visits what it published.
+  /// Visits the sampler's own state, such as a random generator or a delay line. The world visits
+  /// the published values. Samplers without state need not override this.
   virtual void visit(Archive&) {}
 };
 
-/// Sampler in its world, which owns it. Clients use World::add and the outputs.
+/// A sampler within its world, which owns it, together with its rate and outputs. Clients use
+/// World::add and the world's outputs instead.
 class SamplerSlot {
  public:
-  /// Declares the sampler's channels. @throws InputError for a rate that is not finite or negative,
-  /// or a name in use.
+  /// Takes ownership of `sampler` and adds its outputs to `outputs` and `arrays`.
+  /// @throws InputError for a rate that is negative or not finite, or a name that is in use.
   SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, ArrayOutputs& arrays);
 
   /// Returns the sampler's name.
   const std::string& name() const { return name_; }
-  /// Returns whether step `step` of `dt` [s] is the nearest to a multiple of the period
-  /// (sim/timing.h).
+  /// Returns true if a sample is due in step number `step` with steps of `dt` [s], that is, if that
+  /// step is the nearest one to a sample time (sim/timing.h).
   bool due(std::uint64_t step, double dt) const;
-  /// Takes a sample stamped `time` [s].
+  /// Takes a sample of `world` and stamps it with the simulated time `time` [s].
   void sample(const World& world, double time);
-  /// Visits the published numbers and the sampler's own state. Loads only into a slot of the same
-  /// name.
+  /// Visits the sampler's published scalar values and its own state. Loading requires a sampler of
+  /// the same name.
   void visit(Archive& a);
 
  private:
   std::unique_ptr<Sampler> sampler_;
   std::string name_;
+  /// Samples per second of simulated time; 0: after every step.
   double rate_;
   Publisher publisher_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a snapshot that can be read without running its world.
+// Parts of a snapshot (a saved world) that can be read before a matching world is built.
 #pragma once
 
 #include <cstdint>
@@ -12,38 +12,45 @@
 
 namespace navvy::sim {
 
-/// First section of a world's snapshot: scene and time, before anything that only a matching world
-/// can read.
+/// First section of a world's snapshot: the scene's name and the simulated time. It can be read
+/// without a matching world.
 struct SnapshotHead {
-  /// Name of its scene.
+  /// Name of the scene that the snapshot was taken from. When loading, set it to the name of the
+  /// scene to load into.
   std::string scene;
-  /// Base step [s].
+  /// Length of the base step [s].
   double dt = 0;
-  /// Steps taken. Time [s] is steps x dt.
+  /// Number of base steps taken. The simulated time [s] is steps x dt.
   std::uint64_t steps = 0;
 
-  /// Visits the head. @throws InputError for a snapshot of a scene with a name other than `scene`.
+  /// Visits the head, to hash, save or load it.
+  /// @throws InputError when loading the snapshot of a scene whose name is not `scene`.
   void visit(Archive& a);
 };
 
-/// Returns everything that determines a run of `scene`: its parameters and the heights of the map
-/// it starts on. A snapshot file stores all of it before the state.
+/// Returns everything that determines a run of `scene`, by name: the parameters of the scene and,
+/// if `ground` was built from a map, the hash of its heights. A snapshot file stores all of it
+/// before the state.
 scene::Parameters start_of(const scene::Scene& scene, const heightfield::Ground& ground);
-/// Returns the hash of a start. It is part of every state hash, so two runs that differ in a
-/// parameter never have the same hash.
+/// Returns the hash of a start, as start_of returns it. Every state hash includes this hash, so two
+/// runs with different parameters have different state hashes.
 std::uint64_t hash_of_start(const scene::Parameters& start);
 
-/// Section of a snapshot file with the start of the run it was taken from.
+/// Section of a snapshot file that holds the start (parameters and map hash) of the run that the
+/// snapshot was taken from.
 struct SnapshotStart {
-  /// Start of the scene that it is loaded into, or saved from.
+  /// Start of the scene that is saved, or that the snapshot is loaded into.
   scene::Parameters here;
-  /// Name of that scene.
+  /// Name of the scene that is saved, or that the snapshot is loaded into.
   std::string scene;
-  /// Load the state even if the starts differ, and log the differences.
+  /// If true, a snapshot with a different start is loaded all the same, and the differences are
+  /// logged as a warning.
   bool anyway = false;
 
-  /// Visits the start. @throws InputError that lists the differences, unless `anyway`; always for a
-  /// scene with another name.
+  /// Visits the start, to save or load it.
+  /// @throws InputError when loading a snapshot of a scene with another name, or one whose start
+  /// differs; the message lists the differences. `anyway` allows a different start, but not another
+  /// name.
   void visit(Archive& a);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of the machines' first second, before a run and without a device.
+// Checks of the machines' first second, which need neither a run nor a device.
 #pragma once
 
 #include <string>
@@ -13,33 +13,41 @@
 
 namespace navvy::sim {
 
-/// Returns an error for every pair of dynamic machines whose collision shapes, taken as boxes,
-/// overlap by more than 2 cm at the start. It names both links and the depth. `X_WB` holds the
-/// poses of the base links.
+/// Returns an error for every pair of machines, at least one of them dynamic, whose collision
+/// shapes overlap by more than 2 cm at the start. Shapes are taken as boxes. The error names both
+/// links and the depth of the overlap [m]. Pairs that are hitched together are skipped. `X_WB`
+/// holds the initial pose of each machine's base link, in the scene's order.
 std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<Pose>& X_WB);
 
-/// Returns an error for every dynamic machine with a wheel's centre, or the middle of a moving
-/// link's collision shape, more than 2 cm below the surface of `ground` at the start: it would fall
-/// through or be thrown out.
+/// Returns an error for every dynamic machine of which a wheel's centre, or the centre of a moving
+/// link's collision shape, is more than 2 cm below the surface of `ground` at the start. Such a
+/// machine would fall through the ground or be thrown out of it. `X_WB` holds the initial pose of
+/// each machine's base link, in the scene's order.
 std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
                                 const heightfield::Terrain& ground);
 
-/// Result of check_start.
+/// Result of check_start: the errors found at the start of a scene, and the state of each machine
+/// after the first second.
 struct StartCheck {
-  /// Stability of each machine of the scene; empty if one starts inside the ground.
+  /// Stability of each machine of the scene after the first second; empty if a machine starts
+  /// inside the ground.
   std::vector<vehicle::Stability> standing;
-  /// True for each machine that has not reached the ground yet; empty likewise.
+  /// One entry per machine of the scene: true if the machine is still falling after the first
+  /// second. Empty if a machine starts inside the ground.
   std::vector<bool> falling;
-  /// Overlaps, machines inside the ground, machines that tip over.
+  /// Errors found: machines that overlap, start inside the ground or tip over, and a ground that
+  /// cannot be built.
   std::vector<Fault> faults;
-  /// Report on the ground's map, some lines; empty without a map.
+  /// Report on the map of the ground, in one or more lines; empty if the scene has no map.
   std::string terrain;
-  /// Comparison of the design with the untouched site, one line; empty without a design.
+  /// One-line comparison of the design surface with the untouched site; empty if the scene has no
+  /// design.
   std::string design;
 };
 
-/// Builds the ground, places the machines on it and lets them settle for a second (soil at rest,
-/// joints held). A ground that cannot be built is reported as a fault; nothing is thrown.
+/// Builds the ground of the scene, places the machines on it and simulates one second in which the
+/// soil stays at rest and all joints are held. Errors are returned in StartCheck::faults; an
+/// invalid scene does not cause an exception.
 StartCheck check_start(const scene::Scene& scene);
 
 }  // namespace navvy::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A running world: ground, soil and machines of a scene, stepped together.
+// A running world: ground, soil and machines of a scene, which are stepped together.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,12 @@ namespace navvy::sim {
 
 /// Ground, soil and machines of one scene, with named inputs and outputs.
 ///
-/// A world knows no operator and writes no file: its clients do that (session, record, `navvy`).
-/// One `step` is one base step of fixed length. The same scene, inputs, device and driver give
-/// bit-identical results. Lengths and poses are in the world frame W, z up, in SI units. Functions
-/// are grouped by topic: `inputs` and `outputs` by name, `machines` to read, `commands` to drive,
-/// `soil` to measure, `hashes` to compare runs. Not thread-safe.
+/// A world contains no operators and writes no files; its clients do (session, record, `navvy`).
+/// `step` advances it by one base step of fixed length. The same scene, inputs, device and driver
+/// give bit-identical results. Lengths and poses refer to the world frame W, whose z axis points
+/// up, in SI units. Functions are grouped by topic: `inputs` and `outputs` access channels by name,
+/// `machines` reads machines, `commands` commands them, `soil` measures the soil, and `hashes`
+/// compares runs. Not thread-safe.
 ///
 ///   device::Device device;
 ///   sim::World world(scene_io::load_scene("trench.sdf", control::step_kinds()), device);
@@ -46,72 +47,80 @@ namespace navvy::sim {
 ///   std::printf("%.0f N, %.0f kg\n", bucket.force().norm(), bucket.payload());
 class World {
  public:
-  /// Builds the ground from the scene (reads the heightmap file if it names one) and places the
-  /// machines on it. `make_engine` makes the physics engine of the dynamic machines; Bullet
-  /// without.
-  /// @throws InputError for a scene that cannot be built, device::DeviceError for the device.
+  /// Builds the ground of the scene, reading its heightmap file if it names one, and places the
+  /// machines on it. `make_engine` creates the physics engine of the dynamic machines; if it is
+  /// empty, they use Bullet. The device must outlive the world.
+  /// @throws InputError for a scene that cannot be built; device::DeviceError if the device fails.
   World(scene::Scene description, device::Device& device,
         const vehicle::PhysicsEngineFactory& make_engine = {});
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Returns the scene the world was built from. All indices follow its order of machines, joints
-  /// and soils.
+  /// Returns the scene that the world was built from. Indices of machines, joints and soils refer
+  /// to the lists in this scene.
   const scene::Scene& description() const;
-  /// Returns the parameters and map heights that the run started from (sim/snapshot.h).
+  /// Returns the scene parameters that the run started from, with the hash of its map heights if
+  /// the scene has a map (sim/snapshot.h).
   const scene::Parameters& start() const;
-  /// Returns the base step [s]. Loading a snapshot sets the snapshot's step.
+  /// Returns the length of the base step [s]. Loading a snapshot replaces it by the base step of
+  /// the snapshot.
   double dt() const;
-  /// Returns the longest base step that soil and scene allow [s]. A control rate shortens the step.
+  /// Returns the longest base step that soil and scene allow [s]. A control rate in the scene makes
+  /// the base step shorter.
   double longest_step() const;
-  /// Returns the number of base steps taken.
+  /// Returns the number of base steps taken since the start of the simulation.
   std::uint64_t steps() const;
-  /// Returns the simulated time [s], steps x dt.
+  /// Returns the simulated time since the start of the simulation [s]: number of steps x base step.
   double time() const;
 
-  /// Advances by one base step, then calls the samplers that are due. Blocks until the state is on
-  /// the host.
-  /// @throws SimulationError with step, time and cause; the state is then that of the fault.
+  /// Advances the world by one base step, then takes the samples that are due. Blocks until the new
+  /// state is available on the host.
+  /// @throws SimulationError with step, time and cause if the state becomes invalid; the world then
+  /// keeps the invalid state, for analysis.
   void step();
 
-  /// Numbers to set by name. The list never changes.
+  /// Returns the named inputs, to look them up and set them. No input is ever added or removed.
   Inputs& inputs();
+  /// Returns the named inputs, to look them up.
   const Inputs& inputs() const;
-  /// Numbers to read by name. Samplers and `watch` append to the list.
+  /// Returns the named outputs, to look them up and read them. Samplers and `watch` add outputs at
+  /// the end of the list.
   const Outputs& outputs() const;
-  /// Appends pose, velocity and angular velocity of a link to the outputs. `link` is
-  /// "machine/link": "excavator/boom" adds "excavator/boom/pose/x" to "/yaw", "/velocity/x",
-  /// "/angular_velocity/x". Has no effect on a link that is watched already.
-  /// @throws InputError for an unknown machine or link; the message names the nearest one.
+  /// Adds outputs for pose, velocity and angular velocity of a link. `link` has the form
+  /// "machine/link": "excavator/boom" adds "excavator/boom/pose/x" to "/yaw", "/velocity/x" to
+  /// "/z", and "/angular_velocity/x" to "/z". Has no effect if the link has these outputs already.
+  /// @throws InputError for an unknown machine or link; the message names the most similar one.
   void watch(const std::string& link);
-  /// Arrays that samplers publish, with time stamp, shape, unit and frame. Read them in place.
+  /// Returns the arrays that samplers publish, with time stamp, shape, unit and frame, to read them
+  /// without copying.
   const ArrayOutputs& arrays() const;
-  /// Adds a sampler and takes its first sample at once. Its outputs are appended to the lists.
-  /// @throws InputError for a name in use or an invalid rate.
+  /// Adds a sampler, appends its outputs to the lists, and takes its first sample.
+  /// @throws InputError if one of its output names is in use or its rate is invalid.
   void add(std::unique_ptr<Sampler> sampler);
 
-  /// Machines to read.
+  /// Returns access to the machines, for reading.
   Machines machines() const { return Machines(*parts_); }
-  /// Machines to drive.
+  /// Returns access to the machines, for commanding them.
   MachineCommands commands() { return MachineCommands(*parts_); }
 
-  /// Returns the resting ground. Loose soil lies beside it in soil().loose_soil().
+  /// Returns the ground columns. Active soil is not part of them; soil().loose_soil() returns it.
   const heightfield::Ground& ground() const;
-  /// Soil to measure.
+  /// Returns access to measurements of the soil.
   SoilView soil() const { return SoilView(*parts_); }
-  /// Opens the soil's energy account if it is not open. Changes no result; costs more than the soil
-  /// itself.
+  /// Starts the soil's energy account, unless it was started before. The account does not change
+  /// results, but it takes more time than the soil simulation itself.
   void keep_soil_energy();
-  /// Returns the wall time of stepping so far, by part [s].
+  /// Returns the wall time that all steps so far have taken [s], by part.
   WallTimes wall_times() const;
 
-  /// Visits all state that determines the future of a run, for core/saved_state.h:
-  /// `saved(world)`, `load_saved(bytes, world)`. Blocks until the state has been read from the
-  /// device. Loads only into a world built from the same scene, with the same samplers. A load that
-  /// throws leaves the world half loaded: load again or destroy it.
+  /// Visits all state that determines the future of a run, to hash, save or load it:
+  /// `saved(world)`, `load_saved(bytes, world)` (core/saved_state.h). Blocks until the state has
+  /// been read from the device. Loading requires a world that was built from the same scene and has
+  /// the same samplers. If loading throws, the world is left partly loaded; load again or destroy
+  /// it.
   void visit(Archive& a);
-  /// Hashes of state and start.
+  /// Returns access to hashes of the current state and of the start of the run.
   WorldHashes hashes() const { return WorldHashes(*parts_); }
 
  private:

@@ -11,20 +11,25 @@ namespace navvy::sim {
 
 struct WorldParts;
 
-/// Hashes a world, to compare two runs.
+/// Computes hashes of a world's state, to compare two runs.
 ///
-/// A view of one pointer: copy it freely. Valid as long as its world lives.
+/// An object of this class is a pointer to its world: it is cheap to copy and valid as long as the
+/// world exists.
 class WorldHashes {
  public:
-  /// Refers to the parts of a world; World::hashes makes it.
+  /// Creates an object for the world that owns `parts`. Clients call World::hashes instead.
   explicit WorldHashes(const WorldParts& parts) : parts_(&parts) {}
 
-  /// Returns the hash of World::start: every parameter of the scene and the heights of its map.
+  /// Returns the hash of what the run started from (World::start): all scene parameters and the
+  /// heights of the map.
   std::uint64_t start() const;
-  /// Returns the hash of state and start [hex]. Costs a pass over the state.
+  /// Returns the hash of the world's current state and of what the run started from [hex]. Costs a
+  /// pass over the whole state.
   std::string state() const;
-  /// Returns name and hash [hex] of the start and of every part, in the order in which a change
-  /// reaches them within a step. The first difference between two runs shows where they diverge.
+  /// Returns pairs of name and hash [hex]: first for what the run started from, then for every part
+  /// of the current state. The parts come in the order in which a change spreads between them
+  /// within a step, so in a comparison of two runs the first part that differs shows where they
+  /// diverged. Costs a pass over the whole state.
   std::vector<std::pair<std::string, std::string>> parts() const;
 
  private:

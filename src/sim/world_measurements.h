@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measurements of a world, as plain values: no solver header is included.
+// Measurements of a world as plain values, which need no header of the soil solver.
 #pragma once
 
 #include <cstdint>
@@ -10,71 +10,80 @@
 
 namespace navvy::sim {
 
-/// Counters of the soil solver since the start, unless stated otherwise.
+/// Counters of the soil solver. Unless stated otherwise, they count from the start of the
+/// simulation.
 struct SoilCounts {
+  /// Number of time steps.
   std::uint64_t steps = 0;
-  /// Sum of the active particles over all steps.
+  /// Number of active particles, summed over all steps.
   std::uint64_t particle_steps = 0;
-  /// Active particles now, and the largest number at once.
+  /// Current number of active particles, and the maximum number at any time so far.
   int particles = 0, particles_peak = 0;
-  /// Times that particles were sorted.
+  /// Number of times that the solver sorted the particles.
   std::uint64_t rebins = 0;
-  /// Columns turned into particles.
+  /// Number of columns that were turned into particles.
   std::uint64_t activated_columns = 0;
-  /// Blocks deposited into columns.
+  /// Number of particle blocks that were turned back into columns.
   std::uint64_t deposited_blocks = 0;
-  /// Particles found on the wrong side of a shell.
+  /// Number of times that a particle was found on the wrong side of a tool's shell.
   std::uint64_t shell_crossings = 0;
 };
 
-/// Entry of an energy account.
+/// One term of an energy account.
 struct EnergyTerm {
-  /// Name, as soil::report_energy gives it.
+  /// Name of the term, as soil::report_energy gives it.
   std::string name;
+  /// Energy of the term [J].
   double joule = 0;
 };
 
-/// Energy account of active soil [docs/soil.md, energy], for readers without the solver: always the
-/// same terms in the same order, the residual last.
+/// Energy account of the active soil [docs/soil.md, energy], for code that does not include the
+/// soil solver. The terms and their order are always the same; the last one is the residual, which
+/// the other terms do not explain.
 using SoilEnergy = std::vector<EnergyTerm>;
 
-/// Mass of the soil by place, one entry per soil of the scene, in units of kMassQuantum. Recounted
-/// on demand.
+/// Account of the soil mass. Each list has one entry per soil of the scene, in units of
+/// kMassQuantum.
 struct MassLedger {
-  /// Change of the ground since the start.
+  /// Mass of the soil in ground columns now, minus that at the start.
   std::vector<std::int64_t> columns;
-  /// Active soil.
+  /// Mass of the active soil (particles) now.
   std::vector<std::int64_t> particles;
-  /// Soil that left the site over its edge.
+  /// Mass of the soil that has left the site over its edge.
   std::vector<std::int64_t> left_site;
-  /// Soil added from outside, such as the load of a bed.
+  /// Mass of the soil that was added from outside, such as the initial load of a bed.
   std::vector<std::int64_t> inserted;
-  /// Sum over soils of |columns + particles + left_site - inserted|; 0: closed.
+  /// Sum over all soils of |columns + particles + left_site - inserted|. It is 0 if no mass was
+  /// gained or lost.
   std::int64_t error = 0;
 };
 
-/// One active particle as a mass over a column of the ground.
+/// One active particle as a mass above a ground column.
 struct ActiveParticle {
-  /// Column under it; may be outside the site.
+  /// Indices of the column under the particle; they may be outside the site.
   int ix = 0, iy = 0;
-  /// Index into the scene's soils.
+  /// Index of the particle's soil in the scene's list of soils.
   std::uint16_t soil = 0;
-  std::int64_t mass = 0;  ///< [kMassQuantum]
+  /// Mass of the particle in units of kMassQuantum.
+  std::int64_t mass = 0;
 };
 
-/// Wall time of stepping so far, by part [s].
+/// Wall time that the steps of a world have taken so far, by part [s].
 struct WallTimes {
+  /// Wall time of machines, of active soil, and of ground columns [s].
   double vehicle = 0, soil = 0, ground = 0;
 };
 
-/// Momentum balance between tool and soil in the last step's nodal solve, summed in double
-/// precision.
+/// Check that momentum was conserved between a tool and the soil in the last step. All sums are
+/// computed in double precision, in axes of W.
 struct MomentumBalance {
-  /// Impulse on the tool + change of the nodes' momentum [N s].
+  /// Impulse on the tool plus the change of the grid nodes' momentum [N s]; zero if momentum is
+  /// conserved.
   Vec3 residual = Vec3::Zero();
-  /// The same for angular momentum about the link's origin [N m s].
+  /// Same as `residual` for angular momentum about the origin of the tool's link [N m s].
   Vec3 residual_moment = Vec3::Zero();
-  /// Sums of the magnitudes of both; 0: no contact in this step.
+  /// Sums of the magnitudes of the terms in `residual` [N s] and `residual_moment` [N m s], to
+  /// judge the residuals by; 0 if there was no contact in the step.
   double scale = 0, scale_moment = 0;
 };
 

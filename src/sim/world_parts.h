@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a world: solver, physics engines and their coupling. For sim's own sources and for tests
-// that measure inside; a style test keeps this header out of the clients in src/.
+// Parts of a world: soil solver, physics engines and their coupling. Only the sources of sim, and
+// tests that measure inside a world, include this header; a style test checks that no client in
+// src/ does.
 #pragma once
 
 #include <cstdint>
@@ -24,70 +25,83 @@ class Device;
 
 namespace navvy::sim {
 
-// The facade that owns the parts.
+// Forward declared: the class that owns the parts and gives clients access to them.
 class World;
 
-/// Parts in the order of construction. Each refers to those above it, so it is neither copied nor
-/// moved.
+/// Parts of a world in the order of their construction. Parts hold references to parts above them,
+/// so the struct can be neither copied nor moved.
 struct WorldParts {
-  /// Builds the ground, places the machines on it, and activates and loads the soil that the scene
-  /// asks for.
-  /// @throws InputError for a scene that cannot be built, device::DeviceError for the device.
+  /// Builds the ground, places the machines on it, turns soil into particles where the scene asks
+  /// for active soil, and loads the beds. `make_engine` creates the physics engine of the dynamic
+  /// machines; if empty, Bullet is used.
+  /// @throws InputError for a scene that cannot be built; device::DeviceError if the device fails.
   WorldParts(scene::Scene world, device::Device& device,
              const vehicle::PhysicsEngineFactory& make_engine);
   WorldParts(const WorldParts&) = delete;
   WorldParts& operator=(const WorldParts&) = delete;
 
-  /// Updates all encoders, after each step of the machines.
+  /// Updates all encoders from the current joint positions; must be called after each step of the
+  /// machines.
   void advance_encoders();
-  /// Returns whether any machine has an encoder.
+  /// Returns true if any machine has an encoder.
   bool has_encoders() const;
 
-  /// Visits all state that determines the future of a run (World::visit).
+  /// Visits all state that determines the future of a run, to hash, save or load it (World::visit).
   void visit(Archive& a);
 
-  /// Returns the simulated time [s].
+  /// Returns the simulated time since the start of the simulation [s].
   double time() const { return static_cast<double>(steps) * dt; }
 
-  /// The scene.
+  /// Scene that the world was built from.
   scene::Scene description;
+  /// Ground columns of the site.
   heightfield::Ground ground;
-  /// Physics engines of dynamic and of kinematic machines.
+  /// Physics engine of the dynamic machines, and that of the kinematic machines. Neither is null.
   std::unique_ptr<vehicle::PhysicsEngine> dynamic, kinematic;
-  /// Soil solver, which changes `ground` as particles become active and come to rest.
+  /// Soil solver. It changes `ground` when columns become particles and when particles become
+  /// columns again.
   soil::Solver soil;
-  /// Steps the four above and maps machines to engines.
+  /// Coupling that steps ground, physics engines and soil together. It maps each machine of the
+  /// scene to its engine and its index there.
   coupling::Coupling coupling;
-  /// Encoders by machine of the scene; most have none.
+  /// Encoders of each machine, in the scene's order. Most machines have none.
   std::vector<vehicle::Encoders> encoders;
-  /// Clients' view: numbers to set and to read, arrays to read.
+  /// Named inputs, which clients set.
   Inputs inputs;
+  /// Named scalar outputs, which clients read.
   Outputs outputs;
+  /// Named arrays, which samplers fill and clients read.
   ArrayOutputs arrays;
-  /// Samplers in the order in which they were added, which is the order of sampling, hash and
-  /// snapshot.
+  /// Samplers in the order in which they were added. They are sampled, hashed and saved in this
+  /// order.
   std::vector<std::unique_ptr<SamplerSlot>> samplers;
-  /// Start of the run by name, and its hash. Neither ever changes.
+  /// Parameters and map hash that the run started from (start_of in sim/snapshot.h). Never changes
+  /// after construction.
   scene::Parameters start;
+  /// Hash of `start`. Never changes after construction.
   std::uint64_t start_hash = 0;
   /// Longest base step that soil and scene allow [s].
   double longest_step = 0;
-  /// Base step [s].
+  /// Length of the base step [s].
   double dt = 0;
+  /// Number of base steps taken since the start of the simulation.
   std::uint64_t steps = 0;
 
  private:
-  /// Fills the machine's bed with the load that the scene gives it.
+  /// Fills the bed of a machine with the initial load that the scene specifies. Has no effect if
+  /// `tool` is not a bed or there is no load.
   void fill_bed(const coupling::ToolLoad& tool);
-  /// Turns a rectangle of the ground into particles.
+  /// Turns the ground in a box of initially active soil into particles.
   void activate(const scene::ActiveSoil& active);
 };
 
-/// Checks the index of a hitch. @throws InputError for an index that is no hitch of the scene.
+/// Checks that `hitch` is an index into scene::Scene::hitches.
+/// @throws InputError if it is not.
 void require_hitch(const scene::Scene& scene, int hitch);
 
-/// Returns the parts of a world: `parts(world).soil.particles()`.
+/// Returns the parts of a world, for example `parts(world).soil.particles()`.
 WorldParts& parts(World& world);
+/// Returns the parts of a world for reading.
 const WorldParts& parts(const World& world);
 
 }  // namespace navvy::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terrain of a world at one instant.
+// The terrain of a world and the distribution of its active soil, both at one instant.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,30 @@
 
 namespace navvy::sim {
 
-/// Returns an immutable copy of the world's terrain, stamped with its time. Pictures, maps, files,
-/// operators and planners read it and name the surface they need.
+/// Returns an immutable copy of the world's terrain at the current simulated time. `surface`
+/// selects the surface that heights refer to: the columns only, or the columns with loose soil on
+/// them.
 ///
-/// The columns alone cost what changed since the last view, microseconds; loose soil costs a pass
-/// over the particles.
+/// For the columns only, the cost depends on what has changed since the last view (microseconds). A
+/// surface with loose soil costs a pass over all particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
 
-/// Active soil by place [docs/exchange.md, maps]. Masses are by soil of the scene [kMassQuantum];
-/// the three masses of a soil sum to the ledger's particles exactly.
+/// Distribution of the active soil between ground, tools and air [docs/exchange.md, maps]. Each
+/// mass list has one entry per soil of the scene, in units of kMassQuantum. The three masses of a
+/// soil sum exactly to its mass in MassLedger::particles.
 struct ActivePlaces {
-  /// Soil on columns, which maps add to them.
+  /// Active soil that lies on ground columns. Maps add it to the height of the columns.
   heightfield::LooseSoil lying;
-  /// Its mass.
+  /// Mass of the soil in `lying`, per soil of the scene [kMassQuantum].
   std::vector<std::int64_t> resting;
-  /// Mass in buckets and beds, which payloads count.
+  /// Mass of the soil in buckets and beds, per soil of the scene [kMassQuantum]; payloads contain
+  /// it.
   std::vector<std::int64_t> held;
-  /// Mass in the air, or on a tool above its rim.
+  /// Mass of the soil in the air or on a tool above its rim, per soil of the scene [kMassQuantum].
   std::vector<std::int64_t> elsewhere;
 };
-/// Sorts the active soil by place. Costs a pass over the particles.
+/// Returns the distribution of the world's active soil between ground, tools and air. Costs a pass
+/// over all particles.
 ActivePlaces active_places(const World& world);
 
 }  // namespace navvy::sim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Channels by part: each function declares the inputs and outputs of one part, in a file of its
-// own. sim/world_channels.cpp calls them in the order that telemetry shows.
+// Functions that declare the channels (named inputs and outputs) of one kind of part each.
+// sim/world_channels.cpp calls them in the order in which telemetry shows the channels.
 #pragma once
 
 #include <string>
@@ -12,54 +12,63 @@ namespace navvy::sim {
 
 class World;
 
-/// World and lists in which a part declares its channels. Their functions keep references to the
-/// world and handles, so the world must outlive both lists.
+/// A world and the two lists in which its parts declare their channels. The declared channels keep
+/// references to the world, so the world must outlive both lists.
 struct ChannelLists {
+  /// World whose parts the channels read and command.
   World& world;
+  /// List that receives the inputs.
   Inputs& inputs;
+  /// List that receives the outputs.
   Outputs& outputs;
 };
 
-/// The same, for one machine.
+/// A world, its channel lists, and the machine whose channels are declared.
 struct MachineChannels : ChannelLists {
+  /// Machine whose channels are declared.
   MachineHandle machine;
-  /// The machine's name and a slash, which every name of its channels starts with.
+  /// Start of each channel name: the machine's name and a slash.
   std::string prefix;
 };
 
-/// Letters of the axes of W, by index, for names of channels.
+/// Names of the axes of W in channel names, by axis index.
 inline constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
-/// Declares the number of active particles.
+/// Declares an output for the number of active particles.
 void add_soil_channels(const ChannelLists& out);
-/// Declares position, velocity and effort of every joint as inputs and outputs, its brake and the
-/// force of its cylinder.
+/// Declares inputs and outputs for position, velocity and effort of every joint and for its brake,
+/// and an output for the force of its cylinder.
 void add_joint_channels(const MachineChannels& out);
-/// Declares flow and pressure of the pump that feeds all cylinders.
+/// Declares outputs for flow and pressure of the pump that feeds the machine's cylinders.
 void add_pump_channels(const MachineChannels& out);
-/// Declares levers as an operator's hands move them.
+/// Declares inputs for the hydraulic levers that an operator moves by hand.
 void add_lever_channels(const MachineChannels& out);
-/// Declares speed, steering, brake, gear and motor speed of the drive as inputs.
+/// Declares inputs for speed, steering, brake, gear and motor speed of the machine's drive.
 void add_drive_channels(const MachineChannels& out);
-/// Declares the steering error of a drive with a tie rod.
+/// Declares an output for the steering error of a drive with a tie rod: the difference between the
+/// outer wheel's angle and the ideal one.
 void add_steering_channels(const MachineChannels& out);
-/// Declares speeds and torques of the combustion engine, the differentials and the half shafts.
+/// Declares outputs for speeds and torques of the combustion engine, the differentials and the half
+/// shafts.
 void add_shaft_channels(const MachineChannels& out);
-/// Declares the pose of a kinematic machine's base as inputs.
+/// Declares inputs for the target pose of a kinematic machine's base link.
 void add_base_channels(const MachineChannels& out);
-/// Declares pose and velocity of a link. `prefix` starts the names; `link_name` is the link in
-/// their descriptions.
+/// Declares outputs for pose and velocity of a link. `prefix` is the start of the channel names;
+/// `link_name` is the name of the link in the channel descriptions.
 void add_pose_channels(const LinkHandle& link, const std::string& prefix,
                        const std::string& link_name, Outputs& outputs);
-/// Declares spin, slip and load of every wheel.
+/// Declares outputs for spin, slip and load of every wheel.
 void add_wheel_channels(const MachineChannels& out);
-/// Declares tilt, margin and tipping load of a machine that can tip.
+/// Declares outputs for tilt, margin and tipping load of a machine that can tip over.
 void add_stability_channels(const MachineChannels& out);
-/// Declares counts and faults of every encoder.
+/// Declares an output for the counts of every encoder, and inputs for its errors: slip and missed
+/// counts.
 void add_encoder_channels(const MachineChannels& out);
-/// Declares soil forces, rock forces and payload of a tool, and the tip of a bucket.
+/// Declares outputs for soil forces, rock forces and payload of a tool and, for a bucket, the
+/// position and velocity of its tip.
 void add_tool_channels(const ToolHandle& tool, const ChannelLists& out);
-/// Declares state and force of every hitch, under the name of the machine that is towed.
+/// Declares inputs and outputs for every hitch: closed or open, distance of the eye from the hook,
+/// and force. The names start with the name of the towed machine.
 void add_hitch_channels(const ChannelLists& out);
 
 }  // namespace navvy::sim
