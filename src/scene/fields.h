@@ -53,7 +53,7 @@ struct Mark {
     /// The element affects what a run displays or writes, but not what it computes. It is therefore
     /// not a parameter (scene/parameters.h).
     kShown = 2,
-    kSdf = 4,        ///< the element belongs to SDF and is read by libsdformat
+    kSdf = 4,        ///< the element belongs to SDF, not to the namespace `navvy:`
     kAttribute = 8,  ///< the field is an attribute of the element, not a child element
     kDerived = 16,  ///< the value follows from other elements: it is a parameter but has no element
     kOwnReader = 32,  ///< the element has a reader of its own; the general reader skips it
