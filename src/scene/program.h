@@ -46,7 +46,7 @@ class ProgramStep {
  public:
   /// Wraps a step of the type T.
   template <class T, class = std::enable_if_t<std::is_base_of_v<Step, T>>>
-  ProgramStep(T step) : step_(std::make_shared<T>(std::move(step))) {}
+  ProgramStep(T step) : step_(std::make_shared<T>(std::move(step))) {}  // NOLINT: implicit
 
   /// Returns the step.
   const Step& operator*() const { return *step_; }

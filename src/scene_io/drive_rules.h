@@ -7,8 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Checks the linkage, differentials and engine of a drive that has been read from a <navvy:drive>
-/// child of `element`, and sets `engine_power` if the engine also drives the pump.
+/// Checks the linkage, differentials and engine of a drive after it has been read from `element`, a
+/// <navvy:drive>, and sets `engine_power` if the engine also drives the pump.
 void finish_drive(Element& element, scene::Drive& drive, Faults& faults);
 
 /// Sorts the rollers of every track from front to rear, then checks the conditions for tracks: the
@@ -16,8 +16,9 @@ void finish_drive(Element& element, scene::Drive& drive, Faults& faults);
 /// has a differential drive. The joints, links and drive of `machine` must have been read.
 void finish_tracks(Element& model, scene::Machine& machine, Faults& faults);
 
-/// Checks that wheels and pump meet the conditions of the drive's type. The joints, links and pump
-/// of `machine` must have been read.
+/// Checks that the wheels and the pump meet the conditions of the drive's type. `element` is the
+/// <navvy:drive>, at which errors are reported. The joints, links and pump of `machine` must have
+/// been read.
 void check_wheels(const Element& element, const scene::Machine& machine, Faults& faults);
 
 }  // namespace navvy::scene_io
