@@ -159,7 +159,7 @@ class Archive {
   virtual void scalar(void* data, std::size_t size) = 0;
   /// Hashes, saves or loads `size` bytes of consecutive plain values at the address `data`.
   virtual void block(void* data, std::size_t size) = 0;
-  /// Begins a section; sections may be nested.
+  /// Begins the section `tag` with this format version; sections may be nested.
   virtual void begin_section(const char* tag, std::uint32_t version) = 0;
   /// Ends the innermost section.
   virtual void end_section() = 0;
@@ -180,9 +180,9 @@ class Archive {
  private:
   // ArchiveParts implements the visits of all types and needs `scalar`, `block` and the path.
   friend struct ArchiveParts;
-  /// Appends an element to the path during its lifetime.
+  /// Appends one element to the path of the current field for as long as the object exists.
   class Scope;
-  /// Excludes fields from the hash during its lifetime.
+  /// Excludes fields from the hash for as long as the object exists.
   class Unhashed;
   /// One element of the path.
   struct Place {
@@ -192,7 +192,7 @@ class Archive {
 
   const bool loading_;       ///< true: the archive loads; fixed at construction
   int unhashed_ = 0;         ///< nesting depth of `unhashed` and `constant`
-  const char* reason_ = "";  ///< result of `reason()`
+  const char* reason_ = "";  ///< reason given to the innermost `unhashed`; empty outside it
   /// Path from the outermost field to the current one. It stores pointers and indices, so that no
   /// text is built unless a path is needed.
   std::vector<Place> places_;

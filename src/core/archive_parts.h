@@ -65,7 +65,7 @@ class Archive::Scope {
   Archive& archive_;
 };
 
-/// Excludes fields from the hash during its lifetime. Objects of this class may be nested: the
+/// Excludes fields from the hash for as long as the object exists. Objects may be nested: the
 /// reason of the innermost one applies, and its destruction restores the outer one. Saving and
 /// loading are not affected.
 class Archive::Unhashed {

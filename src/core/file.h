@@ -16,7 +16,8 @@ namespace navvy {
 /// @throws FileError naming path and cause (disk full, no permission, no such folder), also if
 /// `path` exists but is not a regular file: a pipe, socket, device or folder is left unchanged
 void write_file_atomically(const std::string& path, const std::string& content);
-/// Does the same with the content as bytes.
+/// Replaces the file at `path` atomically by a file with these bytes, like the function above for
+/// text.
 void write_file_atomically(const std::string& path, const std::vector<char>& content);
 
 /// Checks that `path` could be written, without changing it. Call it before a long run. It does not
@@ -44,8 +45,8 @@ void commit_file(const std::string& path);
 /// @throws FileError naming the path and its file type, if it is something else
 void require_regular(const std::string& path);
 
-/// Returns true if both paths refer to the same existing file, even if they are written
-/// differently; false if either is empty.
+/// Returns true if both paths refer to the same existing file, even if they are spelled
+/// differently; false if one of them is empty or refers to no file.
 bool same_file(const std::string& a, const std::string& b);
 
 /// Returns the content of a file.

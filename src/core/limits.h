@@ -11,114 +11,117 @@
 
 namespace navvy::limits {
 
-/// Number of bytes in one MiB. All limits below are maximum values.
+/// Number of bytes in one MiB.
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
 // Scene, machine and soil files.
-/// Size of one XML file [bytes].
+/// Maximum size of one XML file [bytes].
 inline constexpr std::size_t kXmlBytes = 16 * kMegabyte;
-/// Number of elements in one XML file, including those in comments.
+/// Maximum number of elements in one XML file, including those in comments.
 inline constexpr std::size_t kXmlElements = 100'000;
-/// Nesting depth of elements in an XML file.
+/// Maximum nesting depth of elements in an XML file.
 inline constexpr std::size_t kXmlNesting = 64;
-/// Nesting depth of models that contain other models as parts.
+/// Maximum nesting depth of models that contain other models as parts.
 inline constexpr std::size_t kModelNesting = 8;
-/// Number of attributes of one XML element.
+/// Maximum number of attributes of one XML element.
 inline constexpr std::size_t kXmlAttributes = 32;
-/// Length of an attribute name="..." and of the name of an XML element [bytes].
+/// Maximum length of an attribute name="..." and of the name of an XML element [bytes].
 inline constexpr std::size_t kNameBytes = 200;
-/// Total size of all XML files of a scene [bytes].
+/// Maximum total size of all XML files of a scene [bytes].
 inline constexpr std::size_t kSceneBytes = 256 * kMegabyte;
-/// Number of XML files of a scene; the file of a part counts at each use.
+/// Maximum number of XML files of a scene; the file of a part counts at each use.
 inline constexpr std::size_t kSceneFiles = 2000;
-/// Number of XML elements of a scene; those of an included file count at each use.
+/// Maximum number of XML elements of a scene; those of an included file count at each use.
 inline constexpr std::size_t kSceneElements = 400'000;
-/// Number of errors that are reported individually, and number of warnings.
+/// Maximum number of errors that are reported individually, and number of warnings.
 inline constexpr std::size_t kFaultsShown = 100;
 
 // Content of a scene.
-/// Number of machines that a scene includes, and number of machines in the scene file itself; also
-/// the number of cameras, of lights, of hitches and of records.
+/// Maximum number of machines that a scene includes, and number of machines in the scene file
+/// itself; also the number of cameras, of lights, of hitches and of records.
 inline constexpr std::size_t kMachines = 500;
-/// Number of soils; columns and particles store a soil's index in one byte.
+/// Maximum number of soils; columns and particles store a soil's index in one byte.
 inline constexpr std::size_t kSoils = 255;
-/// Number of layers of the ground or of a patch.
+/// Maximum number of layers of the ground or of a patch.
 inline constexpr std::size_t kGroundLayers = 100;
-/// Number of patches, of active rectangles, and of shapes of each type.
+/// Maximum number of patches, of active rectangles, and of shapes of each type.
 inline constexpr std::size_t kGroundParts = 1000;
-/// Number of pairs in a table of materials.
+/// Maximum number of pairs in a table of materials.
 inline constexpr std::size_t kMaterialPairs = 1000;
-/// Number of steps of a program.
+/// Maximum number of steps of a program.
 inline constexpr std::size_t kSteps = 2000;
-/// Number of links of a machine; also of its joints, frames, cylinders and wheels.
+/// Maximum number of links of a machine; also of its joints, frames, cylinders and wheels.
 inline constexpr std::size_t kLinks = 300;
-/// Number of visuals of a link, and number of its collisions.
+/// Maximum number of visuals of a link, and number of its collisions.
 inline constexpr std::size_t kShapes = 200;
-/// Number of shells of a machine.
+/// Maximum number of shells of a machine.
 inline constexpr std::size_t kShells = 100;
-/// Number of triangles of one shell; nearby particles are tested against each of them.
+/// Maximum number of triangles of one shell; nearby particles are tested against each of them.
 inline constexpr std::size_t kShellTriangles = 5'000;
-/// Total number of pieces into which the shells of a scene are divided (geometry/pieces.h).
+/// Maximum total number of pieces into which the shells of a scene are divided (geometry/pieces.h).
 inline constexpr std::size_t kShellPieces = 1'000'000;
 /// Highest allowed value of the scene's limit on the number of particles. A particle takes 216
 /// bytes.
 inline constexpr double kParticles = 2e8;
 
 // Meshes.
-/// Size of one OBJ file [bytes].
+/// Maximum size of one OBJ file [bytes].
 inline constexpr std::size_t kObjBytes = 64 * kMegabyte;
-/// Length of one line of an OBJ file [bytes].
+/// Maximum length of one line of an OBJ file [bytes].
 inline constexpr std::size_t kObjLineBytes = 4096;
-/// Number of vertices of one OBJ file.
+/// Maximum number of vertices of one OBJ file.
 inline constexpr std::size_t kObjVertices = 2'000'000;
-/// Number of triangles of one OBJ file.
+/// Maximum number of triangles of one OBJ file.
 inline constexpr std::size_t kObjTriangles = 1'000'000;
-/// Number of corners of one face in an OBJ file.
+/// Maximum number of corners of one face in an OBJ file.
 inline constexpr std::size_t kObjCorners = 64;
-/// Number of lines of one OBJ file that are neither vertices nor faces, such as groups and
+/// Maximum number of lines of one OBJ file that are neither vertices nor faces, such as groups and
 /// materials.
 inline constexpr std::size_t kObjStatements = 100'000;
-/// Number of material files (MTL) that one OBJ file names.
+/// Maximum number of material files (MTL) that one OBJ file names.
 inline constexpr std::size_t kMtlFiles = 16;
-/// Size of one material file (MTL) [bytes].
+/// Maximum size of one material file (MTL) [bytes].
 inline constexpr std::size_t kMtlBytes = kMegabyte;
-/// Number of vertices of a mesh whose convex hull is a collision shape.
+/// Maximum number of vertices of a mesh whose convex hull is a collision shape.
 inline constexpr std::size_t kHullVertices = 50'000;
-/// Number of mesh files that the shapes of a scene name.
+/// Maximum number of mesh files that the shapes of a scene name.
 inline constexpr std::size_t kSceneMeshes = 1000;
-/// Total size of all mesh files of a scene [bytes]; the mesh of a shell counts at each use.
+/// Maximum total size of all mesh files of a scene [bytes]; the mesh of a shell counts at each use.
 inline constexpr std::size_t kSceneMeshBytes = 512 * kMegabyte;
-/// Absolute value of a vertex coordinate in a mesh [m].
+/// Maximum absolute value of a vertex coordinate in a mesh [m].
 inline constexpr double kCoordinate = 1e6;
 
 // Maps. A map may have any size: only the part at the site is read.
-/// Number of map cells in memory at the same time, about 100 MB; larger maps are read in parts.
+/// Maximum number of map cells in memory at the same time, about 100 MB; larger maps are read in
+/// parts.
 inline constexpr double kMapCells = 2.5e7;
-/// Size of one block of a map, which must be read as a whole [bytes].
+/// Maximum size of one block of a map, which must be read as a whole [bytes].
 inline constexpr double kMapBlockBytes = 256e6;
-/// Decoded size of all map blocks that the site touches [bytes].
+/// Maximum decoded size of all map blocks that the site touches [bytes].
 inline constexpr double kMapDecodedBytes = 4e9;
-/// Size of a .prj, .aux.xml or world file next to a map [bytes].
+/// Maximum size of a .prj, .aux.xml or world file next to a map [bytes].
 inline constexpr std::size_t kMapSidecarBytes = 4 * kMegabyte;
-/// Length of one number in an ESRI ASCII grid [bytes].
+/// Maximum length of one number in an ESRI ASCII grid [bytes].
 inline constexpr std::size_t kMapWordBytes = 64;
-/// Size of an ESRI ASCII grid without its header [bytes].
+/// Maximum size of an ESRI ASCII grid without its header [bytes].
 inline constexpr std::size_t kMapTextBytes = 1000 * kMegabyte;
-/// Size of an NPY file, which is read as a whole [bytes].
+/// Maximum size of an NPY file, which is read as a whole [bytes].
 inline constexpr std::size_t kNpyBytes = 512 * kMegabyte;
 
 // Design surfaces.
-/// Size of one LandXML file [bytes].
+/// Maximum size of one LandXML file [bytes].
 inline constexpr std::size_t kLandXmlBytes = 64 * kMegabyte;
-/// Number of elements in a LandXML file; each point and each face of any surface is an element.
+/// Maximum number of elements in a LandXML file; each point and each face of any surface is an
+/// element.
 inline constexpr std::size_t kLandXmlElements = 1'500'000;
-/// Number of corners of one design area.
+/// Maximum number of corners of one design area.
 inline constexpr std::size_t kDesignCorners = 1000;
-/// Number of areas of a design.
+/// Maximum number of areas of a design.
 inline constexpr std::size_t kDesignAreas = 100;
 
 // Snapshots.
-/// Distance from the world's origin of a machine or tool in a snapshot [m]; no site is that large.
+/// Maximum distance from the world's origin of a machine or tool in a snapshot [m]; no site is that
+/// large.
 inline constexpr double kFarthest = 1e7;
 
 }  // namespace navvy::limits

@@ -32,7 +32,8 @@ const std::vector<RenamedName>& renamed_names();
 /// Returns the current name for `name` if that is an old name of the type `kind`, otherwise `name`
 /// unchanged. Logs a warning at the first use of each old name. Thread-safe.
 std::string current_name(NameKind kind, const std::string& name);
-/// Does the same with the given table instead of `renamed_names()`; for tests.
+/// Returns the current name for `name` according to `table` instead of `renamed_names()`; for
+/// tests.
 std::string current_name(NameKind kind, const std::string& name,
                          const std::vector<RenamedName>& table);
 

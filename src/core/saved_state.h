@@ -25,7 +25,7 @@ inline constexpr std::size_t kSectionHead = 16 + 4 + 8;
 /// Assigns the bytes of a saved state to fields. Tests use it to name the field of a flipped byte,
 /// and people to see where two states differ. It is not part of a saved state.
 struct ByteMap {
-  /// One field and its bytes.
+  /// One saved field and the position of its bytes in the state.
   struct Field {
     /// Position of the first byte in the state, and number of bytes.
     std::size_t offset = 0, size = 0;

@@ -112,7 +112,8 @@ class Buffer {
   Buffer(Device& device, std::span<const T> values) : Buffer(device, values.size()) {
     write(values);
   }
-  /// Does the same for the values of a vector.
+  /// Allocates memory for the values of a vector, copies them and waits until they are on the
+  /// device.
   Buffer(Device& device, const std::vector<T>& values)
       : Buffer(device, std::span<const T>(values)) {}
 
@@ -137,8 +138,8 @@ class Buffer {
     need(at, values.size());
     raw_.write(values.data(), at * sizeof(T), values.size() * sizeof(T));
   }
-  /// Does the same without waiting: `values` must remain valid and unchanged until a later call has
-  /// waited.
+  /// Copies `values` to the elements from index `at` onwards without waiting: `values` must remain
+  /// valid and unchanged until a later call has waited.
   void write_later(std::span<const T> values, std::size_t at = 0) {
     need(at, values.size());
     raw_.write(values.data(), at * sizeof(T), values.size() * sizeof(T), false);
@@ -170,13 +171,13 @@ class Buffer {
   Mapped<const T> map_read(std::size_t at = 0, std::size_t count = npos) const {
     return mapped<const T>(RawBuffer::Access::kRead, at, count);
   }
-  /// Maps elements for reading without waiting: the values are valid only after a later call has
-  /// waited.
+  /// Maps `count` elements from index `at` onwards (default: all remaining ones) for reading,
+  /// without waiting: the values are valid only after a later call has waited.
   Mapped<const T> map_read_later(std::size_t at = 0, std::size_t count = npos) const {
     return mapped<const T>(RawBuffer::Access::kRead, at, count, false);
   }
-  /// Maps elements for reading and writing. If host and device do not share memory, this costs a
-  /// copy in each direction.
+  /// Maps `count` elements from index `at` onwards (default: all remaining ones) for reading and
+  /// writing. If host and device do not share memory, this copies the elements in each direction.
   Mapped<T> map_update(std::size_t at = 0, std::size_t count = npos) {
     return mapped<T>(RawBuffer::Access::kUpdate, at, count);
   }
@@ -196,7 +197,8 @@ class Buffer {
                         std::to_string(at) + " + " + std::to_string(count) + " is outside");
     }
   }
-  /// Maps a range for `access`; an empty range is not mapped, as OpenCL refuses it.
+  /// Maps `count` elements from index `at` onwards for `access`; with `wait`, waits for work queued
+  /// before. An empty range is not mapped, as OpenCL refuses it.
   template <class U>
   Mapped<U> mapped(RawBuffer::Access access, std::size_t at, std::size_t count,
                    bool wait = true) const {

@@ -68,7 +68,8 @@ class KernelCache {
   /// Compares the files with the manifest and removes every program with a file that differs.
   /// `alone` is true if no other process uses the folder.
   void check(bool alone);
-  /// Removes these programs, with all their files, from the folder and from the manifest.
+  /// Removes the compiled programs in the folders `programs`, with all their files, from the cache
+  /// folder and from `manifest`.
   void remove_programs(const std::set<std::filesystem::path>& programs, Manifest manifest);
   /// Takes an exclusive lock if no other process uses the folder, otherwise a shared one.
   void lock();
@@ -85,8 +86,8 @@ class KernelCache {
 struct KernelCacheStatus {
   /// Path of the folder that the driver uses; empty if no folder can be written.
   std::string folder;
-  /// Reason why this is not the usual folder, or what was wrong in the folder; empty if there was
-  /// no problem.
+  /// Reason why `folder` is not the usual folder, or what was wrong in the folder; empty if there
+  /// was no problem.
   std::string trouble;
   /// True: the folder was created for this process and is removed when it ends.
   bool temporary = false;

@@ -25,7 +25,8 @@ namespace navvy::device {
 /// unroll loops and remove branches. Each value gives a separate program to compile and store, so
 /// use it only for numbers with few different values.
 std::string define(const std::string& name, int value);
-/// Returns this option for a float, written such that the kernel receives exactly the same value.
+/// Returns the compiler option "-DNAME=value" for a float, written such that the kernel receives
+/// exactly the same value.
 std::string define(const std::string& name, float value);
 /// Deleted: a double would otherwise be converted to an int without a message.
 std::string define(const std::string& name, double value) = delete;
@@ -99,10 +100,10 @@ class Kernel {
   void set(unsigned index, const Buffer<T>& buffer) {
     set_buffer(index, buffer.raw());
   }
-  /// Reserves local memory as the argument with this index.
+  /// Sets the argument with the 0-based `index` to local memory, which is reserved per work-group.
   void set(unsigned index, LocalMemory memory) { set_bytes(index, nullptr, memory.bytes); }
-  /// Sets the argument with this index to a number or a plain struct. A struct must have the same
-  /// layout on host and device; headers shared by both assert it.
+  /// Sets the argument with the 0-based `index` to a number or a plain struct. A struct must have
+  /// the same layout on host and device; headers shared by both assert it.
   template <class T>
   void set(unsigned index, const T& value) {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
@@ -127,10 +128,10 @@ class Kernel {
   /// Checks that the kernel has `count` arguments. The message names the kernel; the driver itself
   /// would report an error only at the launch.
   void expect(std::size_t count) const;
-  /// Sets the argument with this index to a buffer.
+  /// Sets the argument with the 0-based `index` to a buffer.
   void set_buffer(unsigned index, const RawBuffer& buffer);
-  /// Sets the argument with this index to a copy of `bytes` bytes at `data`; null: local memory of
-  /// this size.
+  /// Sets the argument with the 0-based `index` to a copy of `bytes` bytes at `data`. If `data` is
+  /// null, reserves `bytes` bytes of local memory per work-group instead.
   void set_bytes(unsigned index, const void* data, std::size_t bytes);
   /// Queues a launch; all launches use this function. It records the profile and announces a first
   /// compilation. A null `local` lets the driver choose the work-group size.

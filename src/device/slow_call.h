@@ -15,8 +15,8 @@ namespace navvy::device {
 /// costs some tens of microseconds: use it around a build or a first launch, not around every call.
 class SlowCall {
  public:
-  /// Starts the time. `text` is logged after `seconds` [s]; it must be complete, as the thread
-  /// cannot query a device that is busy.
+  /// Starts to measure the time; `text` is logged after `seconds` [s]. The text must be complete in
+  /// advance, as the thread that logs it cannot query a busy device.
   explicit SlowCall(std::string text, double seconds = kPatience);
   /// Ends the thread at once; waits only if the message is just being logged.
   ~SlowCall();

@@ -7,18 +7,19 @@
 
 namespace navvy::geometry {
 
-/// Returns the properties of a box with these edge lengths [m] and a density of 1 kg/m3. The bodies
-/// of this function and the following ones are centred at the origin of their frame.
+/// Returns the properties of a box with these edge lengths [m] and a density of 1 kg/m3, centred at
+/// the origin.
 SolidProperties solid_box(const Vec3& edges);
-/// Returns the properties of a sphere [m] with a density of 1 kg/m3.
+/// Returns the properties of a sphere [m] with a density of 1 kg/m3, centred at the origin.
 SolidProperties solid_sphere(double radius);
-/// Returns the properties of a cylinder along z [m] with a density of 1 kg/m3.
+/// Returns the properties of a cylinder [m] along z with a density of 1 kg/m3, centred at the
+/// origin.
 SolidProperties solid_cylinder(double radius, double length);
-/// Returns the properties of a cone along z [m] with a density of 1 kg/m3. Its base is at z =
-/// -length / 2 and its tip at z = length / 2, so its centre of mass is at z = -length / 4.
+/// Returns the properties of a cone [m] along z with a density of 1 kg/m3. The base is at z =
+/// -length / 2 and the tip at z = length / 2, so the centre of mass is at z = -length / 4.
 SolidProperties solid_cone(double radius, double length);
-/// Returns the properties of a cylinder along z [m] with a hemisphere at each end and a density of
-/// 1 kg/m3. `length` does not include the hemispheres.
+/// Returns the properties of a cylinder [m] along z with a hemisphere at each end and a density of
+/// 1 kg/m3, centred at the origin. `length` does not include the hemispheres.
 SolidProperties solid_capsule(double radius, double length);
 
 /// Returns the properties of a body expressed in a frame A. X_AB is the pose in A of the body's own

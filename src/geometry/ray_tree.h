@@ -50,8 +50,8 @@ class RayTree {
   /// moved.
   struct Node {
     Box box;  ///< bounding box of all triangles below this node
-    /// For a leaf, the index in `order_` of its first triangle. For an inner node, the index in
-    /// `nodes_` of its left child; the right child follows it.
+    /// Index in `order_` of the first triangle of a leaf. In an inner node: index in `nodes_` of
+    /// the left child, which the right child follows.
     std::uint32_t first = 0;
     std::uint32_t count = 0;  ///< number of triangles of a leaf; 0 for an inner node
   };

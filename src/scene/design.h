@@ -42,7 +42,7 @@ struct DesignArea {
   /// Coordinates of `polygon` as the file lists them: x y x y ...
   std::vector<double> polygon_numbers;
 
-  /// Lists the elements of an <area>.
+  /// Passes the fields of an <area> to the visitor `f`.
   void describe(Fields& f) {
     f("polygon_m", polygon_numbers, {-1e6, 1e6},
       "Coordinates x y in W of 3 to 1000 corners; edges must not cross.", kNeeded);
@@ -67,7 +67,7 @@ struct Design {
 
   /// Returns true if the scene has a design.
   bool any() const { return !file.empty() || !areas.empty(); }
-  /// Lists the elements of <navvy:design>.
+  /// Passes the fields of <navvy:design> to the visitor `f`.
   void describe(Fields& f) {
     f("file", file,
       "LandXML 1.2 TIN or a raster as for the ground, in the coordinates of the ground's map.",

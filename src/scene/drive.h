@@ -23,7 +23,7 @@ struct Powertrain {
   /// engines.
   double engine_power = 0;
 
-  /// Lists the elements of the powertrain.
+  /// Passes the fields of the powertrain to the visitor `f`.
   void describe(Fields& f) {
     f("max_speed_m_per_s", max_speed, {0.01, 50}, "Top speed, forwards and backwards.");
     f("tractive_force_n", tractive_force, {0.1, 1e7},
@@ -45,15 +45,16 @@ struct CombustionEngine {
   /// One point of the torque curve at full throttle.
   struct Point {
     double speed = 0;   ///< engine speed [rad/s]
-    double torque = 0;  ///< torque at this speed [N m]
+    double torque = 0;  ///< torque at the engine speed `speed` [N m]
 
-    /// Lists the elements of a <point>.
+    /// Passes the fields of a <point> to the visitor `f`.
     void describe(Fields& f) {
       f("speed_rpm", speed, {1, 1e5}, "Engine speed.", kNeeded);
       f("torque_nm", torque, {0, 1e6}, "Torque at full throttle.", kNeeded);
     }
   };
-  Kind kind = Kind::kTorqueCurve;  ///< which of the two models the engine uses
+  /// Type of the engine: with a torque curve, or a source of speed.
+  Kind kind = Kind::kTorqueCurve;
   std::vector<Point> curve;  ///< torque curve, linear between its points; only for kTorqueCurve
   /// Torque needed to turn an engine with a torque curve without fuel [N m].
   double braking_torque = 0;
@@ -68,7 +69,7 @@ struct CombustionEngine {
   /// true: the engine also drives the hydraulic pump, which is served first
   bool shared_with_pump = false;
 
-  /// Lists the elements of an <engine>.
+  /// Passes the fields of an <engine> to the visitor `f`.
   void describe(Fields& f) {
     f("kind", kind, {{"torque_curve", Kind::kTorqueCurve}, {"speed_source", Kind::kSpeedSource}},
       "Kind of the engine.", kNeeded);
@@ -101,7 +102,7 @@ struct Differential {
   double preload = 0;       ///< locking torque without load, for limited slip [N m]
   double bias = 0;          ///< locking torque / transmitted torque, for limited slip [-]
 
-  /// Lists the elements of a differential.
+  /// Passes the fields of a differential to the visitor `f`.
   void describe(Fields& f) {
     f("kind", kind,
       {{"open", Kind::kOpen}, {"locked", Kind::kLocked}, {"limited_slip", Kind::kLimitedSlip}},
@@ -133,7 +134,7 @@ struct AckermannDrive : Powertrain {
   /// Engine with gears; empty: the governed motor of `Powertrain` drives the wheels.
   std::optional<CombustionEngine> engine;
 
-  /// Lists the elements of an Ackermann drive.
+  /// Passes the fields of an Ackermann drive to the visitor `f`.
   void describe(Fields& f) {
     Powertrain::describe(f);
     f("max_steer_deg", max_steer, {0, 80}, "Greatest steering angle of the inner wheel.");
@@ -165,7 +166,7 @@ struct DifferentialDrive : Powertrain {
   /// effective value, which includes the effect of lateral slip.
   double track = 0.5;
 
-  /// Lists the elements of a differential drive.
+  /// Passes the fields of a differential drive to the visitor `f`.
   void describe(Fields& f) {
     Powertrain::describe(f);
     f("track_m", track, {0.01, 50}, "Distance between the middles of left and right wheels.",
@@ -188,7 +189,7 @@ struct LinkageDrive : AckermannDrive {
   bool ahead = false;     ///< true: the arms point ahead of the axle; false: backwards
   double gear_ratio = 1;  ///< turns of the motor / turns of the left king pin [-]
 
-  /// Lists the elements of a drive with a steering linkage.
+  /// Passes the fields of a drive with a steering linkage to the visitor `f`.
   void describe(Fields& f) {
     AckermannDrive::describe(f);
     f("arm_m", arm, {0.001, 5}, "Distance from a king pin to the tie rod.", kNeeded);
@@ -227,17 +228,17 @@ inline const char* drive_name(const Drive& drive) {
   return std::visit([](const auto& kind) { return kind.kName; }, drive);
 }
 
-/// Returns the unit of this drive's steering command, e.g. "rad".
+/// Returns the unit of the steering command of `drive`, e.g. "rad".
 inline const char* steer_unit(const Drive& drive) {
   return std::visit([](const auto& kind) { return kind.kSteerUnit; }, drive);
 }
-/// Returns what this drive's steering command means, in words.
+/// Returns the meaning of the steering command of `drive`, in words for people.
 inline const char* steer_meaning(const Drive& drive) {
   return std::visit([](const auto& kind) { return kind.kSteerMeaning; }, drive);
 }
 
-/// Lists the attribute `type` of a <navvy:drive> and the fields of that type. Choosing another type
-/// replaces `drive` by a drive of that type with default values.
+/// Passes the attribute `type` of a <navvy:drive> and the fields of that type to the visitor `f`.
+/// If `f` chooses another type, `drive` is replaced by a drive of that type with default values.
 void describe_drive(Fields& f, Drive& drive);
 
 }  // namespace navvy::scene

@@ -61,10 +61,10 @@ struct Mark {
   unsigned bits = 0;      ///< combination of `Bit` values
   bool* given = nullptr;  ///< set to true by the reader if the element exists; null: not needed
 
-  /// Returns true if this option is set.
+  /// Returns true if the option `bit` is set.
   bool has(Bit bit) const { return (bits & bit) != 0; }
 };
-/// The options with a single bit, for use in `describe`.
+/// Options that consist of the single bit with the same name, for use in `describe`.
 inline constexpr Mark kNeeded{Mark::kNeeded};
 inline constexpr Mark kShown{Mark::kShown};
 inline constexpr Mark kSdf{Mark::kSdf};
@@ -72,7 +72,7 @@ inline constexpr Mark kOwnReader{Mark::kOwnReader};
 /// Returns the option that makes the reader set `flag` to true if the element exists. If the
 /// element is missing, the field counts as having no value.
 inline Mark given(bool& flag) { return {0, &flag}; }
-/// Combines options; if both have a flag to set, that of `a` is used.
+/// Returns the combination of two options; if both have a flag to set, that of `a` is used.
 constexpr Mark operator|(Mark a, Mark b) { return {a.bits | b.bits, a.given ? a.given : b.given}; }
 
 /// Accessors for an enumeration or a bool whose values a file writes by name.
@@ -91,7 +91,8 @@ struct Rgb {
 };
 /// Function that computes the text of a derived field when it is needed.
 using Computed = std::function<std::string()>;
-/// Pointer or accessor to the member of the struct that holds a field's value.
+/// Pointer to the struct member that stores the value of a field, or an object that gives access to
+/// it.
 using Value = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, Vec2*, Vec3*, Pose*,
                            Mat3*, std::vector<double>*, std::vector<Vec3>*, std::optional<int>*,
                            Direction, Rgb, NamedChoice, Computed>;
@@ -278,7 +279,7 @@ class Fields {
   virtual void group(const Group& group, const std::function<void(Fields&)>& describe) = 0;
   /// Handles child elements that may occur several times.
   virtual void list(const List& list) = 0;
-  /// Handles fields that depend on the value of an attribute.
+  /// Handles fields that depend on the value of an attribute, such as the type of a drive.
   virtual void types(const Types& types) = 0;
   /// Handles fields that another file describes, such as those of an included machine. Does nothing
   /// by default; only the writer of scene parameters overrides it.
@@ -300,7 +301,7 @@ struct NamedNumber {
   double* value;          ///< pointer to the number, which is in SI units
   double low, high;       ///< bounds of the allowed range, inclusive, in the unit of the file
   double factor = 1;      ///< SI value / value in the file
-  bool parameter = true;  ///< false if the number does not influence a run (kShown)
+  bool parameter = true;  ///< false: the number does not influence a run (option kShown)
 
   /// Returns the value in the unit of the file.
   double written() const { return *value / factor; }

@@ -83,7 +83,7 @@ struct Frame {
 struct FrameCamera {
   Pose X_WC = Pose::Identity();    ///< pose of the camera in W
   double fov = radians(50);        ///< horizontal field of view [rad]
-  int width = 1280, height = 720;  ///< size of the picture [pixels]
+  int width = 1280, height = 720;  ///< width and height of the picture [pixels]
 };
 
 }  // namespace navvy::scene

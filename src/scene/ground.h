@@ -24,14 +24,14 @@ inline constexpr Range kLengthRange = {0.01, 1e5};
 struct GroundFeature {
   /// Type of the shape.
   enum class Kind { kSlope, kHills, kStockpile, kTrench, kBank, kBlock };
-  Kind kind = Kind::kSlope;    ///< type of this shape
+  Kind kind = Kind::kSlope;    ///< type of the shape
   Vec2 center = Vec2::Zero();  ///< position of the shape's middle in W [m]
   double yaw = 0;              ///< direction of the shape, from W's x axis [rad]
   double length = 1;  ///< extent along `yaw` [m]; for hills the typical distance from hill to hill
   double width = 1;   ///< extent across `yaw` [m]
   double height = 1;  ///< height above the ground [m]; for a trench the depth below the ground
-  /// Angle of a slope, side or face [rad]; `describe` says from which direction it is measured for
-  /// each type.
+  /// Angle of a slope, of the sides or of a face [rad]: from the vertical for a trench, otherwise
+  /// from the horizontal.
   double angle = 0;
   std::uint64_t seed = 1;  ///< seed of the hills' noise
   bool has_seed = false;   ///< false: `seed` was not given, so the hills use the scene's seed
@@ -44,7 +44,7 @@ struct GroundFeature {
     if (kind == Kind::kBank) shape.angle = radians(90);
     return shape;
   }
-  /// Lists the elements of a shape of this type.
+  /// Passes the fields of a shape of this type to the visitor `f`.
   void describe(Fields& f) {
     const bool box = kind == Kind::kTrench || kind == Kind::kBlock;
     f.derived_kind("kind", kind);
@@ -84,7 +84,7 @@ struct GroundLayer {
   /// Thickness of the layer [m]; ignored for the last layer, which reaches to the rock.
   double thickness = 0;
 
-  /// Lists the elements of a <layer>.
+  /// Passes the fields of a <layer> to the visitor `f`.
   void describe(Fields& f) {
     f("soil", soil, Refers::kSoil, "Soil of the layer.", kNeeded);
     f("thickness_m", thickness, {1e-3, 1e4},
@@ -99,7 +99,7 @@ struct GroundPatch {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();
   std::vector<GroundLayer> layers;  ///< layers inside the rectangle, from the surface downwards
 
-  /// Lists the elements of a <patch>.
+  /// Passes the fields of a <patch> to the visitor `f`.
   void describe(Fields& f) {
     f("min_m", min, kPlaceRange, "Corner in W of least x and y.", kNeeded);
     f("max_m", max, kPlaceRange, "Corner in W of greatest x and y.", kNeeded);
@@ -107,15 +107,15 @@ struct GroundPatch {
   }
 };
 
-/// Soil that consists of particles from the start: the part of the ground inside a rectangle and
-/// above a height. It serves scenes and tests that begin with moving soil; in other scenes tools
-/// activate the soil.
+/// A part of the ground that consists of particles from the start: the soil inside a rectangle and
+/// above a height. It is used in scenes and tests that begin with moving soil; in other scenes
+/// tools activate the soil.
 struct ActiveSoil {
   /// Corners with the lowest and the highest x and y in W [m].
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();
   double bottom = 0;  ///< height in W above which the soil is active [m]
 
-  /// Lists the elements of an <active>.
+  /// Passes the fields of an <active> to the visitor `f`.
   void describe(Fields& f) {
     f("min_m", min, kPlaceRange, "Corner in W of least x and y.", kNeeded);
     f("max_m", max, kPlaceRange, "Corner in W of greatest x and y.", kNeeded);
@@ -141,9 +141,9 @@ struct RasterScale {
 
   /// Copies the two elements of `heights` into `low` and `high`.
   void take_heights() { low = heights.x(), high = heights.y(); }
-  /// Returns true if any of the values was given.
+  /// Returns true if any member has been given a value.
   bool any() const { return cell > 0 || has_heights || has_corner || north_first; }
-  /// Lists the elements that give the scale and position of a raster.
+  /// Passes the fields for the scale and position of a raster to the visitor `f`.
   void describe(Fields& f) {
     f("map_cell_m", cell, {0.001, 1e4},
       "Edge of a cell of a PNG or NPY; needed unless a PNG has a world file beside it.", kShown);
@@ -180,7 +180,7 @@ struct StartGround {
   std::vector<GroundPatch> patches;     ///< rectangles with other layers
   std::vector<ActiveSoil> active;       ///< soil that is active at the start
 
-  /// Lists the elements of <navvy:ground>.
+  /// Passes the fields of <navvy:ground> to the visitor `f`.
   void describe(Fields& f) {
     f("file", file,
       "Heightmap: GeoTIFF, ESRI ASCII, 16-bit PNG or NPY, from the folder of the scene file. "

@@ -15,7 +15,8 @@ struct Hitch {
   std::string name;  ///< unique name of the hitch
   /// Links with the hook and with the eye, as the file writes them: MACHINE::LINK.
   std::string parent_name, child_name;
-  int parent = 0, child = 0;            ///< indices of the machines in Scene::machines
+  /// Indices in Scene::machines of the parent machine and of the child machine.
+  int parent = 0, child = 0;
   int parent_link = 0, child_link = 0;  ///< indices of the links in their machine's `links`
   /// Position of the hook in the frame of the parent link, and of the eye in the frame of the child
   /// link [m].
@@ -26,7 +27,7 @@ struct Hitch {
   bool closed = true;  ///< state at the start: true if the eye is held in the hook
   int line = 0;        ///< line of the hitch in the scene file, for messages
 
-  /// Lists the elements of a <navvy:hitch>.
+  /// Passes the fields of a <navvy:hitch> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the hitch; its input is CHILD/NAME/closed.", kNeeded);
     f("parent", parent_name, "Link with the hook, as MACHINE::LINK; of a dynamic machine.",

@@ -30,7 +30,7 @@ struct Color {
 struct Geometry {
   /// Type of the shape.
   enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane, kCone, kCapsule };
-  Kind kind = Kind::kBox;    ///< type of this shape
+  Kind kind = Kind::kBox;    ///< type of the shape
   Vec3 size = Vec3::Ones();  ///< edges of a box; x and y: edges of a plane [m]
   double radius = 0.5;       ///< radius of a cylinder, capsule or sphere, or of a cone's base [m]
   /// Length of a cylinder or cone (tip at +z), or of a capsule without its hemispherical ends [m].
@@ -38,7 +38,7 @@ struct Geometry {
   std::string mesh_file;      ///< absolute path of the OBJ file of a mesh
   Vec3 scale = Vec3::Ones();  ///< scale factors of a mesh along its x, y and z axes [-]
 
-  /// Lists the parameters of the shape.
+  /// Passes the parameters of the shape to the visitor `f`; a file gives them in SDF's <geometry>.
   void describe(Fields& f) {
     f.derived_kind("kind", kind);
     f.derived("size", size);
@@ -50,7 +50,7 @@ struct Geometry {
   }
 };
 
-/// Lists the element with the density [kg/m3] of a link or shape, which both describe alike.
+/// Passes the element with the density [kg/m3] of a link or shape to the visitor `f`.
 inline void describe_density(Fields& f, double& density) {
   f("navvy:density_kg_per_m3", density, {1, 25000},
     "Density of the link or shape, from which mass, centre and inertia follow without <inertial>. "
@@ -66,7 +66,7 @@ struct Visual {
   Color color;                   ///< color of the shape
   double density = 0;            ///< density for deriving the link's mass [kg/m3]; 0: not given
 
-  /// Lists the elements of a <visual>.
+  /// Passes the fields of a <visual> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the visual.");
     describe_density(f, density);
@@ -86,7 +86,7 @@ struct Collision {
   bool derived = false;
   double density = 0;  ///< density for deriving the link's mass [kg/m3]; 0: not given
 
-  /// Lists the elements of a <collision>.
+  /// Passes the fields of a <collision> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the collision.");
     describe_density(f, density);
@@ -109,7 +109,7 @@ struct Link {
   LinkMaterial material;
   double density = 0;  ///< density for deriving mass and inertia [kg/m3]; 0: not given
 
-  /// Lists the elements of a <link>.
+  /// Passes the fields of a <link> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the link.");
     f("navvy:material", material.name,
@@ -131,7 +131,7 @@ struct Joint {
   /// Type of the relative motion; kFixed allows none, kBall all rotations.
   enum class Type { kFixed, kRevolute, kPrismatic, kBall };
   std::string name;               ///< name of the joint
-  Type type = Type::kFixed;       ///< type of this joint
+  Type type = Type::kFixed;       ///< type of the joint
   int parent = -1;                ///< index of the parent link in Machine::links; -1: the world
   int child = -1;                 ///< index of the child link in Machine::links
   Pose X_LcJ = Pose::Identity();  ///< pose of the joint frame in the child link's frame
@@ -149,7 +149,7 @@ struct Joint {
   /// unlimited.
   double cone = kPi, twist = kPi;
 
-  /// Lists the elements of a <joint>.
+  /// Passes the fields of a <joint> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the joint.");
     f.group({"navvy:ball", "Limits of a ball joint.", kShown}, [this](Fields& g) {
@@ -189,10 +189,10 @@ struct InitialPosition {
   std::string joint;  ///< name of the joint
   double angle = 0;   ///< position of a revolute joint [rad]
   double length = 0;  ///< position of a prismatic joint [m]
-  /// True if the angle or the length, respectively, was given.
+  /// True if `angle` was given, and true if `length` was given.
   bool has_angle = false, has_length = false;
 
-  /// Lists the elements of a <navvy:joint>.
+  /// Passes the fields of a <navvy:joint> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", joint, "Joint of the machine.");
     f("initial_deg", angle, {-3600, 3600}, "Position of a revolute joint.", given(has_angle));
@@ -207,7 +207,7 @@ struct InitialPosition {
 /// [docs/machines.md, hydraulics].
 struct Cylinder {
   std::string name;   ///< name of the cylinder
-  std::string joint;  ///< name of the joint that it moves
+  std::string joint;  ///< name of the joint that the cylinder moves
   /// Names of the links that carry the pins of the barrel and of the rod.
   std::string base_link, rod_link;
   Vec3 p_base = Vec3::Zero();  ///< pin of the barrel in the frame of `base_link` [m]
@@ -217,7 +217,7 @@ struct Cylinder {
   /// coupler connects the rocker with `rod_link`.
   bool has_linkage = false;
   Vec3 p_rocker = Vec3::Zero();  ///< pivot of the rocker in the frame of `base_link` [m]
-  /// Distances from this pivot to the rod and to the coupler [m].
+  /// Distances from the rocker's pivot to the rod and to the coupler [m].
   double rocker_rod = 0, rocker_coupler = 0;
   double coupler = 0;               ///< length of the coupler [m]
   Vec3 p_coupler = Vec3::Zero();    ///< pin of the coupler in the frame of `rod_link` [m]
@@ -226,9 +226,9 @@ struct Cylinder {
   double pressure = 35e6;           ///< relief pressure: maximum oil pressure [Pa]
   /// Distance between the axes of cylinders side by side [m]; only for drawing.
   double spacing = 0.68;
-  double flow = 0.004;  ///< maximum oil flow of all these cylinders together [m3/s]
+  double flow = 0.004;  ///< maximum oil flow into all `count` cylinders together [m3/s]
 
-  /// Lists the elements of a <navvy:cylinder>.
+  /// Passes the fields of a <navvy:cylinder> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the cylinder.", kNeeded);
     f("joint", joint, Refers::kJoint, "Joint that the cylinder moves.", kNeeded);
@@ -259,7 +259,7 @@ struct Pump {
   double flow = 0;   ///< maximum oil flow [m3/s]
   double power = 0;  ///< maximum flow x pressure [W]
 
-  /// Lists the elements of a <navvy:pump>.
+  /// Passes the fields of a <navvy:pump> to the visitor `f`.
   void describe(Fields& f) {
     f("flow_m3_per_s", flow, {1e-7, 10}, "Greatest flow of oil.", kNeeded);
     f("power_w", power, {0.1, 1e7}, "Greatest flow x pressure.", kNeeded);
@@ -277,7 +277,8 @@ struct Track {
   double roller_radius = 0.1;   ///< radius of a roller's rim [m]
   double thickness = 0.05;      ///< thickness of the track between rim and ground [m]
 
-  /// Lists the elements that a <navvy:track> has in addition to those of a sprocket.
+  /// Passes the fields of the track itself to the visitor `f`; Wheel::describe adds those of the
+  /// sprocket.
   void describe(Fields& f) {
     f("idler_m", p_idler, "Middle of the idler.", kNeeded);
     f("idler_radius_m", idler_radius, {0.01, 5}, "Radius of the idler's rim.", kNeeded);
@@ -325,7 +326,8 @@ struct Wheel {
     wheel.track.emplace();
     return wheel;
   }
-  /// Lists the elements of a <navvy:wheel>, or of a <navvy:track> if the wheel has a track.
+  /// Passes the fields of a <navvy:wheel> to the visitor `f`; if the wheel has a track, those of a
+  /// <navvy:track>.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the wheel, for the reader of the file.", kShown);
     if (track) {
@@ -360,7 +362,7 @@ struct Encoder {
   double slip = 0;                ///< simulated error: longitudinal slip in the counts [-]
   double missed = 0;  ///< simulated error: fraction of the counts that are lost at random
 
-  /// Lists the elements of a <navvy:encoder>.
+  /// Passes the fields of a <navvy:encoder> to the visitor `f`.
   void describe(Fields& f) {
     f("joint", joint, Refers::kJoint, "Revolute or continuous joint; one encoder per joint.",
       kNeeded);
@@ -383,7 +385,7 @@ struct Levers {
   /// Fraction of the travel from the middle, in either direction, without effect.
   double dead_band = 0.05;
 
-  /// Lists the elements of <navvy:levers>.
+  /// Passes the fields of <navvy:levers> to the visitor `f`.
   void describe(Fields& f) {
     f("pattern", pattern, {{"iso", Pattern::kIso}, {"sae", Pattern::kSae}},
       "Assignment of the levers to the joints.");
@@ -408,7 +410,7 @@ struct Shell : geometry::TriangleMesh {
   /// the triangles have been built.
   std::vector<double> vertex_numbers, corner_numbers;
 
-  /// Lists the elements of a <navvy:shell>.
+  /// Passes the fields of a <navvy:shell> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the shell.", kNeeded);
     f("link", link, Refers::kLink, "Link that carries the shell.", kNeeded);
@@ -431,8 +433,8 @@ struct Shell : geometry::TriangleMesh {
   std::string surface_hash() const;
 };
 
-/// Marks a link as a digging bucket. Automatic operators use these values to aim the cutting edge;
-/// the soil interacts only with the shell.
+/// Marks a link as a digging bucket. Automatic operators aim the cutting edge according to the
+/// members; the soil interacts only with the shell.
 struct Bucket {
   std::string link;           ///< name of the bucket's link
   std::string shell;          ///< name of the bucket's shell
@@ -445,7 +447,7 @@ struct Bucket {
   Vec3 opening = Vec3::UnitZ();
   std::string name;  ///< name of the bucket, for readers of the file
 
-  /// Lists the elements of a <navvy:bucket>.
+  /// Passes the fields of a <navvy:bucket> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the bucket, for the reader of the file.", kShown);
     f("link", link, Refers::kLink, "Link of the bucket.", kNeeded);
@@ -468,7 +470,7 @@ struct Bed {
   double capacity = 3.0;  ///< struck capacity, level with the rim [m3]
   std::string name;       ///< name of the bed, for readers of the file
 
-  /// Lists the elements of a <navvy:bed>.
+  /// Passes the fields of a <navvy:bed> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the bed, for the reader of the file.", kShown);
     f("link", link, Refers::kLink, "Link of the bed.", kNeeded);
@@ -484,7 +486,7 @@ struct Arm {
   /// stick and bucket.
   std::string swing, boom, stick, bucket;
 
-  /// Lists the elements of <navvy:arm>.
+  /// Passes the fields of <navvy:arm> to the visitor `f`.
   void describe(Fields& f) {
     f("swing_joint", swing, Refers::kJoint, "Upper structure about the chassis.");
     f("boom_joint", boom, Refers::kJoint, "Boom about the upper structure.");
@@ -502,7 +504,7 @@ struct Traversability {
   double step_height = 0.30, roughness = 0.10;
   double window = 0.20;  ///< half of the edge of the square window [m]
 
-  /// Lists the elements of <navvy:traversability>.
+  /// Passes the fields of <navvy:traversability> to the visitor `f`.
   void describe(Fields& f) {
     f("slope_deg", slope, {1, 89}, "Steepest slope.");
     f("step_m", step_height, {0.001, 100}, "Highest step within the window.");
@@ -545,7 +547,7 @@ struct Machine {
   /// were computed from densities.
   std::vector<std::string> derived;
 
-  /// Lists the elements of a machine's <model>.
+  /// Passes the fields of a machine's <model> to the visitor `f`.
   void describe(Fields& f) {
     f("navvy:physics", kinematic, {{"dynamic", false}, {"kinematic", true}},
       "Physics: masses and forces, or motion exactly as commanded; an engine is a part of "

@@ -20,7 +20,7 @@ struct MaterialPair {
   double softness = 0;            ///< penetration depth / contact force [m/N]; 0: rigid
   std::string names;              ///< names of both materials as one text, as in the file
 
-  /// Lists the elements of a <pair>.
+  /// Passes the fields of a <pair> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("materials", names, "The two materials, separated by a blank, in either order.");
     f("static_friction", static_friction, {0, 5},
@@ -39,7 +39,7 @@ struct Materials {
   std::string ground;  ///< material of the ground; empty: none
   std::vector<MaterialPair> pairs;  ///< contact properties of all pairs
 
-  /// Lists the elements of <navvy:materials>.
+  /// Passes the fields of <navvy:materials> to the visitor `f`.
   void describe(Fields& f) {
     f("file", file,
       "Table of pairs: a file beside the scene or a shipped one (`materials.sdf`: steel, stone, "

@@ -17,7 +17,7 @@ namespace navvy::scene {
 /// Condition of a step that waits until another machine's program has completed some steps.
 struct Waiting {
   std::string machine;  ///< name of the other machine
-  int steps = 0;        ///< number of its steps that must be completed; 0: all steps
+  int steps = 0;  ///< number of steps of the other machine that must be completed; 0: all its steps
 };
 
 /// One step of a program as described by the scene. The values are constant after the scene has
@@ -27,7 +27,7 @@ class Step {
   virtual ~Step() = default;
   /// Returns the name of the step's element in a scene file, e.g. "drive_to".
   virtual const char* element() const = 0;
-  /// Lists the fields of the step.
+  /// Passes the fields of the step to the visitor `f`.
   virtual void describe(Fields& f) = 0;
   /// Returns the condition that must hold before the step can finish; nothing if it does not wait
   /// for another machine. The loader refuses programs that wait for each other in a circle.
@@ -71,7 +71,7 @@ struct Program {
   /// a file.
   std::vector<int> lines;
 
-  /// Lists the steps and their fields.
+  /// Passes the steps and their fields to the visitor `f`.
   void describe(Fields& f) {
     List list{"step", {}, limits::kSteps, {}, steps.size(), {}, {}, {}};
     list.item = [this](std::size_t i, Fields& g) {

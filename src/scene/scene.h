@@ -32,7 +32,7 @@ struct SolverSettings {
   /// False: the ground neither activates nor deposits soil, as in rigs and tests.
   bool exchange = true;
 
-  /// Lists the elements of <navvy:solver>.
+  /// Passes the fields of <navvy:solver> to the visitor `f`.
   void describe(Fields& f) {
     f("cell_m", cell, {0.005, 2}, "Edge of a soil cell and of a ground column.");
     f("courant", courant, {0.05, 1}, "Time step / longest stable time step.");
@@ -54,7 +54,7 @@ struct BedLoad {
   std::string soil;  ///< name of the soil; empty: the first soil of the scene
   double mass = 0;   ///< mass of the soil [kg]; 0: the bed is empty
 
-  /// Lists the elements of <navvy:load>.
+  /// Passes the fields of <navvy:load> to the visitor `f`.
   void describe(Fields& f) {
     f("soil", soil, Refers::kSoil, "Soil of the load; by default the first one.");
     f("mass_kg", mass, {0, 1e6}, "Mass of the load.", kNeeded);
@@ -78,7 +78,7 @@ struct MachineInWorld {
   bool in_scene = false;
   std::vector<InitialPosition> initial_positions;  ///< joint positions that an <include> sets
 
-  /// Lists all elements of an <include> or <model>.
+  /// Passes all fields of an <include> or <model> to the visitor `f`.
   void describe(Fields& f) {
     if (in_scene) {
       f.attribute("name", name, "Name of the machine.", kSdf);
@@ -86,8 +86,8 @@ struct MachineInWorld {
     }
     describe_instance(f);
   }
-  /// Lists the elements that an <include> may have, or those that a <model> has only inside a
-  /// scene, according to `in_scene`.
+  /// Passes the fields of an <include> to the visitor `f`; if `in_scene`, the fields that a <model>
+  /// has only inside a scene.
   void describe_instance(Fields& f) {
     if (!in_scene) {
       f("uri", machine.file, "SDF file, its directory, or model://NAME of a shipped machine.",
@@ -124,10 +124,10 @@ struct Camera {
   Vec3 position = Vec3(8, -8, 5);  ///< position of the camera in its frame [m]
   Vec3 target = Vec3::Zero();      ///< point in the middle of the image, in the same frame [m]
   double fov = radians(50);        ///< horizontal field of view [rad]
-  int width = 1280, height = 720;  ///< size of an image [pixels]
+  int width = 1280, height = 720;  ///< width and height of an image [pixels]
   double rate = 4;                 ///< images per second of simulated time
 
-  /// Lists the elements of <navvy:camera>.
+  /// Passes the fields of <navvy:camera> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the image files.", kNeeded);
     f("machine", machine, "Machine that the camera follows; without it the camera is fixed in W.");
@@ -146,7 +146,8 @@ struct Light {
   Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< direction in W in which the light travels
   Color color{1.0f, 0.97f, 0.9f, 1.0f};     ///< color of the light
 
-  /// Lists nothing: a <light> has only elements of SDF, which the reader of worlds reads itself.
+  /// Passes nothing to the visitor: a <light> has only elements of SDF, which the reader of worlds
+  /// reads itself.
   void describe(Fields&) {}
 };
 
@@ -159,7 +160,7 @@ struct Recording {
   double telemetry_rate = 50;  ///< rows of telemetry per second
   bool render = true;          ///< true: cameras record images
 
-  /// Lists the elements of <navvy:recording>.
+  /// Passes the fields of <navvy:recording> to the visitor `f`.
   void describe(Fields& f) {
     f("duration_s", duration, {1e-3, 1e6},
       "Longest simulated time; the run ends earlier when every program has ended.");
@@ -186,7 +187,7 @@ struct MapRecord {
   double machine_rate = 0;
   std::string layer_names;  ///< `layers` as one text, as in the file
 
-  /// Lists the elements of <navvy:record>.
+  /// Passes the fields of <navvy:record> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the files.", kNeeded);
     f("format", format, "A format of `navvy map`, or mcap or bag for ROS 2.", kNeeded);
@@ -216,7 +217,7 @@ struct Scene {
   Recording recording;                   ///< length and output of the run
   std::vector<MapRecord> records;        ///< maps and messages that the run writes
 
-  /// Lists all elements of a scene's <world>.
+  /// Passes all fields of a scene's <world> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the scene and of the folder of its results.", kSdf | kShown);
     f("gravity", gravity, {-100, 100}, "Acceleration of gravity in W [m/s2].", kSdf);

@@ -55,7 +55,8 @@ struct Soil {
   double janosi_k = 0.02;
   float color[3] = {0.45f, 0.33f, 0.22f};  ///< linear red, green and blue, 0 to 1
 
-  /// Lists the elements of <navvy:soil>. The ranges include every soil, even snow and lunar dust.
+  /// Passes the fields of <navvy:soil> to the visitor `f`. The ranges include every soil, even snow
+  /// and lunar dust.
   void describe(Fields& f) {
     f.attribute("name", name, "Name by which layers, loads and results refer to the soil.");
     f.attribute("ref", ref,

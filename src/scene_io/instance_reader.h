@@ -13,7 +13,7 @@ namespace navvy::scene_io {
 
 /// Result of reading one machine file.
 struct MachineFile {
-  scene::Machine machine;    ///< the machine; without links after an error
+  scene::Machine machine;    ///< the machine that the file describes; without links after an error
   std::size_t elements = 0;  ///< number of XML elements in the file, for the limits of a scene
 };
 

@@ -51,8 +51,8 @@ std::pair<std::string, std::string> parse_setting(const std::string& text);
 scene::Scene load_scene(const std::string& file, const scene::StepKinds& kinds,
                         const Overrides& overrides = {}, std::string* resolved = nullptr);
 /// Reads a scene from the text of a scene file. `name` is used as file name in messages, and
-/// relative paths start from the directory in `name`. The other parameters are those of
-/// `load_scene`.
+/// relative paths start from the directory in `name`. `kinds`, `overrides` and `resolved` are as
+/// for `load_scene`. @throws InputError with all errors
 scene::Scene load_scene_from_string(const std::string& text, const std::string& name,
                                     const scene::StepKinds& kinds, const Overrides& overrides = {},
                                     std::string* resolved = nullptr);
@@ -69,10 +69,11 @@ struct FaultCount {
   std::size_t errors = 0, warnings = 0;  ///< numbers of errors and of warnings
 };
 
-/// Checks a world, machine, soil or materials file and returns its errors and warnings. `overrides`
-/// apply to a world only. If there are no errors, `world` or `machine` receives the content of the
-/// file, depending on its type; otherwise both are reset. `count` receives the total numbers of
-/// errors and warnings. All three pointers may be null. Throws nothing except std::bad_alloc.
+/// Checks a world, machine, soil or materials file and returns all errors and warnings. `overrides`
+/// apply to a world only. Without errors, `*world` or `*machine` receives the content of the file,
+/// depending on the file's type; otherwise both are reset. `*count` receives the total numbers of
+/// errors and warnings. Each of these three pointers may be null. Throws nothing except
+/// std::bad_alloc.
 std::vector<Fault> check(const std::string& file, const scene::StepKinds& kinds,
                          std::optional<scene::Scene>* world = nullptr,
                          const Overrides& overrides = {},

@@ -9,7 +9,8 @@
 
 namespace navvy::scene_io {
 
-/// Version of the format of these texts; a text with a later version is refused.
+/// Version of the format in which scenes are written as one text. Reading a text with a later
+/// version is an error.
 inline constexpr int kResolvedFormat = 1;
 
 /// Returns the document as one text that includes the overrides and, in place of references, the

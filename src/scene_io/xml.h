@@ -24,7 +24,7 @@ using Element = tinyxml2::XMLElement;
 /// Amount of reading done so far for one scene, compared with the limits of core/limits.h.
 struct Work {
   std::size_t files = 0;  ///< number of XML files opened
-  std::size_t bytes = 0;  ///< total size of these files [bytes]
+  std::size_t bytes = 0;  ///< total size of the opened XML files [bytes]
   /// Number of XML elements; those of an included machine count at each use.
   std::size_t elements = 0;
   std::size_t models = 0;  ///< number of models read through libsdformat
@@ -47,7 +47,8 @@ class Faults {
   /// invalid text, `rule` what is allowed, and `remedy` how to correct it.
   void error(const Element& at, const std::string& value, const std::string& rule,
              const std::string& remedy = "");
-  /// Reports a warning; the parameters are those of `error`.
+  /// Reports a warning at the element `at`. `value` is the text concerned, `rule` says what is
+  /// wrong, and `remedy` how to correct it.
   void warning(const Element& at, const std::string& value, const std::string& rule,
                const std::string& remedy = "");
   /// Returns the `suggestion` of core/edit_distance.h for `word`. A list of all candidates is
@@ -126,7 +127,7 @@ class Document {
   std::string directory() const;
   /// Returns the root element.
   Element* root() { return xml_.RootElement(); }
-  /// Returns the number of elements in the text when it was parsed.
+  /// Returns the number of XML elements that the document had when it was parsed.
   std::size_t elements() const { return elements_; }
   /// Returns the document as text in its current state, including comments.
   std::string text() const;
