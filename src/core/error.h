@@ -50,7 +50,7 @@ class InputError : public Error {
   const std::vector<Fault>& faults() const { return faults_; }
 
  private:
-  std::vector<Fault> faults_;
+  std::vector<Fault> faults_;  ///< faults in the order in which they were found
 };
 
 /// Exception for a file that cannot be read or written (missing, no permission, disk full). The

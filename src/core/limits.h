@@ -33,7 +33,7 @@ inline constexpr std::size_t kSceneBytes = 256 * kMegabyte;
 inline constexpr std::size_t kSceneFiles = 2000;
 /// Maximum number of XML elements of a scene; those of an included file count at each use.
 inline constexpr std::size_t kSceneElements = 400'000;
-/// Maximum number of errors that are reported individually, and number of warnings.
+/// Maximum number of errors, and maximum number of warnings, that are reported individually.
 inline constexpr std::size_t kFaultsShown = 100;
 
 // Content of a scene.

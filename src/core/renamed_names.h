@@ -18,7 +18,7 @@ enum class NameKind {
   kChannel,
 };
 
-/// One renamed name, a row of the table.
+/// One renamed name: an entry of `renamed_names()`.
 struct RenamedName {
   NameKind kind;         ///< type of the name
   const char* old_name;  ///< name in earlier releases

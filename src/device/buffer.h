@@ -53,7 +53,7 @@ class RawBuffer {
   // Shared, so that a kernel's argument or a copy keeps the memory, and with it the device, alive.
   struct Memory;
   std::shared_ptr<Memory> memory_;
-  std::size_t capacity_ = 0;
+  std::size_t capacity_ = 0;  ///< size of the memory [bytes]
 };
 
 /// A range of a buffer that is mapped into host memory until this object is destroyed. The buffer
@@ -91,7 +91,7 @@ class Mapped {
  private:
   /// Buffer that must be unmapped; null after a move, so that the range is unmapped only once.
   const RawBuffer* buffer_;
-  std::span<T> view_;
+  std::span<T> view_;  ///< the mapped values
 };
 
 /// Array of `size()` values of type T in device memory. Values are copied as bytes; headers that
@@ -207,8 +207,8 @@ class Buffer {
     void* data = count == 0 ? nullptr : raw_.map(access, at * sizeof(T), count * sizeof(T), wait);
     return Mapped<U>(&raw_, static_cast<U*>(data), count);
   }
-  RawBuffer raw_;
-  std::size_t size_ = 0;
+  RawBuffer raw_;         ///< the memory, which may hold more than `size_` values
+  std::size_t size_ = 0;  ///< number of values
 };
 
 }  // namespace navvy::device

@@ -20,7 +20,8 @@ enum class Kind { kCpu, kGpu, kOther };
 struct DeviceInfo {
   int index = 0;             ///< index in the list of all devices, which is ordered by platform
   Kind kind = Kind::kOther;  ///< type of the device
-  /// Names and versions of device and driver as the driver reports them.
+  /// Name of the device, name of its platform, OpenCL version and driver version, as reported by
+  /// the driver.
   std::string name, platform, version, driver;
   int compute_units = 0;  ///< number of units that run work-groups in parallel; for a CPU the cores
   /// Global memory [bytes], or the limit NAVVY_DEVICE_MEMORY_MIB if that is lower.
@@ -95,7 +96,7 @@ class Device {
   const std::shared_ptr<State>& state() const { return state_; }
 
  private:
-  std::shared_ptr<State> state_;
+  std::shared_ptr<State> state_;  ///< OpenCL objects; null after a move
 };
 
 }  // namespace navvy::device

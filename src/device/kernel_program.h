@@ -117,8 +117,10 @@ class Kernel {
   /// seconds.
   /// @throws DeviceError if the driver refuses the launch
   void enqueue(WorkSize global);
-  /// Queues a launch in work-groups of `local` work-items. Each axis of `global` is rounded up to a
-  /// multiple of `local`, so kernels must check their index.
+  /// Queues a launch of at least `global` work-items in work-groups of `local` work-items. Each
+  /// axis of `global` is rounded up to a multiple of `local`, so kernels must check their index. An
+  /// axis of 0 launches nothing.
+  /// @throws DeviceError if the driver refuses the launch
   void enqueue(WorkSize global, WorkSize local);
   /// Queues a launch of `groups` work-groups with the size that the kernel declares
   /// (reqd_work_group_size), or of one work-item each.

@@ -30,9 +30,9 @@ class SlowCall {
   // The thread is declared last: it starts after the other members exist, and is joined before they
   // are destroyed.
   std::mutex mutex_;
-  std::condition_variable over_;
-  bool done_ = false;  ///< true: the thread must end without logging
-  std::thread thread_;
+  std::condition_variable over_;  ///< ends the wait of the thread before the time is over
+  bool done_ = false;             ///< true: the thread must end without logging
+  std::thread thread_;            ///< waits, then logs the text
 };
 
 }  // namespace navvy::device

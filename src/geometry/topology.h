@@ -14,8 +14,9 @@ struct WindingClash {
   /// Indices of the two triangles; `first` is the one that comes earlier in the list of the mesh.
   std::size_t first = 0, second = 0;
 };
-/// Returns the clash whose `second` triangle has the lowest index, or nothing if the mesh is wound
-/// consistently. Indices in the mesh must be valid.
+/// Returns the first two triangles that run along a shared edge in the same direction: those whose
+/// `second` index is lowest. Returns nothing if the mesh is wound consistently. Indices in the mesh
+/// must be valid.
 std::optional<WindingClash> find_winding_clash(const TriangleMesh& mesh);
 
 /// Returns true if each connected part of the mesh encloses a volume and faces outwards: every edge

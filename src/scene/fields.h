@@ -48,6 +48,7 @@ enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kHitch };
 
 /// Options of a field: a combination of bits, joined by `|`, and an optional flag to set.
 struct Mark {
+  /// Options that can be combined in `bits`.
   enum Bit : unsigned {
     kNeeded = 1,  ///< the element is required
     /// The element affects what a run displays or writes, but not what it computes. It is therefore
@@ -64,10 +65,13 @@ struct Mark {
   /// Returns true if the option `bit` is set.
   bool has(Bit bit) const { return (bits & bit) != 0; }
 };
-/// Options that consist of the single bit with the same name, for use in `describe`.
+/// Option: the element is required (Mark::Bit::kNeeded).
 inline constexpr Mark kNeeded{Mark::kNeeded};
+/// Option: the value does not influence what a run computes (Mark::Bit::kShown).
 inline constexpr Mark kShown{Mark::kShown};
+/// Option: the element belongs to SDF (Mark::Bit::kSdf).
 inline constexpr Mark kSdf{Mark::kSdf};
+/// Option: the element has a reader of its own (Mark::Bit::kOwnReader).
 inline constexpr Mark kOwnReader{Mark::kOwnReader};
 /// Returns the option that makes the reader set `flag` to true if the element exists. If the
 /// element is missing, the field counts as having no value.
@@ -83,11 +87,11 @@ struct NamedChoice {
 };
 /// Pointer to a unit vector; the reader normalizes the vector that a file gives.
 struct Direction {
-  Vec3* value;
+  Vec3* value;  ///< the unit vector
 };
 /// Pointer to the first of three floats, a linear RGB color with components from 0 to 1.
 struct Rgb {
-  float* value;
+  float* value;  ///< the red component; green and blue follow
 };
 /// Function that computes the text of a derived field when it is needed.
 using Computed = std::function<std::string()>;

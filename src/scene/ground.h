@@ -172,7 +172,7 @@ struct StartGround {
   double depth = 4;
   /// True: a level plane in the scene is the rock surface, and `depth` is ignored.
   bool has_rock = false;
-  double rock = 0;  ///< height of this plane in W [m]
+  double rock = 0;  ///< height in W of the rock plane [m], if `has_rock`
   /// Treatment of slopes in a heightmap that are too steep for the soil.
   SteepGround steep = SteepGround::kHold;
   std::vector<GroundFeature> features;  ///< procedural shapes, in the order of the file

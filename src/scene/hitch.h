@@ -21,8 +21,9 @@ struct Hitch {
   /// Position of the hook in the frame of the parent link, and of the eye in the frame of the child
   /// link [m].
   Vec3 hook = Vec3::Zero(), eye = Vec3::Zero();
-  /// Limits of the joint [rad]: maximum angle between the x axes of both links, and maximum
-  /// rotation of the child about its x axis, in either direction. Pi: unlimited.
+  /// Limits of the closed hitch [rad]; pi: unlimited. `cone` is the maximum angle between the x
+  /// axes of both links, `twist` the maximum rotation of the child about its x axis in either
+  /// direction.
   double cone = kPi, twist = kPi;
   bool closed = true;  ///< state at the start: true if the eye is held in the hook
   int line = 0;        ///< line of the hitch in the scene file, for messages

@@ -144,9 +144,9 @@ struct Joint {
   double friction = 0;    ///< dry friction torque [N m] or force [N]
   double initial = 0;     ///< position at the start [rad] or [m]
   double brake = 0;       ///< maximum holding torque [N m] or force [N] of the brake; 0: no brake
-  /// Limits of a ball joint [rad]: maximum angle between the child's x axis and its direction at
-  /// the start, and maximum rotation of the child about this axis, in either direction. Pi:
-  /// unlimited.
+  /// Limits of a ball joint [rad]; pi: unlimited. `cone` is the maximum angle between the child's x
+  /// axis and its direction at the start, `twist` the maximum rotation of the child about this axis
+  /// in either direction.
   double cone = kPi, twist = kPi;
 
   /// Passes the fields of a <joint> to the visitor `f`.
@@ -402,8 +402,8 @@ struct Shell : geometry::TriangleMesh {
   std::string name;               ///< name of the shell
   std::string link;               ///< name of the link that carries the shell
   double half_thickness = 0.015;  ///< half of the plate's thickness [m]
-  /// Factors for soil on this shell: on the tangent of the soil's tool friction angle, and on the
-  /// soil's adhesion [-].
+  /// Factors on the tangent of the soil's tool friction angle (`friction_share`) and on the soil's
+  /// adhesion (`adhesion_share`) for contact with this shell [-].
   double friction_share = 1, adhesion_share = 1;
   std::string mesh;  ///< OBJ file with the triangles; empty: the file lists them
   /// Coordinates of vertices and indices of triangle corners as the file lists them; cleared once
@@ -482,8 +482,9 @@ struct Bed {
 
 /// Names of the joints of an excavator's arm by their functions; empty where the machine has none.
 struct Arm {
-  /// Joints between chassis and upper structure, upper structure and boom, boom and stick, and
-  /// stick and bucket.
+  /// Joints that turn the upper structure relative to the chassis (`swing`), the boom relative to
+  /// the upper structure (`boom`), the stick relative to the boom (`stick`) and the bucket relative
+  /// to the stick (`bucket`).
   std::string swing, boom, stick, bucket;
 
   /// Passes the fields of <navvy:arm> to the visitor `f`.
@@ -499,8 +500,8 @@ struct Arm {
 struct Traversability {
   bool given = false;          ///< true: the machine's file gives them
   double slope = radians(30);  ///< maximum slope [rad]
-  /// Maximum height of a step, and maximum rms deviation of the surface from a plane, both within
-  /// the window [m].
+  /// Maximum height of a step (`step_height`) and maximum rms deviation of the surface from a plane
+  /// (`roughness`), each within the window [m].
   double step_height = 0.30, roughness = 0.10;
   double window = 0.20;  ///< half of the edge of the square window [m]
 

@@ -61,7 +61,7 @@ class ProgramStep {
   }
 
  private:
-  std::shared_ptr<Step> step_;
+  std::shared_ptr<Step> step_;  ///< the step, shared by all copies
 };
 
 /// The steps of one machine's program, in the order of execution.

@@ -23,7 +23,8 @@ struct Names {
   /// Type attribute of each joint, e.g. "revolute", keyed by joint name.
   std::map<std::string, std::string> joint_type;
 
-  /// Returns the names in a <model>.
+  /// Returns the names of all links, joints, frames and shells in a <model>, and the types of its
+  /// joints; `soils` is empty.
   static Names of_model(const Element& model);
 };
 
@@ -61,10 +62,10 @@ class ElementReader final : public scene::Fields {
   void read_inside(Element& child, const std::function<void(scene::Fields&)>& describe);
   /// Reports an error at `child` if there is no object `name` of the type `refers`.
   void check_reference(const Element& child, const std::string& name, scene::Refers refers);
-  Element& element_;
-  const Names* names_;
-  Faults& faults_;
-  bool mixed_;
+  Element& element_;    ///< the element that is read
+  const Names* names_;  ///< names to which fields may refer; null: references are not checked
+  Faults& faults_;      ///< list to which errors are added
+  bool mixed_;          ///< true: only children in the namespace `navvy:` are read
   /// Names of allowed children, of those that may occur several times, of those with children of
   /// their own, and of allowed attributes; each is filled while fields are visited.
   std::vector<std::string> known_, repeatable_, nested_, attributes_;

@@ -13,8 +13,9 @@ namespace navvy::scene_io {
 
 /// Result of reading one machine file.
 struct MachineFile {
-  scene::Machine machine;    ///< the machine that the file describes; without links after an error
-  std::size_t elements = 0;  ///< number of XML elements in the file, for the limits of a scene
+  scene::Machine machine;  ///< the machine that the file describes; without links after an error
+  /// Number of XML elements in the file; counts towards the limit of a scene.
+  std::size_t elements = 0;
 };
 
 /// Information from earlier steps of reading that is needed to read a machine.

@@ -14,11 +14,11 @@ namespace navvy::scene_io {
 inline constexpr int kResolvedFormat = 1;
 
 /// Returns the document as one text that includes the overrides and, in place of references, the
-/// machines and soils of other files. Names of meshes and maps are made portable: model://NAME/...
-/// in a vehicles/ directory, otherwise absolute paths. `<navvy:resolved format="1">` lists the
-/// meshes and maps with a hash of each file. Reading the text gives a scene that equals `world` in
-/// every value. `world` must have been read from `document` without errors; the elements of
-/// `document` are changed.
+/// machines and soils of other files. Names of files that remain, such as meshes and maps, are made
+/// portable: model://NAME/... in a vehicles/ directory, otherwise absolute paths. The element
+/// `<navvy:resolved format="1">` lists these files with a hash of each. Reading the text gives a
+/// scene that equals `world` in every value. `world` must have been read from `document` without
+/// errors; the elements of `document` are changed.
 std::string resolved_text(Document& document, const scene::Scene& world);
 
 /// Checks the element <navvy:resolved> of a world, if there is one. An unknown format is an error;

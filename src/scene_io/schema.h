@@ -21,8 +21,8 @@ struct SchemaNode {
   std::string text;  ///< one sentence of documentation
   std::string initial;  ///< default value as text; empty: none
   scene::Range range;   ///< allowed values of a number, in the unit of the file
-  /// Properties of the node: it is required, is an attribute, belongs to SDF, may occur several
-  /// times.
+  /// Properties of the node: `needed`: it is required; `attribute`: it is an attribute, not an
+  /// element; `sdf`: it belongs to SDF; `repeats`: it may occur several times in one parent.
   bool needed = false, attribute = false, sdf = false, repeats = false;
   std::size_t most = 1;  ///< maximum number of such elements in one parent
   scene::Refers refers = scene::Refers::kNothing;  ///< type of the object that the value names
