@@ -45,28 +45,29 @@
 
 namespace navvy {
 
-/// True for types that an archive may take as one run of bytes, also many side by side. Specialise
-/// it for a struct only together with an assertion that the struct has no padding; padding would be
-/// saved and hashed as noise.
+/// True for types that an archive saves and hashes as raw bytes, single values as well as arrays of
+/// them. Specialise it for a struct only together with an assertion that the struct has no padding,
+/// because padding bytes have arbitrary values.
 template <class T>
 inline constexpr bool kPlain = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool> &&
                                 sizeof(T) <= sizeof(std::uint64_t)) ||
                                std::is_enum_v<T>;
-/// An array has no gaps between its elements, so it is plain if its elements are.
+/// An array is plain if its elements are, as there are no gaps between them.
 template <class T, std::size_t N>
 inline constexpr bool kPlain<std::array<T, N>> = kPlain<T>;
-/// Fixed-size matrices are plain if their storage is exactly their elements, without bytes added
-/// for alignment.
+/// A matrix of fixed size is plain if its storage consists of its elements only, without extra
+/// bytes for alignment.
 template <class T, int R, int C, int O>
 inline constexpr bool kPlain<Eigen::Matrix<T, R, C, O, R, C>> =
     kPlain<T>&& R > 0 && C > 0 && sizeof(Eigen::Matrix<T, R, C, O, R, C>) == sizeof(T) * R* C;
 
-/// Visitor of a class's fields: hashes, saves or loads them one after the other, each with a name.
+/// Visitor of the fields of a class: it hashes, saves or loads them one after the other.
 ///
-/// Names appear in errors and tests only; they are not written. A field is identified by its
-/// position, so the order of a visit is a file format: change it together with the section's
-/// version. Numbers are stored as in memory (little-endian). Hashing and saving only read the
-/// fields, loading only writes them; a visit that must know which asks `loading()`.
+/// Each field has a name, which is used only in error messages and tests and is not saved. A saved
+/// field is identified by its position, so the order of fields in a visit defines a file format:
+/// whoever changes the order must also change the version of the section. Numbers are stored as in
+/// memory (little-endian). Hashing and saving only read the fields, loading only writes them; a
+/// `visit` that must distinguish the two calls `loading()`.
 class Archive {
  public:
   // Not copyable: a copy would have its own path and its own position in the bytes.
@@ -74,120 +75,126 @@ class Archive {
   Archive& operator=(const Archive&) = delete;
   virtual ~Archive() = default;
 
-  /// Returns true while fields are being overwritten by saved values.
+  /// Returns true if this archive loads, that is overwrites fields with saved values; false if it
+  /// hashes or saves.
   bool loading() const { return loading_; }
 
-  /// Visits one field: a number, bool or enum, std::string, Eigen matrix of fixed size, quaternion
-  /// or Pose, a class with a member `visit(Archive&)` or a free function `visit(Archive&, T&)`, or
-  /// a std::array, vector, optional, variant, pair, map or set of those. Loading replaces the
-  /// content of containers. A std::span of constant plain values is saved like a vector and is
-  /// loaded as a vector. A field of any other type does not compile; give it a `visit`, or use
-  /// `property`.
+  /// Visits one field. Its type may be a number, bool, enum, std::string, Eigen matrix of fixed
+  /// size, quaternion or Pose; a class with a member function `visit(Archive&)` or a free function
+  /// `visit(Archive&, T&)`; or a std::array, vector, optional, variant, pair, map or set of these.
+  /// Loading replaces the content of a container. A std::span of constant plain values is saved
+  /// like a vector, and a vector must be visited to load it. Other types do not compile: give them
+  /// a `visit`, or use `property`.
   /// @throws InputError naming the field if, on loading, the section ends early, a bool is neither
-  /// 0 nor 1, or keys are not in ascending order.
+  /// 0 nor 1, or keys are not in ascending order
   template <class T>
   void operator()(const char* name, T& field);
 
-  /// Visits a number or enum that must lie within [low, high] when it is loaded; NaN is out of
-  /// range. Saving and hashing do not check the range.
-  /// @throws InputError naming the field.
+  /// Visits a number or enum. When loading, the value must be in the range from `low` to `high`,
+  /// bounds included; NaN is out of range. Saving and hashing do not check it.
+  /// @throws InputError naming the field if the loaded value is out of range
   template <class T>
   void ranged(const char* name, T& field, const std::type_identity_t<T>& low,
               const std::type_identity_t<T>& high);
 
-  /// Visits the elements of a vector whose length the scene has already set, such as arrays that
+  /// Visits the elements of a vector whose length the scene has already set. Use it for arrays that
   /// determine the size of others.
-  /// @throws InputError if the saved length differs.
+  /// @throws InputError if the saved length differs from that of `field`
   template <class T>
   void fixed(const char* name, std::vector<T>& field);
 
-  /// Saves a value that is constant during a run and must be equal where a state is loaded; it is
-  /// not hashed. A state of a different scene is thereby refused with a reason, before its fields
-  /// are read into arrays that do not fit.
-  /// @throws InputError with `rule` if the saved value differs.
+  /// Saves a value that is constant during a run and is determined by the scene; it is not hashed.
+  /// Loading compares the saved value with `value`, so that a state of a different scene is refused
+  /// before its fields are read into arrays of another size.
+  /// @throws InputError with the text `rule` if the saved value differs
   template <class T>
   void constant(const char* name, const T& value, const std::string& rule);
 
-  /// Visits a field behind two functions: `get()` returns its value, `set(value)` stores the loaded
-  /// one. `get` is called only when hashing or saving and `set` only when loading, so the object
-  /// behind them may be created by loading. The type of the value is the return type of `get`.
+  /// Visits a field that is accessible only through two functions: `get()` returns its value, and
+  /// `set(value)` stores a loaded value. `get` is called only when hashing or saving and `set` only
+  /// when loading, so the object that they access may be created by loading. The type of the field
+  /// is the return type of `get`.
   template <class Get, class Set>
   void property(const char* name, const Get& get, const Set& set);
 
-  /// Visits fields that are saved but do not affect anything a run computes afterwards. `reason`
-  /// says why; it is listed in the byte map and is part of the review, since a field wrongly placed
-  /// here lets two runs diverge unnoticed.
+  /// Excludes the fields that `body()` visits from the hash; they are saved and loaded. Use it for
+  /// fields that do not affect anything a run computes afterwards. `reason` states why; it appears
+  /// in the byte map and must be reviewed, because a field excluded by mistake lets two runs
+  /// diverge unnoticed.
   template <class Body>
   void unhashed(const char* reason, const Body& body);
 
-  /// Visits a tagged part of the state with its own version, so that a change in one class leaves
-  /// the formats of the others alone.
-  /// @param tag 1 to 15 characters.
-  /// @throws Error for a tag of another length.
-  /// @throws InputError if loading finds another tag or version, or if the body reads more or fewer
-  /// bytes than were saved.
+  /// Saves or loads the fields that `body()` visits as a section with a tag and a version of its
+  /// own. A change to the fields of one class then leaves the formats of other sections unchanged.
+  /// @param tag name of the section, 1 to 15 characters
+  /// @param version version of the section's format
+  /// @throws Error for a tag of another length
+  /// @throws InputError if loading finds another tag or version, or if `body` reads more or fewer
+  /// bytes than were saved
   template <class Body>
   void section(const char* tag, std::uint32_t version, const Body& body);
 
-  /// Visits the number of elements of a container type that the archive does not know, and returns
-  /// the saved number when loading. Call `item(i, ...)` once per element afterwards; the caller
-  /// resizes the container.
-  /// @throws InputError for a number that exceeds the remaining bytes, before anything is
-  /// allocated.
+  /// Visits the length of a container whose type the archive does not support. `present` is the
+  /// current length. Returns the saved length when loading, otherwise `present`. The caller then
+  /// resizes the container and calls `item(i, ...)` once per element.
+  /// @throws InputError if the saved length exceeds the number of remaining bytes
   std::uint64_t size(const char* name, std::uint64_t present);
-  /// Visits element `number`; the number appears in the paths of the fields that `body` visits.
+  /// Visits the fields of one element by calling `body()`. `number` is the index of the element,
+  /// which appears in the paths of these fields.
   template <class Body>
   void item(std::uint64_t number, const Body& body);
 
-  /// Checks a rule when loading and does nothing otherwise. Use it for rules that involve several
-  /// fields, after they were visited; `ranged` gives a better message for one field.
-  /// @throws InputError naming `field` and `rule` if `good` is false.
+  /// Checks a condition when loading; does nothing when hashing or saving. Use it for conditions on
+  /// several fields, after they have been visited; for a single field, `ranged` gives a better
+  /// message.
+  /// @throws InputError naming `field` and `rule` if `good` is false
   void require(bool good, const char* field, const std::string& rule);
 
  protected:
-  // The kind of an archive is visible in `loading()` and in the virtual functions below only.
+  // The type of an archive is visible only through `loading()` and the virtual functions below.
   explicit Archive(bool loading) : loading_(loading) {}
 
-  /// Handles one number of at most 8 bytes. `data` is written only if the archive loads.
+  /// Hashes, saves or loads one number of at most 8 bytes at the address `data`. `size` is its size
+  /// [bytes]. Only a loading archive writes to `data`.
   virtual void scalar(void* data, std::size_t size) = 0;
-  /// Handles many plain values side by side.
+  /// Hashes, saves or loads `size` bytes of consecutive plain values at the address `data`.
   virtual void block(void* data, std::size_t size) = 0;
-  // Sections nest.
+  /// Begins the section `tag` with this format version; sections may be nested.
   virtual void begin_section(const char* tag, std::uint32_t version) = 0;
+  /// Ends the innermost section.
   virtual void end_section() = 0;
-  /// Returns the number of bytes left to load in the innermost section.
+  /// Returns the number of bytes left to load in the innermost section; 0 for archives that do not
+  /// load.
   virtual std::size_t left() const { return 0; }
 
-  /// Returns false within `unhashed` and `constant`; `reason` then gives the reason (empty for
-  /// constants).
+  /// Returns false while the fields of `unhashed` or `constant` are visited, otherwise true.
   bool hashed() const { return unhashed_ == 0; }
+  /// Returns the reason given to `unhashed`; an empty text in `constant` and for hashed fields.
   const char* reason() const { return reason_; }
   /// Returns the path of the field that is being visited, e.g. "world/tools[2]/force".
   std::string path() const;
-  /// Refuses the state.
-  /// @throws InputError naming the field and `rule`, always.
+  /// Refuses the loaded state; never returns.
+  /// @throws InputError naming the current field and `rule`, always
   [[noreturn]] void fail(const std::string& rule) const;
 
  private:
-  // ArchiveParts implements the types and needs the bytes and the path.
+  // ArchiveParts implements the visits of all types and needs `scalar`, `block` and the path.
   friend struct ArchiveParts;
-  // Extends the path by one element during its lifetime.
+  /// Appends one element to the path of the current field for as long as the object exists.
   class Scope;
-  // Excludes fields from the hash during its lifetime.
+  /// Excludes fields from the hash for as long as the object exists.
   class Unhashed;
+  /// One element of the path.
   struct Place {
-    // Null for an element, which is identified by its number.
-    const char* name = nullptr;
-    std::uint64_t number = 0;
+    const char* name = nullptr;  ///< name of a field; null for an element of a container
+    std::uint64_t number = 0;    ///< index of an element of a container
   };
 
-  // Fixed at construction: an archive never changes from saving to loading.
-  const bool loading_;
-  // Nesting depth of `unhashed` and `constant`.
-  int unhashed_ = 0;
-  const char* reason_ = "";
-  // Path from the outermost field to the current one, as pointers and numbers, so that a visit
-  // builds no text.
+  const bool loading_;       ///< true: the archive loads; fixed at construction
+  int unhashed_ = 0;         ///< nesting depth of `unhashed` and `constant`
+  const char* reason_ = "";  ///< reason given to the innermost `unhashed`; empty outside it
+  /// Path from the outermost field to the current one. It stores pointers and indices, so that no
+  /// text is built unless a path is needed.
   std::vector<Place> places_;
 };
 

@@ -29,30 +29,30 @@
 
 namespace navvy {
 
-/// A type that lists its own fields in a member `visit`. The member takes precedence over a free
-/// function, so a class may override the free function of its base.
+/// A type with a member function `visit(Archive&)`, which lists the fields of the type. It takes
+/// precedence over a free function, so that a class may override the free function of its base.
 template <class T>
 concept Visitable = requires(T& object, Archive& archive) {
   object.visit(archive);
 };
-/// A type with a free function `visit(Archive&, T&)`: for types of foreign libraries, and for plain
-/// structs that should not depend on archives.
+/// A type with a free function `visit(Archive&, T&)`. Use it for types of other libraries, and for
+/// plain structs that should not depend on archives.
 template <class T>
 concept VisitableBeside = requires(T& object, Archive& archive) {
   visit(archive, object);
 };
 
-/// Element of the path that errors and byte maps name. Construction and destruction cost a push and
-/// a pop; no text is built unless it is asked for. Names must be string literals or live as long,
-/// as only the pointer is stored. Scopes end in reverse order of construction, so they live on the
-/// stack and are not copyable.
+/// Appends an element to the path of the current field, which appears in error messages and byte
+/// maps, and removes it on destruction. It only stores a pointer or an index; text is built only
+/// when it is needed. Names must therefore be string literals or exist as long. Scopes must be
+/// destroyed in reverse order of construction; they are local variables and cannot be copied.
 class Archive::Scope {
  public:
-  /// Appends a named field, or the tag of a section.
+  /// Appends the name of a field or the tag of a section.
   Scope(Archive& archive, const char* name) : archive_(archive) {
     archive_.places_.push_back({name, 0});
   }
-  /// Appends an element of a container by its index.
+  /// Appends the index `number` of an element in a container.
   Scope(Archive& archive, std::uint64_t number) : archive_(archive) {
     archive_.places_.push_back({nullptr, number});
   }
@@ -65,10 +65,12 @@ class Archive::Scope {
   Archive& archive_;
 };
 
-/// Excludes fields from the hash during its lifetime; instances nest. The innermost reason is in
-/// force, and the outer one is restored on destruction. Saving and loading are unaffected.
+/// Excludes fields from the hash for as long as the object exists. Objects may be nested: the
+/// reason of the innermost one applies, and its destruction restores the outer one. Saving and
+/// loading are not affected.
 class Archive::Unhashed {
  public:
+  /// Starts to exclude fields, for `reason`.
   Unhashed(Archive& archive, const char* reason) : archive_(archive), before_(archive.reason_) {
     ++archive_.unhashed_;
     archive_.reason_ = reason;
@@ -83,27 +85,27 @@ class Archive::Unhashed {
   // The state to restore on destruction.
  private:
   Archive& archive_;
-  const char* before_;
+  const char* before_;  ///< reason that applied before, restored on destruction
 };
 
-/// One overload of `part` per type of field. They are static members of a struct so that each sees
-/// all others in any order, since containers hold containers. What each overload writes is part of
-/// every saved state: changing one requires raising the version of every section.
+/// One overload of `part` per type of field. They are static members of a struct, so that each
+/// overload can use all others in any order, as containers contain containers. The bytes that an
+/// overload writes are part of every saved state: a change requires new versions of all sections.
 struct ArchiveParts {
-  /// Visits a length. Each element takes at least one byte, so a length above the number of
-  /// remaining bytes is invalid. The length is hashed too, so that a list of two and a list of one
-  /// followed by an equal number differ. Returns the saved length when loading, and `present`
-  /// otherwise.
+  /// Visits the length of a container, whose current value is `present`. Returns the saved length
+  /// when loading, otherwise `present`. As each element takes at least one byte, a length above the
+  /// number of remaining bytes is invalid. The length is also hashed, so that for example the lists
+  /// {1, 2} and {1} followed by the number 2 have different hashes.
   static std::uint64_t count(Archive& a, std::uint64_t present) {
     a.scalar(&present, sizeof present);
     if (a.loading_ && present > a.left()) a.fail("a length exceeds the rest of the section");
     return present;
   }
 
-  /// Visits numbers, enums and classes. The branches go from special to general: a class with a
-  /// visit is visited even if it could be taken as bytes, since its author chose which members
-  /// count. Types with padding are refused, because padding would be hashed and saved as noise and
-  /// make two equal states differ.
+  /// Visits a number, bool, enum or class. The branches are ordered from special to general: a
+  /// class with a `visit` is visited even if it could be saved as raw bytes, as its author has
+  /// chosen which members to include. Types with padding do not compile, because padding bytes
+  /// would make two equal states differ.
   template <class T>
   static void part(Archive& a, T& v) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -127,20 +129,21 @@ struct ArchiveParts {
     }
   }
 
-  // A matrix is one run of bytes in its storage order, which is part of its type.
+  /// Visits a matrix of fixed size as raw bytes in its storage order, which is part of the type.
   template <class T, int R, int C, int O>
   static void part(Archive& a, Eigen::Matrix<T, R, C, O, R, C>& v) {
     static_assert(kPlain<Eigen::Matrix<T, R, C, O, R, C>>, "matrices of fixed size only");
     a.block(v.data(), sizeof(T) * R * C);
   }
-  /// Visits x y z w as stored, without normalising: normalising would change the last bits at every
-  /// load, and a run resumed from a snapshot would diverge from the original.
+  /// Visits the elements x y z w of a quaternion as stored, without normalising it: that would
+  /// change the last bits at every load, so that a run resumed from a snapshot would diverge from
+  /// the original run.
   static void part(Archive& a, Eigen::Quaterniond& q) {
     a.block(q.coeffs().data(), 4 * sizeof(double));
   }
-  /// Visits the rotation and the translation column by column; the last row is always 0 0 0 1 and
-  /// is set by `makeAffine` after loading. A rotation that contains a scale is refused, since all
-  /// users of a pose rely on there being none.
+  /// Visits the rotation and the translation of a pose column by column. The last row is always 0 0
+  /// 0 1; it is not saved, and `makeAffine` sets it after loading. A loaded rotation that contains
+  /// a scale is refused, as all code relies on rigid poses.
   static void part(Archive& a, Pose& X) {
     // One scalar at a time: the last row is not saved, so there is no single run of bytes.
     for (int c = 0; c < 4; ++c)
@@ -150,17 +153,17 @@ struct ArchiveParts {
     if (!is_rigid(X)) a.fail("must be a finite rigid pose");
   }
 
-  /// Visits text as bytes; no encoding is assumed.
+  /// Visits a text as its length and bytes, in any encoding.
   static void part(Archive& a, std::string& text) {
     // When saving, this resizes to the present length, which does nothing.
     text.resize(count(a, text.size()));
     a.block(text.data(), text.size());
   }
 
-  // Loading takes two paths. Plain elements are copied at once, after their size in bytes was
-  // checked. Others may have any size and are visited one by one, so the vector grows as they
-  // arrive and a wrong length hits the end of the section after at most as many elements as there
-  // are bytes. The previous content is discarded in both cases.
+  /// Visits a vector as its length and elements; loading discards the previous content. Plain
+  /// elements are loaded at once, after the number of remaining bytes has been checked. Other
+  /// elements may have any size and are loaded one by one; with a wrong length, loading then fails
+  /// at the end of the section.
   template <class T>
   static void part(Archive& a, std::vector<T>& v) {
     static_assert(!std::is_same_v<T, bool>,
@@ -182,8 +185,8 @@ struct ArchiveParts {
       }
     }
   }
-  // Memory that is owned elsewhere, e.g. a mapped device buffer, which need not be copied to be
-  // hashed. Loading visits a vector instead.
+  /// Visits memory that another object owns, such as a mapped device buffer, so that it need not be
+  /// copied to be hashed or saved. A span cannot be loaded; a vector must be visited instead.
   template <class T>
   static void part(Archive& a, std::span<const T>& v) {
     static_assert(kPlain<T>, "plain values only");
@@ -192,13 +195,13 @@ struct ArchiveParts {
     // Archives that do not load only read.
     a.block(const_cast<T*>(v.data()), v.size_bytes());
   }
-  // The length is part of the type and is not written.
+  /// Visits the elements of an array; the length is part of the type and is not written.
   template <class T, std::size_t N>
   static void part(Archive& a, std::array<T, N>& v) {
     elements(a, v);
   }
-  /// Visits the elements of a vector or array, in one run of bytes if the type allows it: a state
-  /// of 100 MB is then hashed word by word.
+  /// Visits the elements of a vector or array, without their number. Plain elements are handled as
+  /// one block, so that a state of 100 MB is hashed word by word.
   template <class List>
   static void elements(Archive& a, List& v) {
     if constexpr (kPlain<typename List::value_type>) {
@@ -211,16 +214,15 @@ struct ArchiveParts {
     }
   }
 
-  /// Visits both members without names: a pair is written as two consecutive fields, like a struct
-  /// of two members.
+  /// Visits the two members of a pair without names, like two consecutive fields.
   template <class A, class B>
   static void part(Archive& a, std::pair<A, B>& v) {
     part(a, v.first);
     part(a, v.second);
   }
 
-  /// Visits a flag and then the value, if there is one; an empty optional writes no value, so
-  /// nothing stale is saved. Loading constructs the value anew by its default constructor.
+  /// Visits a flag, and then the value if there is one. Loading creates the value with its default
+  /// constructor before it is visited.
   template <class T>
   static void part(Archive& a, std::optional<T>& v) {
     // Goes through `part`, which checks that the flag is 0 or 1.
@@ -230,8 +232,9 @@ struct ArchiveParts {
     if (v) part(a, *v);
   }
 
-  /// Visits the index of the alternative and then the alternative, which loading constructs anew.
-  /// The order of the alternatives is part of the format: append new ones.
+  /// Visits the index of the current alternative, and then its value. Loading creates the value
+  /// with its default constructor before it is visited. The order of the alternatives is part of
+  /// the format, so append new ones at the end.
   template <class... T>
   static void part(Archive& a, std::variant<T...>& v) {
     auto index = static_cast<std::uint32_t>(v.index());
@@ -242,15 +245,16 @@ struct ArchiveParts {
     if (a.loading_) emplace(v, index, std::index_sequence_for<T...>());
     std::visit([&a](auto& held) { part(a, held); }, v);
   }
-  // Selects an alternative by a run-time index with a chain of comparisons.
+  /// Creates the alternative with the run-time index `index` in `v`; I are the indices of all
+  /// alternatives.
   template <class Variant, std::size_t... I>
   static void emplace(Variant& v, std::uint32_t index, std::index_sequence<I...>) {
     ((index == I ? static_cast<void>(v.template emplace<I>()) : void()), ...);
   }
 
-  // Keys are written with their values, in the order of the map. Keys are copied because an archive
-  // takes non-const references. A key and its value share one element of the path, the index of the
-  // entry.
+  /// Visits the number of entries, and then each key with its value in the order of the map. In
+  /// paths, key and value both have the index of their entry. Keys are copied before they are
+  /// visited, as an archive takes non-const references.
   template <class K, class V>
   static void part(Archive& a, std::map<K, V>& v) {
     if (a.loading_) {
@@ -268,8 +272,9 @@ struct ArchiveParts {
       part(a, value);
     }
   }
-  // Like a map without values. Sorted containers of equal content write equal bytes, whatever the
-  // order of insertion; unordered containers do not, and have no overload here.
+  /// Visits the number of keys, and then the keys in ascending order. Sorted containers with equal
+  /// content write equal bytes, independent of the order of insertion; this does not hold for
+  /// unordered containers, which are therefore not supported.
   template <class K>
   static void part(Archive& a, std::set<K>& v) {
     if (a.loading_) {
@@ -284,9 +289,9 @@ struct ArchiveParts {
       part(a, key);
     }
   }
-  /// Loads a sorted container; `add` takes each key and loads what belongs to it. Keys must be
-  /// ascending and distinct, as SaveArchive writes them. This also keeps `emplace_hint` at the end
-  /// from searching, and restores the same container.
+  /// Loads the sorted container `v`, whose previous content is discarded. For each key, `add(key)`
+  /// inserts the key and loads the value that belongs to it. Keys must be distinct and in ascending
+  /// order, as SaveArchive writes them, so that each can be inserted at the end without a search.
   template <class K, class Container, class Add>
   static void load_keys(Archive& a, Container& v, const Add& add) {
     // The previous content is discarded.

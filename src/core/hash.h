@@ -15,16 +15,16 @@
 
 namespace navvy {
 
-/// Hash of a simulation state, so that two runs can be compared without storing either.
+/// Hash of a simulation state, with which two runs can be compared without storing their states.
 ///
-/// It detects differences; it does not resist deliberate collisions. It compares bits, not values:
-/// -0.0 and 0.0 differ, and so do two NaNs with different payloads, since a run that agrees in
-/// value but not in bits has diverged somewhere. The result depends on the order of the values and
-/// is equal on all little-endian machines.
+/// It detects accidental differences, not deliberate collisions. It compares bits, not values: -0.0
+/// and 0.0 differ, and so do two NaNs with different payloads, because a run that agrees in values
+/// but not in bits has diverged somewhere. The result depends on the order in which values are
+/// added and is the same on all little-endian machines.
 class StateHash {
  public:
-  /// Adds an array and its length: an array of zeros hashes differently from a longer one. An array
-  /// that is added in parts gives a different hash.
+  /// Adds an array of `size` bytes together with its size, so that arrays of zeros with different
+  /// lengths have different hashes. An array that is added in several parts gives a different hash.
   void bytes(const void* data, std::size_t size) {
     // The length comes first, so that bytes that move from one array to the next change the hash.
     mix(size);
@@ -39,8 +39,9 @@ class StateHash {
     // One byte per round for the tail.
     for (; size > 0; --size, ++p) mix(*p);
   }
-  /// Adds one number or enum, extended to a word with zeros, so that an int of 1 and a byte of 1
-  /// hash alike. Structs are refused, as their padding is noise.
+  /// Adds one number or enum, extended with zeros to 8 bytes; an int and a byte of the same
+  /// positive value therefore have the same hash. Structs do not compile, as their padding bytes
+  /// are arbitrary.
   template <class T>
   void value(const T& v) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "hash only values without padding");
@@ -49,9 +50,9 @@ class StateHash {
     std::memcpy(&word, &v, sizeof v);
     mix(word);
   }
-  /// Returns the hash of what was added so far; more may be added afterwards.
+  /// Returns the hash of everything added so far; more may be added afterwards.
   std::uint64_t digest() const { return state_; }
-  /// Returns the digest as 16 lower-case hex digits, as in hashes.csv and in manifests.
+  /// Returns the digest as 16 lower-case hexadecimal digits, as in hashes.csv and in manifests.
   std::string hex() const;
 
  private:

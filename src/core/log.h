@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Log of the libraries. They never print: each message is passed to the sink that the program
-// installs.
+// Log of the libraries. Libraries never print: each message is passed to a function, the sink,
+// which the program installs.
 #pragma once
 
 #include <functional>
@@ -8,23 +8,22 @@
 
 namespace navvy {
 
-/// Severity of a message. A warning says what was done instead of what was asked for. An error is a
-/// message only; the caller throws the exception that goes with it.
+/// Severity of a message. A warning states what Navvy did instead of what was requested. An error
+/// message does not stop anything by itself; the code that logs it also throws an exception.
 enum class LogLevel { kInfo, kWarning, kError };
 
-/// Takes one message, a line without its end. It is called from any thread that logs, so it must be
-/// thread-safe, and it must not log itself.
+/// Function that receives each message, one line without a line end. Any thread may call it, so it
+/// must be thread-safe. It must not log messages itself.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// Replaces the sink; an empty function (the default) drops every message. Not thread-safe against
-/// `log`: install the sink before threads start.
+/// Replaces the sink. With an empty function, which is the default, messages are discarded. Must
+/// not run at the same time as `log`: install the sink before starting threads.
 void set_log_sink(LogSink sink);
-/// Passes one message to the sink. Without a sink it costs nothing but building the text. Throws
-/// only what the sink throws.
+/// Passes one message to the sink, if there is one. Throws only what the sink throws.
 void log(LogLevel level, const std::string& text);
-/// Logs a message of level kInfo.
+/// Logs a message with the level kInfo.
 inline void log_info(const std::string& text) { log(LogLevel::kInfo, text); }
-/// Logs a message of level kWarning.
+/// Logs a message with the level kWarning.
 inline void log_warning(const std::string& text) { log(LogLevel::kWarning, text); }
 
 }  // namespace navvy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names that earlier releases used: elements of files, values, layers and channels.
+// Names that earlier releases used for elements of files, values, map layers and channels.
 #pragma once
 
 #include <string>
@@ -7,30 +7,33 @@
 
 namespace navvy {
 
-/// Kind of a name. Names of different kinds are independent.
+/// Type of a name. The same text may be used by names of different types independently.
 enum class NameKind {
-  kElement,         ///< element of a scene file: "navvy:physics"
-  kAttributeValue,  ///< "ELEMENT/ATTRIBUTE=VALUE" of a scene file: "navvy:drive/type=linkage"
-  kLayer,           ///< layer of a map: "elevation"
-  kChannel,         ///< channel of a controller; matches whole parts from its end: "drive/gear"
+  kElement,  ///< element of a scene file, e.g. "navvy:physics"
+  /// Value of an attribute as "ELEMENT/ATTRIBUTE=VALUE", e.g. "navvy:drive/type=linkage".
+  kAttributeValue,
+  kLayer,  ///< layer of a map, e.g. "elevation"
+  /// Channel of a controller; an entry also matches the last parts of a longer name, e.g.
+  /// "drive/gear" that of "digger/drive/gear".
+  kChannel,
 };
 
-/// One row of the table of renamed names.
+/// One renamed name: an entry of `renamed_names()`.
 struct RenamedName {
-  NameKind kind;
-  const char* old_name;
-  const char* name;
-  const char* until;  ///< release that no longer reads the old name
+  NameKind kind;         ///< type of the name
+  const char* old_name;  ///< name in earlier releases
+  const char* name;      ///< current name
+  const char* until;     ///< first release that no longer accepts the old name
 };
 
-/// Returns the rows of this release. It is the only place with old names.
+/// Returns the table of this release. No other code contains old names.
 const std::vector<RenamedName>& renamed_names();
 
-/// Returns the current name for `name`, which may be an old one. Logs a warning for the first use
-/// of each old name. A name that is not in the table is returned unchanged. Safe to call from
-/// several threads.
+/// Returns the current name for `name` if that is an old name of the type `kind`, otherwise `name`
+/// unchanged. Logs a warning at the first use of each old name. Thread-safe.
 std::string current_name(NameKind kind, const std::string& name);
-/// Looks up a table other than `renamed_names()`; for tests.
+/// Returns the current name for `name` according to `table` instead of `renamed_names()`; for
+/// tests.
 std::string current_name(NameKind kind, const std::string& name,
                          const std::vector<RenamedName>& table);
 

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wall time of stages. It never enters the state of a simulation.
+// Measurement of the wall-clock time that stages of a run take. It never affects the state of a
+// simulation.
 #pragma once
 
 #include <chrono>
 
 namespace navvy {
 
-/// Measures the wall time since construction or `restart`. The clock is monotonic and unaffected by
-/// changes of the system time. Reading it costs some tens of nanoseconds: measure stages with it,
-/// not single particles.
+/// Measures the wall-clock time since construction or the last `restart`. The clock is monotonic,
+/// so changes of the system time do not affect it. Reading it takes some tens of nanoseconds: use
+/// it for stages, not for single particles.
 class Stopwatch {
  public:
-  /// Returns the elapsed time [s] without stopping the clock.
+  /// Returns the elapsed time [s]; the clock continues.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  /// Restarts from zero.
+  /// Sets the elapsed time to zero.
   void restart() { start_ = Clock::now(); }
 
  private:
-  // Not the time of day, which jumps when the clock is set.
+  // A monotonic clock; the time of day jumps when the system clock is set.
   using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
+  Clock::time_point start_ = Clock::now();  ///< time of construction or of the last `restart`
 };
 
-/// Adds its lifetime [s] to a sum, also when an exception leaves the scope. The sum must outlive
-/// it. It measures host time: work queued on a device is not waited for. Laps of one sum must not
-/// nest, or time counts twice.
+/// Adds the time from construction to destruction [s] to a sum, also if an exception leaves the
+/// scope. The sum must exist longer than this object. It measures time on the host and does not
+/// wait for work queued on a device. Objects that add to the same sum must not be nested, as time
+/// would then count twice.
 ///
 ///   double rendering = 0;
 ///   {
@@ -33,16 +35,16 @@ class Stopwatch {
 ///   }
 class Lap {
  public:
-  /// Starts the clock; the destructor adds the time to `sum` [s].
+  /// Starts the clock; the destructor adds the elapsed time to `sum` [s].
   explicit Lap(double& sum) : sum_(sum) {}
   ~Lap() { sum_ += watch_.seconds(); }
   Lap(const Lap&) = delete;
   Lap& operator=(const Lap&) = delete;
 
  private:
-  // Written once, in the destructor; until then the sum holds the finished laps.
+  /// Sum to which the destructor adds the elapsed time [s]; it is not changed before.
   double& sum_;
-  Stopwatch watch_;
+  Stopwatch watch_;  ///< clock, started at construction
 };
 
 }  // namespace navvy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Check of UTF-8 text, as JSON and CSV files require it.
+// Check for valid UTF-8 text, which JSON and CSV files require.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,9 @@
 
 namespace navvy {
 
-/// Returns the offset of the first byte that is not part of well-formed UTF-8 (RFC 3629: no
-/// surrogates, no overlong forms, at most U+10FFFF), or npos if all of the text is valid.
+/// Returns the offset of the first byte in `text` that does not belong to well-formed UTF-8 (RFC
+/// 3629: no surrogates, no overlong forms, at most U+10FFFF); npos if the whole text is
+/// well-formed.
 std::size_t first_bad_utf8(std::string_view text);
 
 }  // namespace navvy

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCL devices: listing, selection, queue, profile. No other module includes OpenCL headers.
+// OpenCL devices: list, selection, queue, and execution times. No other module includes OpenCL
+// headers.
 #pragma once
 
 #include <cstddef>
@@ -12,95 +13,90 @@
 
 namespace navvy::device {
 
-/// Type of a device, which decides how kernels are scheduled. The vendor never does.
+/// Type of a device. How kernels are scheduled depends on this type, never on the vendor.
 enum class Kind { kCpu, kGpu, kOther };
 
 /// Properties that a device reports.
 struct DeviceInfo {
-  /// Index in the list of all devices, platform by platform.
-  int index = 0;
-  /// Type by which kernels are scheduled.
-  Kind kind = Kind::kOther;
-  /// Texts as the driver reports them.
+  int index = 0;             ///< index in the list of all devices, which is ordered by platform
+  Kind kind = Kind::kOther;  ///< type of the device
+  /// Name of the device, name of its platform, OpenCL version and driver version, as reported by
+  /// the driver.
   std::string name, platform, version, driver;
-  /// Number of units that run work-groups in parallel, the cores of a CPU.
-  int compute_units = 0;
-  /// Global memory [bytes], or the limit from NAVVY_DEVICE_MEMORY_MIB if that is less.
+  int compute_units = 0;  ///< number of units that run work-groups in parallel; for a CPU the cores
+  /// Global memory [bytes], or the limit NAVVY_DEVICE_MEMORY_MIB if that is lower.
   std::uint64_t memory = 0;
-  /// Largest work-group [work-items].
-  std::size_t max_work_group = 0;
-  /// True if the device shares the host's memory, so that mapping buffers costs no copy.
+  std::size_t max_work_group = 0;  ///< maximum size of a work-group [work-items]
+  /// True: device and host share memory, so that mapping a buffer copies nothing.
   bool shares_memory = false;
-  /// True if the device can round single-precision division and square root correctly.
+  /// True: float division and square root can be rounded correctly.
   bool correct_divide_sqrt = false;
 
-  /// Returns e.g. "0: cpu, pthread-haswell-AMD EPYC (Portable Computing Language, OpenCL 3.0 PoCL
-  /// ...), 2 compute units, 7.6 GiB".
+  /// Returns a description for people, e.g. "0: cpu, pthread-haswell-AMD EPYC (Portable Computing
+  /// Language, OpenCL 3.0 PoCL ...), 2 compute units, 7.6 GiB".
   std::string text() const;
 };
 
-/// Returns the devices of all platforms, or none. A broken platform is left out without an
-/// exception. Opens the kernel cache first; the first call in a process loads the drivers.
+/// Returns the devices of all platforms; empty if there are none. A platform with errors is skipped
+/// without an exception. The first call in a process prepares the kernel cache and loads the
+/// drivers.
 std::vector<DeviceInfo> list_devices();
 
-/// Time that a kernel took on the device, summed over launches, on the device's clock. Launch
-/// overhead, copies and waits are not included. Counted only while the profile is on.
+/// Execution time of one kernel on the device, summed over all launches while the profile was on.
+/// Launch overhead, copies and waiting are not included.
 struct KernelTime {
-  /// Name of the kernel, without the name of its program.
-  std::string name;
-  /// Number of launches since the profile was switched on or cleared.
-  std::uint64_t launches = 0;
-  /// Time on the device [s].
-  double seconds = 0;
+  std::string name;            ///< name of the kernel, without the name of its program
+  std::uint64_t launches = 0;  ///< number of launches since the profile was switched on or cleared
+  double seconds = 0;          ///< total time on the device, by the device's clock [s]
 };
 
-/// One device with its context and one in-order queue.
+/// One OpenCL device with its context and one in-order queue.
 ///
-/// Buffers, programs and kernels keep the device alive. Work runs in the order of the calls that
-/// queue it; only reads, maps and `finish` wait. With a single queue the order of results does not
-/// depend on the driver, so results on a device are repeatable. Not thread-safe. Moving is cheap
-/// and leaves the source without a device.
+/// Buffers, programs and kernels keep the device alive. Queued work runs in the order of the calls;
+/// only reads, maps and `finish` wait for it. As there is only one queue, the order of operations
+/// does not depend on the driver, so that results on one device are repeatable. Not thread-safe.
+/// Moving is cheap and leaves the source without a device.
 class Device {
  public:
-  /// Selects a device: "cpu", "gpu", an index of `list_devices`, or a part of a name or platform
-  /// (case-insensitive). For an empty choice the environment variable NAVVY_DEVICE decides, else
-  /// the first CPU, the first GPU or the first device is taken. NAVVY_DEVICE_MEMORY_MIB limits the
-  /// memory of all its buffers [MiB].
-  /// @throws DeviceError if nothing matches; the message lists the devices and says what to do.
+  /// Selects a device: "cpu", "gpu", an index in `list_devices`, or a part of a device or platform
+  /// name (case-insensitive). If `choice` is empty, the environment variable NAVVY_DEVICE is used
+  /// instead; if that is not set, the first CPU, else the first GPU, else the first device.
+  /// NAVVY_DEVICE_MEMORY_MIB limits the memory of all buffers on the device [MiB].
+  /// @throws DeviceError if no device matches; the message lists the devices and says what to do
   explicit Device(const std::string& choice = "");
-  /// Waits for queued work if nothing else holds the device. Never throws.
+  /// Waits for queued work if no buffer, program or kernel uses the device any more. Never throws.
   ~Device();
   // Not copyable: two owners of one queue would have to agree about the profile.
   Device(Device&&) noexcept;
   Device& operator=(Device&&) noexcept;
 
-  /// Returns what the device reported when it was selected, with the memory that Navvy may use.
+  /// Returns the properties of the device, with the amount of memory that Navvy may use.
   const DeviceInfo& info() const;
   /// Returns the memory of all buffers on this device [bytes]. A buffer counts from its
-  /// construction until its last copy is destroyed; programs and the driver's own memory are not
-  /// included.
+  /// construction until its last copy is destroyed; programs and memory that the driver uses itself
+  /// are not included.
   std::uint64_t memory_used() const;
 
   /// Waits until all queued work is done.
-  /// @throws DeviceError if some of it failed.
+  /// @throws DeviceError if any of it failed
   void finish();
 
-  /// Switches the profile of kernels, which is off by default as it slows a run down slightly.
-  /// Waits for queued work.
+  /// Switches the recording of kernel times on or off. It is off by default, as it slows a run down
+  /// slightly. Waits for queued work.
   void set_profile(bool on);
-  /// Returns the device time of each kernel, in alphabetical order, since the profile was switched
-  /// on or cleared. Waits for queued work.
+  /// Returns the times of all kernels, in alphabetical order, since the profile was switched on or
+  /// cleared. Waits for queued work.
   std::vector<KernelTime> profile();
-  /// Resets the profile. Waits first, so that work that is queued now is not counted later.
+  /// Resets all recorded times. Waits first, so that work already queued is not recorded later.
   void clear_profile();
 
-  /// OpenCL objects, shared with buffers, programs and kernels. Private to src/device.
+  /// OpenCL objects, shared with buffers, programs and kernels. Only for use in src/device.
   struct State;
   /// Returns the OpenCL objects.
   const std::shared_ptr<State>& state() const { return state_; }
 
  private:
-  std::shared_ptr<State> state_;
+  std::shared_ptr<State> state_;  ///< OpenCL objects; null after a move
 };
 
 }  // namespace navvy::device

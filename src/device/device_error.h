@@ -8,14 +8,14 @@
 
 namespace navvy::device {
 
-/// An OpenCL call failed, a kernel did not build, or no device matched. `what()` holds the call,
-/// the symbolic name of the error, the kernel, the device and the build log, as far as they apply,
-/// and what to do.
+/// Exception for a failed OpenCL call, a kernel that could not be built, or a device that was not
+/// found. As far as they apply, `what()` contains the call, the symbolic error name, the kernel,
+/// the device and the build log, and what the user can do.
 class DeviceError : public Error {
  public:
-  /// Takes the whole message and the OpenCL error code, or 0 if no call failed.
+  /// Stores the complete message and the OpenCL error code; 0 if no OpenCL call failed.
   explicit DeviceError(const std::string& text, int code = 0) : Error(text), code_(code) {}
-  /// Returns the OpenCL error code, or 0 if no call failed. It serves tests and callers that can
+  /// Returns the OpenCL error code; 0 if no OpenCL call failed. Tests use it, and callers that can
   /// continue with less memory.
   int code() const { return code_; }
 
@@ -23,8 +23,8 @@ class DeviceError : public Error {
   int code_;
 };
 
-/// Returns the symbolic name of an OpenCL error code, e.g. "CL_INVALID_KERNEL_ARGS", or "CL error
-/// -1234" for an unknown one (from an extension or a faulty driver).
+/// Returns the symbolic name of an OpenCL error code, e.g. "CL_INVALID_KERNEL_ARGS"; for an unknown
+/// code (of an extension or a faulty driver) e.g. "CL error -1234".
 std::string error_name(int code);
 
 }  // namespace navvy::device

@@ -4,14 +4,13 @@
 
 namespace navvy::device {
 
-/// One file of kernels/ at build time. Both texts are literals.
+/// One file of kernels/, embedded when Navvy was built. Both members are string literals.
 struct EmbeddedFile {
-  /// Path relative to kernels/.
-  const char* path;
-  const char* text;
+  const char* path;  ///< path relative to kernels/
+  const char* text;  ///< content of the file
 };
 
-/// Returns all files; the array ends with a null path.
+/// Returns an array of all embedded files; the last entry has a null path.
 const EmbeddedFile* embedded_files();
 
 }  // namespace navvy::device

@@ -16,43 +16,42 @@
 
 namespace navvy::device {
 
-/// OpenCL objects behind a Device; the queue is released before the context.
+/// OpenCL objects of a Device; the queue is released before the context.
 struct Device::State {
-  DeviceInfo info;
-  /// Handles of OpenCL; null until the constructor of Device has created them.
+  DeviceInfo info;  ///< properties of the device
+  /// OpenCL handles of device, context and queue; null until the constructor of Device has created
+  /// them.
   cl_device_id device = nullptr;
   cl_context context = nullptr;
   cl_command_queue queue = nullptr;
-  bool profiling = false;
-  /// True after the driver threw within itself. It keeps its locks, so nothing is released any
-  /// more.
+  bool profiling = false;  ///< true: kernel times are recorded
+  /// True after the driver has thrown an exception. The driver then still holds its locks, so no
+  /// OpenCL object is released any more.
   bool lost = false;
-  /// Memory of all buffers [bytes].
-  std::uint64_t memory_used = 0;
-  /// Launches that are not yet added to `times`. Events hold driver memory, so the list is emptied
-  /// at every wait and when it grows long.
+  std::uint64_t memory_used = 0;  ///< memory of all buffers [bytes]
+  /// Kernel name and event of each launch whose time has not been added to `times`. Events use
+  /// memory of the driver, so the list is emptied at every wait and when it becomes long.
   std::vector<std::pair<std::string, cl_event>> events;
-  /// Profile by kernel name.
-  std::map<std::string, KernelTime> times;
-  /// Notice of a slow compilation, alive from the first launch of a kernel, when the driver may
-  /// compile machine code, until the next wait.
+  std::map<std::string, KernelTime> times;  ///< recorded times, keyed by kernel name
+  /// Notice of a slow compilation. It exists from the first launch of a kernel, at which the driver
+  /// may compile machine code, until the next wait.
   std::unique_ptr<SlowCall> compiling;
 
   State() = default;
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State();
-  /// Creates `queue` in `context`, with profiling as set.
+  /// Creates `queue` in `context`, with event timing if `profiling` is true.
   void open_queue();
-  /// Waits for the queue, ends the notice of a slow compilation and collects events.
+  /// Waits for the queue, removes the notice of a slow compilation and collects the events.
   void finish();
-  /// Adds finished launches to `times`. All queued work must be done.
+  /// Adds the times of finished launches to `times`. All queued work must be done.
   void collect();
 };
 
 /// Checks the result of an OpenCL call.
-/// @throws DeviceError "<call> failed: <symbol>[, kernel <kernel>], on device <name>" unless `code`
-/// is CL_SUCCESS.
+/// @throws DeviceError "<call> failed: <symbol>[, kernel <kernel>], on device <name>" if `code` is
+/// not CL_SUCCESS
 void check(cl_int code, const char* call, const Device::State& state,
            const std::string& kernel = "");
 

@@ -8,18 +8,19 @@
 
 namespace navvy::device {
 
-/// Returns the text of one kernel file, named relative to kernels/, e.g.
-/// "soil/lanes/particle_to_grid.cl". It is read from the folder in the environment variable
-/// NAVVY_KERNEL_DIR if that is set, so that a kernel can be edited and run without a build, else
-/// from the embedded files.
-/// @throws DeviceError if there is no such file.
+/// Returns the text of a kernel file, whose path is relative to kernels/, e.g.
+/// "soil/lanes/particle_to_grid.cl". If the environment variable NAVVY_KERNEL_DIR is set, the file
+/// is read from that folder, so that an edited kernel runs without a build; otherwise the embedded
+/// file is returned.
+/// @throws DeviceError if there is no such file
 std::string kernel_source(const std::string& path);
 
-/// Returns `text` of file `path` with every `#include "..."` (relative to kernels/) replaced by
-/// that file, each file once, and with `#line` directives so that a build log names the files.
-/// `#include <...>` is left in place; shared headers hide it from OpenCL. An include must be alone
-/// on its line and outside of conditionals.
-/// @throws DeviceError naming file and line of an include that does not exist.
+/// Returns `text`, the content of the kernel file `path`, with every `#include "..."` (relative to
+/// kernels/) replaced by the content of that file, at its first occurrence only. `#line` directives
+/// make the build log refer to the original files. `#include <...>` is left unchanged; shared
+/// headers hide it from OpenCL. An include must be the only text on its line and outside
+/// conditionals.
+/// @throws DeviceError naming file and line of an include that does not exist
 std::string expand_includes(const std::string& path, const std::string& text);
 
 }  // namespace navvy::device

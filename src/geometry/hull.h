@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Convex hulls of points.
+// Convex hulls of sets of points.
 #pragma once
 
 #include <vector>
@@ -8,34 +8,34 @@
 
 namespace navvy::geometry {
 
-/// Half-space of the points p with normal . p <= offset.
+/// A plane, and the half-space behind it: all points p with normal . p <= offset.
 struct Plane {
-  /// Unit vector, outwards.
-  Vec3 normal = Vec3::UnitZ();
-  /// Distance from the origin along the normal [m].
-  double offset = 0;
+  Vec3 normal = Vec3::UnitZ();  ///< unit normal, pointing out of the half-space
+  double offset = 0;            ///< distance of the plane from the origin along the normal [m]
 };
 
-/// Smallest convex body that contains all points, as a surface and as half-spaces.
+/// The smallest convex body that contains all given points, described by its surface and by
+/// half-spaces.
 struct ConvexHull {
-  /// Closed surface with fronts outside. Its vertices are points of the input, in lexicographic
-  /// order.
+  /// Closed surface whose fronts face outwards. The vertices are those of the given points that are
+  /// corners of the hull, in lexicographic order.
   TriangleMesh mesh;
-  /// One half-space per face, however many triangles the face has. A point is inside the hull if it
-  /// is inside all.
+  /// One half-space per face; a face may consist of several triangles. A point is in the hull if it
+  /// is in all half-spaces.
   std::vector<Plane> planes;
 };
 
-/// Computes the convex hull of `points` [m], in any order and with duplicates.
+/// Computes the convex hull of `points` [m], which may be in any order and contain duplicates.
 ///
-/// Corners are determined exactly on a lattice of 2^-40 of the points' extent, so rounding cannot
-/// fold the surface. Triangles whose points lie within 1e-7 of the box's diagonal of one plane form
-/// one face, whose plane passes through the first three such points in lexicographic order; the
-/// result does not depend on the order of the input. Coplanar points give a hull without triangles
-/// and their plane from both sides. The cost is the number of points times the number of the hull's
-/// triangles: 0.05 s for a thousand points on a sphere, 0.9 s for four thousand; points inside are
-/// cheap.
-/// @throws InputError if a coordinate is not finite or all points are collinear.
+/// The corners are determined exactly on a lattice with a spacing of 2^-40 of the points' extent,
+/// so that rounding cannot fold the surface. Triangles form one face if all their points are closer
+/// to one plane than 1e-7 of the bounding box's diagonal; the plane of the face passes through the
+/// first three of these points in lexicographic order. The result does not depend on the order of
+/// the input. For coplanar points the hull has no triangles, and `planes` has two entries with
+/// opposite normals. The cost is proportional to the number of points times the number of triangles
+/// of the hull: 0.05 s for a thousand points on a sphere, 0.9 s for four thousand; points in the
+/// interior cost little.
+/// @throws InputError if a coordinate is not finite or all points are collinear
 ConvexHull convex_hull(std::vector<Vec3> points);
 
 }  // namespace navvy::geometry

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Oriented boxes and their penetration.
+// Oriented boxes and the depth to which two of them overlap.
 #pragma once
 
 #include "core/math.h"
 
 namespace navvy::geometry {
 
-/// Box centred at the origin of its own frame O.
+/// Box in any orientation, centred at the origin of its own frame O with edges along the axes of O.
 struct OrientedBox {
-  /// Pose in W.
-  Pose X_WO = Pose::Identity();
-  /// Half of the edge lengths [m].
-  Vec3 half = Vec3::Zero();
+  Pose X_WO = Pose::Identity();  ///< pose of the box in W
+  Vec3 half = Vec3::Zero();      ///< half of the edge lengths [m]
 };
 
-/// Returns the distance by which the boxes must be separated to touch no more [m], the least over
-/// the fifteen separating axes. Zero or negative: the boxes are apart by at least its magnitude.
+/// Returns the shortest distance by which one box must be moved so that the boxes only touch [m]:
+/// the minimum over the fifteen candidate separating axes. If the result is negative or zero, the
+/// boxes do not overlap, and their distance is at least its magnitude.
 double penetration(const OrientedBox& a, const OrientedBox& b);
 
 }  // namespace navvy::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes cut into pieces of bounded size.
+// Divides meshes into pieces of limited size.
 #pragma once
 
 #include <array>
@@ -10,25 +10,24 @@
 
 namespace navvy::geometry {
 
-/// Longest edge of the pieces that the solver cuts shells into [cells]. Shorter pieces fit the zone
-/// near a shell more tightly, longer ones cost fewer look-ups.
+/// Maximum edge length, in soil cells, of the pieces into which the solver divides shells. With
+/// shorter pieces, the zone of cells near a shell fits more tightly; with longer pieces, there are
+/// fewer pieces to look up.
 inline constexpr double kShellPieceCells = 3;
 
-/// Part of a triangle.
+/// A triangle that is part of a triangle of a mesh.
 struct MeshPiece {
-  /// Corners [m].
-  std::array<Vec3, 3> corner;
-  /// Index of the triangle in the mesh.
-  int triangle;
+  std::array<Vec3, 3> corner;  ///< corners [m]
+  int triangle;                ///< index in the mesh of the triangle to which the piece belongs
 };
 
-/// Halves triangles at their longest edge until no edge exceeds `longest` [m], in the order of the
-/// triangles. The number of pieces grows with the area over the square of `longest`: call
-/// `count_pieces` first for meshes from users.
+/// Returns the mesh as pieces in the order of its triangles. A piece is halved at its longest edge
+/// until no edge is longer than `longest` [m]. The number of pieces is proportional to area /
+/// longest^2; for meshes from users, call `count_pieces` first.
 std::vector<MeshPiece> cut_to_pieces(const TriangleMesh& mesh, double longest);
 
-/// Counts the pieces that cut_to_pieces would return. Counting stops with the first piece beyond
-/// `most`, which bounds the cost.
+/// Returns the number of pieces that `cut_to_pieces` would return. To limit the cost, counting
+/// stops at `most` + 1.
 std::size_t count_pieces(const TriangleMesh& mesh, double longest, std::size_t most);
 
 }  // namespace navvy::geometry

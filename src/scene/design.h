@@ -12,27 +12,37 @@
 
 namespace navvy::scene {
 
-/// A triangulated surface in survey coordinates: easting, northing and elevation in metres.
+/// Triangulated surface (triangulated irregular network) in survey coordinates, in this order:
+/// easting, northing and elevation [m].
 struct Tin {
-  std::string file, name;                 ///< for messages
-  int epsg = 0;                           ///< code of the coordinate system; 0: unknown
-  double metres = 1;                      ///< length of the file's unit; the points are converted
-  std::vector<Vec3> points;               ///< [m]
-  std::vector<std::array<int, 3>> faces;  ///< visible ones, indices of points, wound either way
+  /// Path of the LandXML file and name of the surface in that file, for messages.
+  std::string file, name;
+  int epsg = 0;  ///< EPSG code of the coordinate system; 0: unknown
+  /// Length of the file's unit of length [m], for messages; `points` have already been converted to
+  /// metres.
+  double metres = 1;
+  std::vector<Vec3> points;  ///< vertices: easting, northing, elevation [m]
+  /// Visible triangles, each with three indices into `points`; either winding is allowed.
+  std::vector<std::array<int, 3>> faces;
 };
 
-/// A pit or a pad: a plane floor over a simple polygon, with battered sides outside it up or down
-/// to the untouched ground. A place outside belongs to the nearest place of the polygon's edge, so
-/// sides turn round outer corners as cones.
+/// A pit or a pad: a plane floor inside a simple polygon. Outside the polygon, battered sides rise
+/// or fall from its edge to the untouched ground. The height of a side at a point follows from the
+/// nearest point of the polygon's edge, so the sides form cones around convex corners.
 struct DesignArea {
-  int line = 0;                         ///< in the scene's file, for messages
-  std::vector<Vec2> polygon;            ///< corners in W [m], closed by itself, wound either way
-  double depth = 0;                     ///< [m]
-  double fall = 0;                      ///< [rad]
-  double fall_yaw = 0;                  ///< [rad]
-  double batter = radians(90);          ///< [rad]
-  std::vector<double> polygon_numbers;  ///< coordinates of `polygon` as read
+  int line = 0;  ///< line of the area in the scene file, for messages
+  /// Corners in W [m], in either winding; the last corner is connected to the first one.
+  std::vector<Vec2> polygon;
+  /// Depth of the floor at the first corner below the untouched ground there [m]; negative: a pad
+  /// above the ground.
+  double depth = 0;
+  double fall = 0;      ///< slope angle of the floor [rad]; 0: level
+  double fall_yaw = 0;  ///< direction in which the floor falls, measured from W's x axis [rad]
+  double batter = radians(90);  ///< angle of the sides from the horizontal [rad]; pi/2: vertical
+  /// Coordinates of `polygon` as the file lists them: x y x y ...
+  std::vector<double> polygon_numbers;
 
+  /// Passes the fields of an <area> to the visitor `f`.
   void describe(Fields& f) {
     f("polygon_m", polygon_numbers, {-1e6, 1e6},
       "Coordinates x y in W of 3 to 1000 corners; edges must not cross.", kNeeded);
@@ -45,15 +55,19 @@ struct DesignArea {
   }
 };
 
-/// The design surface: a file or a list of areas. A scene without either has no design.
+/// The design surface of a scene: a file or a list of areas, never both. A scene without either has
+/// no design.
 struct Design {
-  std::string file;                ///< raster or LandXML
-  RasterScale scale;               ///< of a raster
-  std::shared_ptr<const Tin> tin;  ///< the surface of a LandXML `file`
-  std::vector<DesignArea> areas;   ///< later ones override earlier ones
-  std::string surface;
+  std::string file;   ///< path of a raster or LandXML file; empty: none
+  RasterScale scale;  ///< cell size, heights and corner of a raster without its own georeference
+  /// Surface read from a LandXML `file`; null for a raster or without a file.
+  std::shared_ptr<const Tin> tin;
+  std::vector<DesignArea> areas;  ///< pits and pads; where areas overlap, the last one is valid
+  std::string surface;  ///< name of the surface in a LandXML file; empty: the only one in the file
 
+  /// Returns true if the scene has a design.
   bool any() const { return !file.empty() || !areas.empty(); }
+  /// Passes the fields of <navvy:design> to the visitor `f`.
   void describe(Fields& f) {
     f("file", file,
       "LandXML 1.2 TIN or a raster as for the ground, in the coordinates of the ground's map.",

@@ -8,7 +8,7 @@
 
 namespace navvy::scene {
 
-/// Returns the drive that steers by different speeds of its sides, null for other kinds.
+/// Returns `drive` as a differential drive; null for the other types of drive.
 inline const DifferentialDrive* differential_drive(const Drive& drive) {
   return std::get_if<DifferentialDrive>(&drive);
 }

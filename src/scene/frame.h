@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input of renderers and cameras at one instant: shapes with poses, the ground, loose particles. It
-// does not refer to a solver; sim fills it, render draws it.
+// Input of renderers and cameras at one instant: shapes with poses, the ground and loose particles.
+// The structs do not depend on a solver: the module sim fills them, the module render draws them.
 #pragma once
 
 #include <cstdint>
@@ -13,71 +13,77 @@
 
 namespace navvy::scene {
 
-/// Pose of a visual. `visual` outlives the frame. V is the frame of the visual, W the world.
+/// A visual and its pose. V is the frame of the visual, W the world.
 struct FrameShape {
-  const Visual* visual = nullptr;
-  Pose X_WV = Pose::Identity();
+  const Visual* visual = nullptr;  ///< appearance; must outlive the frame
+  Pose X_WV = Pose::Identity();    ///< pose of the visual in W
 };
 
-/// A hydraulic cylinder between its two pins [m] in W: a round barrel from the base, and a thinner
-/// rod over the whole length.
+/// A hydraulic cylinder, drawn as a round barrel that starts at the base pin and a thinner rod over
+/// the whole distance between the pins.
 struct FrameCylinder {
+  /// Positions of the base pin and the rod pin in W [m].
   Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
-  // Outer radius and length of the barrel [m]; the pins may be closer than its length.
-  double radius = 0.06;
+  double radius = 0.06;  ///< outer radius of the barrel [m]
+  /// Length of the barrel [m]; may exceed the distance between the pins.
   double barrel_length = 0.5;
 };
 
-/// Half-open rectangle of columns of a FrameGround.
+/// Half-open rectangle of columns of a FrameGround: x0 <= ix < x1 and y0 <= iy < y1.
 struct FrameRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Copy of the ground's surface. Node (ix, iy) is the column centre at origin + ((ix, iy) + 0.5)
-/// cell; x runs fastest.
+/// Copy of the ground's surface. Arrays have one entry per column; that of column (ix, iy) is at
+/// index ix + nx * iy. The entry applies to the centre of the column, origin + ((ix, iy) + 0.5) *
+/// cell.
 struct FrameGround {
-  int nx = 0, ny = 0;
-  double cell = 0.1;               ///< [m]
-  Vec2 origin = Vec2::Zero();      ///< lower-left corner of column (0,0) in W [m]
-  std::vector<float> height;       ///< [m], nx * ny
-  std::vector<float> change;       ///< height - height at the start [m]; the dug and dumped parts
-  std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the surface layer
-  // Linear RGB by the index of a soil, for ground and particles.
+  int nx = 0, ny = 0;          ///< numbers of columns along x and y
+  double cell = 0.1;           ///< edge of a column [m]
+  Vec2 origin = Vec2::Zero();  ///< lower-left corner of column (0,0) in W [m]
+  std::vector<float> height;   ///< height of the surface in W [m]
+  /// Height minus height at the start of the run [m]: negative where soil was dug.
+  std::vector<float> change;
+  std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the soil at the surface
+  /// Linear RGB color of each soil, by soil index; used for ground and particles.
   std::vector<Color> soil_color;
-  std::uint64_t revision = 0;  ///< changes whenever any height changed
-  /// Rectangles that hold all changes since the frame of the last revision; they may overlap.
+  std::uint64_t revision = 0;  ///< counter that changes whenever any height has changed
+  /// Rectangles that contain every height change since the previous revision; they may overlap.
   std::vector<FrameRect> changed;
 };
 
-/// Loose soil, one entry per particle in all arrays. Positions are floats relative to `origin`,
-/// which keeps their precision on a large site.
+/// Loose soil: arrays with one entry per particle. Positions are floats relative to `origin`, so
+/// that they remain precise on a large site.
 struct FrameParticles {
-  std::vector<float> position;  ///< xyz in W [m], relative to `origin`
-  Vec3 origin = Vec3::Zero();
+  /// x, y, z of each particle relative to `origin`, in the axes of W [m]
+  std::vector<float> position;
+  Vec3 origin = Vec3::Zero();      ///< reference point of `position` in W [m]
   std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
-  /// Number for life, by which a particle keeps its appearance; empty: its index.
+  /// Permanent ID of each particle, from which its appearance is derived. Empty: the array index is
+  /// the ID.
   std::vector<std::uint32_t> id;
-  double radius = 0.04;  ///< [m]
-  /// Distance from the closest plate [m], beyond which a drawn particle is clipped; empty: none.
+  double radius = 0.04;  ///< radius of a drawn particle [m]
+  /// Distance of each particle from the closest plate of a tool [m]; the part of a drawn particle
+  /// that extends further is clipped. Empty: no particle is clipped.
   std::vector<float> clearance;
 };
 
-/// Input of one picture. Filling and drawing may happen in different threads.
+/// All input for drawing one picture. One thread may fill it while another draws an earlier one.
 struct Frame {
-  double time = 0;  ///< [s]
-  std::vector<FrameShape> shapes;
-  std::vector<FrameCylinder> cylinders;
-  // Ground and particles are of the same instant as the poses.
-  FrameGround ground;
-  FrameParticles particles;
-  std::vector<Light> lights;
+  double time = 0;                       ///< simulated time [s]
+  std::vector<FrameShape> shapes;        ///< visuals of all links
+  std::vector<FrameCylinder> cylinders;  ///< hydraulic cylinders of all machines
+  FrameGround ground;                    ///< surface of the ground at `time`
+  FrameParticles particles;              ///< loose soil at `time`
+  std::vector<Light> lights;             ///< lights of the scene; the first one casts shadows
 };
 
-/// Camera of one frame: pose with x right, y up, looking along -z (OpenGL).
+/// Camera of one frame. In the camera frame C, x points right, y up, and the camera looks along -z,
+/// as in OpenGL.
 struct FrameCamera {
-  Pose X_WC = Pose::Identity();
-  double fov = radians(50);  ///< horizontal [rad]
-  int width = 1280, height = 720;
+  Pose X_WC = Pose::Identity();    ///< pose of the camera in W
+  double fov = radians(50);        ///< horizontal field of view [rad]
+  int width = 1280, height = 720;  ///< width and height of the picture [pixels]
 };
 
 }  // namespace navvy::scene

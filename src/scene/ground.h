@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground of a site: a heightmap file or procedural shapes, in layers of soil.
+// The ground of a site at the start of a run: a heightmap file or procedural shapes, with layers of
+// soil.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +12,31 @@
 
 namespace navvy::scene {
 
-inline constexpr Range kPlaceRange = {-1e6, 1e6};   ///< of a place in W [m]
-inline constexpr Range kLengthRange = {0.01, 1e5};  ///< of a length on the site [m]
+/// Allowed coordinates of a point in W [m].
+inline constexpr Range kPlaceRange = {-1e6, 1e6};
+/// Allowed values of a length on the site [m].
+inline constexpr Range kLengthRange = {0.01, 1e5};
 
-/// One procedural shape added to the flat ground. Heights are summed in the order of the file, then
-/// clipped to the bedrock. A kind uses the members that `describe` lists for it. Lengths are along
-/// and across `yaw`, which turns from W's x towards its y.
+/// One procedural shape that is added to the flat ground. The heights of all shapes are added in
+/// the order of the file, and the sum is limited to heights above the bedrock. A type of shape uses
+/// only those members that `describe` lists for it. `length` is measured along the direction `yaw`,
+/// which turns from W's x axis towards its y axis, and `width` across it.
 struct GroundFeature {
+  /// Type of the shape.
   enum class Kind { kSlope, kHills, kStockpile, kTrench, kBank, kBlock };
-  Kind kind = Kind::kSlope;
-  Vec2 center = Vec2::Zero();  ///< [m] in W
-  double yaw = 0;              ///< [rad]
-  double length = 1;           ///< [m]; of hills the wavelength
-  double width = 1;            ///< [m]
-  double height = 1;           ///< [m]; of a trench its depth
-  double angle = 0;            ///< [rad]
-  std::uint64_t seed = 1;
-  bool has_seed = false;  ///< false: the scene's seed
+  Kind kind = Kind::kSlope;    ///< type of the shape
+  Vec2 center = Vec2::Zero();  ///< position of the shape's middle in W [m]
+  double yaw = 0;              ///< direction of the shape, from W's x axis [rad]
+  double length = 1;  ///< extent along `yaw` [m]; for hills the typical distance from hill to hill
+  double width = 1;   ///< extent across `yaw` [m]
+  double height = 1;  ///< height above the ground [m]; for a trench the depth below the ground
+  /// Angle of a slope, of the sides or of a face [rad]: from the vertical for a trench, otherwise
+  /// from the horizontal.
+  double angle = 0;
+  std::uint64_t seed = 1;  ///< seed of the hills' noise
+  bool has_seed = false;   ///< false: `seed` was not given, so the hills use the scene's seed
 
-  /// Returns a shape with the default values of its kind.
+  /// Returns a shape of type `kind` with the default values of that type.
   static GroundFeature of(Kind kind) {
     GroundFeature shape;
     shape.kind = kind;
@@ -37,6 +44,7 @@ struct GroundFeature {
     if (kind == Kind::kBank) shape.angle = radians(90);
     return shape;
   }
+  /// Passes the fields of a shape of this type to the visitor `f`.
   void describe(Fields& f) {
     const bool box = kind == Kind::kTrench || kind == Kind::kBlock;
     f.derived_kind("kind", kind);
@@ -69,11 +77,14 @@ struct GroundFeature {
   }
 };
 
-/// A layer of soil; its thickness counts from the surface down, whatever the shape of the ground.
+/// A layer of soil. Layers are stacked from the surface downwards and follow the shape of the
+/// ground.
 struct GroundLayer {
-  std::string soil;
-  double thickness = 0;  ///< [m]
+  std::string soil;  ///< name of the layer's soil
+  /// Thickness of the layer [m]; ignored for the last layer, which reaches to the rock.
+  double thickness = 0;
 
+  /// Passes the fields of a <layer> to the visitor `f`.
   void describe(Fields& f) {
     f("soil", soil, Refers::kSoil, "Soil of the layer.", kNeeded);
     f("thickness_m", thickness, {1e-3, 1e4},
@@ -81,11 +92,14 @@ struct GroundLayer {
   }
 };
 
-/// A rectangle where the layers differ from the site's. Later patches override earlier ones.
+/// An axis-aligned rectangle in which other layers replace those of the site. Where patches
+/// overlap, the last one is valid.
 struct GroundPatch {
-  Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
-  std::vector<GroundLayer> layers;
+  /// Corners with the lowest and the highest x and y in W [m].
+  Vec2 min = Vec2::Zero(), max = Vec2::Zero();
+  std::vector<GroundLayer> layers;  ///< layers inside the rectangle, from the surface downwards
 
+  /// Passes the fields of a <patch> to the visitor `f`.
   void describe(Fields& f) {
     f("min_m", min, kPlaceRange, "Corner in W of least x and y.", kNeeded);
     f("max_m", max, kPlaceRange, "Corner in W of greatest x and y.", kNeeded);
@@ -93,12 +107,15 @@ struct GroundPatch {
   }
 };
 
-/// Soil that is active at the start: the columns of a rectangle from a height up. For scenes and
-/// tests that begin with soil in motion; elsewhere tools activate soil.
+/// A part of the ground that consists of particles from the start: the soil inside a rectangle and
+/// above a height. It is used in scenes and tests that begin with moving soil; in other scenes
+/// tools activate the soil.
 struct ActiveSoil {
-  Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
-  double bottom = 0;                            ///< height in W [m]
+  /// Corners with the lowest and the highest x and y in W [m].
+  Vec2 min = Vec2::Zero(), max = Vec2::Zero();
+  double bottom = 0;  ///< height in W above which the soil is active [m]
 
+  /// Passes the fields of an <active> to the visitor `f`.
   void describe(Fields& f) {
     f("min_m", min, kPlaceRange, "Corner in W of least x and y.", kNeeded);
     f("max_m", max, kPlaceRange, "Corner in W of greatest x and y.", kNeeded);
@@ -106,23 +123,27 @@ struct ActiveSoil {
   }
 };
 
-/// Treatment of slopes of a heightmap beyond the soil's repose: kHold keeps them as surveyed,
-/// kSettle lowers them when the map is loaded.
+/// Treatment of slopes in a heightmap that are steeper than the soil's angle of repose: kHold
+/// leaves them unchanged, kSettle flattens them when the map is loaded.
 enum class SteepGround { kHold, kSettle };
 
-/// Values that a raster without units and coordinates of its own (NPY, PNG) does not hold.
+/// Scale and position of a raster file that does not contain them, such as NPY and PNG.
 struct RasterScale {
-  double cell = 0;              ///< [m]; 0: the file's own (a PNG's world file)
-  bool has_heights = false;     ///< `low` and `high` were given
-  double low = 0, high = 0;     ///< [m]
-  bool has_corner = false;      ///< `corner` was given
-  Vec2 corner = Vec2::Zero();   ///< in the coordinates of the site [m]
-  bool north_first = false;     ///< an NPY's first row is the northern one; a PNG's always is
-  Vec2 heights = Vec2::Zero();  ///< `low` and `high` as read
+  double cell = 0;  ///< edge of a raster cell [m]; 0: as in the file (or a PNG's world file)
+  bool has_heights = false;  ///< true: `low` and `high` were given
+  double low = 0, high = 0;  ///< heights of a PNG's lowest and highest pixel values [m]
+  bool has_corner = false;   ///< true: `corner` was given
+  /// Lower-left corner of the raster in the coordinates of the map [m].
+  Vec2 corner = Vec2::Zero();
+  /// True: the first row of an NPY file is the northernmost one. The first row of a PNG always is.
+  bool north_first = false;
+  Vec2 heights = Vec2::Zero();  ///< `low` and `high` as the file gives them
 
-  /// Copies `heights` into `low` and `high`.
+  /// Copies the two elements of `heights` into `low` and `high`.
   void take_heights() { low = heights.x(), high = heights.y(); }
+  /// Returns true if any member has been given a value.
   bool any() const { return cell > 0 || has_heights || has_corner || north_first; }
+  /// Passes the fields for the scale and position of a raster to the visitor `f`.
   void describe(Fields& f) {
     f("map_cell_m", cell, {0.001, 1e4},
       "Edge of a cell of a PNG or NPY; needed unless a PNG has a world file beside it.", kShown);
@@ -136,26 +157,30 @@ struct RasterScale {
   }
 };
 
-/// The site's ground before anything has moved, from which heightfield::Ground is built.
+/// The site's ground at the start of a run, from which heightfield::Ground is built.
 struct StartGround {
-  std::string file;  ///< empty: procedural
-  RasterScale scale;
-  bool has_at = false;       ///< the centre of the crop was given
-  bool at_is_local = false;  ///< `at` counts from the file's lower-left corner
-  Vec2 at = Vec2::Zero();    ///< [m]
-  Vec2 size = Vec2(20, 20);
-  Vec2 origin = Vec2(-10, -10);
-  bool has_origin = false;  ///< false: origin = -size / 2
-  double surface = 0;
+  std::string file;              ///< path of a heightmap; empty: flat ground plus `features`
+  RasterScale scale;             ///< scale and position of a heightmap without its own georeference
+  bool has_at = false;           ///< true: the centre of the site in the map was given
+  bool at_is_local = false;      ///< true: `at` is relative to the file's lower-left corner
+  Vec2 at = Vec2::Zero();        ///< centre of the site in the coordinates of the map [m]
+  Vec2 size = Vec2(20, 20);      ///< extent of the site along x and y [m]
+  Vec2 origin = Vec2(-10, -10);  ///< coordinates in W of the site's lower-left corner [m]
+  bool has_origin = false;       ///< true: `origin` was given; false: it is -size / 2
+  double surface = 0;            ///< height in W of the flat ground [m]
+  /// Thickness of the soil between the rock and the lowest point of the surface [m].
   double depth = 4;
-  bool has_rock = false;  ///< a level plane in the scene is the rock; `depth` does not count
-  double rock = 0;        ///< its height in W [m]
+  /// True: a level plane in the scene is the rock surface, and `depth` is ignored.
+  bool has_rock = false;
+  double rock = 0;  ///< height in W of the rock plane [m], if `has_rock`
+  /// Treatment of slopes in a heightmap that are too steep for the soil.
   SteepGround steep = SteepGround::kHold;
-  std::vector<GroundFeature> features;
-  std::vector<GroundLayer> layers;  ///< at least one
-  std::vector<GroundPatch> patches;
-  std::vector<ActiveSoil> active;
+  std::vector<GroundFeature> features;  ///< procedural shapes, in the order of the file
+  std::vector<GroundLayer> layers;      ///< layers of soil from the surface downwards, at least one
+  std::vector<GroundPatch> patches;     ///< rectangles with other layers
+  std::vector<ActiveSoil> active;       ///< soil that is active at the start
 
+  /// Passes the fields of <navvy:ground> to the visitor `f`.
   void describe(Fields& f) {
     f("file", file,
       "Heightmap: GeoTIFF, ESRI ASCII, 16-bit PNG or NPY, from the folder of the scene file. "

@@ -8,18 +8,27 @@
 
 namespace navvy::scene {
 
-/// A ball joint between two machines that can be opened and closed: the eye of the child in the
-/// hook of the parent. A joint inside of a machine's file cannot be opened.
+/// A ball joint between two machines that can be opened and closed: an eye on the child machine is
+/// held in a hook on the parent machine. A ball joint within one machine's file, in contrast,
+/// cannot be opened.
 struct Hitch {
-  std::string name;
-  std::string parent_name, child_name;           ///< MACHINE::LINK as the file writes it
-  int parent = 0, child = 0;                     ///< indices of machines in the scene
-  int parent_link = 0, child_link = 0;           ///< indices of links in their machines
-  Vec3 hook = Vec3::Zero(), eye = Vec3::Zero();  ///< in the parent's and the child's link [m]
-  double cone = kPi, twist = kPi;                ///< [rad]; pi: free
-  bool closed = true;
-  int line = 0;  ///< in the scene's file, for messages
+  std::string name;  ///< unique name of the hitch
+  /// Links with the hook and with the eye, as the file writes them: MACHINE::LINK.
+  std::string parent_name, child_name;
+  /// Indices in Scene::machines of the parent machine and of the child machine.
+  int parent = 0, child = 0;
+  int parent_link = 0, child_link = 0;  ///< indices of the links in their machine's `links`
+  /// Position of the hook in the frame of the parent link, and of the eye in the frame of the child
+  /// link [m].
+  Vec3 hook = Vec3::Zero(), eye = Vec3::Zero();
+  /// Limits of the closed hitch [rad]; pi: unlimited. `cone` is the maximum angle between the x
+  /// axes of both links, `twist` the maximum rotation of the child about its x axis in either
+  /// direction.
+  double cone = kPi, twist = kPi;
+  bool closed = true;  ///< state at the start: true if the eye is held in the hook
+  int line = 0;        ///< line of the hitch in the scene file, for messages
 
+  /// Passes the fields of a <navvy:hitch> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the hitch; its input is CHILD/NAME/closed.", kNeeded);
     f("parent", parent_name, "Link with the hook, as MACHINE::LINK; of a dynamic machine.",

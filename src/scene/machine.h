@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine as data: links, joints, hydraulics, drive train, tyres and the shells that touch soil.
-// Frames: M machine (x forward, y left, z up, origin as its SDF says), L link, J joint. All values
-// are in SI units, angles in radians; `describe` documents what a file gives.
+// A machine as data: links, joints, hydraulics, drive train, tyres, and the shells that touch soil.
+// Frames: M is the machine's frame (x forward, y left, z up, origin as in its SDF file), L a
+// link's, J a joint's. All values are in SI units and all angles in radians; `describe` documents
+// the elements of a file and their units.
 #pragma once
 
 #include <array>
@@ -19,21 +20,25 @@
 
 namespace navvy::scene {
 
-/// Linear RGB and alpha, 0 to 1; alpha below 1 is drawn transparent.
+/// Linear RGB color and opacity, each from 0 to 1; a shape with `a` below 1 is drawn transparent.
 struct Color {
   float r = 0.7f, g = 0.7f, b = 0.7f, a = 1.0f;
 };
 
-/// A shape about its own origin, lengths in metres. A kind ignores the members it does not use.
+/// A shape in its own frame, centred at the origin with its axis along z. Lengths are in metres.
+/// Each type uses only some of the members.
 struct Geometry {
+  /// Type of the shape.
   enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane, kCone, kCapsule };
-  Kind kind = Kind::kBox;
-  Vec3 size = Vec3::Ones();   ///< edges of a box; x and y of a plane
-  double radius = 0.5;        ///< of a cylinder, capsule (axis z) or sphere, or a cone's foot
-  double length = 1.0;        ///< of a cylinder or cone (tip at +z); of a capsule without its caps
-  std::string mesh_file;      ///< absolute path of an OBJ file
-  Vec3 scale = Vec3::Ones();  ///< factors along the axes of a mesh file
+  Kind kind = Kind::kBox;    ///< type of the shape
+  Vec3 size = Vec3::Ones();  ///< edges of a box; x and y: edges of a plane [m]
+  double radius = 0.5;       ///< radius of a cylinder, capsule or sphere, or of a cone's base [m]
+  /// Length of a cylinder or cone (tip at +z), or of a capsule without its hemispherical ends [m].
+  double length = 1.0;
+  std::string mesh_file;      ///< absolute path of the OBJ file of a mesh
+  Vec3 scale = Vec3::Ones();  ///< scale factors of a mesh along its x, y and z axes [-]
 
+  /// Passes the parameters of the shape to the visitor `f`; a file gives them in SDF's <geometry>.
   void describe(Fields& f) {
     f.derived_kind("kind", kind);
     f.derived("size", size);
@@ -45,7 +50,7 @@ struct Geometry {
   }
 };
 
-/// Documentation and range of the density that links and shapes may have.
+/// Passes the element with the density [kg/m3] of a link or shape to the visitor `f`.
 inline void describe_density(Fields& f, double& density) {
   f("navvy:density_kg_per_m3", density, {1, 25000},
     "Density of the link or shape, from which mass, centre and inertia follow without <inertial>. "
@@ -53,29 +58,35 @@ inline void describe_density(Fields& f, double& density) {
     kShown);
 }
 
-/// Appearance of a link. V is the frame of the visual.
+/// A shape that is drawn as part of a link. V is the shape's own frame.
 struct Visual {
-  std::string name;
-  Geometry geometry;
-  Pose X_LV = Pose::Identity();
-  Color color;
-  double density = 0;  ///< [kg/m3]; 0: not given
+  std::string name;              ///< name of the visual
+  Geometry geometry;             ///< the shape
+  Pose X_LV = Pose::Identity();  ///< pose of the shape in the link's frame
+  Color color;                   ///< color of the shape
+  double density = 0;            ///< density for deriving the link's mass [kg/m3]; 0: not given
 
+  /// Passes the fields of a <visual> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the visual.");
     describe_density(f, density);
   }
 };
 
-/// Contact shape of a link against rigid bodies. Soil touches shells instead, so a bucket has both.
+/// A shape of a link for contact with rigid bodies. C is the shape's own frame. For contact with
+/// soil a link has shells instead, so that a bucket needs both.
 struct Collision {
-  std::string name;
-  Geometry geometry;
-  Pose X_LC = Pose::Identity();
-  double friction = 0.8;  ///< Coulomb coefficient [-]; the physics engine combines those of a pair
-  bool derived = false;   ///< made from a visual, as the machine's file gave no collision
-  double density = 0;     ///< [kg/m3]; 0: not given
+  std::string name;              ///< name of the collision
+  Geometry geometry;             ///< the shape
+  Pose X_LC = Pose::Identity();  ///< pose of the shape in the link's frame
+  /// Coulomb coefficient of friction [-]; the physics engine combines the coefficients of two
+  /// shapes that touch.
+  double friction = 0.8;
+  /// True: copied from a visual, as the machine's file has no collision at all.
+  bool derived = false;
+  double density = 0;  ///< density for deriving the link's mass [kg/m3]; 0: not given
 
+  /// Passes the fields of a <collision> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the collision.");
     describe_density(f, density);
@@ -85,19 +96,20 @@ struct Collision {
   }
 };
 
-/// A rigid body of a machine. `p_LCom` is a point of L; the inertia is about that point, in L's
-/// axes.
+/// A rigid body of a machine, with the link frame L.
 struct Link {
-  std::string name;
-  Pose X_ML = Pose::Identity();     ///< at zero joint positions
-  double mass = 1;                  ///< [kg]
-  Vec3 p_LCom = Vec3::Zero();       ///< centre of mass [m]
-  Mat3 inertia = Mat3::Identity();  ///< [kg m2]
-  std::vector<Visual> visuals;
-  std::vector<Collision> collisions;
-  LinkMaterial material;  ///< of its collisions and shells against bodies
-  double density = 0;     ///< [kg/m3]; 0: not given
+  std::string name;              ///< name of the link
+  Pose X_ML = Pose::Identity();  ///< pose in the machine's frame with all joints at position zero
+  double mass = 1;               ///< mass [kg]
+  Vec3 p_LCom = Vec3::Zero();    ///< position of the centre of mass in L [m]
+  Mat3 inertia = Mat3::Identity();  ///< inertia about the centre of mass, in the axes of L [kg m2]
+  std::vector<Visual> visuals;      ///< shapes that are drawn
+  std::vector<Collision> collisions;  ///< shapes for contact with rigid bodies
+  /// Material of the link's collisions and shells in contact with rigid bodies.
+  LinkMaterial material;
+  double density = 0;  ///< density for deriving mass and inertia [kg/m3]; 0: not given
 
+  /// Passes the fields of a <link> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the link.");
     f("navvy:material", material.name,
@@ -113,25 +125,31 @@ struct Link {
   }
 };
 
-/// A joint between two links. A positive position is about or along `axis` by the right hand.
+/// A joint between two links. A positive position is a rotation about `axis` by the right-hand
+/// rule, or a translation along `axis`.
 struct Joint {
+  /// Type of the relative motion; kFixed allows none, kBall all rotations.
   enum class Type { kFixed, kRevolute, kPrismatic, kBall };
-  std::string name;
-  Type type = Type::kFixed;
-  int parent = -1;  ///< index into Machine::links; -1: world
-  int child = -1;
-  Pose X_LcJ = Pose::Identity();   ///< joint frame in the child link
-  Vec3 axis = Vec3::UnitZ();       ///< unit, in the joint frame at zero position
-  bool has_limits = false;         ///< false: continuous
-  double lower = 0, upper = 0;     ///< [rad] or [m]
-  double effort = 1e9;             ///< [N m] or [N]; hydraulics may limit further
-  double velocity = 1e9;           ///< [rad/s] or [m/s]
-  double damping = 0;              ///< [N m s/rad] or [N s/m]
-  double friction = 0;             ///< dry friction [N m] or [N]
-  double initial = 0;              ///< position at the start [rad] or [m]
-  double brake = 0;                ///< holding torque [N m] or force [N]; 0: no brake
-  double cone = kPi, twist = kPi;  ///< limits of a ball joint [rad]; pi: free
+  std::string name;               ///< name of the joint
+  Type type = Type::kFixed;       ///< type of the joint
+  int parent = -1;                ///< index of the parent link in Machine::links; -1: the world
+  int child = -1;                 ///< index of the child link in Machine::links
+  Pose X_LcJ = Pose::Identity();  ///< pose of the joint frame in the child link's frame
+  Vec3 axis = Vec3::UnitZ();      ///< unit vector of the axis, in the joint frame at position zero
+  bool has_limits = false;        ///< false: the joint has no position limits
+  double lower = 0, upper = 0;    ///< position limits [rad] or [m], if `has_limits`
+  double effort = 1e9;    ///< maximum torque [N m] or force [N]; hydraulics may reduce it further
+  double velocity = 1e9;  ///< maximum velocity [rad/s] or [m/s]
+  double damping = 0;     ///< viscous damping [N m s/rad] or [N s/m]
+  double friction = 0;    ///< dry friction torque [N m] or force [N]
+  double initial = 0;     ///< position at the start [rad] or [m]
+  double brake = 0;       ///< maximum holding torque [N m] or force [N] of the brake; 0: no brake
+  /// Limits of a ball joint [rad]; pi: unlimited. `cone` is the maximum angle between the child's x
+  /// axis and its direction at the start, `twist` the maximum rotation of the child about this axis
+  /// in either direction.
+  double cone = kPi, twist = kPi;
 
+  /// Passes the fields of a <joint> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the joint.");
     f.group({"navvy:ball", "Limits of a ball joint.", kShown}, [this](Fields& g) {
@@ -165,13 +183,16 @@ struct Joint {
   }
 };
 
-/// Position of a joint at the start, from a file or from a scene that includes it.
+/// Position of a joint at the start, given by a machine file or by a scene that includes the
+/// machine.
 struct InitialPosition {
-  std::string joint;
-  double angle = 0;   ///< [rad]
-  double length = 0;  ///< [m]
+  std::string joint;  ///< name of the joint
+  double angle = 0;   ///< position of a revolute joint [rad]
+  double length = 0;  ///< position of a prismatic joint [m]
+  /// True if `angle` was given, and true if `length` was given.
   bool has_angle = false, has_length = false;
 
+  /// Passes the fields of a <navvy:joint> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", joint, "Joint of the machine.");
     f("initial_deg", angle, {-3600, 3600}, "Position of a revolute joint.", given(has_angle));
@@ -179,27 +200,35 @@ struct InitialPosition {
   }
 };
 
-/// A hydraulic cylinder acting on one joint. Its length and lever arm follow from two pins, or from
-/// a four-bar linkage. The pump fills the head side when the cylinder extends. Pressures become
-/// forces by bore and rod, forces become joint torques by the lever arm at each position
+/// A hydraulic cylinder, or several equal ones side by side, that moves one joint. Its length and
+/// lever arm follow from the positions of its two pins, or from a four-bar linkage. The pump fills
+/// the head side when the cylinder extends. Pressures give forces by the areas of piston and rod,
+/// and forces give joint torques by the lever arm at each joint position
 /// [docs/machines.md, hydraulics].
 struct Cylinder {
-  std::string name;
-  std::string joint;
+  std::string name;   ///< name of the cylinder
+  std::string joint;  ///< name of the joint that the cylinder moves
+  /// Names of the links that carry the pins of the barrel and of the rod.
   std::string base_link, rod_link;
-  Vec3 p_base = Vec3::Zero();
+  Vec3 p_base = Vec3::Zero();  ///< pin of the barrel in the frame of `base_link` [m]
+  /// Pin of the rod in the frame of `rod_link` [m]; unused with a linkage.
   Vec3 p_rod = Vec3::Zero();
-  bool has_linkage = false;  ///< the rod turns a rocker, whose coupler turns the bucket
-  Vec3 p_rocker = Vec3::Zero();
+  /// True: a four-bar linkage transmits the motion. The rod turns a rocker on `base_link`, and a
+  /// coupler connects the rocker with `rod_link`.
+  bool has_linkage = false;
+  Vec3 p_rocker = Vec3::Zero();  ///< pivot of the rocker in the frame of `base_link` [m]
+  /// Distances from the rocker's pivot to the rod and to the coupler [m].
   double rocker_rod = 0, rocker_coupler = 0;
-  double coupler = 0;
-  Vec3 p_coupler = Vec3::Zero();
-  int count = 1;
-  double bore = 0.12, rod = 0.085;
-  double pressure = 35e6;
-  double spacing = 0.68;  ///< between the middles of cylinders side by side, for pictures [m]
-  double flow = 0.004;
+  double coupler = 0;               ///< length of the coupler [m]
+  Vec3 p_coupler = Vec3::Zero();    ///< pin of the coupler in the frame of `rod_link` [m]
+  int count = 1;                    ///< number of equal cylinders side by side
+  double bore = 0.12, rod = 0.085;  ///< diameters of the piston and of the rod [m]
+  double pressure = 35e6;           ///< relief pressure: maximum oil pressure [Pa]
+  /// Distance between the axes of cylinders side by side [m]; only for drawing.
+  double spacing = 0.68;
+  double flow = 0.004;  ///< maximum oil flow into all `count` cylinders together [m3/s]
 
+  /// Passes the fields of a <navvy:cylinder> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the cylinder.", kNeeded);
     f("joint", joint, Refers::kJoint, "Joint that the cylinder moves.", kNeeded);
@@ -224,28 +253,32 @@ struct Cylinder {
   }
 };
 
-/// The load-sensing pump that all cylinders of a machine share. If the valves ask for more than its
-/// flow or power, all of them slow down by the same share [docs/machines.md, pump].
+/// The load-sensing pump that supplies all cylinders of a machine. If the valves demand more than
+/// the pump's flow or power, all cylinders slow down by the same factor [docs/machines.md, pump].
 struct Pump {
-  double flow = 0;
-  double power = 0;
+  double flow = 0;   ///< maximum oil flow [m3/s]
+  double power = 0;  ///< maximum flow x pressure [W]
 
+  /// Passes the fields of a <navvy:pump> to the visitor `f`.
   void describe(Fields& f) {
     f("flow_m3_per_s", flow, {1e-7, 10}, "Greatest flow of oil.", kNeeded);
     f("power_w", power, {0.1, 1e7}, "Greatest flow x pressure.", kNeeded);
   }
 };
 
-/// Track of a crawler. It runs round a sprocket, an idler and the rollers between them, which press
-/// its lower run on the ground; it does not stretch [docs/machines.md, tracks]. Points are in the
-/// frame of the link that carries it, the parent of the sprocket's joint, x ahead and z up.
+/// Track of a crawler. It runs around a sprocket, an idler and the rollers between them, which
+/// press the lower run of the track on the ground; it does not stretch [docs/machines.md, tracks].
+/// All points are given in the frame of the parent link of the sprocket's joint, with x forward and
+/// z up.
 struct Track {
-  Vec3 p_idler = Vec3::Zero();
-  double idler_radius = 0.35;
-  std::vector<Vec3> rollers;  ///< from the foremost to the last
-  double roller_radius = 0.1;
-  double thickness = 0.05;
+  Vec3 p_idler = Vec3::Zero();  ///< centre of the idler [m]
+  double idler_radius = 0.35;   ///< radius of the idler's rim [m]
+  std::vector<Vec3> rollers;    ///< centres of the rollers, from front to rear [m]
+  double roller_radius = 0.1;   ///< radius of a roller's rim [m]
+  double thickness = 0.05;      ///< thickness of the track between rim and ground [m]
 
+  /// Passes the fields of the track itself to the visitor `f`; Wheel::describe adds those of the
+  /// sprocket.
   void describe(Fields& f) {
     f("idler_m", p_idler, "Middle of the idler.", kNeeded);
     f("idler_radius_m", idler_radius, {0.01, 5}, "Radius of the idler's rim.", kNeeded);
@@ -255,32 +288,34 @@ struct Track {
     f("roller_radius_m", roller_radius, {0.005, 5}, "Radius of a roller's rim.", kNeeded);
     f("thickness_m", thickness, {0, 1}, "Thickness of the track, from rim to ground.");
   }
-  /// Returns the ends of the lower run: on the ground under the first and the last roller [m].
+  /// Returns the front and the rear end of the lower run: the points on the ground below the first
+  /// and the last roller [m].
   std::array<Vec3, 2> lower_run() const {
     const Vec3 down(0, 0, -roller_radius - thickness);
     return {Vec3(rollers.front() + down), Vec3(rollers.back() + down)};
   }
 };
 
-/// A tyre (or a twin pair as one) with its own force law on the ground, or the sprocket of a track.
-/// Its forces follow from pressure, slip and load [docs/machines.md, tyres]; soil that it compacts
-/// for good is a rut [docs/machines.md, ruts].
+/// A tyre, a pair of twin tyres treated as one, or the sprocket of a track. The forces of a tyre on
+/// the ground follow from its own law, from pressure, slip and load [docs/machines.md, tyres]; soil
+/// that a tyre compacts permanently forms a rut [docs/machines.md, ruts].
 struct Wheel {
-  std::string joint;
-  std::string steer_joint;  ///< empty: not steered
-  bool driven = false;
-  double radius = 0.525;
-  double width = 0.28;
-  double twin_spacing = 0;  ///< 0: single tyre
+  std::string joint;        ///< name of the joint that spins the wheel
+  std::string steer_joint;  ///< name of the joint that steers the wheel; empty: not steered
+  bool driven = false;      ///< true: the drive turns the wheel
+  double radius = 0.525;    ///< radius of the unloaded tyre, or of the sprocket's rim [m]
+  double width = 0.28;      ///< width of one tyre, or of the track [m]
+  double twin_spacing = 0;  ///< distance between the middles of twin tyres [m]; 0: single tyre
+  /// Radial stiffness of the wheel or twin pair, or of all rollers of a track [N/m].
   double stiffness = 1.2e6;
-  double damping = 1.5e4;
-  double friction = 0.8;
-  double rolling_resistance = 0.02;
-  /// Track of a sprocket; stiffness and damping are then those of all rollers together.
+  double damping = 1.5e4;  ///< radial damping that acts in parallel with the stiffness [N s/m]
+  double friction = 0.8;   ///< coefficient of friction on firm ground [-]
+  double rolling_resistance = 0.02;  ///< rolling resistance / load [-]
+  /// The track that a sprocket drives; empty for a tyre.
   std::optional<Track> track;
-  std::string name;
+  std::string name;  ///< name of the wheel, for readers of the file
 
-  /// Returns a sprocket with the default values of a machine of 18 t (U).
+  /// Returns a sprocket with default values for a machine with a mass of 18 t (U).
   static Wheel sprocket() {
     Wheel wheel;
     wheel.driven = true;
@@ -291,6 +326,8 @@ struct Wheel {
     wheel.track.emplace();
     return wheel;
   }
+  /// Passes the fields of a <navvy:wheel> to the visitor `f`; if the wheel has a track, those of a
+  /// <navvy:track>.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the wheel, for the reader of the file.", kShown);
     if (track) {
@@ -315,15 +352,17 @@ struct Wheel {
   }
 };
 
-/// An incremental encoder on a joint that turns: a counter of a few bits that wraps, as a robot
-/// hands it to its controller [docs/machines.md, encoders]. It can simulate faults.
+/// An incremental encoder on a revolute joint: a counter with a limited number of bits that wraps
+/// around, as a robot's hardware reports it to the controller [docs/machines.md, encoders]. It can
+/// simulate measurement errors.
 struct Encoder {
-  std::string joint;
-  double counts_per_turn = 4096;
-  int bits = 16;
-  double slip = 0;
-  double missed = 0;
+  std::string joint;              ///< name of the joint
+  double counts_per_turn = 4096;  ///< number of counts per turn of the joint, gears included
+  int bits = 16;                  ///< number of bits of the counter, which wraps around at 2^bits
+  double slip = 0;                ///< simulated error: longitudinal slip in the counts [-]
+  double missed = 0;  ///< simulated error: fraction of the counts that are lost at random
 
+  /// Passes the fields of a <navvy:encoder> to the visitor `f`.
   void describe(Fields& f) {
     f("joint", joint, Refers::kJoint, "Revolute or continuous joint; one encoder per joint.",
       kNeeded);
@@ -336,14 +375,17 @@ struct Encoder {
   }
 };
 
-/// The two levers of an excavator's operator, [ISO 10968] or the pattern of backhoes with boom and
-/// stick exchanged.
+/// The two levers of an excavator's operator.
 struct Levers {
+  /// Assignment of the levers to the joints: [ISO 10968], or the pattern of backhoes, which
+  /// exchanges boom and stick.
   enum class Pattern { kIso, kSae };
-  bool given = false;  ///< by the machine's file
-  Pattern pattern = Pattern::kIso;
+  bool given = false;               ///< true: the machine's file describes the levers
+  Pattern pattern = Pattern::kIso;  ///< assignment of the levers to the joints
+  /// Fraction of the travel from the middle, in either direction, without effect.
   double dead_band = 0.05;
 
+  /// Passes the fields of <navvy:levers> to the visitor `f`.
   void describe(Fields& f) {
     f("pattern", pattern, {{"iso", Pattern::kIso}, {"sae", Pattern::kSae}},
       "Assignment of the levers to the joints.");
@@ -352,18 +394,23 @@ struct Levers {
   }
 };
 
-/// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate,
-/// bed. The front of the triangles is the inside. Edges of one triangle only are free edges. A
-/// shell has two sides and a thickness and may be open: it holds the soil on its front
+/// A thin shell of triangles in the link's frame [m], which touches soil: a bucket, blade, plate or
+/// bed. The front of the triangles is the inside. An edge of only one triangle is a free edge. A
+/// shell has two sides and a thickness. It may be open, and then holds soil on its front
 /// [docs/tools.md, shells].
 struct Shell : geometry::TriangleMesh {
-  std::string name;
-  std::string link;
-  double half_thickness = 0.015;
+  std::string name;               ///< name of the shell
+  std::string link;               ///< name of the link that carries the shell
+  double half_thickness = 0.015;  ///< half of the plate's thickness [m]
+  /// Factors on the tangent of the soil's tool friction angle (`friction_share`) and on the soil's
+  /// adhesion (`adhesion_share`) for contact with this shell [-].
   double friction_share = 1, adhesion_share = 1;
-  std::string mesh;
-  std::vector<double> vertex_numbers, corner_numbers;  ///< as read; empty afterwards
+  std::string mesh;  ///< OBJ file with the triangles; empty: the file lists them
+  /// Coordinates of vertices and indices of triangle corners as the file lists them; cleared once
+  /// the triangles have been built.
+  std::vector<double> vertex_numbers, corner_numbers;
 
+  /// Passes the fields of a <navvy:shell> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the shell.", kNeeded);
     f("link", link, Refers::kLink, "Link that carries the shell.", kNeeded);
@@ -382,21 +429,25 @@ struct Shell : geometry::TriangleMesh {
   }
 
  private:
-  /// Returns one number for thousands of vertices.
+  /// Returns a hash of all vertices and triangles, which represents the surface as one parameter.
   std::string surface_hash() const;
 };
 
-/// Makes a link a digging bucket. Operators use it to aim the edge; soil sees only the shell.
+/// Marks a link as a digging bucket. Automatic operators aim the cutting edge according to the
+/// members; the soil interacts only with the shell.
 struct Bucket {
-  std::string link;
-  std::string shell;
-  double capacity = 0.8;
-  double width = 1.05;
-  Vec3 p_tip = Vec3::Zero();
+  std::string link;           ///< name of the bucket's link
+  std::string shell;          ///< name of the bucket's shell
+  double capacity = 0.8;      ///< heaped capacity [m3]
+  double width = 1.05;        ///< width of the cut [m]
+  Vec3 p_tip = Vec3::Zero();  ///< middle of the cutting edge in the link's frame [m]
+  /// Unit vector in the link's frame along the bucket's floor, pointing outwards.
   Vec3 cut_direction = Vec3::UnitX();
+  /// Unit vector in the link's frame that points out of the bucket's mouth.
   Vec3 opening = Vec3::UnitZ();
-  std::string name;
+  std::string name;  ///< name of the bucket, for readers of the file
 
+  /// Passes the fields of a <navvy:bucket> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the bucket, for the reader of the file.", kShown);
     f("link", link, Refers::kLink, "Link of the bucket.", kNeeded);
@@ -410,14 +461,16 @@ struct Bucket {
   }
 };
 
-/// Makes a link a container that tips its load: a dumper's bed, a skip. One per machine.
+/// Marks a link as a container that tips its load: a dumper's bed or a skip. A machine has at most
+/// one.
 struct Bed {
-  std::string link;
-  std::string shell;
-  std::string joint;
-  double capacity = 3.0;
-  std::string name;
+  std::string link;       ///< name of the bed's link
+  std::string shell;      ///< name of the bed's shell, which is on the same link
+  std::string joint;      ///< name of the revolute joint that tips the bed
+  double capacity = 3.0;  ///< struck capacity, level with the rim [m3]
+  std::string name;       ///< name of the bed, for readers of the file
 
+  /// Passes the fields of a <navvy:bed> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the bed, for the reader of the file.", kShown);
     f("link", link, Refers::kLink, "Link of the bed.", kNeeded);
@@ -427,10 +480,14 @@ struct Bed {
   }
 };
 
-/// Joints of an excavator's arm by their roles; empty where the machine has none.
+/// Names of the joints of an excavator's arm by their functions; empty where the machine has none.
 struct Arm {
+  /// Joints that turn the upper structure relative to the chassis (`swing`), the boom relative to
+  /// the upper structure (`boom`), the stick relative to the boom (`stick`) and the bucket relative
+  /// to the stick (`bucket`).
   std::string swing, boom, stick, bucket;
 
+  /// Passes the fields of <navvy:arm> to the visitor `f`.
   void describe(Fields& f) {
     f("swing_joint", swing, Refers::kJoint, "Upper structure about the chassis.");
     f("boom_joint", boom, Refers::kJoint, "Boom about the upper structure.");
@@ -439,13 +496,16 @@ struct Arm {
   }
 };
 
-/// Limits of the ground that a machine can drive on, for maps and planned paths (U).
+/// Limits of the ground on which a machine can drive, for maps and path planning (U).
 struct Traversability {
-  bool given = false;  ///< by the machine's file
-  double slope = radians(30);
+  bool given = false;          ///< true: the machine's file gives them
+  double slope = radians(30);  ///< maximum slope [rad]
+  /// Maximum height of a step (`step_height`) and maximum rms deviation of the surface from a plane
+  /// (`roughness`), each within the window [m].
   double step_height = 0.30, roughness = 0.10;
-  double window = 0.20;
+  double window = 0.20;  ///< half of the edge of the square window [m]
 
+  /// Passes the fields of <navvy:traversability> to the visitor `f`.
   void describe(Fields& f) {
     f("slope_deg", slope, {1, 89}, "Steepest slope.");
     f("step_m", step_height, {0.001, 100}, "Highest step within the window.");
@@ -454,34 +514,41 @@ struct Traversability {
   }
 };
 
-/// A machine as one SDF file describes it; MachineInWorld holds its place and task. Indices refer
-/// to the lists here and are valid until something is inserted.
+/// A machine as described by one SDF file. MachineInWorld adds its position in a scene and its
+/// program. Indices refer to the lists of this struct and are valid until an item is inserted.
 struct Machine {
-  std::string name;
-  std::string file;        ///< SDF file it came from
-  bool kinematic = false;  ///< moved by joint positions only, no dynamics
-  bool fixed_base = false;
-  // Every parent comes before its children, and joint i moves link i + 1.
-  std::vector<Link> links;  ///< links[0] is the base
-  std::vector<Joint> joints;
-  std::vector<Cylinder> cylinders;
-  bool has_pump = false;  ///< false: every cylinder has its own flow
-  Pump pump;
-  std::vector<Wheel> wheels;
-  bool has_drive = false;  ///< false: wheels turn freely, or as their joints are commanded
-  Drive drive;
-  std::vector<Shell> shells;
-  std::vector<Bucket> buckets;
-  std::vector<Bed> beds;
-  Arm arm;
-  Traversability traversability;
-  std::vector<Encoder> encoders;  ///< one per joint at most
-  Levers levers;
+  std::string name;  ///< name of the machine
+  std::string file;  ///< path of the SDF file that describes the machine
+  /// True: joints follow their commands exactly, without masses and forces.
+  bool kinematic = false;
+  bool fixed_base = false;  ///< true: the base is fixed to the world
+  /// Links in tree order: links[0] is the base, and every parent comes before its children. The
+  /// child of joint i is link i + 1.
+  std::vector<Link> links;
+  std::vector<Joint> joints;        ///< joints, one per link except the base
+  std::vector<Cylinder> cylinders;  ///< hydraulic cylinders
+  /// False: every cylinder has a flow of its own, independent of the others.
+  bool has_pump = false;
+  Pump pump;                      ///< the pump, if `has_pump`
+  std::vector<Wheel> wheels;      ///< tyres and sprockets
+  bool has_drive = false;         ///< false: wheels turn freely, or as commanded at their joints
+  Drive drive;                    ///< the drive, if `has_drive`
+  std::vector<Shell> shells;      ///< surfaces that touch soil
+  std::vector<Bucket> buckets;    ///< digging buckets
+  std::vector<Bed> beds;          ///< tipping containers, at most one
+  Arm arm;                        ///< joints of an excavator's arm
+  Traversability traversability;  ///< limits of the ground on which the machine can drive
+  std::vector<Encoder> encoders;  ///< incremental encoders, at most one per joint
+  Levers levers;                  ///< operator's levers
+  /// True: without any collision in the file, visuals serve as collisions.
   bool derive_collisions = true;
+  /// Positions of joints at the start, from the machine's file.
   std::vector<InitialPosition> initial_positions;
-  /// Sentences about collision shapes from visuals and masses from densities.
+  /// Sentences for people that report which collisions were copied from visuals and which masses
+  /// were computed from densities.
   std::vector<std::string> derived;
 
+  /// Passes the fields of a machine's <model> to the visitor `f`.
   void describe(Fields& f) {
     f("navvy:physics", kinematic, {{"dynamic", false}, {"kinematic", true}},
       "Physics: masses and forces, or motion exactly as commanded; an engine is a part of "
@@ -517,11 +584,13 @@ struct Machine {
       given(traversability.given));
   }
 
-  /// Returns an index by name, -1 if there is none. The search is linear.
+  /// Returns the index of the link with this name in `links`; -1 if there is none.
   int link_index(const std::string& name_of_link) const;
+  /// Returns the index of the joint with this name in `joints`; -1 if there is none.
   int joint_index(const std::string& name_of_joint) const;
-  /// Returns true if a shell, by its index, holds soil that is dug (bucket) or carried (bed).
+  /// Returns true if the shell with index `shell` belongs to a digging bucket.
   bool is_bucket(int shell) const;
+  /// Returns true if the shell with index `shell` belongs to a tipping container.
   bool is_bed(int shell) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine in words.
+// Description of a machine as text.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace navvy::scene {
 
-/// Returns a description of a machine for people, one line per part: mass, links with their masses
-/// [kg], joints with their limits, buckets, beds, cylinders, pump, wheels, encoders, levers and
-/// drive. Each line is indented by two spaces.
+/// Returns a description of a machine for people, with one line per part: mass, links with their
+/// masses [kg], joints with their limits, buckets, beds, cylinders, pump, wheels, encoders, levers
+/// and drive. Each line is indented by two spaces.
 std::string machine_text(const Machine& machine);
 
 }  // namespace navvy::scene

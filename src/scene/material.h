@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials of rigid bodies. Friction and rebound are properties of pairs of materials.
+// Materials of rigid bodies. Friction and restitution are properties of pairs of materials.
 #pragma once
 
 #include <array>
@@ -11,15 +11,16 @@
 
 namespace navvy::scene {
 
-/// Contact properties of two materials, in either order.
+/// Contact properties of two materials. The order of the two materials has no meaning.
 struct MaterialPair {
-  std::array<std::string, 2> materials;
-  double static_friction = 0.8;
-  double kinetic_friction = 0.8;
-  double restitution = 0;
-  double softness = 0;
-  std::string names;  ///< both materials as the file writes them
+  std::array<std::string, 2> materials;  ///< names of the two materials
+  double static_friction = 0.8;          ///< coefficient of friction at rest [-]
+  double kinetic_friction = 0.8;  ///< coefficient of sliding friction [-], at most the static one
+  double restitution = 0;         ///< normal speed of separation / normal speed of approach [-]
+  double softness = 0;            ///< penetration depth / contact force [m/N]; 0: rigid
+  std::string names;              ///< names of both materials as one text, as in the file
 
+  /// Passes the fields of a <pair> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("materials", names, "The two materials, separated by a blank, in either order.");
     f("static_friction", static_friction, {0, 5},
@@ -31,12 +32,14 @@ struct MaterialPair {
   }
 };
 
-/// Table of the pairs of a scene. A link without a material uses its own coefficient of friction.
+/// Table of the material pairs of a scene. A link without a material uses the coefficient of
+/// friction of its collision shapes instead.
 struct Materials {
-  std::string file;
-  std::string ground;  ///< empty: none
-  std::vector<MaterialPair> pairs;
+  std::string file;    ///< file with a table of pairs, which `pairs` includes; empty: none
+  std::string ground;  ///< material of the ground; empty: none
+  std::vector<MaterialPair> pairs;  ///< contact properties of all pairs
 
+  /// Passes the fields of <navvy:materials> to the visitor `f`.
   void describe(Fields& f) {
     f("file", file,
       "Table of pairs: a file beside the scene or a shipped one (`materials.sdf`: steel, stone, "
@@ -45,7 +48,7 @@ struct Materials {
     f("ground", ground, "Material of the ground.");
     f("pair", pairs, limits::kMaterialPairs, "Contact properties of two materials.");
   }
-  /// Returns the entry of a pair, null if the table has none. The search is linear.
+  /// Returns the entry for the materials named `a` and `b`; null if the table has none.
   const MaterialPair* pair(const std::string& a, const std::string& b) const {
     for (const MaterialPair& each : pairs)
       if ((each.materials[0] == a && each.materials[1] == b) ||
@@ -57,8 +60,8 @@ struct Materials {
 
 /// Material of a link.
 struct LinkMaterial {
-  std::string name;  ///< empty: none
-  int line = 0;      ///< in the machine's file, for messages
+  std::string name;  ///< name of the material; empty: none
+  int line = 0;      ///< line in the machine's file, for messages
 };
 
 }  // namespace navvy::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of a scene: every value that a run depends on, by name.
+// Parameters of a scene: all values that influence a run, by name.
 #pragma once
 
 #include <map>
@@ -9,17 +9,18 @@
 
 namespace navvy::scene {
 
-/// Values as text in the unit of the file, exact to the last bit, by paths such as
-/// "soil[loam]/cohesion_pa".
+/// Maps the path of a parameter, such as "soil[loam]/cohesion_pa", to its value as text in the unit
+/// of the file, precise to the last bit.
 using Parameters = std::map<std::string, std::string>;
 
-/// Returns the parameters of a scene: soils, ground, solver, machines, their places and programs.
-/// Cameras, lights, colors, names of files, durations, the design and records are left out, as they
-/// do not influence the motion. It takes a few milliseconds.
+/// Returns the parameters of a scene: soils, ground, solver, and machines with their poses and
+/// programs. Cameras, lights, colors, file names, durations, the design and records do not
+/// influence the motion and are left out. Takes a few milliseconds.
 Parameters parameters(const Scene& scene);
 
-/// Returns the differences as "path: 'before', here 'now'", separated by "; ": the first `most` of
-/// them and the number of the others. Returns an empty text for equal parameters.
+/// Returns the differences between two sets of parameters as "path: 'value in before', here 'value
+/// in now'", separated by "; ". It lists at most `most` differences, then the number of the
+/// remaining ones. Returns an empty text if the sets are equal.
 std::string differences(const Parameters& before, const Parameters& now, int most = 8);
 
 }  // namespace navvy::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program of a machine, step by step. `control` knows the kinds of steps.
+// The program of a machine, step by step. The types of steps are defined in the module control.
 #pragma once
 
 #include <memory>
@@ -14,23 +14,25 @@
 
 namespace navvy::scene {
 
-/// Condition of a step that waits for another machine's program.
+/// Condition of a step that waits until another machine's program has completed some steps.
 struct Waiting {
-  std::string machine;
-  int steps = 0;  ///< completed steps of that machine's program; 0: all
+  std::string machine;  ///< name of the other machine
+  int steps = 0;  ///< number of steps of the other machine that must be completed; 0: all its steps
 };
 
-/// One step of a program as the scene describes it. Its values do not change after reading.
+/// One step of a program as described by the scene. The values are constant after the scene has
+/// been read.
 class Step {
  public:
   virtual ~Step() = default;
   /// Returns the name of the step's element in a scene file, e.g. "drive_to".
   virtual const char* element() const = 0;
-  /// Lists the fields of the step.
+  /// Passes the fields of the step to the visitor `f`.
   virtual void describe(Fields& f) = 0;
-  /// Returns the condition that the step waits for. Circles of waiting programs are refused.
+  /// Returns the condition that must hold before the step can finish; nothing if it does not wait
+  /// for another machine. The loader refuses programs that wait for each other in a circle.
   virtual std::optional<Waiting> waits_for() const { return std::nullopt; }
-  /// Returns the hitch of its machine that the step opens.
+  /// Returns the name of the machine's hitch that the step opens; nothing if it opens none.
   virtual std::optional<std::string> opens() const { return std::nullopt; }
 
  protected:
@@ -39,31 +41,37 @@ class Step {
   Step& operator=(const Step&) = default;
 };
 
-/// A step of any kind, as a value. Copies share the description.
+/// A step of any type, handled as a value. Copies share the same description.
 class ProgramStep {
  public:
+  /// Wraps a step of the type T.
   template <class T, class = std::enable_if_t<std::is_base_of_v<Step, T>>>
   ProgramStep(T step) : step_(std::make_shared<T>(std::move(step))) {}  // NOLINT: implicit
 
+  /// Returns the step.
   const Step& operator*() const { return *step_; }
+  /// Returns the step.
   const Step* operator->() const { return step_.get(); }
-  /// Visits the fields; the visitor must not write.
+  /// Visits the fields of the step; `f` must not write to them.
   void describe(Fields& f) const { step_->describe(f); }
-  /// Returns the description if it is of kind T, else null.
+  /// Returns the step if it is of the type T, otherwise null.
   template <class T>
   const T* as() const {
     return dynamic_cast<const T*>(step_.get());
   }
 
  private:
-  std::shared_ptr<Step> step_;
+  std::shared_ptr<Step> step_;  ///< the step, shared by all copies
 };
 
-/// Steps of one machine, in order.
+/// The steps of one machine's program, in the order of execution.
 struct Program {
-  std::vector<ProgramStep> steps;
-  std::vector<int> lines;  ///< line in the scene file of each step, for messages; may be empty
+  std::vector<ProgramStep> steps;  ///< the steps
+  /// Line in the scene file of each step, for messages; empty for a program that was not read from
+  /// a file.
+  std::vector<int> lines;
 
+  /// Passes the steps and their fields to the visitor `f`.
   void describe(Fields& f) {
     List list{"step", {}, limits::kSteps, {}, steps.size(), {}, {}, {}};
     list.item = [this](std::size_t i, Fields& g) {

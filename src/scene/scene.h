@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole scene: soils, ground, machines with their programs, cameras and what to record.
+// A whole scene: soils, ground, machines with their programs, cameras, and the output of a run.
 #pragma once
 
 #include <string>
@@ -18,16 +18,21 @@
 
 namespace navvy::scene {
 
-/// Settings of the soil solver. None of them is a property of the soil.
+/// Settings of the soil solver. None of them is a property of a soil.
 struct SolverSettings {
-  double cell = 0.1;
-  double courant = 0.5;
-  double max_step = 0.0017;
-  double control_rate = 0;  ///< [1/s]; 0: none
-  int max_particles = 2000000;
+  double cell = 0.1;         ///< edge of a soil cell and of a ground column [m]
+  double courant = 0.5;      ///< time step / longest stable time step [-]
+  double max_step = 0.0017;  ///< longest base step [s]
+  /// Rate of a controller [1/s]; the base step is chosen so that the period of this rate is a whole
+  /// number of base steps. 0: no controller.
+  double control_rate = 0;
+  int max_particles = 2000000;  ///< maximum number of particles
+  /// Factor on the size of the zone around a tool in which soil is active [-].
   double active_zone = 1;
-  bool exchange = true;  ///< false: ground neither activates nor deposits soil (rigs, tests)
+  /// False: the ground neither activates nor deposits soil, as in rigs and tests.
+  bool exchange = true;
 
+  /// Passes the fields of <navvy:solver> to the visitor `f`.
   void describe(Fields& f) {
     f("cell_m", cell, {0.005, 2}, "Edge of a soil cell and of a ground column.");
     f("courant", courant, {0.05, 1}, "Time step / longest stable time step.");
@@ -44,30 +49,36 @@ struct SolverSettings {
   }
 };
 
-/// Loose soil in a machine's first bed at the start.
+/// Loose soil that lies in a machine's first bed at the start.
 struct BedLoad {
-  std::string soil;
-  double mass = 0;  ///< [kg]; 0: empty
+  std::string soil;  ///< name of the soil; empty: the first soil of the scene
+  double mass = 0;   ///< mass of the soil [kg]; 0: the bed is empty
 
+  /// Passes the fields of <navvy:load> to the visitor `f`.
   void describe(Fields& f) {
     f("soil", soil, Refers::kSoil, "Soil of the load; by default the first one.");
     f("mass_kg", mass, {0, 1e6}, "Mass of the load.", kNeeded);
   }
 };
 
-/// A machine in a scene: its place, its load and its program. W is the world, M the machine's own
-/// frame.
+/// A machine with its pose in a scene, its load and its program. W is the frame of the world, M
+/// that of the machine.
 struct MachineInWorld {
-  std::string name;
-  Machine machine;
-  Pose X_WM = Pose::Identity();
+  std::string name;              ///< unique name of the machine in the scene
+  Machine machine;               ///< description of the machine
+  Pose X_WM = Pose::Identity();  ///< pose of the machine at the start, as in the file
+  /// True: z of the pose is relative to the ground surface, and a machine with three or more wheels
+  /// is tilted to stand on the plane below them.
   bool on_ground = true;
-  BedLoad load;
-  Program program;
-  int line = 0;           ///< in the scene's file, for messages
-  bool in_scene = false;  ///< a <model> of the scene itself, not an <include>
-  std::vector<InitialPosition> initial_positions;  ///< of an <include>
+  BedLoad load;     ///< soil in the machine's bed at the start
+  Program program;  ///< steps that the machine executes
+  int line = 0;     ///< line of the machine in the scene file, for messages
+  /// True: a <model> in the scene file describes the machine. False: the scene names another file
+  /// in an <include>.
+  bool in_scene = false;
+  std::vector<InitialPosition> initial_positions;  ///< joint positions that an <include> sets
 
+  /// Passes all fields of an <include> or <model> to the visitor `f`.
   void describe(Fields& f) {
     if (in_scene) {
       f.attribute("name", name, "Name of the machine.", kSdf);
@@ -75,7 +86,8 @@ struct MachineInWorld {
     }
     describe_instance(f);
   }
-  /// Lists the fields of an <include>, and those that a <model> has in a scene alone.
+  /// Passes the fields of an <include> to the visitor `f`; if `in_scene`, the fields that a <model>
+  /// has only inside a scene.
   void describe_instance(Fields& f) {
     if (!in_scene) {
       f("uri", machine.file, "SDF file, its directory, or model://NAME of a shipped machine.",
@@ -100,18 +112,22 @@ struct MachineInWorld {
   }
 };
 
-/// A camera that records images at a rate. The frame of its two points follows from its kind.
+/// A camera that records images at a fixed rate. Its type determines the frame of its position and
+/// target: W if it is fixed, M if it follows a machine, L if a link carries it.
 struct Camera {
+  /// Type of mounting: fixed in the world, following a machine, or mounted on a link.
   enum class Kind { kFixed, kChase, kOnLink };
-  std::string name;
-  Kind kind = Kind::kFixed;
-  std::string machine, link;       ///< chase: machine; on_link: both
-  Vec3 position = Vec3(8, -8, 5);  ///< in W (fixed), M (chase) or L (on link) [m]
-  Vec3 target = Vec3::Zero();      ///< in the same frame [m]
-  double fov = radians(50);
-  int width = 1280, height = 720;
-  double rate = 4;
+  std::string name;          ///< name of the camera and of its image files
+  Kind kind = Kind::kFixed;  ///< type of mounting
+  /// Names of the machine (kChase and kOnLink) and of the link (kOnLink).
+  std::string machine, link;
+  Vec3 position = Vec3(8, -8, 5);  ///< position of the camera in its frame [m]
+  Vec3 target = Vec3::Zero();      ///< point in the middle of the image, in the same frame [m]
+  double fov = radians(50);        ///< horizontal field of view [rad]
+  int width = 1280, height = 720;  ///< width and height of an image [pixels]
+  double rate = 4;                 ///< images per second of simulated time
 
+  /// Passes the fields of <navvy:camera> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the image files.", kNeeded);
     f("machine", machine, "Machine that the camera follows; without it the camera is fixed in W.");
@@ -125,21 +141,26 @@ struct Camera {
   }
 };
 
-/// A directional light. The first one is the sun and casts shadows.
+/// A directional light. The first light of a scene is the sun and casts shadows.
 struct Light {
-  Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< of the light's travel
-  Color color{1.0f, 0.97f, 0.9f, 1.0f};
+  Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< direction in W in which the light travels
+  Color color{1.0f, 0.97f, 0.9f, 1.0f};     ///< color of the light
 
+  /// Passes nothing to the visitor: a <light> has only elements of SDF, which the reader of worlds
+  /// reads itself.
   void describe(Fields&) {}
 };
 
-/// Length and output of a run, all in simulated time.
+/// Length and output of a run. All times and rates refer to simulated time.
 struct Recording {
-  double duration = 60;
+  double duration = 60;  ///< maximum duration of the run [s]
+  /// Time that the run continues after the last program has ended [s]; up to six times as long
+  /// while soil is active.
   double settle = 1.0;
-  double telemetry_rate = 50;
-  bool render = true;
+  double telemetry_rate = 50;  ///< rows of telemetry per second
+  bool render = true;          ///< true: cameras record images
 
+  /// Passes the fields of <navvy:recording> to the visitor `f`.
   void describe(Fields& f) {
     f("duration_s", duration, {1e-3, 1e6},
       "Longest simulated time; the run ends earlier when every program has ended.");
@@ -150,18 +171,23 @@ struct Recording {
   }
 };
 
-/// Maps or messages that a run writes at a rate. They do not influence the run.
+/// Maps or messages that a run writes at a fixed rate. They do not influence the run.
 struct MapRecord {
-  static constexpr double kMachineRate = 50;  ///< of a bag that gives none [1/s]
+  /// Default of `machine_rate` [1/s].
+  static constexpr double kMachineRate = 50;
 
-  int line = 0;                     ///< in the scene's file, for messages
-  std::string name;                 ///< of the files in the run's folder
-  std::string format;               ///< a map format, "mcap" or "bag"
-  std::vector<std::string> layers;  ///< empty: the usual ones of the format
-  double rate = 1;
-  double machine_rate = 0;  ///< [1/s]; 0: not given, so kMachineRate
-  std::string layer_names;  ///< `layers` as the file writes them
+  int line = 0;        ///< line of the record in the scene file, for messages
+  std::string name;    ///< name of the written files in the folder of the run
+  std::string format;  ///< a format of `navvy map`, or "mcap" or "bag"
+  /// Names of the map layers; empty: the default layers of the format.
+  std::vector<std::string> layers;
+  double rate = 1;  ///< maps per second of simulated time
+  /// Rate of poses, joint states and clock in "mcap" and "bag" [1/s]; 0: not given, so kMachineRate
+  /// applies.
+  double machine_rate = 0;
+  std::string layer_names;  ///< `layers` as one text, as in the file
 
+  /// Passes the fields of <navvy:record> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the files.", kNeeded);
     f("format", format, "A format of `navvy map`, or mcap or bag for ROS 2.", kNeeded);
@@ -172,25 +198,26 @@ struct MapRecord {
   }
 };
 
-/// A scene as data: everything that a run starts from, resolved and in SI units. Equal scenes give
-/// equal runs on one device.
+/// A complete scene: everything that determines a run, with references resolved and in SI units.
+/// Equal scenes give equal runs on the same device.
 struct Scene {
-  std::string name;
-  std::string file;                      ///< path of the file it came from
-  Vec3 gravity = Vec3(0, 0, -kGravity);  ///< in W [m/s2]
-  std::uint64_t seed = 1;
-  SolverSettings solver;
-  std::vector<Soil> soils;
-  StartGround ground;
-  Design design;
-  Materials materials;
-  std::vector<MachineInWorld> machines;
-  std::vector<Hitch> hitches;
-  std::vector<Camera> cameras;
-  std::vector<Light> lights;
-  Recording recording;
-  std::vector<MapRecord> records;
+  std::string name;                      ///< name of the scene and of the folder of its results
+  std::string file;                      ///< path of the scene file
+  Vec3 gravity = Vec3(0, 0, -kGravity);  ///< acceleration of gravity in W [m/s2]
+  std::uint64_t seed = 1;   ///< seed of all random numbers: hills and simulated encoder errors
+  SolverSettings solver;    ///< settings of the soil solver
+  std::vector<Soil> soils;  ///< soils; other structs refer to them by index or name
+  StartGround ground;       ///< ground at the start
+  Design design;            ///< design surface; it does not influence the run
+  Materials materials;      ///< contact properties of rigid bodies
+  std::vector<MachineInWorld> machines;  ///< machines
+  std::vector<Hitch> hitches;            ///< couplings between machines
+  std::vector<Camera> cameras;           ///< cameras that record images
+  std::vector<Light> lights;             ///< lights; the first one is the sun
+  Recording recording;                   ///< length and output of the run
+  std::vector<MapRecord> records;        ///< maps and messages that the run writes
 
+  /// Passes all fields of a scene's <world> to the visitor `f`.
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the scene and of the folder of its results.", kSdf | kShown);
     f("gravity", gravity, {-100, 100}, "Acceleration of gravity in W [m/s2].", kSdf);
@@ -215,8 +242,9 @@ struct Scene {
     f("navvy:record", records, limits::kMachines, "Maps that a run writes at a rate.", kShown);
   }
 
-  /// Returns an index by name, -1 if there is none. The search is linear.
+  /// Returns the index in `soils` of the soil with this name; -1 if there is none.
   int soil_index(const std::string& name_of_soil) const;
+  /// Returns the index in `machines` of the machine with this name; -1 if there is none.
   int machine_index(const std::string& name_of_machine) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One soil, from a scene or from terrain/soils/*.sdf.
+// One soil, as described by a scene or by a file in terrain/soils/.
 #pragma once
 
 #include <string>
@@ -8,41 +8,55 @@
 
 namespace navvy::scene {
 
-/// Parameters of one soil in SI units, angles in radians. They do not change during a run. The
-/// constitutive law that uses them is in [docs/soil.md, law]; `describe` documents each of them.
+/// Parameters of one soil in SI units, with angles in radians. They are constant during a run. The
+/// constitutive law that uses them is described in [docs/soil.md, law].
 struct Soil {
-  std::string name;
-  std::string ref;
-  std::string source;
-  double bank_density = 1540;
-  double swell = 1.23;
-  double friction_angle = 0.5236;
-  double repose_angle = 0;
-  bool has_repose_angle = false;
+  std::string name;    ///< unique name of the soil in its scene
+  std::string ref;     ///< shipped soil or soil file from which the values were taken; empty: none
+  std::string source;  ///< origin of the values, for people
+  double bank_density = 1540;      ///< density of undisturbed, moist soil [kg/m3]
+  double swell = 1.23;             ///< loose volume / bank volume [-]
+  double friction_angle = 0.5236;  ///< internal friction angle phi in plane strain [rad]
+  double repose_angle = 0;  ///< angle of repose t that gives phi by sin phi = tan t [rad], if given
+  bool has_repose_angle = false;  ///< true: `repose_angle` was given instead of `friction_angle`
+  /// Relative increase in strength of soil that is at rest or sheared at less than 0.1 /s, compared
+  /// with flowing soil [-].
   double static_friction_share = 0.1;
-  double cohesion = 5000;
-  double residual_cohesion = 1000;
-  double loose_cohesion = 200;
+  double cohesion = 5000;           ///< cohesion of intact soil [Pa]
+  double residual_cohesion = 1000;  ///< cohesion after remoulding [Pa]
+  double loose_cohesion = 200;      ///< cohesion of remoulded soil at its loose density [Pa]
+  /// Plastic shear after which a quarter of the difference between `cohesion` and
+  /// `residual_cohesion` is left [-].
   double remoulding_strain = 0.5;
-  double loosening_strain = 0.3;
+  double loosening_strain = 0.3;  ///< plastic shear over which the swell develops [-]
+  /// Relative increase in volume above the closed state at which cohesion is zero [-].
   double opening_strain = 0.05;
-  double young_modulus = 1.0e6;
-  double poisson = 0.3;
+  double young_modulus = 1.0e6;  ///< Young's modulus [Pa]
+  double poisson = 0.3;          ///< Poisson's ratio [-]
+  /// Dilatancy angle psi at bank density [rad]; decreases to 0 at the loose density.
   double dilatancy_angle = 0;
+  /// Friction angle of fast flow in the mu(I) law [rad]; at or below `friction_angle`, friction is
+  /// independent of the rate.
   double fast_friction_angle = 0;
-  double grain_diameter = 0.001;
+  double grain_diameter = 0.001;  ///< grain diameter d in the inertial number I [m]
+  /// Inertial number at half of the increase from phi to the fast angle [-].
   double inertial_number = 0.279;
+  /// Mean pressure above which bank soil compacts permanently [Pa]; 0: only tyres compact it.
   double compaction_pressure = 0;
+  /// Volume strain over which the compaction pressure doubles [-].
   double compaction_strain = 0.05;
-  double tool_friction_angle = 0.349;
-  double adhesion = 0;
-  double bekker_kc = 5270;
+  double tool_friction_angle = 0.349;  ///< friction angle of soil on steel [rad]
+  double adhesion = 0;  ///< shear strength of soil on steel without pressure [Pa]; never a tension
+  double bekker_kc = 5270;  ///< cohesive modulus of Bekker's pressure-sinkage law [N/m^(n+1)]
+  /// Frictional modulus of Bekker's pressure-sinkage law [N/m^(n+2)].
   double bekker_kphi = 1515040;
-  double bekker_n = 0.7;
+  double bekker_n = 0.7;  ///< exponent n of Bekker's pressure-sinkage law [-]
+  /// Shear displacement at which soil below tyres and tracks has reached 63 % of its strength [m].
   double janosi_k = 0.02;
-  float color[3] = {0.45f, 0.33f, 0.22f};
+  float color[3] = {0.45f, 0.33f, 0.22f};  ///< linear red, green and blue, 0 to 1
 
-  /// Lists the fields. Ranges are those that any soil keeps, snow and lunar dust included.
+  /// Passes the fields of <navvy:soil> to the visitor `f`. The ranges include every soil, even snow
+  /// and lunar dust.
   void describe(Fields& f) {
     f.attribute("name", name, "Name by which layers, loads and results refer to the soil.");
     f.attribute("ref", ref,

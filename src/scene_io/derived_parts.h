@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collision shapes and masses that follow from the rest of a machine's file.
+// Collision shapes and masses that are derived from other parts of a machine's file.
 #pragma once
 
 #include "scene/machine.h"
@@ -7,13 +7,14 @@
 
 namespace navvy::scene_io {
 
-/// Gives the links of a dynamic or static machine without any <collision> the shapes of their
-/// visuals, except planes, unless `navvy:derive_collisions` is false. Links that carry a shell or
-/// spin a wheel are left out. Then gives every link with a density and without <inertial> the mass,
-/// centre and inertia of its collision shapes, or of its visuals where it has none; each is solid
-/// and counted whole.
+/// Completes a dynamic or static machine whose links, wheels and shells have been read.
+/// First, if the machine has no <collision> at all and `navvy:derive_collisions` is not false, each
+/// link gets the shapes of its visuals as collision shapes. Planes are excluded, and so are links
+/// that carry a shell or are spun as a wheel. Then each link with a density and without <inertial>
+/// gets the mass, centre of mass and inertia of its collision shapes, or of its visuals if it has
+/// no collision shapes; each shape is taken as solid, and overlaps count twice.
 ///
-/// Adds a sentence per link to `machine.derived`. Links, wheels and shells must have been read.
+/// A sentence about each link concerned is added to `machine.derived`.
 void derive_parts(const Element& model, scene::Machine& machine, Faults& faults);
 
 }  // namespace navvy::scene_io

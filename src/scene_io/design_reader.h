@@ -7,7 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:design> and the LandXML file it names. A raster is read later, with the ground.
+/// Reads <navvy:design> and, if it names a LandXML file, the surface in that file. A raster file is
+/// read later, together with the ground.
 scene::Design read_design(Element& element, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -7,16 +7,18 @@
 
 namespace navvy::scene_io {
 
-/// Checks a <navvy:drive> after it was read: linkage, differentials and engine. Sets the power that
-/// an engine shares with the pump.
+/// Checks the linkage, differentials and engine of a drive after it has been read from `element`, a
+/// <navvy:drive>, and sets `engine_power` if the engine also drives the pump.
 void finish_drive(Element& element, scene::Drive& drive, Faults& faults);
 
-/// Sorts the rollers of every track, then checks what tracks need of the machine: a sprocket above
-/// the lower run, within it or beyond, rollers between, and a differential drive. Joints, links and
-/// drive are known.
+/// Sorts the rollers of every track from front to rear, then checks the conditions for tracks: the
+/// sprocket is above the lower run, there are rollers between sprocket and idler, and the machine
+/// has a differential drive. The joints, links and drive of `machine` must have been read.
 void finish_tracks(Element& model, scene::Machine& machine, Faults& faults);
 
-/// Checks what the kind of drive needs of wheels and pump. Joints, links and pump are known.
+/// Checks that the wheels and the pump meet the conditions of the drive's type. `element` is the
+/// <navvy:drive>, at which errors are reported. The joints, links and pump of `machine` must have
+/// been read.
 void check_wheels(const Element& element, const scene::Machine& machine, Faults& faults);
 
 }  // namespace navvy::scene_io

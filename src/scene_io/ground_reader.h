@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground of a world, and maps that ground and design are read from.
+// Reads the ground of a world, and finds the maps that ground and design name.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,15 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:ground>. Layers may name `soils` only; without a layer, a single soil fills the
-/// ground. Hills without a seed use `seed`. Contradictions, such as shapes on a map, are faults.
+/// Reads <navvy:ground>. Layers may only name the soils in `soils`; if no layer is given and there
+/// is one soil, that soil fills the ground. Hills without a seed of their own use `seed`.
+/// Contradictory elements, such as shapes together with a map, are errors.
 scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>& soils,
                                std::uint64_t seed, Faults& faults);
 
-/// Turns the name of a map into a path: in a scene it counts from the scene's file, on the command
-/// line from the working directory. A missing file is a fault.
+/// Replaces the file name of a map in `path` by a full path. A name in a scene file is relative to
+/// the directory of that file, a name on the command line to the working directory. Reports an
+/// error at `element` if the file is missing.
 void resolve_raster(const Element& element, std::string& path, Faults& faults);
 
 }  // namespace navvy::scene_io

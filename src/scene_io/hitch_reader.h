@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Couplings of machines.
+// Reads the couplings between machines.
 #pragma once
 
 #include "scene/scene.h"
@@ -7,8 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Reads every <navvy:hitch> of a world, after its machines. Each joins links of two dynamic
-/// machines; a machine is the child of one hitch at most.
+/// Reads every <navvy:hitch> of a world into `world`, whose machines must have been read. A hitch
+/// joins links of two dynamic machines; a machine may be the child in at most one hitch.
 void read_hitches(Element& world_element, scene::Scene& world, Faults& faults);
 
 }  // namespace navvy::scene_io

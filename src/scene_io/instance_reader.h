@@ -11,22 +11,25 @@
 
 namespace navvy::scene_io {
 
-/// A machine file that has been read.
+/// Result of reading one machine file.
 struct MachineFile {
-  scene::Machine machine;
+  scene::Machine machine;  ///< the machine that the file describes; without links after an error
+  /// Number of XML elements in the file; counts towards the limit of a scene.
   std::size_t elements = 0;
 };
 
-/// Results of reading that machines depend on.
+/// Information from earlier steps of reading that is needed to read a machine.
 struct Known {
-  const scene::StepKinds& kinds;
-  bool ground = false;                        ///< the site was read without errors
-  bool sdf_sound = false;                     ///< the SDF of the scene file has no errors
-  std::map<std::string, MachineFile>& files;  ///< machines by file, each read and reported once
+  const scene::StepKinds& kinds;  ///< all types of program steps
+  bool ground = false;            ///< true: the ground was read without errors
+  bool sdf_sound = false;         ///< true: the SDF part of the scene file has no errors
+  /// Machines by path of their file, so that a file included several times is read and reported
+  /// once.
+  std::map<std::string, MachineFile>& files;
 };
 
-/// Reads an <include> or <model> with its place, joints, load and program. Soils and ground of the
-/// world are known.
+/// Reads an <include> or <model> of a world with its pose, joint positions, load and program. The
+/// soils and the ground of `world` must have been read.
 scene::MachineInWorld read_instance(Element& element, const scene::Scene& world, const Known& known,
                                     Faults& faults);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of LandXML 1.2, as survey programs write them.
+// Reads surfaces from LandXML 1.2 files, which survey programs write.
 #pragma once
 
 #include <string>
@@ -9,17 +9,19 @@
 
 namespace navvy::scene_io {
 
-/// Returns true if the root of the file is <LandXML>; false if it cannot be read.
+/// Returns true if the root element of the file is <LandXML>; false if it is another element or the
+/// file cannot be read.
 bool is_landxml(const std::string& file);
 
-/// Reads one TIN of `file`: points (northing easting elevation) and the visible faces, in metres.
-/// The unit is that of Metric or Imperial (millimeter, centimeter, meter, kilometer, foot,
-/// USSurveyFoot, inch, mile), for elevations too. `surface` is its name; empty: the only one. It
-/// takes some 100 bytes per point or face while reading.
+/// Reads one TIN (triangulated surface) of `file`: its points, given as northing easting elevation,
+/// and its visible faces. Coordinates and elevations are converted to metres from the unit in the
+/// element Metric or Imperial (millimeter, centimeter, meter, kilometer, foot, USSurveyFoot, inch,
+/// mile). `surface` is the name of the surface to read; empty: the only surface of the file.
+/// Reading takes about 100 bytes of memory per point or face.
 ///
-/// Reports a missing or unknown unit, a missing surface, one that is no TIN, a point without id or
-/// number, a repeated id, a face to a missing point, and a surface without a visible face. Returns
-/// null after a fault.
+/// Reports as errors: a missing or unknown unit, a missing surface, a surface that is not a TIN, a
+/// point without ID or with invalid numbers, a repeated ID, a face with a nonexistent point, and a
+/// surface without visible faces. Returns null after an error.
 std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const std::string& surface,
                                                Faults& faults);
 

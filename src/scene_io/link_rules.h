@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rules for links and joints, checked before libsdformat reads them, as it knows no lines.
+// Rules for links and joints. They are checked before libsdformat reads the model, as libsdformat
+// reports no line numbers.
 #pragma once
 
 #include "scene_io/element_reader.h"
 
 namespace navvy::scene_io {
 
-/// Checks ends, axes and limits of every joint.
+/// Checks parent, child, axes and limits of every joint of a model. `names` holds the model's
+/// names.
 void check_joints(const Element& model, const Names& names, Faults& faults);
 
-/// Checks masses, inertias and shapes of every link; `needs_mass` if the links move.
+/// Checks masses, inertias and shapes of every link of a model. `needs_mass` is true if the links
+/// move according to forces, and therefore need masses.
 void check_links(const Element& model, bool needs_mass, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths of files that scenes name, and triangle meshes.
+// Finds the files that scenes name, and checks and reads triangle meshes.
 #pragma once
 
 #include <string>
@@ -9,25 +9,25 @@
 
 namespace navvy::scene_io {
 
-/// Returns the reason why there is no plain file at `path`: missing, a pipe, a device or a
-/// directory.
+/// Returns the reason why `path` is not a regular file: missing, a pipe, a device or a directory.
 std::string why_no_file(const std::string& path);
 
-/// Finds the OBJ file that `uri` names: relative to the file that holds it, absolute, or
-/// model://NAME/... below a vehicles/ directory. `path` becomes absolute. Reports a fault and
-/// returns false if there is none.
+/// Finds the OBJ file that the element `uri` names: relative to the file that contains the element,
+/// absolute, or model://NAME/... in a vehicles/ directory. Stores its absolute path in `path`.
+/// Reports an error and returns false if there is no such file.
 bool resolve_mesh(const Element& uri, std::string& path, Faults& faults);
 
-/// Checks that the OBJ file at `path` can be drawn or, if `solid`, collide by the hull of its
-/// vertices. A file is read once for all that name it. Returns false after a fault.
+/// Checks that the OBJ file at `path` can be drawn. If `solid`, it also checks that the convex hull
+/// of its vertices can be used as a collision shape. A file is read only once, even if several
+/// elements name it. Errors are reported at `uri`; returns false after an error.
 bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults& faults);
 
-/// Finds the model file of an <include>'s `uri`: a file, a directory with model.sdf, or
-/// model://NAME. Returns false after a fault.
+/// Finds the model file that the <uri> of an <include> names: a file, a directory with model.sdf,
+/// or model://NAME. Stores its path in `path`. Returns false after an error.
 bool resolve_model(const Element& uri, std::string& path, Faults& faults);
 
-/// Reads the triangles of a shell from an OBJ file [m]. Reports a fault at `at`, with the line in
-/// the OBJ file, and returns false if it cannot be read.
+/// Reads the triangles of a shell from an OBJ file [m]. If the file cannot be read, reports an
+/// error at the element `at`, with the line in the OBJ file, and returns false.
 bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& shell,
                      Faults& faults);
 

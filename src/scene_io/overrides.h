@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes of a scene from the command line.
+// Applies changes to a scene from the command line.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,12 +8,12 @@
 
 namespace navvy::scene_io {
 
-/// Writes the overrides into the document, so that reading checks them like the file's own values.
-/// Elements written here have line 0. Reports unknown objects, and settings without effect as
-/// warnings. Settings come last, so they win over an option for the same value.
+/// Writes the overrides into the document, so that they are checked like values of the file.
+/// Elements added here have line 0. Unknown objects are errors, settings without effect are
+/// warnings. `overrides.set` is applied last, so that it takes precedence over the other overrides.
 void apply_overrides(Document& document, const Overrides& overrides, Faults& faults);
 
-/// Warns of a seed given on the command line if nothing in the scene is random.
+/// Reports a warning if a seed is given on the command line but nothing in the scene is random.
 void warn_of_unused_seed(Document& document, const Overrides& overrides, const scene::Scene& world,
                          Faults& faults);
 

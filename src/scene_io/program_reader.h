@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs of machines.
+// Reads the programs of machines.
 #pragma once
 
 #include "scene/program.h"
@@ -8,9 +8,9 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:program>, every child by the kind of its name. Kinds check that the machine can do
-/// the step and that targets are on the site; machine and ground are null if they could not be
-/// read.
+/// Reads <navvy:program>; the name of each child selects the type of the step. The types check that
+/// the machine can execute the step and that targets are on the site. `machine` and `ground` are
+/// null if they could not be read; the checks that need them are then skipped.
 scene::Program read_program(Element& element, const scene::StepKinds& kinds,
                             const scene::Machine* machine, const scene::StartGround* ground,
                             Faults& faults);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene as one text without references to other scene files, for the folder of a run.
+// Writes a scene as one text without references to other scene files, for the folder of a run.
 #pragma once
 
 #include <string>
@@ -9,18 +9,20 @@
 
 namespace navvy::scene_io {
 
-/// Format of the texts written here; readers refuse later ones.
+/// Version of the format in which scenes are written as one text. Reading a text with a later
+/// version is an error.
 inline constexpr int kResolvedFormat = 1;
 
-/// Returns the text of `document` with its overrides, with machines and soils of other files
-/// written out in place, and with portable names of meshes and maps: model://NAME/... below a
-/// vehicles/ directory, else an absolute path. `<navvy:resolved format="1">` lists those files with
-/// a hash of each. Reading the text gives `world` again, value by value. `document` must have been
-/// read as `world` without a fault; its elements are changed.
+/// Returns the document as one text that includes the overrides and, in place of references, the
+/// machines and soils of other files. Names of files that remain, such as meshes and maps, are made
+/// portable: model://NAME/... in a vehicles/ directory, otherwise absolute paths. The element
+/// `<navvy:resolved format="1">` lists these files with a hash of each. Reading the text gives a
+/// scene that equals `world` in every value. `world` must have been read from `document` without
+/// errors; the elements of `document` are changed.
 std::string resolved_text(Document& document, const scene::Scene& world);
 
-/// Checks the <navvy:resolved> of a world, if it has one: an unknown format is an error, a file
-/// that has changed since a warning.
+/// Checks the element <navvy:resolved> of a world, if there is one. An unknown format is an error;
+/// a listed file that has changed since is a warning.
 void check_resolved(Document& document, Faults& faults);
 
 }  // namespace navvy::scene_io

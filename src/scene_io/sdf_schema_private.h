@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Description of SDF by libsdformat, reduced to the elements that Navvy reads.
+// Parses models with libsdformat, using a reduced description of SDF.
 #pragma once
 
 #include <sdf/sdf.hh>
@@ -7,11 +7,12 @@
 
 namespace navvy::scene_io {
 
-/// Parses a text of one <model> into `root`. libsdformat parses its whole description of SDF, some
-/// 7000 elements, for every text; here the description is parsed once per process and reduced to
-/// the used elements, so that a model takes milliseconds. Safe to call from several threads.
+/// Parses a text that contains one <model> into `root`. For every text, libsdformat itself would
+/// parse its complete description of SDF with about 7000 elements. This function parses the
+/// description once per process and reduces it to the elements that Navvy uses, so that reading a
+/// model takes milliseconds. It may be called from several threads.
 ///
-/// @returns the faults that libsdformat finds. @throws std::bad_alloc, sdf::Exception and others
+/// @returns the errors that libsdformat finds. @throws std::bad_alloc, sdf::Exception and others
 sdf::Errors parse_model(const std::string& text, sdf::Root& root);
 
 }  // namespace navvy::scene_io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles of shells, the surfaces that touch soil.
+// Reads the triangles of shells, the surfaces that touch soil.
 #pragma once
 
 #include "scene/machine.h"
@@ -7,8 +7,9 @@
 
 namespace navvy::scene_io {
 
-/// Gives a shell, whose <navvy:shell> was read, its triangles: those in the element or those of an
-/// OBJ file. Checks that every triangle has an area and that all are wound alike.
+/// Sets the triangles of a shell after its <navvy:shell> has been read: those listed in the
+/// element, or those of the OBJ file that it names. Checks that every triangle has an area and that
+/// all triangles are wound consistently.
 void finish_shell(Element& element, scene::Shell& shell, Faults& faults);
 
 }  // namespace navvy::scene_io

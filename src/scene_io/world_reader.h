@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds: a whole scene.
+// Reads the world of a scene file.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,10 +8,11 @@
 
 namespace navvy::scene_io {
 
-/// Reads the <world> of a document, after the overrides were applied to it.
+/// Reads the <world> of a document to which the overrides have already been applied.
 ///
-/// @param kinds the known program steps
-/// @returns the world; after a fault the parts that could be read, for further checks alone.
+/// @param kinds all types of program steps
+/// @returns the world. After errors it contains the parts that could be read, and may only be used
+/// for further checks.
 scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Faults& faults);
 
 }  // namespace navvy::scene_io
