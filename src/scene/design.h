@@ -12,26 +12,37 @@
 
 namespace navvy::scene {
 
-/// A triangulated surface in survey coordinates: easting, northing and elevation in metres.
+/// Triangulated irregular network (TIN) in survey coordinates: easting, northing and elevation in
+/// metres.
 struct Tin {
-  std::string file, name;                 ///< for messages
-  int epsg = 0;                           ///< code of the coordinate system; 0: unknown
-  double metres = 1;                      ///< length of the file's unit; the points are converted
-  std::vector<Vec3> points;               ///< [m]
-  std::vector<std::array<int, 3>> faces;  ///< visible ones, indices of points, wound either way
+  std::string file, name;  ///< for messages
+  /// EPSG code of the coordinate reference system; 0 if unknown.
+  int epsg = 0;
+  /// Length of the file's unit in metres. `points` have been converted already.
+  double metres = 1;
+  std::vector<Vec3> points;  ///< [m]
+  /// Visible triangles, as indices into `points`. The winding is arbitrary.
+  std::vector<std::array<int, 3>> faces;
 };
 
-/// A pit or a pad: a plane floor over a simple polygon, with battered sides outside it up or down
-/// to the untouched ground. A place outside belongs to the nearest place of the polygon's edge, so
-/// sides turn round outer corners as cones.
+/// A pit or a pad: a plane floor over a simple polygon, with battered sides that rise (pit) or fall
+/// (pad) outside the polygon until they meet the original ground. At an outside corner the side is
+/// a cone around the corner.
 struct DesignArea {
-  int line = 0;                         ///< in the scene's file, for messages
-  std::vector<Vec2> polygon;            ///< corners in W [m], closed by itself, wound either way
-  double depth = 0;                     ///< [m]
-  double fall = 0;                      ///< [rad]
-  double fall_yaw = 0;                  ///< [rad]
-  double batter = radians(90);          ///< [rad]
-  std::vector<double> polygon_numbers;  ///< coordinates of `polygon` as read
+  /// Line of the <area> in the scene file, for messages.
+  int line = 0;
+  /// Corners in W [m], in either direction; the last corner connects to the first.
+  std::vector<Vec2> polygon;
+  /// Floor depth at the first corner [m]; negative for a pad.
+  double depth = 0;
+  /// Slope angle of the floor [rad].
+  double fall = 0;
+  /// Direction in which the floor falls, counter-clockwise from W's x axis [rad].
+  double fall_yaw = 0;
+  /// Angle between the sides and the horizontal [rad].
+  double batter = radians(90);
+  /// The coordinates x y x y ... of `polygon` as read; empty afterwards.
+  std::vector<double> polygon_numbers;
 
   void describe(Fields& f) {
     f("polygon_m", polygon_numbers, {-1e6, 1e6},
@@ -45,12 +56,16 @@ struct DesignArea {
   }
 };
 
-/// The design surface: a file or a list of areas. A scene without either has no design.
+/// Design surface of a site: either a file or a list of areas. A scene without either has no
+/// design.
 struct Design {
-  std::string file;                ///< raster or LandXML
-  RasterScale scale;               ///< of a raster
-  std::shared_ptr<const Tin> tin;  ///< the surface of a LandXML `file`
-  std::vector<DesignArea> areas;   ///< later ones override earlier ones
+  std::string file;  ///< raster or LandXML
+  /// Scale of a raster file that has none of its own.
+  RasterScale scale;
+  /// The surface read from a LandXML `file`; null otherwise.
+  std::shared_ptr<const Tin> tin;
+  /// Pits and pads; later ones override earlier ones where they overlap.
+  std::vector<DesignArea> areas;
   std::string surface;
 
   bool any() const { return !file.empty() || !areas.empty(); }

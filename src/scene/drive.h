@@ -11,13 +11,15 @@
 
 namespace navvy::scene {
 
-/// The motor and the brakes of every drive: one motor with a speed governor. SI units.
+/// Motor and brakes of a drive: one motor with a speed governor, in SI units. All types of drives
+/// have these fields.
 struct Powertrain {
   double max_speed = 2.5;
   double tractive_force = 100e3;
   double power = 90e3;
   double brake_force = 150e3;
-  double engine_power = 0;  ///< [W]; 0: drive and pump have engines of their own
+  /// Power of an engine that drives both wheels and pump [W]; 0 if each has an engine of its own.
+  double engine_power = 0;
 
   void describe(Fields& f) {
     f("max_speed_m_per_s", max_speed, {0.01, 50}, "Top speed, forwards and backwards.");
@@ -30,13 +32,15 @@ struct Powertrain {
   }
 };
 
-/// A combustion engine or motor that turns a drive line through gears, in place of the governed
-/// motor: either with a torque curve, or a source of speed up to its largest torque. SI units.
+/// An engine with gears that replaces the governed motor of a drive, in SI units. It has either a
+/// torque curve or a constant speed up to its maximum torque (speed source).
 struct CombustionEngine {
   enum class Kind { kTorqueCurve, kSpeedSource };
   struct Point {
-    double speed = 0;   ///< [rad/s]
-    double torque = 0;  ///< [N m]
+    /// Engine speed [rad/s].
+    double speed = 0;
+    /// Torque at full throttle [N m].
+    double torque = 0;
 
     void describe(Fields& f) {
       f("speed_rpm", speed, {1, 1e5}, "Engine speed.", kNeeded);
@@ -44,11 +48,16 @@ struct CombustionEngine {
     }
   };
   Kind kind = Kind::kTorqueCurve;
-  std::vector<Point> curve;  ///< linear between the points
+  /// Points of the torque curve, by rising speed; linear in between.
+  std::vector<Point> curve;
   double braking_torque = 0;
-  double max_speed = 0;       ///< [rad/s]
-  double max_torque = 0;      ///< [N m]
-  std::vector<double> gears;  ///< falling
+  /// Maximum speed of a speed source [rad/s].
+  double max_speed = 0;
+  /// Maximum torque of a speed source [N m].
+  double max_torque = 0;
+  /// Ratios of the gears (engine speed / output speed), from the first gear to the last; each is
+  /// smaller than the one before.
+  std::vector<double> gears;
   double final_ratio = 1;
   double efficiency = 0.9;
   bool shared_with_pump = false;
@@ -71,16 +80,18 @@ struct CombustionEngine {
     f("efficiency", efficiency, {0.05, 1}, "Efficiency of all gears together.");
   }
 };
-/// Returns the point of greatest power of a torque curve.
+/// Returns the point of maximum power on the engine's torque curve.
 CombustionEngine::Point rated_point(const CombustionEngine& engine);
 
-/// Lets two shafts of a drive line turn at different speeds. The slower one gets more torque than
-/// the faster one by the locking torque: zero if open, any if locked, and at most preload + bias x
-/// the torque through it with limited slip [Wong 2008, section 5.1].
+/// Lets two shafts of a drive line turn at different speeds. The slower shaft gets more torque than
+/// the faster one; the difference is the locking torque. It is zero for an open differential,
+/// unlimited for a locked one, and with limited slip at most preload + bias x transmitted torque
+/// [Wong 2008, section 5.1].
 struct Differential {
   enum class Kind { kOpen, kLocked, kLimitedSlip };
   Kind kind = Kind::kOpen;
-  double preload = 0;  ///< [N m]
+  /// Locking torque without load [N m], with limited slip.
+  double preload = 0;
   double bias = 0;
 
   void describe(Fields& f) {
@@ -92,23 +103,29 @@ struct Differential {
   }
 };
 
-/// A differential between the driven wheels, and steered wheels: trucks, wheeled excavators.
+/// Drive of trucks and wheeled excavators: steered front wheels, and a differential between the
+/// driven wheels.
 ///
-/// It steers by a bicycle angle: that of one wheel in the middle of the front axle [rad], positive
-/// to the left. The origin of the machine's frame is on the ground under the middle of the rear
-/// axle, which is not steered.
+/// The steering command is a bicycle angle [rad], positive to the left: the angle of one virtual
+/// wheel in the middle of the front axle. The machine frame's origin is on the ground below the
+/// middle of the rear axle, which is not steered.
 struct AckermannDrive : Powertrain {
   static constexpr const char* kName = "ackermann";  ///< type in a file
   static constexpr const char* kSteerUnit = "rad";
   static constexpr const char* kSteerMeaning = "bicycle angle, positive to the left";
 
-  double max_steer = radians(35);  ///< [rad]
+  /// Maximum steering angle of the inner wheel [rad].
+  double max_steer = radians(35);
   double wheelbase = 2.8;
   double track = 1.94;
-  double steer_rate = radians(30);         ///< [rad/s]
-  Differential axles;                      ///< between the wheels of each driven axle
-  Differential centre;                     ///< between the foremost driven axle and the others
-  std::optional<CombustionEngine> engine;  ///< without: the governed motor of Powertrain
+  /// Maximum steering rate of a wheel [rad/s].
+  double steer_rate = radians(30);
+  /// Differential between the wheels of each driven axle.
+  Differential axles;
+  /// Differential between the foremost driven axle and the other driven axles.
+  Differential centre;
+  /// Engine with gears; if empty, the drive has the governed motor of Powertrain.
+  std::optional<CombustionEngine> engine;
 
   void describe(Fields& f) {
     Powertrain::describe(f);
@@ -124,18 +141,21 @@ struct AckermannDrive : Powertrain {
   }
 };
 
-/// Left and right wheels driven each side by itself: mobile robots, skid-steered loaders, crawlers.
-/// It steers by a yaw rate [rad/s], positive to the left, at any speed, also on the spot.
+/// Drive of mobile robots, skid-steered loaders and crawlers: left and right wheels are driven
+/// independently. The steering command is a yaw rate [rad/s], positive to the left; the machine can
+/// also turn on the spot.
 ///
-/// The driven wheels of a side turn alike. Those with their link at y > 0 are the left side. The
-/// origin of the machine's frame is between the driven wheels; others are casters that swivel
-/// freely, or slip.
+/// All driven wheels of a side turn at the same speed. Wheels whose link has y > 0 in the machine
+/// frame are on the left side. The machine frame's origin is between the driven wheels. Other
+/// wheels are casters, which swivel freely, or they slip.
 struct DifferentialDrive : Powertrain {
   static constexpr const char* kName = "differential";
   static constexpr const char* kSteerUnit = "rad/s";
   static constexpr const char* kSteerMeaning = "yaw rate, positive to the left";
 
-  double track = 0.5;  ///< [m]; of skid-steered machines an effective one
+  /// Distance between the middles of left and right wheels [m]; an effective value for skid-steered
+  /// machines.
+  double track = 0.5;
 
   void describe(Fields& f) {
     Powertrain::describe(f);
@@ -144,9 +164,9 @@ struct DifferentialDrive : Powertrain {
   }
 };
 
-/// An AckermannDrive whose motor turns the two steered wheels through a trapezoid of arms and tie
-/// rod, which meets a common centre only nearly. It steers by the motor's position [rad, at the
-/// motor], positive to the left.
+/// An AckermannDrive in which one motor turns both steered wheels through a trapezoidal linkage of
+/// two arms and a tie rod. The wheel axes then intersect only approximately in one point. The
+/// steering command is the motor's position [rad], positive to the left.
 struct LinkageDrive : AckermannDrive {
   static constexpr const char* kName = "linkage";
   static constexpr const char* kSteerUnit = "rad";
@@ -168,41 +188,42 @@ struct LinkageDrive : AckermannDrive {
     f("gear_ratio", gear_ratio, {0.001, 1e4}, "Turns of the motor / turns of the left king pin.");
   }
 };
-/// Returns the end of the left arm in M, from the left king pin, with the wheels straight [m]. It
-/// is not finite if the tie rod does not reach.
+/// Returns the vector from the left king pin to the end of the left steering arm, in the machine
+/// frame [m], with the wheels straight. Its components are not finite if the tie rod is too short
+/// or too long.
 Vec2 steering_arm(const LinkageDrive& drive);
-/// Returns true if the linkage turns the inner wheel to `max_steer` without locking.
+/// Returns true if the linkage can turn the inner wheel to `max_steer` without locking.
 bool turns_freely(const LinkageDrive& drive);
 
 using Drive = std::variant<AckermannDrive, DifferentialDrive, LinkageDrive>;
 
-/// Returns the fields that all kinds share.
+/// Returns the fields that all types of drives share.
 inline const Powertrain& powertrain(const Drive& drive) {
   return std::visit([](const Powertrain& common) -> const Powertrain& { return common; }, drive);
 }
 
-/// Returns the engine of a drive, null if it has a governed motor.
+/// Returns the drive's engine with gears; null if the drive has a governed motor.
 inline const CombustionEngine* drive_engine(const Drive& drive) {
   const auto* steered = std::get_if<AckermannDrive>(&drive);
   if (steered == nullptr) steered = std::get_if<LinkageDrive>(&drive);
   return steered != nullptr && steered->engine ? &*steered->engine : nullptr;
 }
 
-/// Returns the type of the drive as a file writes it.
+/// Returns the drive's type as written in scene files, e.g. "ackermann".
 inline const char* drive_name(const Drive& drive) {
   return std::visit([](const auto& kind) { return kind.kName; }, drive);
 }
 
-/// Returns the unit of the steer command of this drive.
+/// Returns the unit of the drive's steering command: "rad" or "rad/s".
 inline const char* steer_unit(const Drive& drive) {
   return std::visit([](const auto& kind) { return kind.kSteerUnit; }, drive);
 }
-/// Returns the meaning of the steer command of this drive.
+/// Returns a short description of the drive's steering command.
 inline const char* steer_meaning(const Drive& drive) {
   return std::visit([](const auto& kind) { return kind.kSteerMeaning; }, drive);
 }
 
-/// Lists the type of a drive and the fields of this type.
+/// Visits the attribute `type` of a drive and the fields of the drive's current type.
 void describe_drive(Fields& f, Drive& drive);
 
 }  // namespace navvy::scene

@@ -19,7 +19,7 @@
 
 namespace navvy::scene {
 
-/// Closed range of a value in the unit of the file.
+/// Closed range of allowed values, in the unit that the scene file uses.
 struct Range {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
@@ -27,33 +27,46 @@ struct Range {
 /// Number of radians in a degree.
 inline constexpr double kDegree = kPi / 180.0;
 
-/// Unit of a field, from the suffix of its name: `friction_angle_deg` is in degrees.
+/// Unit of a scene-file element, derived from the suffix of the element's name:
+/// `friction_angle_deg` is in degrees.
 struct Unit {
+  /// Unit symbol such as "deg"; "-" for a dimensionless number.
   const char* symbol;  ///< "deg"; "-" for a number without a unit
-  double factor;       ///< SI value / value in the file
+  /// Factor that converts a value in this unit to SI units.
+  double factor;
 };
-/// Returns the unit of a field by its name.
+/// Returns the unit of the element or attribute called `name`; dimensionless if the suffix is
+/// unknown.
 Unit unit_of(std::string_view name);
-/// Returns `value` with at most `digits` significant digits.
+/// Formats `value` with at most `digits` significant digits.
 std::string short_text(double value, int digits = 9);
-/// Returns the shortest text in the file's unit that reads back to exactly this SI value.
+/// Formats an SI value in the file's unit (SI value = file value x `factor`) as the shortest text
+/// that reads back to exactly the same SI value.
 std::string exact_text(double in_si, double factor = 1);
 
-/// Kind of object that the text of a field names.
+/// Type of the object whose name a text field contains; kNothing for ordinary text.
 enum class Refers { kNothing, kLink, kJoint, kShell, kSoil, kHitch };
 
-/// Options of a field, joined by `|`.
+/// Options of a field. Combine several with `|`.
 struct Mark {
   enum Bit : unsigned {
-    kNeeded = 1,      ///< the element must be given
-    kShown = 2,       ///< changes what a run shows or writes, not what it computes: no parameter
-    kSdf = 4,         ///< an element of SDF, which libsdformat reads
-    kAttribute = 8,   ///< an attribute of the element, not a child
-    kDerived = 16,    ///< follows from other elements: a parameter without an element
-    kOwnReader = 32,  ///< an element that a reader of its own takes
+    /// The element is mandatory.
+    kNeeded = 1,
+    /// The field affects only what a run shows or writes, so it is not part of the scene's
+    /// parameters.
+    kShown = 2,
+    /// The element belongs to standard SDF; libsdformat reads it.
+    kSdf = 4,
+    /// The field is an XML attribute of the element, not a child element.
+    kAttribute = 8,
+    /// The value is computed from other elements: it is a parameter, but no element contains it.
+    kDerived = 16,
+    /// A dedicated reader handles the element; generic visitors skip its contents.
+    kOwnReader = 32,
   };
   unsigned bits = 0;
-  bool* given = nullptr;  ///< receives true if the element is present
+  /// Set to true if the element is present in the file; may be null.
+  bool* given = nullptr;
 
   bool has(Bit bit) const { return (bits & bit) != 0; }
 };
@@ -61,36 +74,38 @@ inline constexpr Mark kNeeded{Mark::kNeeded};
 inline constexpr Mark kShown{Mark::kShown};
 inline constexpr Mark kSdf{Mark::kSdf};
 inline constexpr Mark kOwnReader{Mark::kOwnReader};
-/// Returns the option that stores in `flag` whether the element is present. Without the element the
-/// field has no value of its own.
+/// Returns an option that sets `flag` to true if the element is present. If the element is absent,
+/// the field has no value.
 inline Mark given(bool& flag) { return {0, &flag}; }
 constexpr Mark operator|(Mark a, Mark b) { return {a.bits | b.bits, a.given ? a.given : b.given}; }
 
-/// Reference to an enumeration or flag that a file writes by name.
+/// Access to an enumeration or bool member whose values have names in scene files.
 struct NamedChoice {
   std::vector<const char*> names;
   std::function<std::size_t()> get;
   std::function<void(std::size_t)> set;
 };
-/// Reference to a unit vector; the reader normalizes it.
+/// Access to a unit-vector member. The reader normalizes the vector from the file.
 struct Direction {
   Vec3* value;
 };
-/// Reference to a linear RGB color, each component from 0 to 1.
+/// Access to a linear RGB color: three floats from 0 to 1.
 struct Rgb {
   float* value;
 };
-/// Text that is computed on demand; for derived fields.
+/// Function that computes a derived field's text when a visitor needs it.
 using Computed = std::function<std::string()>;
-/// Reference to the member behind a field.
+/// Access to the struct member (or computed text) behind a field. Pointers refer to the described
+/// object.
 using Value = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, Vec2*, Vec3*, Pose*,
                            Mat3*, std::vector<double>*, std::vector<Vec3>*, std::optional<int>*,
                            Direction, Rgb, NamedChoice, Computed>;
 
-/// Returns the value of a field as text in the unit of its file, exact to the last bit.
+/// Formats a field's current value in the file's unit (SI value = file value x `factor`) without
+/// loss of precision.
 std::string value_text(const Value& value, double factor);
 
-/// One field with a value.
+/// Description of one element or attribute that holds a value.
 struct Field {
   const char* name;  ///< element or attribute; ends in the unit
   Value value;
@@ -100,56 +115,69 @@ struct Field {
   Refers refers = Refers::kNothing;
 };
 
-/// A child element that holds fields of its own.
+/// Description of a child element that contains fields of its own.
 struct Group {
   const char* name;
   const char* text;
   Mark mark;
-  bool present = true;  ///< the struct has a value, see `make`
-  /// Creates an optional value when the element is read; may be empty.
+  /// False if the struct's optional member is empty; a reader then calls `make` first.
+  bool present = true;
+  /// Creates the optional member before the reader fills it. Empty if the member always exists.
   std::function<void()> make = {};
 };
 
 class Fields;
 
-/// Child elements that may occur several times, of one or several kinds, in the order of the file.
+/// Description of child elements that may occur several times. They may be of several types
+/// (element names); the order of the file is kept.
 struct List {
   struct Kind {
     const char* name;  ///< of the element
     const char* text;
   };
-  const char* name;         ///< of an item in parameter paths and in `--set`
-  std::vector<Kind> kinds;  ///< one at least
-  std::size_t most;         ///< limit of the number of items of a kind
+  const char* name;  ///< of an item in parameter paths and in `--set`
+  /// Allowed element names, at least one.
+  std::vector<Kind> kinds;
+  /// Maximum number of items of each element name.
+  std::size_t most;
   Mark mark;
-  std::size_t size;                                      ///< present number of items
-  std::function<void(std::size_t item, Fields&)> item;   ///< describes an item
-  std::function<void(std::size_t kind, Fields&)> add;    ///< appends an item, then describes it
-  std::function<void(std::size_t kind, Fields&)> fresh;  ///< describes an item of default values
+  /// Current number of items.
+  std::size_t size;
+  /// Visits the fields of the item with this index.
+  std::function<void(std::size_t item, Fields&)> item;
+  /// Appends an item of the type with this index in `kinds`, then visits the item's fields.
+  std::function<void(std::size_t kind, Fields&)> add;
+  /// Visits the fields of a temporary item with default values, of the type with this index in
+  /// `kinds`.
+  std::function<void(std::size_t kind, Fields&)> fresh;
 };
 
-/// Fields that depend on an attribute, such as the type of a drive. The first name is the default.
+/// Description of an attribute that selects which fields an element has, such as the type of a
+/// drive. The first name is the default.
 struct Types {
   const char* attribute;
   const char* text;
   std::vector<const char*> names;
-  std::size_t index;  ///< present type
+  /// Index in `names` of the current type.
+  std::size_t index;
   std::function<void(std::size_t type)> choose;
   std::function<void(std::size_t type, Fields&)> describe;
 };
 
 /// First value and documentation of one kind of list item.
 template <class T>
+/// Initial value and documentation of one type of list item.
 struct Start {
   const char* name;
   const char* text;
   T value;
 };
 
-/// Visitor of the fields of a struct.
+/// Visitor of a struct's fields.
 ///
-/// `describe` functions call the operators below once per field. The virtual functions do the work;
-/// they see no types but those of `Value`. Only a visitor that reads a file writes to the members.
+/// A struct's `describe` function calls one of the operators below once for each field. The
+/// operators pass a type-independent description to the virtual functions, which a visitor
+/// implements. Only visitors that read a file modify the members.
 class Fields {
  public:
   virtual ~Fields() = default;
@@ -167,7 +195,7 @@ class Fields {
     else
       field({name, &member, usual_range(member), text, mark});
   }
-  /// Visits a name of another object.
+  /// Visits a text field that contains the name of another object.
   void operator()(const char* name, std::string& member, Refers refers, const char* text,
                   Mark mark = {}) {
     field({name, &member, {}, text, mark, refers});
@@ -224,7 +252,7 @@ class Fields {
     };
     list(out);
   }
-  /// Visits an attribute of the element itself.
+  /// Visits an XML attribute of the element that is being described.
   void attribute(const char* name, std::string& member, const char* text, Mark mark = {}) {
     field({name, &member, {}, text, mark | Mark{Mark::kAttribute}});
   }
@@ -246,8 +274,8 @@ class Fields {
   virtual void group(const Group& group, const std::function<void(Fields&)>& describe) = 0;
   virtual void list(const List& list) = 0;
   virtual void types(const Types& types) = 0;
-  /// Visits fields that a file describes elsewhere, as a machine's behind an <include>. Only
-  /// parameters look into them.
+  /// Visits fields that another file contains, such as those of a machine behind an <include>. Only
+  /// the parameter visitor follows them; other visitors ignore the call.
   virtual void elsewhere(const std::function<void(Fields&)>& /*describe*/) {}
 
  private:
@@ -259,21 +287,23 @@ class Fields {
   }
 };
 
-/// A number of a struct by its element name.
+/// A numeric field of a struct, with the name of the element that contains it.
 struct NamedNumber {
   const char* name;
-  double* value;      ///< in SI units
-  double low, high;   ///< allowed range, bounds included, in the unit of the file
-  double factor = 1;  ///< SI value / value in the file
+  /// Points to the member, in SI units.
+  double* value;
+  double low, high;  ///< allowed range, bounds included, in the unit of the file
+  /// Factor that converts a value in the file's unit to SI units.
+  double factor = 1;
   bool parameter = true;
 
   double written() const { return *value / factor; }
 };
-/// Returns the numbers that `describe` lists directly, without those of child elements. They refer
-/// to the described object.
+/// Returns the numeric fields that `describe` visits, except those inside child elements. The
+/// results point into the described object.
 std::vector<NamedNumber> numbers_of(const std::function<void(Fields&)>& describe);
-/// Returns the name by which `describe` tells its object from others: the attribute `name`, else
-/// the first name of another object; empty without either.
+/// Returns the name that identifies the object visited by `describe`: the attribute `name`, else
+/// the first reference to another object; empty if there is neither.
 std::string name_of(const std::function<void(Fields&)>& describe);
 
 }  // namespace navvy::scene

@@ -11,14 +11,15 @@
 
 namespace navvy::scene {
 
-/// Contact properties of two materials, in either order.
+/// Contact properties of two materials. The order of the two does not matter.
 struct MaterialPair {
   std::array<std::string, 2> materials;
   double static_friction = 0.8;
   double kinetic_friction = 0.8;
   double restitution = 0;
   double softness = 0;
-  std::string names;  ///< both materials as the file writes them
+  /// Both names as the file writes them, separated by a blank.
+  std::string names;
 
   void describe(Fields& f) {
     f.attribute("materials", names, "The two materials, separated by a blank, in either order.");
@@ -31,10 +32,12 @@ struct MaterialPair {
   }
 };
 
-/// Table of the pairs of a scene. A link without a material uses its own coefficient of friction.
+/// Contact properties by pairs of materials. A link without a material uses its collision shapes'
+/// own friction coefficients.
 struct Materials {
   std::string file;
-  std::string ground;  ///< empty: none
+  /// Material of the ground; empty if it has none.
+  std::string ground;
   std::vector<MaterialPair> pairs;
 
   void describe(Fields& f) {
@@ -45,7 +48,8 @@ struct Materials {
     f("ground", ground, "Material of the ground.");
     f("pair", pairs, limits::kMaterialPairs, "Contact properties of two materials.");
   }
-  /// Returns the entry of a pair, null if the table has none. The search is linear.
+  /// Returns the properties of materials `a` and `b`; null if the table has no such pair. The
+  /// search is linear.
   const MaterialPair* pair(const std::string& a, const std::string& b) const {
     for (const MaterialPair& each : pairs)
       if ((each.materials[0] == a && each.materials[1] == b) ||
@@ -55,10 +59,12 @@ struct Materials {
   }
 };
 
-/// Material of a link.
+/// Material of a link, and where the machine's file names it.
 struct LinkMaterial {
-  std::string name;  ///< empty: none
-  int line = 0;      ///< in the machine's file, for messages
+  /// Name of the material; empty if the link has none.
+  std::string name;
+  /// Line of the <navvy:material> in the machine's file, for messages.
+  int line = 0;
 };
 
 }  // namespace navvy::scene

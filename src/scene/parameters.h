@@ -9,17 +9,18 @@
 
 namespace navvy::scene {
 
-/// Values as text in the unit of the file, exact to the last bit, by paths such as
-/// "soil[loam]/cohesion_pa".
+/// Values of a scene, keyed by paths such as "soil[loam]/cohesion_pa". The values are texts in the
+/// unit of the scene file, without loss of precision.
 using Parameters = std::map<std::string, std::string>;
 
-/// Returns the parameters of a scene: soils, ground, solver, machines, their places and programs.
-/// Cameras, lights, colors, names of files, durations, the design and records are left out, as they
-/// do not influence the motion. It takes a few milliseconds.
+/// Returns every value of the scene that influences the motion: soils, ground, solver, machines
+/// with their poses and programs. Cameras, lights, colors, file names, durations, the design and
+/// records are left out. Takes a few milliseconds.
 Parameters parameters(const Scene& scene);
 
-/// Returns the differences as "path: 'before', here 'now'", separated by "; ": the first `most` of
-/// them and the number of the others. Returns an empty text for equal parameters.
+/// Returns the differences between two sets of parameters as text, "path: 'before', here 'now'",
+/// separated by "; ". The text lists the first `most` differences and counts the others; it is
+/// empty if there are none.
 std::string differences(const Parameters& before, const Parameters& now, int most = 8);
 
 }  // namespace navvy::scene

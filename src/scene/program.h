@@ -14,23 +14,25 @@
 
 namespace navvy::scene {
 
-/// Condition of a step that waits for another machine's program.
+/// Condition for a program step that waits for another machine's program.
 struct Waiting {
   std::string machine;
-  int steps = 0;  ///< completed steps of that machine's program; 0: all
+  /// Number of steps that the other machine must have completed; 0: all of its steps.
+  int steps = 0;
 };
 
-/// One step of a program as the scene describes it. Its values do not change after reading.
+/// Description of one program step, as a scene defines it. The values never change after reading.
 class Step {
  public:
   virtual ~Step() = default;
   /// Returns the name of the step's element in a scene file, e.g. "drive_to".
   virtual const char* element() const = 0;
-  /// Lists the fields of the step.
+  /// Visits the fields of the step.
   virtual void describe(Fields& f) = 0;
-  /// Returns the condition that the step waits for. Circles of waiting programs are refused.
+  /// Returns the condition that the step waits for; empty if it does not wait. The loader refuses
+  /// programs that wait for each other in a circle.
   virtual std::optional<Waiting> waits_for() const { return std::nullopt; }
-  /// Returns the hitch of its machine that the step opens.
+  /// Returns the name of the hitch that the step opens; empty if it opens none.
   virtual std::optional<std::string> opens() const { return std::nullopt; }
 
  protected:
@@ -39,7 +41,7 @@ class Step {
   Step& operator=(const Step&) = default;
 };
 
-/// A step of any kind, as a value. Copies share the description.
+/// A program step of any type, with value semantics. Copies share one immutable Step.
 class ProgramStep {
  public:
   template <class T, class = std::enable_if_t<std::is_base_of_v<Step, T>>>
@@ -47,7 +49,7 @@ class ProgramStep {
 
   const Step& operator*() const { return *step_; }
   const Step* operator->() const { return step_.get(); }
-  /// Visits the fields; the visitor must not write.
+  /// Visits the fields of the step. The visitor must not modify them.
   void describe(Fields& f) const { step_->describe(f); }
   /// Returns the description if it is of kind T, else null.
   template <class T>
@@ -59,10 +61,11 @@ class ProgramStep {
   std::shared_ptr<Step> step_;
 };
 
-/// Steps of one machine, in order.
+/// Program of one machine: the steps in order of execution.
 struct Program {
   std::vector<ProgramStep> steps;
-  std::vector<int> lines;  ///< line in the scene file of each step, for messages; may be empty
+  /// Line of each step in the scene file, for messages; may be empty.
+  std::vector<int> lines;
 
   void describe(Fields& f) {
     List list{"step", {}, limits::kSteps, {}, steps.size(), {}, {}, {}};
