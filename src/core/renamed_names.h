@@ -7,7 +7,7 @@
 
 namespace navvy {
 
-/// Kind of a name. Names of different kinds are independent.
+/// Type of a name. The same word may be renamed differently for different types.
 enum class NameKind {
   kElement,         ///< element of a scene file: "navvy:physics"
   kAttributeValue,  ///< "ELEMENT/ATTRIBUTE=VALUE" of a scene file: "navvy:drive/type=linkage"
@@ -15,15 +15,16 @@ enum class NameKind {
   kChannel,         ///< channel of a controller; matches whole parts from its end: "drive/gear"
 };
 
-/// One row of the table of renamed names.
+/// An old name and the current name that replaces it.
 struct RenamedName {
   NameKind kind;
   const char* old_name;
   const char* name;
-  const char* until;  ///< release that no longer reads the old name
+  /// First release that no longer accepts the old name.
+  const char* until;
 };
 
-/// Returns the rows of this release. It is the only place with old names.
+/// Returns the table of all old names that this release accepts. No other code contains old names.
 const std::vector<RenamedName>& renamed_names();
 
 /// Returns the current name for `name`, which may be an old one. Logs a warning for the first use

@@ -13,58 +13,72 @@
 
 namespace navvy::scene {
 
-/// Pose of a visual. `visual` outlives the frame. V is the frame of the visual, W the world.
+/// A visual with its pose. `visual` must outlive the frame. X_WV takes the visual's frame V to the
+/// world W.
 struct FrameShape {
   const Visual* visual = nullptr;
   Pose X_WV = Pose::Identity();
 };
 
-/// A hydraulic cylinder between its two pins [m] in W: a round barrel from the base, and a thinner
-/// rod over the whole length.
+/// A hydraulic cylinder between two pins in W [m]: a round barrel that begins at the base pin, and
+/// a thinner rod from pin to pin.
 struct FrameCylinder {
   Vec3 p_base = Vec3::Zero(), p_rod = Vec3::Zero();
-  // Outer radius and length of the barrel [m]; the pins may be closer than its length.
+  /// Outer radius of the barrel [m].
   double radius = 0.06;
+  /// Length of the barrel [m]; the pins may be closer to each other.
   double barrel_length = 0.5;
 };
 
-/// Half-open rectangle of columns of a FrameGround.
+/// Half-open rectangle of columns of a FrameGround: x0 <= x < x1, y0 <= y < y1.
 struct FrameRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Copy of the ground's surface. Node (ix, iy) is the column centre at origin + ((ix, iy) + 0.5)
-/// cell; x runs fastest.
+/// Copy of the ground surface: one height per column. Column (ix, iy) has its centre at origin +
+/// ((ix, iy) + 0.5) x cell and the index ix + nx x iy.
 struct FrameGround {
   int nx = 0, ny = 0;
-  double cell = 0.1;               ///< [m]
-  Vec2 origin = Vec2::Zero();      ///< lower-left corner of column (0,0) in W [m]
-  std::vector<float> height;       ///< [m], nx * ny
-  std::vector<float> change;       ///< height - height at the start [m]; the dug and dumped parts
-  std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the surface layer
+  /// Edge of a column [m].
+  double cell = 0.1;
+  /// Lower-left corner of column (0, 0) in W [m].
+  Vec2 origin = Vec2::Zero();
+  /// Height of each column [m].
+  std::vector<float> height;
+  /// Height minus height at the start, for each column [m].
+  std::vector<float> change;
+  /// Soil of each column's surface layer, as an index into `soil_color`.
+  std::vector<std::uint8_t> soil;
   // Linear RGB by the index of a soil, for ground and particles.
   std::vector<Color> soil_color;
-  std::uint64_t revision = 0;  ///< changes whenever any height changed
+  /// Changes whenever a height has changed.
+  std::uint64_t revision = 0;
   /// Rectangles that hold all changes since the frame of the last revision; they may overlap.
   std::vector<FrameRect> changed;
 };
 
-/// Loose soil, one entry per particle in all arrays. Positions are floats relative to `origin`,
-/// which keeps their precision on a large site.
+/// Loose soil, one entry per particle in each array. Positions are relative to `origin`, so that
+/// floats are precise enough on a large site.
 struct FrameParticles {
-  std::vector<float> position;  ///< xyz in W [m], relative to `origin`
+  /// Positions x y z relative to `origin`, in W [m].
+  std::vector<float> position;
   Vec3 origin = Vec3::Zero();
-  std::vector<std::uint8_t> soil;  ///< index into FrameGround::soil_color
-  /// Number for life, by which a particle keeps its appearance; empty: its index.
+  /// Soil of each particle, as an index into FrameGround::soil_color.
+  std::vector<std::uint8_t> soil;
+  /// Permanent particle IDs, from which the renderer derives the particles' appearance. If empty,
+  /// the index is used.
   std::vector<std::uint32_t> id;
-  double radius = 0.04;  ///< [m]
+  /// Radius of a particle [m].
+  double radius = 0.04;
   /// Distance from the closest plate [m], beyond which a drawn particle is clipped; empty: none.
   std::vector<float> clearance;
 };
 
-/// Input of one picture. Filling and drawing may happen in different threads.
+/// Everything that is needed to draw one picture. Filling and drawing may happen in different
+/// threads.
 struct Frame {
-  double time = 0;  ///< [s]
+  /// Simulated time [s].
+  double time = 0;
   std::vector<FrameShape> shapes;
   std::vector<FrameCylinder> cylinders;
   // Ground and particles are of the same instant as the poses.
@@ -73,7 +87,8 @@ struct Frame {
   std::vector<Light> lights;
 };
 
-/// Camera of one frame: pose with x right, y up, looking along -z (OpenGL).
+/// A camera for one picture. X_WC takes the camera frame C to W; x points right, y up, and the
+/// camera looks along -z (as in OpenGL).
 struct FrameCamera {
   Pose X_WC = Pose::Identity();
   double fov = radians(50);  ///< horizontal [rad]

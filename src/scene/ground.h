@@ -14,22 +14,29 @@ namespace navvy::scene {
 inline constexpr Range kPlaceRange = {-1e6, 1e6};   ///< of a place in W [m]
 inline constexpr Range kLengthRange = {0.01, 1e5};  ///< of a length on the site [m]
 
-/// One procedural shape added to the flat ground. Heights are summed in the order of the file, then
-/// clipped to the bedrock. A kind uses the members that `describe` lists for it. Lengths are along
-/// and across `yaw`, which turns from W's x towards its y.
+/// One procedural shape on the flat ground. The heights of all shapes are added in the order of the
+/// file, and the sum is clipped at the bedrock. Each type uses only the members that `describe`
+/// visits for it. `length` is measured along `yaw`, `width` across it.
 struct GroundFeature {
   enum class Kind { kSlope, kHills, kStockpile, kTrench, kBank, kBlock };
   Kind kind = Kind::kSlope;
-  Vec2 center = Vec2::Zero();  ///< [m] in W
-  double yaw = 0;              ///< [rad]
-  double length = 1;           ///< [m]; of hills the wavelength
-  double width = 1;            ///< [m]
-  double height = 1;           ///< [m]; of a trench its depth
-  double angle = 0;            ///< [rad]
+  /// Reference point in W [m].
+  Vec2 center = Vec2::Zero();
+  /// Direction, counter-clockwise from W's x axis [rad].
+  double yaw = 0;
+  /// Extent along `yaw` [m]; the wavelength of hills.
+  double length = 1;
+  /// Extent across `yaw` [m].
+  double width = 1;
+  /// Height over the flat ground [m]; the depth of a trench.
+  double height = 1;
+  /// Slope angle [rad]; `describe` explains it for each type.
+  double angle = 0;
   std::uint64_t seed = 1;
-  bool has_seed = false;  ///< false: the scene's seed
+  /// True if the file gives `seed`; otherwise it is the scene's seed.
+  bool has_seed = false;
 
-  /// Returns a shape with the default values of its kind.
+  /// Returns a shape with the default values of its type.
   static GroundFeature of(Kind kind) {
     GroundFeature shape;
     shape.kind = kind;
@@ -69,10 +76,11 @@ struct GroundFeature {
   }
 };
 
-/// A layer of soil; its thickness counts from the surface down, whatever the shape of the ground.
+/// A layer of soil. The thickness is measured vertically from the layer's upper surface.
 struct GroundLayer {
   std::string soil;
-  double thickness = 0;  ///< [m]
+  /// Thickness [m]; 0 for the last layer, which reaches to the rock.
+  double thickness = 0;
 
   void describe(Fields& f) {
     f("soil", soil, Refers::kSoil, "Soil of the layer.", kNeeded);
@@ -81,7 +89,7 @@ struct GroundLayer {
   }
 };
 
-/// A rectangle where the layers differ from the site's. Later patches override earlier ones.
+/// A rectangle with layers of its own. Where patches overlap, the last one counts.
 struct GroundPatch {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
   std::vector<GroundLayer> layers;
@@ -93,11 +101,12 @@ struct GroundPatch {
   }
 };
 
-/// Soil that is active at the start: the columns of a rectangle from a height up. For scenes and
-/// tests that begin with soil in motion; elsewhere tools activate soil.
+/// A rectangle in which soil above a height is active (simulated as particles) from the start.
+/// Elsewhere soil becomes active when a tool approaches.
 struct ActiveSoil {
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< [m] in W
-  double bottom = 0;                            ///< height in W [m]
+  /// Height in W above which the soil is active [m].
+  double bottom = 0;
 
   void describe(Fields& f) {
     f("min_m", min, kPlaceRange, "Corner in W of least x and y.", kNeeded);
@@ -106,19 +115,26 @@ struct ActiveSoil {
   }
 };
 
-/// Treatment of slopes of a heightmap beyond the soil's repose: kHold keeps them as surveyed,
-/// kSettle lowers them when the map is loaded.
+/// Treatment of heightmap slopes that exceed the soil's angle of repose: kHold keeps them as
+/// surveyed, kSettle lowers them when the map is loaded.
 enum class SteepGround { kHold, kSettle };
 
-/// Values that a raster without units and coordinates of its own (NPY, PNG) does not hold.
+/// Units and coordinates of a raster file that does not contain them (NPY, PNG).
 struct RasterScale {
-  double cell = 0;              ///< [m]; 0: the file's own (a PNG's world file)
-  bool has_heights = false;     ///< `low` and `high` were given
-  double low = 0, high = 0;     ///< [m]
-  bool has_corner = false;      ///< `corner` was given
-  Vec2 corner = Vec2::Zero();   ///< in the coordinates of the site [m]
-  bool north_first = false;     ///< an NPY's first row is the northern one; a PNG's always is
-  Vec2 heights = Vec2::Zero();  ///< `low` and `high` as read
+  /// Edge of a raster cell [m]; 0: as in the file (a PNG's world file).
+  double cell = 0;
+  /// True if `low` and `high` were given.
+  bool has_heights = false;
+  /// Heights of a PNG's minimum and maximum pixel value [m].
+  double low = 0, high = 0;
+  /// True if `corner` was given.
+  bool has_corner = false;
+  /// Coordinates of the raster's lower-left corner, in the coordinate system of the site's map [m].
+  Vec2 corner = Vec2::Zero();
+  /// True if an NPY's first row is the northernmost one. A PNG's first row always is.
+  bool north_first = false;
+  /// `low` and `high` as one vector, as the file gives them.
+  Vec2 heights = Vec2::Zero();
 
   /// Copies `heights` into `low` and `high`.
   void take_heights() { low = heights.x(), high = heights.y(); }
@@ -136,23 +152,31 @@ struct RasterScale {
   }
 };
 
-/// The site's ground before anything has moved, from which heightfield::Ground is built.
+/// Ground of the site before anything has moved. The simulation builds its layered ground from it.
 struct StartGround {
-  std::string file;  ///< empty: procedural
+  /// Path of the heightmap; empty for procedural ground.
+  std::string file;
+  /// Units and coordinates of `file`, if it has none of its own.
   RasterScale scale;
-  bool has_at = false;       ///< the centre of the crop was given
-  bool at_is_local = false;  ///< `at` counts from the file's lower-left corner
-  Vec2 at = Vec2::Zero();    ///< [m]
+  /// True if `at` was given; otherwise the site is in the middle of the map.
+  bool has_at = false;
+  /// True if `at` counts from the map's lower-left corner, not in map coordinates.
+  bool at_is_local = false;
+  /// Position of the site's centre on the map [m].
+  Vec2 at = Vec2::Zero();
   Vec2 size = Vec2(20, 20);
   Vec2 origin = Vec2(-10, -10);
-  bool has_origin = false;  ///< false: origin = -size / 2
+  /// True if `origin` was given; otherwise it is -size / 2.
+  bool has_origin = false;
   double surface = 0;
   double depth = 4;
-  bool has_rock = false;  ///< a level plane in the scene is the rock; `depth` does not count
-  double rock = 0;        ///< its height in W [m]
+  /// True if a level plane in the scene defines the bedrock; `depth` is then unused.
+  bool has_rock = false;
+  /// Height of the bedrock plane in W [m], if `has_rock`.
+  double rock = 0;
   SteepGround steep = SteepGround::kHold;
   std::vector<GroundFeature> features;
-  std::vector<GroundLayer> layers;  ///< at least one
+  std::vector<GroundLayer> layers;
   std::vector<GroundPatch> patches;
   std::vector<ActiveSoil> active;
 

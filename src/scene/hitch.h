@@ -8,17 +8,23 @@
 
 namespace navvy::scene {
 
-/// A ball joint between two machines that can be opened and closed: the eye of the child in the
-/// hook of the parent. A joint inside of a machine's file cannot be opened.
+/// A ball joint between two machines that can be opened and closed: the hook of the parent holds
+/// the eye of the child. (Joints inside a machine cannot be opened.)
 struct Hitch {
   std::string name;
-  std::string parent_name, child_name;           ///< MACHINE::LINK as the file writes it
-  int parent = 0, child = 0;                     ///< indices of machines in the scene
-  int parent_link = 0, child_link = 0;           ///< indices of links in their machines
-  Vec3 hook = Vec3::Zero(), eye = Vec3::Zero();  ///< in the parent's and the child's link [m]
-  double cone = kPi, twist = kPi;                ///< [rad]; pi: free
+  /// Names of the two links as MACHINE::LINK, as the file gives them.
+  std::string parent_name, child_name;
+  /// Indices of the two machines in Scene::machines.
+  int parent = 0, child = 0;
+  /// Indices of the two links in their machines.
+  int parent_link = 0, child_link = 0;
+  /// Positions of hook and eye, each in the frame of its link [m].
+  Vec3 hook = Vec3::Zero(), eye = Vec3::Zero();
+  /// Limits of the joint's rotation [rad]; pi means no limit.
+  double cone = kPi, twist = kPi;
   bool closed = true;
-  int line = 0;  ///< in the scene's file, for messages
+  /// Line of the <navvy:hitch> in the scene file, for messages.
+  int line = 0;
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the hitch; its input is CHILD/NAME/closed.", kNeeded);

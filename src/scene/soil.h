@@ -8,8 +8,8 @@
 
 namespace navvy::scene {
 
-/// Parameters of one soil in SI units, angles in radians. They do not change during a run. The
-/// constitutive law that uses them is in [docs/soil.md, law]; `describe` documents each of them.
+/// Parameters of one soil in SI units, angles in radians; they are constant during a run.
+/// `describe` documents each parameter, [docs/soil.md, law] the constitutive law that uses them.
 struct Soil {
   std::string name;
   std::string ref;
@@ -42,7 +42,7 @@ struct Soil {
   double janosi_k = 0.02;
   float color[3] = {0.45f, 0.33f, 0.22f};
 
-  /// Lists the fields. Ranges are those that any soil keeps, snow and lunar dust included.
+  /// Visits all parameters. The ranges are wide enough for snow and lunar dust.
   void describe(Fields& f) {
     f.attribute("name", name, "Name by which layers, loads and results refer to the soil.");
     f.attribute("ref", ref,

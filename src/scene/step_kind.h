@@ -14,41 +14,49 @@
 
 namespace navvy::scene {
 
-/// The element of a step while it is read, for rules beyond its fields. `machine` and `ground` are
-/// null if they could not be read; rules that need them are skipped then.
+/// The element of a program step while it is being read. A step's `check` function uses it for
+/// rules that ranges of single fields cannot express.
+///
+/// `machine` and `ground` are null if they could not be read; rules that need them are then
+/// skipped.
 class StepSource {
  public:
   StepSource(const Machine* on_machine, const StartGround* on_ground)
       : machine(on_machine), ground(on_ground) {}
   virtual ~StepSource() = default;
 
-  /// Reads the fields of the step, and reports every faulty or unknown element.
+  /// Reads all fields of `step` from the element and reports invalid and unknown child elements.
   virtual void read(Step& step) const = 0;
-  /// Returns true if the child element is present, valid or not.
+  /// Returns true if the child element is present, even if its value is invalid.
   virtual bool has(const char* name) const = 0;
-  /// Returns the text of a child element as the file has it; empty if it is absent.
+  /// Returns the text of a child element as written in the file; empty if the child is absent.
   virtual std::string written(const char* name) const = 0;
-  /// Reports an error at the child `name`; at the step if that is "" or absent. `item` counts
-  /// children of one name from 0.
+  /// Reports an error at the child element `name`, or at the step itself if `name` is empty or
+  /// there is no such child. If several children have this name, `item` selects one of them,
+  /// counted from 0.
   virtual void error(const char* name, const std::string& value, const std::string& rule,
                      const std::string& remedy = "", int item = 0) const = 0;
 
-  /// Reports `rule` at the step if its machine does not fulfil it. A machine without links has
-  /// faults of its own, which have been reported.
+  /// Reports an error with the text `rule` at the step unless `fulfilled` is true. Does nothing for
+  /// a machine that could not be read completely.
   void require(bool fulfilled, const char* rule) const;
-  /// Reports the child `name` if its place [m] in W is beyond the site.
+  /// Reports an error at the child element `name` unless the position `place` (in W [m]) is on the
+  /// site.
   void on_site(const char* name, const Vec2& place) const;
 
   const Machine* machine;
   const StartGround* ground;
 };
 
-/// One row of the table.
+/// One type of program step, for the table of all types that the loader receives.
 struct StepKind {
-  std::string element;  ///< unique name
-  std::string text;     ///< one sentence for the reference
+  /// Name of the step's element in scene files; unique in the table.
+  std::string element;
+  /// One sentence for the reference of scene elements.
+  std::string text;
   std::function<ProgramStep(const StepSource&)> read;
-  std::function<void(Fields&)> describe;  ///< visits the fields with their default values
+  /// Visits the fields of a step with default values.
+  std::function<void(Fields&)> describe;
 };
 using StepKinds = std::vector<StepKind>;
 
