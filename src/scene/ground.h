@@ -176,6 +176,7 @@ struct StartGround {
   double rock = 0;
   SteepGround steep = SteepGround::kHold;
   std::vector<GroundFeature> features;
+  /// Layers of the site from the surface down, at least one.
   std::vector<GroundLayer> layers;
   std::vector<GroundPatch> patches;
   std::vector<ActiveSoil> active;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A machine as data: links, joints, hydraulics, drive train, tyres and the shells that touch soil.
-// Frames: M machine (x forward, y left, z up, origin as its SDF says), L link, J joint. All values
-// are in SI units, angles in radians; `describe` documents what a file gives.
+// Frames: M machine (x forward, y left, z up; the SDF file defines its origin), L link, J joint.
+// All values are in SI units, angles in radians. The `describe` function of each struct documents
+// the values that a file gives.
 #pragma once
 
 #include <array>
@@ -24,15 +25,21 @@ struct Color {
   float r = 0.7f, g = 0.7f, b = 0.7f, a = 1.0f;
 };
 
-/// A shape about its own origin, lengths in metres. A kind ignores the members it does not use.
+/// A geometric shape about its own origin, in metres. Each type uses only some of the members.
 struct Geometry {
   enum class Kind { kBox, kCylinder, kSphere, kMesh, kPlane, kCone, kCapsule };
   Kind kind = Kind::kBox;
-  Vec3 size = Vec3::Ones();   ///< edges of a box; x and y of a plane
-  double radius = 0.5;        ///< of a cylinder, capsule (axis z) or sphere, or a cone's foot
-  double length = 1.0;        ///< of a cylinder or cone (tip at +z); of a capsule without its caps
-  std::string mesh_file;      ///< absolute path of an OBJ file
-  Vec3 scale = Vec3::Ones();  ///< factors along the axes of a mesh file
+  /// Edge lengths of a box [m]; x and y of a plane.
+  Vec3 size = Vec3::Ones();
+  /// Radius of a cylinder, capsule or sphere, or of a cone's base [m].
+  double radius = 0.5;
+  /// Length along z [m]: of a cylinder or cone (tip at +z), or of a capsule without its
+  /// hemispheres.
+  double length = 1.0;
+  /// Absolute path of the OBJ file of a mesh.
+  std::string mesh_file;
+  /// Scale factors along the mesh file's axes.
+  Vec3 scale = Vec3::Ones();
 
   void describe(Fields& f) {
     f.derived_kind("kind", kind);
@@ -45,7 +52,7 @@ struct Geometry {
   }
 };
 
-/// Documentation and range of the density that links and shapes may have.
+/// Visits the density element that links, visuals and collisions may have [kg/m3].
 inline void describe_density(Fields& f, double& density) {
   f("navvy:density_kg_per_m3", density, {1, 25000},
     "Density of the link or shape, from which mass, centre and inertia follow without <inertial>. "
@@ -53,7 +60,7 @@ inline void describe_density(Fields& f, double& density) {
     kShown);
 }
 
-/// Appearance of a link. V is the frame of the visual.
+/// Visible shape of a link. X_LV takes the visual's frame V to the link frame L.
 struct Visual {
   std::string name;
   Geometry geometry;
@@ -67,14 +74,18 @@ struct Visual {
   }
 };
 
-/// Contact shape of a link against rigid bodies. Soil touches shells instead, so a bucket has both.
+/// Contact shape of a link for contact with other rigid bodies. (Soil touches shells instead, so a
+/// bucket has both.) X_LC takes the shape's frame C to the link frame L.
 struct Collision {
   std::string name;
   Geometry geometry;
   Pose X_LC = Pose::Identity();
-  double friction = 0.8;  ///< Coulomb coefficient [-]; the physics engine combines those of a pair
-  bool derived = false;   ///< made from a visual, as the machine's file gave no collision
-  double density = 0;     ///< [kg/m3]; 0: not given
+  /// Coulomb friction coefficient [-]. The physics engine combines the coefficients of two shapes
+  /// in contact.
+  double friction = 0.8;
+  /// True if the shape was copied from a visual because the machine's file has no collision shapes.
+  bool derived = false;
+  double density = 0;  ///< [kg/m3]; 0: not given
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the collision.");
@@ -85,18 +96,23 @@ struct Collision {
   }
 };
 
-/// A rigid body of a machine. `p_LCom` is a point of L; the inertia is about that point, in L's
-/// axes.
+/// A rigid body of a machine. `p_LCom` is a position in the link frame L; `inertia` is about that
+/// position, in the axes of L.
 struct Link {
   std::string name;
-  Pose X_ML = Pose::Identity();     ///< at zero joint positions
-  double mass = 1;                  ///< [kg]
-  Vec3 p_LCom = Vec3::Zero();       ///< centre of mass [m]
-  Mat3 inertia = Mat3::Identity();  ///< [kg m2]
+  /// Pose of the link in the machine frame M when all joint positions are zero.
+  Pose X_ML = Pose::Identity();
+  /// Mass [kg].
+  double mass = 1;
+  /// Position of the centre of mass in L [m].
+  Vec3 p_LCom = Vec3::Zero();
+  /// Inertia tensor about the centre of mass, in the axes of L [kg m2].
+  Mat3 inertia = Mat3::Identity();
   std::vector<Visual> visuals;
   std::vector<Collision> collisions;
-  LinkMaterial material;  ///< of its collisions and shells against bodies
-  double density = 0;     ///< [kg/m3]; 0: not given
+  /// Material for contacts of the link's collision shapes and shells with other bodies.
+  LinkMaterial material;
+  double density = 0;  ///< [kg/m3]; 0: not given
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the link.");
@@ -113,24 +129,37 @@ struct Link {
   }
 };
 
-/// A joint between two links. A positive position is about or along `axis` by the right hand.
+/// A joint between two links. A positive position is a rotation about `axis` (right-hand rule) or a
+/// displacement along it.
 struct Joint {
   enum class Type { kFixed, kRevolute, kPrismatic, kBall };
   std::string name;
   Type type = Type::kFixed;
-  int parent = -1;  ///< index into Machine::links; -1: world
+  /// Index of the parent link in Machine::links; -1 for the world.
+  int parent = -1;
   int child = -1;
-  Pose X_LcJ = Pose::Identity();   ///< joint frame in the child link
-  Vec3 axis = Vec3::UnitZ();       ///< unit, in the joint frame at zero position
-  bool has_limits = false;         ///< false: continuous
-  double lower = 0, upper = 0;     ///< [rad] or [m]
-  double effort = 1e9;             ///< [N m] or [N]; hydraulics may limit further
-  double velocity = 1e9;           ///< [rad/s] or [m/s]
-  double damping = 0;              ///< [N m s/rad] or [N s/m]
-  double friction = 0;             ///< dry friction [N m] or [N]
-  double initial = 0;              ///< position at the start [rad] or [m]
-  double brake = 0;                ///< holding torque [N m] or force [N]; 0: no brake
-  double cone = kPi, twist = kPi;  ///< limits of a ball joint [rad]; pi: free
+  /// Pose of the joint frame J in the child link's frame Lc.
+  Pose X_LcJ = Pose::Identity();
+  /// Unit vector of the joint axis in J, at joint position zero.
+  Vec3 axis = Vec3::UnitZ();
+  /// False if the joint can move without limits.
+  bool has_limits = false;
+  /// Limits of the joint position [rad] or [m].
+  double lower = 0, upper = 0;
+  /// Maximum torque [N m] or force [N]. A hydraulic cylinder may limit it further.
+  double effort = 1e9;
+  /// Maximum speed [rad/s] or [m/s].
+  double velocity = 1e9;
+  /// Viscous damping [N m s/rad] or [N s/m].
+  double damping = 0;
+  /// Dry friction torque [N m] or force [N].
+  double friction = 0;
+  /// Joint position at the start [rad] or [m].
+  double initial = 0;
+  /// Maximum holding torque [N m] or force [N] of the joint's brake; 0 if it has no brake.
+  double brake = 0;
+  /// Limits of a ball joint's rotation [rad]; pi means no limit.
+  double cone = kPi, twist = kPi;
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the joint.");
@@ -165,11 +194,14 @@ struct Joint {
   }
 };
 
-/// Position of a joint at the start, from a file or from a scene that includes it.
+/// Position of one joint at the start, from a machine file or from a scene that includes the
+/// machine.
 struct InitialPosition {
   std::string joint;
-  double angle = 0;   ///< [rad]
-  double length = 0;  ///< [m]
+  /// Position of a revolute joint [rad].
+  double angle = 0;
+  /// Position of a prismatic joint [m].
+  double length = 0;
   bool has_angle = false, has_length = false;
 
   void describe(Fields& f) {
@@ -179,17 +211,19 @@ struct InitialPosition {
   }
 };
 
-/// A hydraulic cylinder acting on one joint. Its length and lever arm follow from two pins, or from
-/// a four-bar linkage. The pump fills the head side when the cylinder extends. Pressures become
-/// forces by bore and rod, forces become joint torques by the lever arm at each position
-/// [docs/machines.md, hydraulics].
+/// A hydraulic cylinder that moves one joint, directly between two pins or through a four-bar
+/// linkage. The geometry gives the cylinder's length and lever arm at each joint position. Oil
+/// pressure acts on the areas of bore and rod, and the resulting force times the lever arm is the
+/// joint torque [docs/machines.md, hydraulics]. The pump fills the head side to extend the
+/// cylinder.
 struct Cylinder {
   std::string name;
   std::string joint;
   std::string base_link, rod_link;
   Vec3 p_base = Vec3::Zero();
   Vec3 p_rod = Vec3::Zero();
-  bool has_linkage = false;  ///< the rod turns a rocker, whose coupler turns the bucket
+  /// True if the rod turns a rocker whose coupler turns the bucket.
+  bool has_linkage = false;
   Vec3 p_rocker = Vec3::Zero();
   double rocker_rod = 0, rocker_coupler = 0;
   double coupler = 0;
@@ -197,7 +231,8 @@ struct Cylinder {
   int count = 1;
   double bore = 0.12, rod = 0.085;
   double pressure = 35e6;
-  double spacing = 0.68;  ///< between the middles of cylinders side by side, for pictures [m]
+  /// Distance between cylinders side by side [m]; for pictures only.
+  double spacing = 0.68;
   double flow = 0.004;
 
   void describe(Fields& f) {
@@ -224,8 +259,8 @@ struct Cylinder {
   }
 };
 
-/// The load-sensing pump that all cylinders of a machine share. If the valves ask for more than its
-/// flow or power, all of them slow down by the same share [docs/machines.md, pump].
+/// The load-sensing pump that all cylinders of a machine share. If the valves demand more than the
+/// pump's flow or power, all cylinders slow down in the same proportion [docs/machines.md, pump].
 struct Pump {
   double flow = 0;
   double power = 0;
@@ -236,13 +271,15 @@ struct Pump {
   }
 };
 
-/// Track of a crawler. It runs round a sprocket, an idler and the rollers between them, which press
-/// its lower run on the ground; it does not stretch [docs/machines.md, tracks]. Points are in the
-/// frame of the link that carries it, the parent of the sprocket's joint, x ahead and z up.
+/// Track of a crawler. It runs around a sprocket, an idler and the rollers between them, which
+/// press its lower run onto the ground; the track does not stretch [docs/machines.md, tracks].
+/// Positions are in the frame of the link that carries the track (the parent link of the sprocket's
+/// joint), with x ahead and z up.
 struct Track {
   Vec3 p_idler = Vec3::Zero();
   double idler_radius = 0.35;
-  std::vector<Vec3> rollers;  ///< from the foremost to the last
+  /// Centres of the rollers [m], sorted from front to rear.
+  std::vector<Vec3> rollers;
   double roller_radius = 0.1;
   double thickness = 0.05;
 
@@ -255,32 +292,36 @@ struct Track {
     f("roller_radius_m", roller_radius, {0.005, 5}, "Radius of a roller's rim.", kNeeded);
     f("thickness_m", thickness, {0, 1}, "Thickness of the track, from rim to ground.");
   }
-  /// Returns the ends of the lower run: on the ground under the first and the last roller [m].
+  /// Returns the two ends of the track's lower run: the points on the ground below the first and
+  /// the last roller [m], in the frame of the link that carries the track.
   std::array<Vec3, 2> lower_run() const {
     const Vec3 down(0, 0, -roller_radius - thickness);
     return {Vec3(rollers.front() + down), Vec3(rollers.back() + down)};
   }
 };
 
-/// A tyre (or a twin pair as one) with its own force law on the ground, or the sprocket of a track.
-/// Its forces follow from pressure, slip and load [docs/machines.md, tyres]; soil that it compacts
-/// for good is a rut [docs/machines.md, ruts].
+/// A tyre (or a twin pair of tyres) with its own force law on the ground, or the sprocket of a
+/// crawler's track. Pressure, slip and load determine a tyre's forces [docs/machines.md, tyres];
+/// soil that it compacts permanently forms a rut [docs/machines.md, ruts].
 struct Wheel {
   std::string joint;
-  std::string steer_joint;  ///< empty: not steered
+  /// Joint that steers the wheel; empty if it is not steered.
+  std::string steer_joint;
   bool driven = false;
   double radius = 0.525;
   double width = 0.28;
-  double twin_spacing = 0;  ///< 0: single tyre
+  /// Distance between the centres of twin tyres [m]; 0 for a single tyre.
+  double twin_spacing = 0;
   double stiffness = 1.2e6;
   double damping = 1.5e4;
   double friction = 0.8;
   double rolling_resistance = 0.02;
-  /// Of a sprocket; stiffness and damping are then those of all rollers together.
+  /// The track, if the wheel is a sprocket. `stiffness` and `damping` are then totals of all
+  /// rollers.
   std::optional<Track> track;
   std::string name;
 
-  /// Returns a sprocket with the default values of a machine of 18 t (U).
+  /// Returns a sprocket with default values for a crawler of 18 t (U).
   static Wheel sprocket() {
     Wheel wheel;
     wheel.driven = true;
@@ -315,8 +356,8 @@ struct Wheel {
   }
 };
 
-/// An incremental encoder on a joint that turns: a counter of a few bits that wraps, as a robot
-/// hands it to its controller [docs/machines.md, encoders]. It can simulate faults.
+/// An incremental encoder on a rotating joint: a counter of a few bits that wraps around, as a
+/// robot's controller reads it [docs/machines.md, encoders]. It can simulate measurement errors.
 struct Encoder {
   std::string joint;
   double counts_per_turn = 4096;
@@ -336,11 +377,12 @@ struct Encoder {
   }
 };
 
-/// The two levers of an excavator's operator, [ISO 10968] or the pattern of backhoes with boom and
-/// stick exchanged.
+/// Two levers of an excavator operator, with the assignment of [ISO 10968] or the one of backhoes,
+/// in which boom and stick are exchanged.
 struct Levers {
   enum class Pattern { kIso, kSae };
-  bool given = false;  ///< by the machine's file
+  /// True if the machine's file contains the element.
+  bool given = false;
   Pattern pattern = Pattern::kIso;
   double dead_band = 0.05;
 
@@ -352,17 +394,19 @@ struct Levers {
   }
 };
 
-/// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate,
-/// bed. The front of the triangles is the inside. Edges of one triangle only are free edges. A
-/// shell has two sides and a thickness and may be open: it holds the soil on its front
-/// [docs/tools.md, shells].
+/// A thin shell of triangles, in the link frame [m], that touches soil: a bucket, blade, plate or
+/// bed. It has two sides and a thickness, and it may be open. The front of the triangles is the
+/// inside; soil on the front is inside the shell. Edges that belong to one triangle only are free
+/// edges [docs/tools.md, shells].
 struct Shell : geometry::TriangleMesh {
   std::string name;
   std::string link;
   double half_thickness = 0.015;
   double friction_share = 1, adhesion_share = 1;
   std::string mesh;
-  std::vector<double> vertex_numbers, corner_numbers;  ///< as read; empty afterwards
+  /// Vertex coordinates and corner indices as written in the file; empty after the triangles were
+  /// built.
+  std::vector<double> vertex_numbers, corner_numbers;
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the shell.", kNeeded);
@@ -382,11 +426,12 @@ struct Shell : geometry::TriangleMesh {
   }
 
  private:
-  /// Returns one number for thousands of vertices.
+  /// Returns a hash of all vertices and triangles, as a hexadecimal number.
   std::string surface_hash() const;
 };
 
-/// Makes a link a digging bucket. Operators use it to aim the edge; soil sees only the shell.
+/// Marks a link as a digging bucket. Operators use these values to position the cutting edge; the
+/// soil interacts with the shell only.
 struct Bucket {
   std::string link;
   std::string shell;
@@ -410,7 +455,8 @@ struct Bucket {
   }
 };
 
-/// Makes a link a container that tips its load: a dumper's bed, a skip. One per machine.
+/// Marks a link as a container that can tip out its load, such as a dumper's bed or a skip. A
+/// machine has at most one.
 struct Bed {
   std::string link;
   std::string shell;
@@ -427,7 +473,8 @@ struct Bed {
   }
 };
 
-/// Joints of an excavator's arm by their roles; empty where the machine has none.
+/// Names of the joints of an excavator's arm, by their function. A name is empty if the machine has
+/// no such joint.
 struct Arm {
   std::string swing, boom, stick, bucket;
 
@@ -439,9 +486,10 @@ struct Arm {
   }
 };
 
-/// Limits of the ground that a machine can drive on, for maps and planned paths (U).
+/// Limits of the ground that a machine can drive on (U). Maps and path planning use them.
 struct Traversability {
-  bool given = false;  ///< by the machine's file
+  /// True if the machine's file contains the element.
+  bool given = false;
   double slope = radians(30);
   double step_height = 0.30, roughness = 0.10;
   double window = 0.20;
@@ -454,32 +502,38 @@ struct Traversability {
   }
 };
 
-/// A machine as one SDF file describes it; MachineInWorld holds its place and task. Indices refer
-/// to the lists here and are valid until something is inserted.
+/// A machine as one SDF file describes it. (MachineInWorld adds its pose and program.) Index
+/// members refer to the vectors of the same machine and become invalid if elements are inserted.
 struct Machine {
   std::string name;
-  std::string file;        ///< SDF file it came from
-  bool kinematic = false;  ///< moved by joint positions only, no dynamics
+  /// Path of the SDF file.
+  std::string file;
+  /// True if joint positions are prescribed and no dynamics are computed.
+  bool kinematic = false;
   bool fixed_base = false;
-  // Every parent comes before its children, and joint i moves link i + 1.
-  std::vector<Link> links;  ///< links[0] is the base
+  /// Links of the machine; links[0] is the base.
+  std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Cylinder> cylinders;
-  bool has_pump = false;  ///< false: every cylinder has its own flow
+  /// False if each cylinder has its own flow.
+  bool has_pump = false;
   Pump pump;
   std::vector<Wheel> wheels;
-  bool has_drive = false;  ///< false: wheels turn freely, or as their joints are commanded
+  /// False if the wheels turn freely or by joint commands.
+  bool has_drive = false;
   Drive drive;
   std::vector<Shell> shells;
   std::vector<Bucket> buckets;
   std::vector<Bed> beds;
   Arm arm;
   Traversability traversability;
-  std::vector<Encoder> encoders;  ///< one per joint at most
+  /// Encoders, at most one per joint.
+  std::vector<Encoder> encoders;
   Levers levers;
   bool derive_collisions = true;
   std::vector<InitialPosition> initial_positions;
-  /// Sentences about collision shapes from visuals and masses from densities.
+  /// Messages about properties that the loader derived: collision shapes from visuals, masses from
+  /// densities.
   std::vector<std::string> derived;
 
   void describe(Fields& f) {
@@ -517,10 +571,12 @@ struct Machine {
       given(traversability.given));
   }
 
-  /// Returns an index by name, -1 if there is none. The search is linear.
+  /// Returns the index of the link or joint with this name; -1 if there is none. The search is
+  /// linear.
   int link_index(const std::string& name_of_link) const;
   int joint_index(const std::string& name_of_joint) const;
-  /// Returns true if a shell, by its index, holds soil that is dug (bucket) or carried (bed).
+  /// Returns true if the shell with this index belongs to a bucket (soil in it is dug) or to a bed
+  /// (soil in it is carried).
   bool is_bucket(int shell) const;
   bool is_bed(int shell) const;
 };

@@ -18,15 +18,17 @@
 
 namespace navvy::scene {
 
-/// Settings of the soil solver. None of them is a property of the soil.
+/// Settings of the soil solver. They are not properties of the soil.
 struct SolverSettings {
   double cell = 0.1;
   double courant = 0.5;
   double max_step = 0.0017;
-  double control_rate = 0;  ///< [1/s]; 0: none
+  /// Rate of an external controller [1/s]; 0 if none is requested.
+  double control_rate = 0;
   int max_particles = 2000000;
   double active_zone = 1;
-  bool exchange = true;  ///< false: ground neither activates nor deposits soil (rigs, tests)
+  /// If false, the ground neither activates soil nor takes soil back (for rigs and tests).
+  bool exchange = true;
 
   void describe(Fields& f) {
     f("cell_m", cell, {0.005, 2}, "Edge of a soil cell and of a ground column.");
@@ -44,10 +46,11 @@ struct SolverSettings {
   }
 };
 
-/// Loose soil in a machine's first bed at the start.
+/// Loose soil in a machine's bed at the start.
 struct BedLoad {
   std::string soil;
-  double mass = 0;  ///< [kg]; 0: empty
+  /// Mass of the soil [kg]; 0 for an empty bed.
+  double mass = 0;
 
   void describe(Fields& f) {
     f("soil", soil, Refers::kSoil, "Soil of the load; by default the first one.");
@@ -55,8 +58,8 @@ struct BedLoad {
   }
 };
 
-/// A machine in a scene: its place, its load and its program. W is the world, M the machine's own
-/// frame.
+/// A machine in a scene, with its pose, load and program. X_WM takes the machine frame M to the
+/// world W.
 struct MachineInWorld {
   std::string name;
   Machine machine;
@@ -64,9 +67,12 @@ struct MachineInWorld {
   bool on_ground = true;
   BedLoad load;
   Program program;
-  int line = 0;           ///< in the scene's file, for messages
-  bool in_scene = false;  ///< a <model> of the scene itself, not an <include>
-  std::vector<InitialPosition> initial_positions;  ///< of an <include>
+  /// Line of the machine's element in the scene file, for messages.
+  int line = 0;
+  /// True for a <model> in the scene file, false for an <include>.
+  bool in_scene = false;
+  /// Initial joint positions given by an <include>.
+  std::vector<InitialPosition> initial_positions;
 
   void describe(Fields& f) {
     if (in_scene) {
@@ -75,7 +81,8 @@ struct MachineInWorld {
     }
     describe_instance(f);
   }
-  /// Lists the fields of an <include>, and those that a <model> has in a scene alone.
+  /// Visits the fields of an <include>, and those fields of a <model> that are allowed in scene
+  /// files but not in machine files.
   void describe_instance(Fields& f) {
     if (!in_scene) {
       f("uri", machine.file, "SDF file, its directory, or model://NAME of a shipped machine.",
@@ -100,14 +107,20 @@ struct MachineInWorld {
   }
 };
 
-/// A camera that records images at a rate. The frame of its two points follows from its kind.
+/// A camera that records pictures at a constant rate. Its type determines the frame of `position`
+/// and `target`: W for a fixed camera, the machine frame for a chase camera, the link frame for a
+/// camera on a link.
 struct Camera {
   enum class Kind { kFixed, kChase, kOnLink };
   std::string name;
   Kind kind = Kind::kFixed;
-  std::string machine, link;       ///< chase: machine; on_link: both
-  Vec3 position = Vec3(8, -8, 5);  ///< in W (fixed), M (chase) or L (on link) [m]
-  Vec3 target = Vec3::Zero();      ///< in the same frame [m]
+  /// Name of the machine (chase camera and camera on a link) and of the link (camera on a link);
+  /// otherwise empty.
+  std::string machine, link;
+  /// Position of the camera [m].
+  Vec3 position = Vec3(8, -8, 5);
+  /// Point in the middle of the picture [m].
+  Vec3 target = Vec3::Zero();
   double fov = radians(50);
   int width = 1280, height = 720;
   double rate = 4;
@@ -125,15 +138,16 @@ struct Camera {
   }
 };
 
-/// A directional light. The first one is the sun and casts shadows.
+/// A directional light. The first light of a scene is the sun, which casts shadows.
 struct Light {
-  Vec3 direction = Vec3(-0.5, 0.35, -0.8);  ///< of the light's travel
+  /// Direction in which the light travels.
+  Vec3 direction = Vec3(-0.5, 0.35, -0.8);
   Color color{1.0f, 0.97f, 0.9f, 1.0f};
 
   void describe(Fields&) {}
 };
 
-/// Length and output of a run, all in simulated time.
+/// Length of a run and rates of its output, in simulated time.
 struct Recording {
   double duration = 60;
   double settle = 1.0;
@@ -150,17 +164,25 @@ struct Recording {
   }
 };
 
-/// Maps or messages that a run writes at a rate. They do not influence the run.
+/// Maps or ROS 2 messages that a run writes at a constant rate. They do not influence the
+/// simulation.
 struct MapRecord {
-  static constexpr double kMachineRate = 50;  ///< of a bag that gives none [1/s]
+  /// Default of `machine_rate` [1/s].
+  static constexpr double kMachineRate = 50;
 
-  int line = 0;                     ///< in the scene's file, for messages
-  std::string name;                 ///< of the files in the run's folder
-  std::string format;               ///< a map format, "mcap" or "bag"
-  std::vector<std::string> layers;  ///< empty: the usual ones of the format
+  /// Line of the <navvy:record> in the scene file, for messages.
+  int line = 0;
+  /// Name of the files in the run's folder.
+  std::string name;
+  /// Name of a map format, "mcap" or "bag".
+  std::string format;
+  /// Names of the layers to write; empty for the format's usual layers.
+  std::vector<std::string> layers;
   double rate = 1;
-  double machine_rate = 0;  ///< [1/s]; 0: not given, so kMachineRate
-  std::string layer_names;  ///< `layers` as the file writes them
+  /// Rate of machine poses, joint positions and clock messages [1/s]; 0 stands for kMachineRate.
+  double machine_rate = 0;
+  /// `layers` as one text, as the file gives them.
+  std::string layer_names;
 
   void describe(Fields& f) {
     f.attribute("name", name, "Name of the files.", kNeeded);
@@ -172,12 +194,14 @@ struct MapRecord {
   }
 };
 
-/// A scene as data: everything that a run starts from, resolved and in SI units. Equal scenes give
-/// equal runs on one device.
+/// A complete scene as data, in SI units: everything that a run starts from. On one device, equal
+/// scenes give equal runs.
 struct Scene {
   std::string name;
-  std::string file;                      ///< path of the file it came from
-  Vec3 gravity = Vec3(0, 0, -kGravity);  ///< in W [m/s2]
+  /// Path of the scene file.
+  std::string file;
+  /// Acceleration of gravity in W [m/s2].
+  Vec3 gravity = Vec3(0, 0, -kGravity);
   std::uint64_t seed = 1;
   SolverSettings solver;
   std::vector<Soil> soils;
@@ -215,7 +239,8 @@ struct Scene {
     f("navvy:record", records, limits::kMachines, "Maps that a run writes at a rate.", kShown);
   }
 
-  /// Returns an index by name, -1 if there is none. The search is linear.
+  /// Returns the index of the soil or machine with this name; -1 if there is none. The search is
+  /// linear.
   int soil_index(const std::string& name_of_soil) const;
   int machine_index(const std::string& name_of_machine) const;
 };
