@@ -7,7 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:design> and the LandXML file it names. A raster is read later, with the ground.
+/// Reads a <navvy:design> and the LandXML file it may name. (A raster file is read later, when the
+/// ground is built.)
 scene::Design read_design(Element& element, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -15,23 +15,24 @@ namespace navvy::scene_io {
 using scene::kDegree;
 using scene::Range;
 
-/// Names that fields may refer to: of a <model> as written, even where its SDF has faults, and of a
-/// world's soils.
+/// Names that reference fields may contain: parts of a <model> (collected from the XML, even if its
+/// SDF has errors) and soils of a world.
 struct Names {
   std::vector<std::string> links, joints, frames, shells, soils;
   std::map<std::string, std::string> joint_type;
 
-  /// Collects the names of a <model>.
+  /// Collects the names of links, joints, frames and shells in a <model>.
   static Names of_model(const Element& model);
 };
 
-/// Visitor that reads one element. Absent children leave their members unchanged, so defaults are
-/// those of the structs. Faults go to a list and never stop the reading. References must outlive
-/// the reader.
+/// Visitor that reads one XML element into the struct that is being visited. An absent child
+/// element leaves its member unchanged, so the struct's initial values are the defaults. Errors are
+/// added to a list and do not stop reading. Element, names and list must exist longer than the
+/// reader.
 class ElementReader final : public scene::Fields {
  public:
-  /// @param names known names; null: references are not checked
-  /// @param mixed the element belongs to SDF: reads children in the namespace navvy: alone
+  /// @param names known names; null if references shall not be checked
+  /// @param mixed true for SDF elements, of which only children in the namespace navvy: are read
   ElementReader(Element& element, const Names* names, Faults& faults, bool mixed = false)
       : element_(element), names_(names), faults_(faults), mixed_(mixed) {}
 
@@ -40,7 +41,8 @@ class ElementReader final : public scene::Fields {
              const std::function<void(scene::Fields&)>& describe) override;
   void list(const scene::List& list) override;
   void types(const scene::Types& types) override;
-  /// Reports unknown and repeated children, unknown attributes and stray text. Call it last.
+  /// Reports unknown and repeated child elements, unknown attributes and stray text. Must be called
+  /// after all fields were visited.
   void finish();
 
  private:
@@ -63,16 +65,17 @@ void read_element(Element& element, T& into, const Names* names, Faults& faults)
   reader.finish();
 }
 
-/// Returns true if the element has a child of this name, valid or not.
+/// Returns true if the element has a child element of this name, even an invalid one.
 inline bool has(const Element& element, const char* name) {
   return element.FirstChildElement(name) != nullptr;
 }
-/// Returns the child of this name, or the element itself if there is none. For messages.
+/// Returns the child element of this name; the element itself if there is no such child. For
+/// messages.
 const Element& child_or_self(const Element& element, const char* name);
-/// Returns the children with one of these names, in the order of the file.
+/// Returns all child elements that have one of these names, in the order of the file.
 std::vector<Element*> children_of(Element& parent, std::initializer_list<const char*> names);
-/// Reports `name`, written at `at`, unless it is one of `names`. `what` is the kind of thing, such
-/// as "link of this name in the model". Returns true if the name is known.
+/// Reports an error at `at` unless `name` is one of `names`. `what` describes the object for the
+/// message, e.g. "link of this name in the model". Returns true if the name is known.
 bool require_name(const Element& at, const std::string& name, const std::string& what,
                   const std::vector<std::string>& names, Faults& faults);
 /// Returns the names of the objects in a list.
@@ -83,17 +86,17 @@ std::vector<std::string> names_in_list(const List& objects) {
   return names;
 }
 
-/// Reads exactly `count` (0: any number) numbers of an element's text, each within the range.
-/// Returns false after a fault.
+/// Reads exactly `count` numbers (any number of them if `count` is 0) from the element's text. Each
+/// must be within `range`. Returns false after an error.
 bool read_numbers(const Element& element, std::size_t count, Range range, std::vector<double>& out,
                   Faults& faults);
 bool read_flag(const Element& element, bool& out, Faults& faults);
-/// Reads a whole number without sign, of 64 bits. Returns false after a fault.
+/// Reads an unsigned 64-bit number. Returns false after an error.
 bool read_seed(const Element& element, std::uint64_t& out, Faults& faults);
-/// Reads an SDF <pose>: x y z roll pitch yaw, or x y z qx qy qz qw with rotation_format. Returns
-/// false after a fault.
+/// Reads an SDF <pose>: x y z roll pitch yaw, or x y z qx qy qz qw if the attribute rotation_format
+/// says so. Returns false after an error.
 bool read_pose(const Element& element, Pose& out, Faults& faults);
-/// Returns true for the text of a flag that is set.
+/// Returns true if the text of a boolean element means true: "true" or "1".
 inline bool is_true(const std::string& text) { return text == "true" || text == "1"; }
 
 }  // namespace navvy::scene_io

@@ -12,13 +12,15 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:ground>. Layers may name `soils` only; without a layer, a single soil fills the
-/// ground. Hills without a seed use `seed`. Contradictions, such as shapes on a map, are faults.
+/// Reads a <navvy:ground>. `soils` are the world's soils; without layers, a single soil fills the
+/// ground. `seed` is used for hills without a seed of their own. Contradictory elements, such as
+/// shapes on a map, are errors.
 scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>& soils,
                                std::uint64_t seed, Faults& faults);
 
-/// Turns the name of a map into a path: in a scene it counts from the scene's file, on the command
-/// line from the working directory. A missing file is a fault.
+/// Converts the name of a map file to a path. A relative name in a scene file is relative to that
+/// file; one from the command line is relative to the working directory. Reports an error at
+/// `element` if the file does not exist.
 void resolve_raster(const Element& element, std::string& path, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -7,8 +7,9 @@
 
 namespace navvy::scene_io {
 
-/// Reads every <navvy:hitch> of a world, after its machines. Each joins links of two dynamic
-/// machines; a machine is the child of one hitch at most.
+/// Reads all <navvy:hitch> elements of a world into `world.hitches`. The machines must have been
+/// read. Each hitch joins links of two different dynamic machines, and a machine can be the child
+/// of one hitch only.
 void read_hitches(Element& world_element, scene::Scene& world, Faults& faults);
 
 }  // namespace navvy::scene_io

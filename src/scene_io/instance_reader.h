@@ -11,22 +11,25 @@
 
 namespace navvy::scene_io {
 
-/// A machine file that has been read.
+/// A machine file that was read, and the number of its XML elements.
 struct MachineFile {
   scene::Machine machine;
   std::size_t elements = 0;
 };
 
-/// Results of reading that machines depend on.
+/// Results of earlier reading steps that machines in a world depend on.
 struct Known {
   const scene::StepKinds& kinds;
-  bool ground = false;                        ///< the site was read without errors
-  bool sdf_sound = false;                     ///< the SDF of the scene file has no errors
-  std::map<std::string, MachineFile>& files;  ///< machines by file, each read and reported once
+  /// True if the ground was read without errors.
+  bool ground = false;
+  /// True if the standard SDF elements of the scene file have no errors.
+  bool sdf_sound = false;
+  /// Machine files by path. Each is read, and its errors are reported, only once.
+  std::map<std::string, MachineFile>& files;
 };
 
-/// Reads an <include> or <model> with its place, joints, load and program. Soils and ground of the
-/// world are known.
+/// Reads an <include> or <model> of a world: machine, pose, initial joint positions, load and
+/// program. The world's soils and ground must have been read.
 scene::MachineInWorld read_instance(Element& element, const scene::Scene& world, const Known& known,
                                     Faults& faults);
 

@@ -9,16 +9,17 @@
 
 namespace navvy::scene_io {
 
-/// Reads a <model> with links, joints and all `navvy:` elements of a machine, without its program.
-/// The element must have passed `check_sdf`; `sdf_sound` is false if that found a fault.
+/// Reads a machine from a <model>: links, joints and all navvy: elements except those that belong
+/// to a world, such as the program. `check_sdf` must have checked the element; `sdf_sound` is false
+/// if it found an error.
 scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults);
 
-/// Reads and checks the `navvy:` elements of a <model> alone, with the links and joints that
-/// `machine` has already.
+/// Reads and checks only the navvy: elements of a <model>. `machine` contains the links and joints
+/// already.
 void read_extensions(Element& model, const Names& names, scene::Machine& machine, Faults& faults);
 
-/// Reads the <model> of a machine file; returns an empty machine after a fault. Elements that
-/// belong to a world, such as a program, are faults.
+/// Reads the machine of a machine file. Returns an empty machine after an error. Elements that
+/// belong to a world, such as a program, are errors.
 scene::Machine read_machine_file(const std::string& file, Faults& faults);
 
 }  // namespace navvy::scene_io

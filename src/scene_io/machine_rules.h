@@ -7,12 +7,14 @@
 
 namespace navvy::scene_io {
 
-/// Checks the navvy: elements of a model after they were read, with its links and joints. Without
-/// links, after faults in the SDF part, rules about them are skipped.
+/// Checks rules for the navvy: elements of a model that involve several fields. The fields, links
+/// and joints must have been read. If SDF errors prevented the reading of links, rules about links
+/// are skipped.
 void check_extensions(Element& model, const Names& names, const scene::Machine& machine,
                       Faults& faults);
 
-/// Sets the positions of joints at the start, from the <navvy:joint> children of `parent`.
+/// Sets the initial positions of the machine's joints. `positions` were read from the <navvy:joint>
+/// children of `parent`, in the same order.
 void set_initial_positions(Element& parent, const std::vector<scene::InitialPosition>& positions,
                            scene::Machine& machine, Faults& faults);
 

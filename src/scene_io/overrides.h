@@ -8,12 +8,13 @@
 
 namespace navvy::scene_io {
 
-/// Writes the overrides into the document, so that reading checks them like the file's own values.
-/// Elements written here have line 0. Reports unknown objects, and settings without effect as
-/// warnings. Settings come last, so they win over an option for the same value.
+/// Writes the command-line settings into the document, so that the readers check them like values
+/// of the file. The new elements have line 0. Settings for unknown objects are errors; settings
+/// without effect are warnings. Single settings (`--set`) are applied last and win over other
+/// options.
 void apply_overrides(Document& document, const Overrides& overrides, Faults& faults);
 
-/// Warns of a seed given on the command line if nothing in the scene is random.
+/// Adds a warning if the command line gives a seed but nothing in the scene is random.
 void warn_of_unused_seed(Document& document, const Overrides& overrides, const scene::Scene& world,
                          Faults& faults);
 

@@ -8,9 +8,9 @@
 
 namespace navvy::scene_io {
 
-/// Reads <navvy:program>, every child by the kind of its name. Kinds check that the machine can do
-/// the step and that targets are on the site; machine and ground are null if they could not be
-/// read.
+/// Reads a <navvy:program>. Each child element is read by the step type with its name. The step
+/// types check that the machine can perform the step and that targets are on the site. `machine`
+/// and `ground` may be null if they could not be read; such checks are then skipped.
 scene::Program read_program(Element& element, const scene::StepKinds& kinds,
                             const scene::Machine* machine, const scene::StartGround* ground,
                             Faults& faults);

@@ -9,28 +9,30 @@
 
 namespace navvy::scene_io {
 
-/// Walks the SDF part of a file (everything outside `navvy:`) below `element` and reports unknown
-/// elements, unsupported elements (an error if ignoring them would change the physics, else a
-/// warning), values that are no numbers or out of range, and missing names. Of extension elements
-/// only the place is checked.
+/// Checks all standard SDF elements below `element` (everything outside `navvy:`): unknown
+/// elements, unsupported elements (an error if ignoring them would change the physics, otherwise a
+/// warning), invalid values and missing names. For extension elements only the position in the file
+/// is checked.
 void check_sdf(const Element& element, Faults& faults);
 
-/// Returns true for elements of SDF that Navvy uses, false for extension elements, unknown and
-/// ignored ones.
+/// Returns true if Navvy reads this standard SDF element; false for extension elements and for
+/// unknown or ignored elements.
 bool is_used_sdf(const Element& element);
-/// Returns the same for an element `name` below an element `parent`.
+/// Returns true if Navvy reads the SDF element `name` inside an element `parent`.
 bool is_used_sdf(const char* parent, const char* name);
 
-/// Use of elements of SDF, for the reference. Names are separated by blanks.
+/// Treatment of some SDF elements, for the reference page. `parents` and `names` are lists
+/// separated by blanks.
 struct SdfUse {
   std::string parents, names;
-  std::string use;  ///< read, ignored or refused
+  /// "read", "ignored, with a warning" or "refused".
+  std::string use;
   std::string why;
 };
-/// Returns the rules in the order of the table.
+/// Returns the treatment of all SDF elements.
 std::vector<SdfUse> sdf_uses();
 
-/// Checks that the root is <sdf> of a version that is understood. Returns false after a fault.
+/// Checks that the root element is <sdf> with a supported version. Returns false after an error.
 bool check_root(const Element& root, Faults& faults);
 
 }  // namespace navvy::scene_io

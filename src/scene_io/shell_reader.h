@@ -7,8 +7,9 @@
 
 namespace navvy::scene_io {
 
-/// Gives a shell, whose <navvy:shell> was read, its triangles: those in the element or those of an
-/// OBJ file. Checks that every triangle has an area and that all are wound alike.
+/// Builds the triangles of a shell from the lists in its <navvy:shell> or from the OBJ file that
+/// the element names. Reports triangles without area and inconsistent winding. The shell's other
+/// fields must have been read.
 void finish_shell(Element& element, scene::Shell& shell, Faults& faults);
 
 }  // namespace navvy::scene_io

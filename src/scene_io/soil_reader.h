@@ -9,15 +9,17 @@
 
 namespace navvy::scene_io {
 
-/// Reads a <navvy:soil name="..."> with its values, or ref="..." of a shipped soil or of a *.sdf
-/// file with one soil, whose values the children replace.
+/// Reads a <navvy:soil>. If it has an attribute `ref`, the shipped soil or *.sdf file of that name
+/// gives the initial values, which the child elements replace. After an error the result may be
+/// used for further checks but not for a run.
 scene::Soil read_soil(Element& element, Faults& faults);
 
-/// Returns the file that `ref` names: *.sdf counts from the element's file, others are names of
-/// shipped soils. Returns an empty text for an unknown soil.
+/// Returns the path of the soil file that the attribute `ref` means: a name ending in .sdf is
+/// relative to the element's file, any other name is that of a shipped soil. Returns an empty text
+/// for an unknown shipped soil.
 std::string soil_file(const Element& element, const std::string& ref);
 
-/// Reads all soils of a soil file (<sdf> with <navvy:soil> children).
+/// Reads all soils of a soil file (<sdf> with <navvy:soil> elements).
 std::vector<scene::Soil> read_soil_file(const std::string& file, Faults& faults);
 
 }  // namespace navvy::scene_io

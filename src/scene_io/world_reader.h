@@ -8,10 +8,11 @@
 
 namespace navvy::scene_io {
 
-/// Reads the <world> of a document, after the overrides were applied to it.
+/// Reads the <world> of a document. Command-line settings must have been applied to the document.
 ///
-/// @param kinds the known program steps
-/// @returns the world; after a fault the parts that could be read, for further checks alone.
+/// @param kinds known types of program steps
+/// @returns the scene; after an error only the parts that could be read, which may be used for
+/// further checks but not for a run
 scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -19,45 +19,54 @@ namespace navvy::scene_io {
 
 using Element = tinyxml2::XMLElement;
 
-/// Work done by reading so far. The limits of core/limits.h count it for a scene as a whole.
+/// Amount of work that reading a scene has taken so far. The limits in core/limits.h apply to the
+/// scene with all its files.
 struct Work {
-  std::size_t files = 0;     ///< XML files opened
-  std::size_t bytes = 0;     ///< of them
-  std::size_t elements = 0;  ///< of them, an included machine's at each use
-  std::size_t models = 0;    ///< models read through libsdformat
-  /// An OBJ file that shapes name.
+  std::size_t files = 0;  ///< XML files opened
+  /// Size of these files [bytes].
+  std::size_t bytes = 0;
+  /// Number of XML elements; those of a machine's file count each time the file is included.
+  std::size_t elements = 0;
+  std::size_t models = 0;  ///< models read through libsdformat
+  /// Result of reading one OBJ file.
   struct Mesh {
     std::size_t vertices = 0;
-    std::string fault;  ///< why it cannot be read
+    /// Reason why the file cannot be read; empty if it can.
+    std::string fault;
   };
-  std::map<std::string, Mesh> meshes;  ///< by path, each read once
-  std::uintmax_t mesh_bytes = 0;       ///< of them
+  /// OBJ files by path. Each file is read once.
+  std::map<std::string, Mesh> meshes;
+  /// Size of all OBJ files [bytes].
+  std::uintmax_t mesh_bytes = 0;
 };
 
-/// List of the faults of a scene and of all files it names. Readers go on after a fault. Beyond
-/// limits::kFaultsShown of a severity, the list holds the number of the others. An element that an
-/// override has added (line 0) is reported as from the command line.
+/// List of all errors and warnings found in a scene and the files it names. Readers continue after
+/// an error, so that a user can correct all errors at once. The list contains at most
+/// limits::kFaultsShown errors and as many warnings; one more entry counts the rest. Elements that
+/// come from command-line settings (line 0) are reported with the file name "command line".
 class Faults {
  public:
-  /// Reports an error. `at` gives file, line and path; `value` was found, `rule` is allowed,
-  /// `remedy` tells how to correct it.
+  /// Adds an error. The element `at` gives file, line and path; `value` is the invalid value,
+  /// `rule` states what is allowed, and `remedy` how to correct it.
   void error(const Element& at, const std::string& value, const std::string& rule,
              const std::string& remedy = "");
+  /// Adds a warning; the parameters are those of `error`.
   void warning(const Element& at, const std::string& value, const std::string& rule,
                const std::string& remedy = "");
-  /// Returns the `suggestion` of core/edit_distance.h; a list of all candidates only once. Returns
-  /// an empty text if the fault would not be shown, as the search is slow.
+  /// Returns a suggestion for the misspelt `word` (see core/edit_distance.h). A list of all
+  /// candidates is returned only once. Returns an empty text if no more errors will be shown, since
+  /// the search is slow.
   std::string nearest(const std::string& word, const std::vector<std::string>& candidates) const;
   void add(Fault fault);
-  /// Returns true if an error was reported at `element` or inside it. Rules among several fields
-  /// skip elements with faults of their own.
+  /// Returns true if an error was reported at `element` or at an element inside it. Rules that
+  /// combine several fields skip such elements.
   bool has_fault(const Element& element) const { return faulty_.count(&element) > 0; }
   bool has_errors() const { return error_count() > 0; }
-  /// Returns the number of all faults, shown or not.
+  /// Returns the number of all errors, including those that the list leaves out.
   std::size_t error_count() const { return errors_.all; }
   std::size_t warning_count() const { return warnings_.all; }
   const std::vector<Fault>& list() const { return list_; }
-  /// Logs the warnings. @throws InputError with the whole list if it holds an error.
+  /// Logs the warnings. @throws InputError with the whole list if there is an error.
   void finish() const;
 
   Work work;
@@ -80,33 +89,34 @@ class Faults {
   std::set<const void*> faulty_;  ///< elements with errors, and all around them
 };
 
-/// Place where an element was written.
+/// File and line where an element was written.
 struct Place {
-  const std::string* file = nullptr;  ///< null: on the command line
+  /// Path of the file; null for an element from the command line.
+  const std::string* file = nullptr;
   int line = 0;
 };
 Place place_of(const Element& element);
 
-/// One XML file, which its elements refer to: it is created on the heap and never moves. Elements
-/// live as long as their document.
+/// One parsed XML file. Elements point to their document, so it is created on the heap and never
+/// moves. Elements are valid as long as their document exists.
 class Document {
  public:
-  /// Reads a file; returns null after a fault (missing, unreadable, not XML). Old names of elements
-  /// and values are replaced by current ones.
+  /// Reads and parses a file. Old names of elements and values are replaced by the current ones.
+  /// Returns null after an error (file missing or unreadable, no valid XML).
   static std::unique_ptr<Document> open(const std::string& file, Faults& faults);
   static std::unique_ptr<Document> parse(const std::string& text, const std::string& name,
                                          Faults& faults);
-  /// Returns the document of an element.
+  /// Returns the document that `element` belongs to.
   static const Document& of(const Element& element);
 
   const std::string& file() const { return file_; }
-  /// Returns a new element of this document that is reported at the place of `from`, which may be
-  /// of any document.
+  /// Returns a new element of this document, not yet inserted. Messages report it at the file and
+  /// line of `from`, which may belong to another document.
   Element* create(const char* name, const Element& from);
   std::string directory() const;
   Element* root() { return xml_.RootElement(); }
   std::size_t elements() const { return elements_; }
-  /// Returns the present text, comments included.
+  /// Returns the current XML text, including comments.
   std::string text() const;
 
  private:
@@ -119,24 +129,26 @@ class Document {
   std::size_t elements_ = 0;
 };
 
-/// Returns a path such as "world/navvy:soil[loam]/cohesion_pa": with names in brackets, or the
-/// 1-based place among equal siblings.
+/// Returns the element's path for messages, e.g. "world/navvy:soil[loam]/cohesion_pa". Brackets
+/// contain the element's name or, among siblings without names, its position counted from 1.
 std::string element_path(const Element& element);
-/// Returns the first child <kind> with this attribute `name`; null if there is none.
+/// Returns the first child element of type `kind` whose attribute `name` equals the parameter; null
+/// if there is none.
 const Element* named_child(const Element& parent, const char* kind, const std::string& name);
-/// Returns all text directly inside the element, trimmed.
+/// Returns the text directly inside the element, without leading and trailing blanks.
 std::string text_of(const Element& element);
-/// Returns the trimmed text of a child; empty if there is none.
+/// Returns the text of the child element `name`, without leading and trailing blanks; empty if
+/// there is no such child.
 std::string child_text(const Element& element, const char* name);
-/// Returns the value of an attribute; empty if there is none.
+/// Returns the value of the attribute `name`; empty if there is no such attribute.
 std::string attribute(const Element& element, const char* name);
-/// Returns true for an element in the namespace `navvy:`; others belong to SDF.
+/// Returns true if the element is in the namespace `navvy:`, false if it belongs to standard SDF.
 bool is_extension(const Element& element);
 
-/// Splits a text into words.
+/// Splits a text at white space.
 std::vector<std::string> words_of(const std::string& text);
-/// Reads the whole text as a number, in any locale; NaN and infinity are numbers. Returns false if
-/// it is none.
+/// Converts the whole `text` to a number, independent of the locale. Accepts nan and inf. Returns
+/// false if the text is not a number.
 bool to_number(const std::string& text, double& value);
 
 }  // namespace navvy::scene_io
