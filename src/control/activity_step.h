@@ -20,7 +20,7 @@ class Activity;
 class ReachCheck;
 struct OperatorContext;
 
-/// Where a step opens the bucket.
+/// Position at which a step opens the bucket.
 struct DumpPoint {
   /// Position [m] in W.
   Vec2 at = Vec2::Zero();

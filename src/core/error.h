@@ -33,7 +33,7 @@ struct Fault {
   std::string value;
   /// The rule that the value breaks.
   std::string rule;
-  /// What to do about it.
+  /// Remedy: the action that corrects the fault.
   std::string remedy;
 
   /// Returns `file:line: error: element: value 'x': rule (remedy)`, one line without its end, ready

@@ -36,7 +36,7 @@ struct Experiment {
   /// constants of the particle scheme as "scheme.NAME" (soil/scheme.h). They win over
   /// `soil_values`.
   std::vector<std::pair<std::string, std::string>> settings;
-  /// By Parameter::name, as written; lists with commas.
+  /// Parameter values as written, keyed by Parameter::name; a list is separated by commas.
   std::map<std::string, std::string> geometry;
   /// Edges of the soil cells [m]; none: the rig's own.
   std::vector<double> cells;

@@ -12,7 +12,7 @@
 
 namespace navvy::map {
 
-/// What a map holds.
+/// Options of a map: its contents.
 struct MapOptions {
   /// Layers of the map; the layers that these are computed from are added.
   std::vector<MapLayer> layers = default_layers();

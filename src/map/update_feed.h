@@ -23,7 +23,7 @@ struct MapUpdate {
   std::uint64_t sequence = 0;
   /// Simulated time of `map` [s].
   double time = 0;
-  /// At most 64 rectangles that cover every column with a changed value; they may overlap.
+  /// Rectangles, 64 at most, that cover every column with a changed value; they may overlap.
   std::vector<heightfield::CellRect> rects;
   /// Number of columns with a changed value. For several united updates it is an upper bound: the
   /// area of `rects`, at most that of the site.

@@ -82,7 +82,8 @@ std::vector<SourceFile> code_files() {
   std::vector<SourceFile> files;
   for (const char* folder : {"src", "kernels"})
     for (SourceFile& file : sources(folder, {".h", ".cpp", ".cl"}))
-      files.push_back(std::move(file));
+      // The table of old names holds the words that it replaces.
+      if (file.path != "src/core/renamed_names.cpp") files.push_back(std::move(file));
   return files;
 }
 
@@ -177,7 +178,8 @@ TEST(Names, OfHeadersAreUnique) {
 /// Classes, structs and enums that a header defines at the outermost level of its namespace.
 std::set<std::string> defined_classes(const std::string& text) {
   static const std::regex definition(
-      "^(?:struct|class|enum class|enum)\\s+(?:alignas\\([^)]*\\)\\s*)?([A-Z]\\w*)[^;(]*\\{");
+      "^(?:struct|class|enum "
+      "class|enum)\\s+(?:alignas\\([^)]*\\)\\s*)?([A-Z]\\w*)(?!\\w|::)[^;(]*\\{");
   std::set<std::string> names;
   const std::string code = code_only(text);
   std::istringstream in(code);

@@ -31,7 +31,8 @@ TrenchLine trench_line(const Dig& dig, const Pose& X_WS);
 struct Scoop {
   /// Start and end; start > end [m].
   double start = 0, end = 0;
-  /// Where its soil begins [m]: at `start`, or after a run over ground that is already dug.
+  /// Position where the scoop's soil begins [m]: at `start`, or after a run over ground that is
+  /// already dug.
   double soil = 0;
   /// Depth of the tip below the surface at the start of the dig [m].
   double level = 0;
