@@ -443,7 +443,7 @@ TEST(Overrides, WithoutEffectGiveWarnings) {
         << setting;
   Overrides twice = set("solver.cell_m=0.1");
   twice.set.emplace_back("solver.cell_m", "0.15");
-  EXPECT_NE(logged_by(twice).find("a later setting overrides the value"), std::string::npos);
+  EXPECT_NE(logged_by(twice).find("a later setting gives the value"), std::string::npos);
   Overrides seed;
   seed.seed = 7;
   EXPECT_EQ(logged_by(seed), "") << "the second hills have no seed";
