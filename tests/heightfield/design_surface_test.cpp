@@ -276,7 +276,7 @@ TEST(DesignTin, DistinguishesInternationalFromSurveyFeet) {
   const std::string said = said_of("", survey, 0, 0.3048);
   EXPECT_NE(said.find("counts in 0.3048 m, the site's map in 0.3048006096 m"), std::string::npos)
       << said;
-  EXPECT_NE(said.find("lie 1.3 m apart here"), std::string::npos) << said;
+  EXPECT_NE(said.find("are 1.3 m apart here"), std::string::npos) << said;
   EXPECT_NE(said_of("", 0.3048, 0, survey).find("correct linearUnit"), std::string::npos);
   EXPECT_EQ(said_of("", survey, 0, survey), "");
   EXPECT_EQ(said_of("", survey, 0, 1), "") << "metres are converted";

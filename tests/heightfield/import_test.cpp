@@ -182,7 +182,7 @@ TEST(Import, KeepsZeroNegativeAndHighHeights) {
       write_text(dir + "empty.asc",
                  ascii_grid(16, 16, "xllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n",
                             [](int, int) { return "-9999"; }));
-  EXPECT_TRUE(contains(message_of(map_world(empty, 1, Vec2(8, 8))), "all is nodata"));
+  EXPECT_TRUE(contains(message_of(map_world(empty, 1, Vec2(8, 8))), "are nodata"));
 }
 
 TEST(Import, ReportsTheExtentOfTheMapWhenTheSiteIsOffIt) {
@@ -527,8 +527,8 @@ TEST(Import, FindsAWordAcrossTheBuffersOfAFile) {
 TEST(Import, RefusesPipesAndDevicesAsMapsAndSidecarFiles) {
   const std::string dir = folder();
   ASSERT_EQ(::mkfifo((dir + "pipe.tif").c_str(), 0600), 0);
-  EXPECT_TRUE(contains(message_of(map_world(dir + "pipe.tif", 0.5, Vec2(4, 4))), "no plain file"));
-  EXPECT_TRUE(contains(message_of(map_world("/dev/zero", 0.5, Vec2(4, 4))), "no plain file"));
+  EXPECT_TRUE(contains(message_of(map_world(dir + "pipe.tif", 0.5, Vec2(4, 4))), "a plain file is needed"));
+  EXPECT_TRUE(contains(message_of(map_world("/dev/zero", 0.5, Vec2(4, 4))), "a plain file is needed"));
   const std::string map =
       write_text(dir + "Site.asc",
                  ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
