@@ -84,7 +84,7 @@ std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& swee
   const std::vector<std::string> shown = shown_results(rig, sweep.runs.front().report);
   for (const std::string& name : shown)
     out[0].push_back(heading(name, sweep.runs.front().report.find(name)->unit));
-  out[0].insert(out[0].end(), {"steps", "s", "gates"});
+  out[0].insert(out[0].end(), {"steps", "s", "tolerances"});
   for (const SweepRun& run : sweep.runs) {
     std::vector<std::string> row;
     for (const double value : run.at) row.push_back(short_text(value));

@@ -36,7 +36,7 @@ TEST(LimitsOfActiveSoil, RefuseABoxAboveTheBudgetByName) {
     FAIL() << "was not refused";
   } catch (const InputError& error) {
     const std::string text = error.faults().front().text();
-    EXPECT_NE(text.find("awake[1]"), std::string::npos) << text;
+    EXPECT_NE(text.find("active[1]"), std::string::npos) << text;
     EXPECT_NE(text.find("more soil than the 700000 particles"), std::string::npos) << text;
   }
 }
