@@ -51,7 +51,7 @@ TEST(Sweep, TableHasAxesHeadlineAndDeviations) {
   const auto table = table_of(rig_with_headline(), four_runs());
   ASSERT_EQ(table.size(), 5u);
   EXPECT_EQ(table[0], (std::vector<std::string>{"speed [m/s]", "courant", "force [N]", "steps", "s",
-                                                "gates"}));
+                                                "tolerances"}));
   // 10 x 0.05 + 0.5, at the end of the tolerance.
   EXPECT_EQ(table[1][2], "1");
   EXPECT_EQ(table[1].back(), "");

@@ -158,7 +158,7 @@ TEST(SessionBorder, AMachineThatLeavesTheSiteIsReportedOnce) {
   const auto logged = [&] {
     std::vector<std::string> out;
     for (const std::string& line : log.lines())
-      if (line.find("site's border") != std::string::npos) out.push_back(line);
+      if (line.find("has left the site") != std::string::npos) out.push_back(line);
     return out;
   };
   device::Device device;
