@@ -27,7 +27,8 @@ struct Mesh {
 
 /// A piece of the ground to draw.
 struct GroundPart {
-  /// Mesh of the piece.
+  /// Mesh of this piece of ground. TerrainMesh owns it; the pointer is valid until the next call of
+  /// TerrainMesh::select or update.
   const Mesh* mesh = nullptr;
   /// True for each skirt that must be drawn: south, east, north, west.
   std::array<bool, 4> skirts = {true, true, true, true};

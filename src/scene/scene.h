@@ -86,8 +86,9 @@ struct MachineInWorld {
     }
     describe_instance(f);
   }
-  /// Passes the fields of an <include> to the visitor `f`; if `in_scene`, the fields that a <model>
-  /// has only inside a scene.
+  /// Passes fields to the visitor `f`: without `in_scene` the fields of an <include>, with
+  /// `in_scene` the fields that a <model> written directly in a scene has in addition to those of a
+  /// machine's own file.
   void describe_instance(Fields& f) {
     if (!in_scene) {
       f("uri", machine.file, "SDF file, its directory, or model://NAME of a shipped machine.",

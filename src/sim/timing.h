@@ -21,8 +21,9 @@ double base_step(double longest, double period);
 /// time.
 std::uint64_t samples_through(std::uint64_t step, double dt, double rate);
 
-/// Returns true if at least one sample is taken in step number `step`, at `rate` samples per second
-/// (above 0) and with steps of `dt` [s].
+/// Returns true if at least one sample is taken in step number `step`, that is if
+/// samples_through(step) exceeds the number of samples through the step before. `rate` is the
+/// number of samples per second (above 0), `dt` the length of a step [s].
 bool sample_due(std::uint64_t step, double dt, double rate);
 /// Returns the number of the first sample, counted from 0, that is taken in step number `step` or,
 /// if that step takes none, in a later one. `dt` is the length of a step [s], `rate` is in samples

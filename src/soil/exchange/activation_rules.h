@@ -32,8 +32,8 @@ struct ToolZone {
   double speed = 0;
   /// Tool index that Solver::add_tool returned.
   int tool = -1;
-  /// True if a resting contact supports the tool; no soil then becomes or stays active because of
-  /// it.
+  /// True if the tool stands on layered columns through a resting contact. While this is true, the
+  /// tool neither turns columns into particles nor keeps particles active.
   bool supported = false;
   /// True if at least one column of the zone, with the soil on it, reaches up to within a cell of
   /// the tool's lowest point.

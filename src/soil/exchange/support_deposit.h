@@ -57,7 +57,7 @@ class SupportDeposit {
  private:
   /// Particles that rest on a column, from bottom to top.
   struct Stack {
-    /// Indices of the particles in the ColumnIndex.
+    /// Positions of the particles in the particle list of the ColumnIndex, from bottom to top.
     std::vector<std::uint32_t> grains;
     /// Volume of each particle in its density state, as a height over one column [m].
     std::vector<double> volumes;

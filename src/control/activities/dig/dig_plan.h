@@ -27,8 +27,8 @@ struct TrenchLine {
   void visit(Archive& a);
 };
 
-/// Returns the centre line of the trench `dig` as seen from a machine whose swing axis frame S has
-/// the pose X_WS in W.
+/// Returns the line of the trench `dig`, whose ends are given in W, relative to a machine whose
+/// swing axis frame S has the pose X_WS in W.
 TrenchLine trench_line(const Dig& dig, const Pose& X_WS);
 
 /// One scoop along the trench. Positions are distances from the near end of the trench [m].
