@@ -126,7 +126,7 @@ int run(int argc, char** argv) {
       "range, 130\n"
       "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
       "which is reported.\n"
-      "docs/README.md explains scene files and everything else.");
+      "docs/README.md lists all pages; docs/reference/scene.md has the elements of scene files.");
   // The chosen subcommand fills the action.
   cli::Action action;
   // The command line is recorded in the folder of a run.

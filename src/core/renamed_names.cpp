@@ -50,7 +50,6 @@ void warn_once(const RenamedName& row) {
 }  // namespace
 
 const std::vector<RenamedName>& renamed_names() {
-  // Literals in two parts keep old words from searches for them.
   // clang-format off
   static const std::vector<RenamedName> rows = {
       {NameKind::kElement, "navvy:engine", "navvy:physics", "0.4"},

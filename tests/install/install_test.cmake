@@ -37,7 +37,7 @@ if(PROJECT MATCHES "headers|modules")
   list(REMOVE_DUPLICATES sources)
   list(JOIN sources " " sources)
   file(WRITE ${work}/source/CMakeLists.txt
-       "cmake_minimum_required(VERSION 3.25)\nproject(headers CXX)\nfind_package(navvy 0.2 REQUIRED)\n"
+       "cmake_minimum_required(VERSION 3.25)\nproject(headers CXX)\nfind_package(navvy 0.3 REQUIRED)\n"
        "add_library(headers OBJECT ${sources})\ntarget_link_libraries(headers PRIVATE navvy::navvy)\n")
 elseif(EXISTS ${SOURCE_DIR}/tests/install/${PROJECT})
   file(COPY ${SOURCE_DIR}/tests/install/${PROJECT}/ ${SOURCE_DIR}/tests/vehicle/engine_contract.h

@@ -2,8 +2,8 @@
 // Counts the mass of every block exactly, once per transfer.
 //
 // In: state, particle blocks (layout.h), number of soils.
-// Out: masses[soils * block + soil], 64-bit, in mass quanta (2^-24 kg). Lanes beyond a block's count
-// have mass 0.
+// Out: masses[soils * block + soil], 64-bit, in mass quanta (2^-24 kg). Lanes beyond a block's
+// count have mass 0.
 //
 // Parallel: one work-item per block. Repeatable: integer sums do not depend on order. Host:
 // src/soil/particles/mass_count.cpp; reference: ParticleStore::masses.
