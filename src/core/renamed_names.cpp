@@ -4,6 +4,7 @@
 #include <mutex>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/log.h"
@@ -35,15 +36,16 @@ std::size_t match(const RenamedName& row, NameKind kind, std::string_view name) 
   return whole ? old.size() : std::string_view::npos;
 }
 
-/// Logs a warning unless it was logged before.
-void warn_once(const RenamedName& row) {
+/// Logs a warning unless it was logged before for this file.
+void warn_once(const RenamedName& row, const std::string& file, int line) {
   static std::mutex mutex;
-  static std::set<std::pair<NameKind, std::string>> warned;
+  static std::set<std::tuple<NameKind, std::string, std::string>> warned;
   {
     const std::lock_guard lock(mutex);
-    if (!warned.emplace(row.kind, row.old_name).second) return;
+    if (!warned.emplace(row.kind, row.old_name, file).second) return;
   }
-  log_warning(std::string("the ") + word_for(row.kind) + " '" + row.old_name + "' is called '" +
+  const std::string where = file.empty() ? "" : file + ":" + std::to_string(line) + ": ";
+  log_warning(where + "the " + word_for(row.kind) + " '" + row.old_name + "' is called '" +
               row.name + "' now; the old name is read until release " + row.until);
 }
 
@@ -62,18 +64,19 @@ const std::vector<RenamedName>& renamed_names() {
 }
 
 std::string current_name(NameKind kind, const std::string& name,
-                         const std::vector<RenamedName>& table) {
+                         const std::vector<RenamedName>& table, const std::string& file, int line) {
   for (const RenamedName& row : table) {
     const std::size_t length = match(row, kind, name);
     if (length == std::string_view::npos) continue;
-    warn_once(row);
+    warn_once(row, file, line);
     return name.substr(0, name.size() - length) + row.name;
   }
   return name;
 }
 
-std::string current_name(NameKind kind, const std::string& name) {
-  return current_name(kind, name, renamed_names());
+std::string current_name(NameKind kind, const std::string& name, const std::string& file,
+                         int line) {
+  return current_name(kind, name, renamed_names(), file, line);
 }
 
 }  // namespace navvy

@@ -30,11 +30,14 @@ struct RenamedName {
 const std::vector<RenamedName>& renamed_names();
 
 /// Returns the current name for `name` if that is an old name of the type `kind`, otherwise `name`
-/// unchanged. Logs a warning at the first use of each old name. Thread-safe.
-std::string current_name(NameKind kind, const std::string& name);
+/// unchanged. Logs a warning at the first use of each old name in `file`, with file and `line`;
+/// an empty `file` stands for names that come from no file. Thread-safe.
+std::string current_name(NameKind kind, const std::string& name, const std::string& file = "",
+                         int line = 0);
 /// Returns the current name for `name` according to `table` instead of `renamed_names()`; for
 /// tests.
 std::string current_name(NameKind kind, const std::string& name,
-                         const std::vector<RenamedName>& table);
+                         const std::vector<RenamedName>& table, const std::string& file = "",
+                         int line = 0);
 
 }  // namespace navvy

@@ -155,12 +155,15 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
 void Document::rename_old(Element& element, int depth) {
   // check_tree reports deeper elements.
   if (depth > static_cast<int>(limits::kXmlNesting)) return;
-  if (const std::string now = current_name(NameKind::kElement, element.Name());
+  const Place place = place_of(element);
+  const std::string file = place.file != nullptr ? *place.file : "";
+  if (const std::string now = current_name(NameKind::kElement, element.Name(), file, place.line);
       now != element.Name())
     element.SetName(now.c_str());
   for (const auto* at = element.FirstAttribute(); at; at = at->Next()) {
     const std::string key = element.Name() + std::string("/") + at->Name() + "=" + at->Value();
-    if (const std::string now = current_name(NameKind::kAttributeValue, key); now != key)
+    if (const std::string now = current_name(NameKind::kAttributeValue, key, file, place.line);
+        now != key)
       element.SetAttribute(at->Name(), now.substr(now.rfind('=') + 1).c_str());
   }
   for (Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement())

@@ -23,10 +23,13 @@ TEST(RenamedNames, OldNamesGiveCurrentOnesWithOneWarningEach) {
   EXPECT_EQ(current_name(NameKind::kElement, "navvy:test_old", kTable), "navvy:test_new");
   EXPECT_EQ(current_name(NameKind::kElement, "navvy:test_older", kTable), "navvy:test_older");
   EXPECT_EQ(current_name(NameKind::kLayer, "navvy:test_old", kTable), "navvy:test_old");
+  for (int line : {7, 9}) current_name(NameKind::kElement, "navvy:test_old", kTable, "a.sdf", line);
   set_log_sink({});
   EXPECT_EQ(logged,
             "the element 'navvy:test_old' is called 'navvy:test_new' now; the old name is read "
-            "until release 9.9\n");
+            "until release 9.9\n"
+            "a.sdf:7: the element 'navvy:test_old' is called 'navvy:test_new' now; the old name is "
+            "read until release 9.9\n");
 }
 
 TEST(RenamedNames, ChannelsMatchByWholePartsFromTheirEnd) {
