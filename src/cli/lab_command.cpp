@@ -196,6 +196,7 @@ std::string footer(const lab::Rig& rig) {
 }
 
 /// Adds the subcommand of a rig. Its options follow from the declaration of its parameters.
+// A list of options. NOLINTNEXTLINE(readability-function-size)
 void add_rig(CLI::App& parent, const lab::Rig& rig, const std::shared_ptr<LabOptions>& options,
              Action& action) {
   CLI::App* command = parent.add_subcommand(rig.name, rig.summary);

@@ -189,6 +189,7 @@ int run_scene(RunOptions options) {
 
 }  // namespace
 
+// A list of options. NOLINTNEXTLINE(readability-function-size)
 void add_run(CLI::App& app, Action& action, std::vector<std::string> command_line) {
   auto options = std::make_shared<RunOptions>();
   options->simulation.command = std::move(command_line);

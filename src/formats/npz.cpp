@@ -101,6 +101,7 @@ class ZipArchive {
         }
         const std::size_t count =
             std::min<std::size_t>(length - done, entry.bytes.size() - entry.at);
+        // Bytes, not a text. NOLINTNEXTLINE(bugprone-not-null-terminated-result)
         std::memcpy(data + done, entry.bytes.data() + entry.at, count);
         entry.at += count;
         done += count;

@@ -19,6 +19,7 @@ using Block = const ColumnBlock&;
 
 }  // namespace
 
+// One table, whose length grows with its rows. NOLINTNEXTLINE(readability-function-size)
 const std::array<LayerInfo, kMapLayers>& layers() {
   // In the order of the enumerators; a test compares the two.
   static const std::array<LayerInfo, kMapLayers> table = {{

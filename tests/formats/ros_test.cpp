@@ -340,7 +340,9 @@ TEST(Bags, HoldTheBytesOfAnArray) {
   const std::vector<double> numbers = {1.5, -2};
   const ros::Bytes bytes = ros::multi_array({2}, 8, std::as_bytes(std::span(numbers)));
   ASSERT_EQ(bytes.size(), 4u + 4 + 4 + 8 + 4 + 4 + 4 + 4 + 16);
-  EXPECT_EQ(std::memcmp(bytes.data() + bytes.size() - 16, numbers.data(), 16), 0);
+  std::vector<double> read(2);
+  std::memcpy(read.data(), bytes.data() + bytes.size() - 16, 16);
+  EXPECT_EQ(read, numbers);
 }
 
 // Counts complete messages: in SQLite by rows, in MCAP by following its records up to a truncated

@@ -133,6 +133,7 @@ TEST(Queries, AreTheSameInFourThreadsWhileTheMakerUpdates) {
   const double expected = sum();
   std::atomic<int> wrong{0}, running{4};
   std::vector<std::thread> readers;
+  readers.reserve(4);
   for (int t = 0; t < 4; ++t)
     readers.emplace_back([&] {
       for (int k = 0; k < 5; ++k) wrong += sum() == expected ? 0 : 1;

@@ -25,7 +25,6 @@ namespace {
 
 using heightfield::Ground;
 using testing::dig;
-using testing::kTwo;
 using testing::two_layers;
 
 bool same(const TerrainMap& a, const TerrainMap& b) { return count_changed(a, b) == 0; }
