@@ -527,10 +527,8 @@ TEST(Import, FindsAWordAcrossTheBuffersOfAFile) {
 TEST(Import, RefusesPipesAndDevicesAsMapsAndSidecarFiles) {
   const std::string dir = folder();
   ASSERT_EQ(::mkfifo((dir + "pipe.tif").c_str(), 0600), 0);
-  EXPECT_TRUE(
-      contains(message_of(map_world(dir + "pipe.tif", 0.5, Vec2(4, 4))), "a plain file is needed"));
-  EXPECT_TRUE(
-      contains(message_of(map_world("/dev/zero", 0.5, Vec2(4, 4))), "a plain file is needed"));
+  for (const std::string& file : {dir + "pipe.tif", std::string("/dev/zero")})
+    EXPECT_TRUE(contains(message_of(map_world(file, 0.5, Vec2(4, 4))), "a plain file is needed"));
   const std::string map =
       write_text(dir + "Site.asc",
                  ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
