@@ -528,7 +528,7 @@ TEST(Import, RefusesPipesAndDevicesAsMapsAndSidecarFiles) {
   const std::string dir = folder();
   ASSERT_EQ(::mkfifo((dir + "pipe.tif").c_str(), 0600), 0);
   for (const std::string& file : {dir + "pipe.tif", std::string("/dev/zero")})
-    EXPECT_TRUE(contains(message_of(map_world(file, 0.5, Vec2(4, 4))), "a plain file is needed"));
+    EXPECT_TRUE(contains(message_of(map_world(file, 0.5, Vec2(4, 4))), "is not a plain file"));
   const std::string map =
       write_text(dir + "Site.asc",
                  ascii_grid(13, 7, "xllcorner 0\nyllcorner 0\ncellsize 1\n", asymmetric_text));
