@@ -423,7 +423,7 @@ TEST(Import, AveragesAMapFinerThanTheSoilCell) {
 
 TEST(Import, RefusesDamagedFilesWithoutOutputOfGdal) {
   const std::string dir = folder();
-  const std::string junk = write_text(dir + "junk.tif", "II*\0 this is no map");
+  const std::string junk = write_text(dir + "junk.tif", "II* this is no map");
   const std::string half = write_text(
       dir + "half.asc", "ncols 13\nnrows 7\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3");
   const std::string huge = write_text(
