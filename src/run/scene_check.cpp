@@ -10,6 +10,7 @@
 #include "core/math.h"
 #include "planner/map_path_planner.h"
 #include "record/map_recorder.h"
+#include "run/slice_check.h"
 #include "session/program_check.h"
 #include "sim/start_check.h"
 
@@ -43,6 +44,7 @@ SceneCheck check_scene(const scene::Scene& scene) {
   // The test that a run makes before it starts.
   out.faults = session::check_programs(scene, planner::path_planners());
   for (Fault& fault : record::check_records(scene)) out.faults.push_back(std::move(fault));
+  for (Fault& fault : check_slices(scene)) out.faults.push_back(std::move(fault));
   // The machines settle for a second on resting soil, without a device.
   sim::StartCheck start = sim::check_start(scene);
   add_lines(out.notes, start.terrain);
