@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -38,6 +39,13 @@ double plane_strain_of_triaxial(double angle, double psi) {
 }
 
 }  // namespace
+
+ValueAttribute friction_test_attribute(FrictionTest& test) {
+  return {
+      "test",
+      Fields::choice_of<FrictionTest>(test, {std::begin(kFrictionTests), std::end(kFrictionTests)}),
+      "Test that measured the angle; without it plane strain."};
+}
 
 double yield_radius(double sin_phi, double invariant) {
   const double a = 0.5 * sin_phi * (3 - sin_phi * sin_phi) * invariant;

@@ -29,6 +29,8 @@ inline constexpr std::pair<const char*, FrictionTest> kFrictionTests[] = {
 constexpr const char* name_of(FrictionTest test) {
   return kFrictionTests[static_cast<std::size_t>(test)].first;
 }
+/// Returns the attribute `test` of a friction angle, which is stored in `test`.
+ValueAttribute friction_test_attribute(FrictionTest& test);
 /// Largest plane-strain friction angle that a soil may have, in degrees.
 inline constexpr double kMostFrictionDegrees = 50;
 

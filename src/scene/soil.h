@@ -2,7 +2,6 @@
 // One soil, as described by a scene or by a file in terrain/soils/.
 #pragma once
 
-#include <iterator>
 #include <string>
 
 #include "scene/fields.h"
@@ -73,10 +72,7 @@ struct Soil {
     f("friction_angle_deg", friction_angle, {0, kMostFrictionDegrees},
       "Internal friction angle: phi in plane strain unless `test` names another test, from whose "
       "result and psi the loader computes phi.",
-      {"test",
-       Fields::choice_of<FrictionTest>(friction_test,
-                                       {std::begin(kFrictionTests), std::end(kFrictionTests)}),
-       "Test that measured the angle; without it plane strain."});
+      friction_test_attribute(friction_test));
     f("repose_angle_deg", repose_angle, {0, 44},
       "Angle of repose t, to give instead of friction_angle_deg: the same as there with "
       "test=\"repose\", sin phi = tan t.",

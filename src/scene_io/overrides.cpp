@@ -287,18 +287,20 @@ class Settings {
       target.SetAttribute(name.c_str(), value.c_str());
       return changed;
     }
-    const bool same_test =
-        child == nullptr || child->children.empty() ||
-        present_choice(target, *child) == (choice.empty() ? child->children[0].initial : choice);
-    const bool changed = !same_test || !same_value(value, present_value(target, child, name));
+    // The attribute of a value's element; an element with a value has no other children.
+    const SchemaNode* own = child != nullptr && child->type != "element" && !child->children.empty()
+                                ? &child->children[0]
+                                : nullptr;
+    const bool same_choice = own == nullptr || present_choice(target, *child) ==
+                                                   (choice.empty() ? own->initial : choice);
+    const bool changed = !same_choice || !same_value(value, present_value(target, child, name));
     // A soil's strength is given by one of two elements; the new one replaces the other.
     if (name == "friction_angle_deg" || name == "repose_angle_deg")
       for (const char* other : {"friction_angle_deg", "repose_angle_deg"})
         if (Element* old = target.FirstChildElement(other)) target.DeleteChild(old);
     set_value(target, name, value);
-    if (!choice.empty())
-      target.FirstChildElement(name.c_str())
-          ->SetAttribute(child->children[0].name.c_str(), choice.c_str());
+    if (own != nullptr && !choice.empty())
+      target.FirstChildElement(name.c_str())->SetAttribute(own->name.c_str(), choice.c_str());
     return changed;
   }
 

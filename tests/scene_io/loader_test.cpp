@@ -349,6 +349,12 @@ TEST(Overrides, GiveAFrictionAngleWithItsTest) {
   EXPECT_NE(failure(kBody, set("soil.friction_angle_deg.triax=35"))
                 .find("unknown test 'triax' (did you mean 'triaxial'?)"),
             std::string::npos);
+  // Elements elsewhere have no such attribute.
+  EXPECT_NE(failure(kBody, set("ground.friction_angle_deg.triaxial=35")).find("unknown element"),
+            std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].program.wait.friction_angle_deg.triaxial=35"))
+                .find("unknown element"),
+            std::string::npos);
   EXPECT_NE(failure(kBody, set("soil.friction_angle_deg.triaxial=48"))
                 .find("'48': is above the limit of 50 deg in plane strain"),
             std::string::npos);
