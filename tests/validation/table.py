@@ -29,7 +29,7 @@ import sys
 
 COLUMNS = ["case", "quantity", "measured", "half", "expected", "tolerance", "result", "source", "seconds", "date", "device",
            "state"]
-RESULTS = {"ok": "within", "MISS": "miss", "known deviation": "known deviation", "ok, table old": "within",
+RESULTS = {"ok": "within", "outside": "miss", "known deviation": "known deviation", "ok, table old": "within",
            "TOLERANCE MOVED": "miss"}
 BEGIN = re.compile(r"^<!-- generated: begin; cases: (.*) -->$")
 SUMMARY = "<!-- generated: begin; summary -->"
