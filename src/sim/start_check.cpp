@@ -151,7 +151,7 @@ namespace {
 std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
-  const heightfield::DesignComparison figures = heightfield::against_design(ground, *design);
+  const heightfield::DesignComparison comparison = heightfield::against_design(ground, *design);
   double least = INFINITY, most = -INFINITY;
   for (const float z : design->z) {
     least = std::fmin(least, static_cast<double>(z));
@@ -166,7 +166,7 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
   std::snprintf(
       out.data(), out.size(),
       ": %.4g m2 of the site, heights %.3f .. %.3f m in W, %.4g m3 to cut, %.4g m3 to fill\n",
-      figures.area, least, most, figures.design_cut, figures.design_fill);
+      comparison.area, least, most, comparison.design_cut, comparison.design_fill);
   return "design " + what + out.data();
 } catch (const InputError&) {
   return "";
