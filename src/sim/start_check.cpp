@@ -196,13 +196,13 @@ StartCheck check_start(const scene::Scene& scene) {
       // A machine in the air has no ground to tip on yet.
       if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
-      out.faults.push_back(
-          error(scene, scene.machines[m], tilt,
-                std::string("the machine tips over within its first second") +
-                    (stands.margin < 0 ? ": its centre of mass is " +
-                                             text("%.2f m", -stands.margin) + " outside its feet"
-                                       : ""),
-                "place it on flatter ground, or turn it along the slope"));
+      out.faults.push_back(error(
+          scene, scene.machines[m], tilt,
+          std::string("the machine tips over within its first second") +
+              (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) +
+                                       " outside its support polygon"
+                                 : ""),
+          "place it on flatter ground, or turn it along the slope"));
     }
   } catch (const InputError& fault) {
     for (const Fault& one : fault.faults()) out.faults.push_back(one);

@@ -165,7 +165,8 @@ TEST(Watch, EndsAProgramWhoseMachineTipsOver) {
   EXPECT_EQ(past.end, 0);
   const StepReport over = standing({true, radians(31), 0.3, -0.12}, 1);
   EXPECT_EQ(over.state, StepState::kTipped);
-  EXPECT_EQ(over.reason, "its centre of mass is 0.12 m outside its feet and it tilts by 31.00 deg");
+  EXPECT_EQ(over.reason,
+            "its centre of mass is 0.12 m outside its support polygon and it tilts by 31.00 deg");
   EXPECT_NEAR(over.end, 0.2, 2 * kStep);
 }
 
