@@ -354,7 +354,7 @@ def selftest():
     log = (
         "7: [ RUN      ] A.Holds\n7: | force [N] |  2 |  1 |  0 .. inf | known deviation | Rankine"
         " |\n[ VALUE    ] drag (dry): measured 3.5, expected 3 +-20 % (statics, as above)\n| Test |"
-        " Figure |\n"
+        " Value |\n"
     )
     rows = rows_of(log)
     assert [r["case"] for r in rows] == ["A.Holds", "A.Holds"], rows
