@@ -25,7 +25,7 @@ void expect_given_angle(const char* rig, scene::FrictionTest test) {
     set_friction(s.soil, test, radians(35));
     ASSERT_FALSE(scene::follow_friction_test(s.soil));
   });
-  EXPECT_EQ(misses(report), "");
+  EXPECT_EQ(outside_tolerance(report), "");
   EXPECT_TRUE(report.find("angle of the test that was given")->judged());
   EXPECT_NEAR(measured(report, "angle of the test that was given"), 35, 1);
 }
