@@ -168,7 +168,7 @@ double PlaneStrain::free_fraction_at(int i, int k) const {
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
   const bool fraction = method_.contact == PlaneMethod::Contact::kFraction;
-  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0,
+  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0, 0,
                     0,      0};
   const double clearance = i - plate.x, inset = k - plate.tip;
   if (clearance < -3) return;

@@ -44,6 +44,7 @@ reference::Reach reach_of(double cell) {
           s.contact_opening * speed,
           s.contact_settling * speed,
           s.contact_falling * speed,
+          s.edge_slow * speed,
           0,
           0,
           -1};

@@ -28,6 +28,7 @@ Reach shipped() {
           s.contact_opening,
           s.contact_settling,
           s.contact_falling,
+          s.edge_slow,
           0,
           0,
           -1};
