@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "core/sealed.h"
 #include "device/device.h"
 #include "formats/formats.h"
@@ -226,7 +227,7 @@ int map(const MapCommand& options) {
   // The files of a run do not hold the time.
   if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
   if (!unknown.empty()) names += "; unknown everywhere: " + unknown;
-  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(),
+  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", printable(options.out).c_str(),
               format.name.c_str(), made.nx(), made.ny(), made.cell(), when, names.c_str());
   return kOk;
 }

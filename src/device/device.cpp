@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string_view>
 
+#include "core/printable.h"
 #include "device/kernel_cache.h"
 #include "device/opencl_private.h"
 
@@ -157,7 +158,7 @@ int match(const std::vector<Found>& found, const std::string& choice) {
         "example the CPU device "
         "with 'apt-get install pocl-opencl-icd' or your GPU vendor's OpenCL driver");
   }
-  std::string text = "no OpenCL device matches '" + choice + "'";
+  std::string text = "no OpenCL device matches '" + printable(choice) + "'";
   if (from_environment) text += " (from the environment variable NAVVY_DEVICE)";
   text += "; available devices:";
   for (const Found& f : found) text += "\n  " + f.info.text();
