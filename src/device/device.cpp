@@ -9,9 +9,11 @@
 #include <mutex>
 #include <string_view>
 
+#include "core/long_work.h"
 #include "core/printable.h"
 #include "device/kernel_cache.h"
 #include "device/opencl_private.h"
+#include "device/scarcity.h"
 
 namespace navvy::device {
 namespace {
@@ -152,6 +154,8 @@ int match(const std::vector<Found>& found, const std::string& choice) {
         "written: " +
         cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
   }
+  if (const std::string scarce = found.empty() ? scarcity() : ""; !scarce.empty())
+    throw DeviceError("no OpenCL device: a driver is installed, but could not start: " + scarce);
   if (found.empty()) {
     throw DeviceError(
         "no OpenCL device: no platform is installed or none offers a device; install one, for "
@@ -217,6 +221,7 @@ void Device::State::open_queue() {
 }
 
 void Device::State::finish() {
+  const LongWork work("the OpenCL driver was busy or did not answer");
   check(clFinish(queue), "clFinish", *this);
   compiling.reset();
   collect();

@@ -407,7 +407,23 @@ void ProcessCache::open_temporary() {
   }
 }
 
+/// PoCL links each kernel with the program `ld`, which it looks for in PATH, and aborts without it.
+/// The usual folders are appended where none of PATH has it.
+void complete_path() {
+  const std::string path = environment("PATH");
+  std::istringstream folders(path);
+  std::error_code none;
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && fs::exists(folder + "/ld", none)) return;
+  for (const char* folder : {"/usr/bin", "/usr/local/bin", "/bin"})
+    if (fs::exists(std::string(folder) + "/ld", none)) {
+      ::setenv("PATH", (path.empty() ? folder : path + ":" + folder).c_str(), 1);
+      return;
+    }
+}
+
 ProcessCache::ProcessCache() {
+  complete_path();
   const fs::path folder = usual_folder();
   if (folder.empty()) status.trouble = "neither POCL_CACHE_DIR, XDG_CACHE_HOME nor HOME is set";
   if (folder.empty() || !open(folder)) open_temporary();

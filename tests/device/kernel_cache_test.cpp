@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -234,11 +235,17 @@ TEST(KernelCache, RefusesAFolderThatCannotBeCreated) {
   EXPECT_THROW(KernelCache{folder.path() / "file" / "cache"}, FileError);
 }
 
+std::string environment_path() {
+  const char* path = std::getenv("PATH");
+  return path == nullptr ? "" : path;
+}
+
 /// Runs this program in a new process: one kernel built and run, with its cache below `cache`.
-int run_one_kernel(const std::string& cache, const std::string& log) {
+int run_one_kernel(const std::string& cache, const std::string& log,
+                   const std::string& path = environment_path()) {
   test::Command command{fs::read_symlink("/proc/self/exe").string(),
                         {"--gtest_filter=Sizes/VectorAdd.*/3:Device.ListsItselfUnderItsIndex"},
-                        {{"POCL_CACHE_DIR", cache}},
+                        {{"POCL_CACHE_DIR", cache}, {"PATH", path}},
                         "/dev/null",
                         log,
                         log + ".err"};
@@ -258,6 +265,13 @@ TEST(KernelCacheOfTheDriver, TruncatedMachineCodeIsCompiledAgainInsteadOfCrashin
   for (const fs::path& file : code) write(file, "");
   EXPECT_EQ(run_one_kernel(cache, folder / "third"), 0);
   EXPECT_EQ(run_one_kernel(cache, folder / "fourth"), 0);
+}
+
+TEST(KernelCacheOfTheDriver, TheLinkerIsFoundWithoutPath) {
+  const test::Folder folder;
+  for (const char* path : {"", "/nonexistent"})
+    EXPECT_EQ(run_one_kernel(folder / "cache", folder / "log", path), 0)
+        << path << text_of(folder / "log.err");
 }
 
 TEST(KernelCacheOfTheDriver, AFolderThatCannotBeCreatedIsReplacedByATemporaryOne) {
