@@ -6,10 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/commands.h"
@@ -99,6 +101,17 @@ int guarded(const cli::Action& action) {
   } catch (const SimulationError& error) {
     std::cerr << "error: " << printable_lines(error.what()) << "\n";
     return cli::kSimulation;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "error: " << printable(error.what()) << "\n";
+    return cli::kFile;
+  } catch (const std::system_error& error) {
+    // A thread that cannot be started, of this program or inside the driver.
+    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << (scarce ? "error: no further thread can be started: " : "internal error: ")
+              << printable(error.what())
+              << (scarce ? "; raise the limits of processes (ulimit -u) and of memory (ulimit -v)\n"
+                         : "\n");
+    return scarce ? cli::kDevice : cli::kInternal;
   } catch (const std::bad_alloc&) {
     // Memory of the host; that of the device has its own error.
     std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a "

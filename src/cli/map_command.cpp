@@ -126,7 +126,8 @@ scene::Scene load(const std::string& file) {
 /// Returns the scene file in the folder of a run. @throws InputError when there is none.
 std::string scene_of(const std::filesystem::path& folder, const std::string& asked) {
   const std::string file = (folder / "scene.sdf").string();
-  if (std::filesystem::is_regular_file(file)) return file;
+  std::error_code unreadable;
+  if (std::filesystem::is_regular_file(file, unreadable)) return file;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked,
                          "there is no scene.sdf in '" + folder.string() + "'",
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
@@ -178,7 +179,8 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
           const std::vector<map::MapLayer>& layers) {
   // The name is a folder, a file with the header of a snapshot, or else a scene.
   const std::filesystem::path from(options.from);
-  if (std::filesystem::is_directory(from)) {
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(from, unreadable)) {
     const scene::Scene scene = load(scene_of(from, options.from));
     const std::string end = (from / "terrain_end.tif").string();
     require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
@@ -207,7 +209,8 @@ int map(const MapCommand& options) {
   std::vector<map::MapLine> lines;
   if (options.paths) {
     const std::string file = (std::filesystem::path(options.from) / "paths.csv").string();
-    if (!std::filesystem::is_regular_file(file))
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(file, unreadable))
       throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", options.from,
                              "holds no paths.csv",
                              "give the folder of a run whose program has a go_to"});

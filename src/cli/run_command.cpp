@@ -214,7 +214,7 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
-      ->check(CLI::Range(0.001, 1e5))
+      ->check(within(0.001, 1e5))
       ->needs(control);
   CLI::Option* snapshot = command->add_option("--snapshot", options->simulation.snapshot,
                                               "file to save the state to at --snapshot-at");
@@ -242,7 +242,7 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
                           "publish the changing map to other processes: tcp:PORT "
                           "(on 127.0.0.1), tcp:HOST:PORT, or a new folder");
   command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
-      ->check(CLI::Range(0.001, 1e4))
+      ->check(within(0.001, 1e4))
       ->needs(publish);
   command
       ->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")
