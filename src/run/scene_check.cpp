@@ -33,6 +33,23 @@ std::string standing(const std::string& name, const vehicle::Stability& stands, 
   return "'" + name + "' " + text;
 }
 
+/// Returns what files of the ground cost on a large site; empty for other sites.
+std::string cost_of_files(const scene::Scene& scene) {
+  // Below, each file takes less than a second.
+  constexpr double kLarge = 25e6;
+  // Measured: 2.5 s for a flat site of 1e8 columns, nearly all of it compression.
+  constexpr double kSecondsPerColumn = 25e-9;
+  const Vec2 cells = scene.ground.size / scene.solver.cell;
+  const double columns = cells.x() * cells.y();
+  if (columns < kLarge) return "";
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "the site has %.3g columns: each of terrain_start.tif and terrain_end.tif takes "
+                "about %.0f s and up to %.1f GB; a larger cell_m or a smaller size_m costs less",
+                columns, std::ceil(columns * kSecondsPerColumn), columns * sizeof(float) / 1e9);
+  return text;
+}
+
 /// Splits a text into lines.
 void add_lines(std::vector<std::string>& lines, const std::string& text) {
   std::istringstream in(text);
@@ -51,6 +68,7 @@ SceneCheck check_scene(const scene::Scene& scene) {
   sim::StartCheck start = sim::check_start(scene);
   add_lines(out.notes, start.terrain);
   add_lines(out.notes, start.design);
+  add_lines(out.notes, cost_of_files(scene));
   for (std::size_t m = 0; m < start.standing.size(); ++m)
     if (start.standing[m].free)
       out.notes.push_back(standing(scene.machines[m].name, start.standing[m], start.falling[m]));

@@ -137,6 +137,43 @@ TEST_F(Messages, ReportAWrongSeedInOneLine) {
   }
 }
 
+TEST_F(Messages, ALoopOfLinksIsNoInternalError) {
+  const std::string loop = (directory_ / "loop.sdf").string();
+  std::filesystem::create_symlink("loop.sdf", loop);
+  EXPECT_EQ(run({"run", loop}), 2);
+  expect_complained("loop.sdf: error: cannot be read: ");
+  expect_complained("Too many levels of symbolic links");
+  EXPECT_EQ(run({"check", loop}), 2);
+  expect_said("Too many levels of symbolic links");
+  EXPECT_EQ(run({"map", loop, "--format", "nav2", "--out", out()}), 2);
+  expect_complained("Too many levels of symbolic links");
+}
+
+TEST_F(Messages, NumbersOfOptionsAreFinite) {
+  for (const std::string wrong : {"nan", "inf", "0", "-1", "1e9", "1x"}) {
+    EXPECT_EQ(run({"run", "trench", "--publish", out(), "--publish-rate", wrong}), 2) << wrong;
+    expect_complained("must be a number from 0.001 to 10000");
+    EXPECT_EQ(run({"run", "trench", "--control", "stdio", "--control-rate", wrong}), 2) << wrong;
+    expect_complained("must be a number from 0.001 to 100000");
+  }
+  for (const std::string wrong : {"nan,1", "1,inf", "1e400,1"}) {
+    EXPECT_EQ(run({"run", "trench", "--size", wrong}), 2) << wrong;
+    expect_complained("two numbers in metres");
+  }
+}
+
+TEST_F(Messages, CheckStatesTheCostOfALargeSite) {
+  const std::string large = (directory_ / "large.sdf").string();
+  std::ofstream(large) << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\">"
+                          "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>3200 3200</size_m>"
+                          "</navvy:ground></world></sdf>";
+  EXPECT_EQ(run({"check", large}), 0) << said();
+  expect_said("the site has 1.02e+09 columns: each of terrain_start.tif and terrain_end.tif takes");
+  expect_said("up to 4.1 GB");
+  EXPECT_EQ(run({"check", "trench"}), 0);
+  EXPECT_EQ(said().find("columns"), std::string::npos) << said();
+}
+
 TEST_F(Messages, CheckFindsShippedScenesByName) {
   EXPECT_EQ(run({"check", "trench", "bucket_path.sdf"}), 0) << said();
   expect_said("2 files checked: 0 errors");
