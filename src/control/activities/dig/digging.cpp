@@ -16,7 +16,7 @@ namespace {
 
 // The swing starts with the bucket's lowest point this far over the trench's edges [m]; it rises on
 // while the swing is still slow.
-constexpr double kOverEdge = 0.2;
+constexpr double kOverEdge = 0.45;
 // The arm is up at the dump when this share of the swing is over, before a heap or a bed's side.
 constexpr double kUpBefore = 0.65;
 // The bucket opens when the swing is so near to its end [rad].
