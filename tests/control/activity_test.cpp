@@ -370,6 +370,8 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
   Stance stance;
   stance.begin(Pose::Identity());
   TipPath tip;
+  Command out;
+  out.joints.resize(alone.seen.joints.size());
   const Vec2 p(6.5, 0);
   alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
   const auto follow = [&](double nose_up_deg, double seconds) {
@@ -378,7 +380,7 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
       // The arm follows at once: nothing blocks it, the machine itself moves.
       for (std::size_t k = 0; k < 4; ++k)
         alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-      tip.follow(alone.place, stance, p, alone.seen, kStep, true);
+      tip.follow(alone.place, stance, p, alone.seen, kStep, true, out);
     }
   };
   follow(1.4, 1);
@@ -398,13 +400,15 @@ TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
   Stance stance;
   stance.begin(Pose::Identity());
   TipPath tip;
+  Command out;
+  out.joints.resize(alone.seen.joints.size());
   const Vec2 p(6.5, 0);
   alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
   for (std::size_t i = 0; i < 4; ++i)
     alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
   // The path goes down half a metre while the joints stay, blocked by soil.
   tip.z = -0.3;
-  for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false);
+  for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
   EXPECT_LT(tip.slow, 0.35);  // below this a tip at rest counts as blocked
   // 0.3 m/s for the rest of 2 s after the lag has grown and been detected
   EXPECT_GT(tip.lift, 0.2);
@@ -413,7 +417,7 @@ TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
   for (int i = 0; i < 50; ++i) {
     for (std::size_t k = 0; k < 4; ++k)
       alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-    tip.follow(alone.place, stance, p, alone.seen, kStep, false);
+    tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
   }
   EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; blocked for a step or two before
 }
