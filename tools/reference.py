@@ -149,12 +149,15 @@ def cell(text):
 def soils(program):
     listing = output(program, "soils")
     names = [name for name in names_listed(listing) if name != "soil"]
-    values, sources, names_of_values = {}, {}, []
+    values, sources, names_of_values, tests = {}, {}, [], {}
     for name in names:
         values[name] = {}
         for line in output(program, "soils", name).splitlines():
             found = re.match(r"^  (\w+)  +(\S+(?: \S+)*?)(?:   \((.*)\))?$", line)
             source = re.match(r"^  source: (.*)$", line)
+            test = re.match(r"^    (\w+) +([\d.]+)   (above \d+|[\d.]+)$", line)
+            if test:
+                tests.setdefault(name, []).append((test[1], test[2], test[3]))
             if source:
                 sources[name] = source[1]
             elif found:
@@ -183,6 +186,19 @@ def soils(program):
                 "| `%s` | %s | %s |" % (value, " | ".join(cells), ranges[0] if ranges else "")
             )
         out.append("")
+    kinds = [test for test, here, phi in tests[names[0]]]
+    out += [
+        "## Friction angle in each test\n",
+        "What each test would measure on the soil [deg] and, in brackets, the plane-strain angle",
+        "phi if that test had measured the value of the soil's file",
+        "([friction angles](../soil.md#friction-angles)).\n",
+        "| Soil | " + " | ".join("`%s`" % kind for kind in kinds) + " |",
+        "|---|" + "---|" * len(kinds),
+    ]
+    for name in names:
+        cells = ["%s (%s)" % (here, phi) for test, here, phi in tests[name]]
+        out.append("| `%s` | %s |" % (name, " | ".join(cells)))
+    out.append("")
     out += ["## Sources\n", "| Soil | Where its values come from |", "|---|---|"]
     out += ["| `%s` | %s |" % (name, cell(sources.get(name, ""))) for name in names]
     return "\n".join(out) + "\n"

@@ -10,9 +10,10 @@ namespace navvy::control {
 namespace {
 
 // A long look-ahead is calm far away, a short one ends close to the line; below half a wheelbase
-// the steering, which takes a second from lock to lock, would oscillate about the line.
-constexpr double kLongLook = 3.0, kShortLook = 1.5;  // [m] tuned: Drive.ArrivesBesideAndTurned
-constexpr double kCreep = 0.05;                      // [m/s]
+// the steering, which takes a second from lock to lock, would oscillate about the line. [m] for a
+// wheelbase of kTunedWheelbase [m], in proportion for others. tuned: Drive.ArrivesBesideAndTurned
+constexpr double kLongLook = 3.0, kShortLook = 1.5, kTunedWheelbase = 2.8;
+constexpr double kCreep = 0.05;  // [m/s]
 
 }  // namespace
 
@@ -44,7 +45,8 @@ double Pursuit::left(const PlanePose& at) const {
 double Pursuit::steer(const PlanePose& at) const {
   const Vec2 across(-std::sin(heading), std::cos(heading));
   const double aside = (at.p - target).dot(across), e = heading - at.yaw;
-  const double look = std::clamp(0.5 * left(at), kShortLook, kLongLook);
+  const double scale = wheelbase / kTunedWheelbase;
+  const double look = std::clamp(0.5 * left(at), kShortLook * scale, kLongLook * scale);
   // The point on the line to aim at, in the machine's frame; an arc through it is tangent to the
   // machine.
   const double y = sense() * look * std::sin(e) - aside * std::cos(e);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "heightfield/design_surface.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
@@ -143,7 +144,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["scenario"] = world.description().name;
   out["status"] = status.status;
   // Absent in a run without problems.
-  if (!status.message.empty()) out["message"] = status.message;
+  if (!status.message.empty()) out["message"] = printable_lines(status.message);
   // Results are bit-identical on one device only.
   out["device"] = session.device_name();
   out["steps"] = world.steps();
@@ -198,7 +199,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["mass_ledger"] = ledger(session, active);
   // Null while the run goes on, as the hash costs a pass over the state.
   out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
-  return out.dump(2) + "\n";
+  // A name that is not UTF-8 may come from a library's scene, and must not cost the summary.
+  return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace navvy::record

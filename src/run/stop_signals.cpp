@@ -8,8 +8,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <utility>
 
+#include "core/long_work.h"
 #include "device/kernel_cache.h"
 #include "record/crash_summary.h"
 
@@ -71,14 +73,19 @@ std::string StopSignals::name() {
 /// Runs beside the thread of the run, which may hang in the driver, so it touches no object of the
 /// run. The kernel cache is left unfinished, as the driver may be writing to it.
 void StopSignals::leave(bool again) {
+  // The mark is set by the thread of the run, and names what it cannot leave. That thread may hold
+  // any lock, so the texts are made without allocating memory.
+  const char* work = long_work();
+  if (work == nullptr) work = "the run was busy with a step or a file";
+  char cause[256], message[256];
+  std::snprintf(cause, sizeof cause,
+                "stopped by a signal while %s; results are those of the last checkpoint", work);
+  std::snprintf(message, sizeof message, "%s: the run does not wait for it", work);
   record::write_crash_summary(
-      "interrupted", again ? "stopped by a second signal: what was not written by then is missing"
-                           : "stopped by a signal while the OpenCL driver was busy: it compiles "
-                             "kernels or does not answer; results "
-                             "are those of the last checkpoint");
+      "interrupted",
+      again ? "stopped by a second signal: what was not written by then is missing" : cause);
   device::abandon_kernel_cache();
-  leave_(again ? "a second signal came: the run does not wait any longer"
-               : "the OpenCL driver is busy: the run does not wait for it");
+  leave_(again ? "a second signal came: the run does not wait any longer" : message);
 }
 
 void StopSignals::watch() {

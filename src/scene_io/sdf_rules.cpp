@@ -338,7 +338,9 @@ bool check_root(const Element& root, Faults& faults) {
   if (std::strcmp(root.Name(), "sdf") != 0) {
     faults.error(
         root, root.Name(), "the outermost element must be <sdf version=\"1.9\">",
-        std::strcmp(root.Name(), "robot") == 0 ? "convert URDF with `gz sdf -p FILE`" : "");
+        std::strcmp(root.Name(), "robot") == 0
+            ? "convert URDF with `ign sdf -p FILE` (Debian 12) or `gz sdf -p FILE` (newer Gazebo)"
+            : "");
     return false;
   }
   const std::string version = attribute(root, "version");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "control/activity.h"
+#include "control/curvature_feedback.h"
 #include "control/progress_monitor.h"
 #include "control/reach.h"
 #include "vehicle/drive/drive_line.h"
@@ -14,42 +15,60 @@
 namespace navvy::control {
 namespace {
 
+// Wheelbases by which a machine backs off the target before its second approach, if it came from so
+// far: twice the length of an S bend that shifts it by its miss.
+constexpr double kBackOff = 4;
+// Times that a machine may approach its target.
+constexpr int kApproaches = 2;
+
+enum Phase : std::int64_t { kDrive, kBackOffPhase };
+
 struct Memory {
   double speed = 0;     // commanded [m/s], without its sign
   double heading = 0;   // of the line that is followed [rad]
   double standing = 0;  // [s] with the brake on and at rest; positive once it brakes
   /// Distance to the target at the start [m].
   double start_distance = 0;
+  /// Number of ended approaches, and the distance from the target at which the first one ended [m].
+  std::int64_t approaches = 0;
+  double first_miss = 0;
   ProgressMonitor progress;
+  CurvatureFeedback feedback;
 
   void visit(Archive& a) {
     a("speed", speed);
     a("heading", heading);
     a("standing", standing);
     a("start_distance", start_distance);
+    a("approaches", approaches);
+    a("first_miss", first_miss);
     progress.visit(a);
+    feedback.visit(a);
   }
 };
 
 class Driving final : public ActivityWith<Memory> {
  public:
-  Driving(OperatorContext& place, const DriveTo& step) : ActivityWith(place), step_(step) {}
-  const char* phase() const override { return "drive"; }
+  Driving(OperatorContext& place, const DriveTo& step)
+      : ActivityWith(place),
+        step_(step),
+        bicycle_(vehicle::equivalent_bicycle(place.machine.drive)) {}
+  const char* phase() const override {
+    return phase_index() == kBackOffPhase ? "back_off" : "drive";
+  }
 
   void begin(const Observation& seen) override {
     const PlanePose at = plane_pose(seen.X_WB);
     m.heading = Pursuit::of(step_, place_.machine.drive, at).heading;
     // The time limit depends on the whole distance, not on what is left.
     m.start_distance = (step_.target - at.p).norm();
-    m.progress.begin(at);
+    begin_leg(at);
   }
 
  private:
   bool update(const Observation& seen, double dt, Command& out) override {
     const PlanePose at = plane_pose(seen.X_WB);
-    Pursuit pursuit = Pursuit::of(step_, place_.machine.drive, at);
-    // Without a heading, the line is the one seen at the start, not from here.
-    pursuit.heading = m.heading;
+    const Pursuit pursuit = leg(at);
     const double limit = 30 + 3 * m.start_distance / std::max(0.05, std::abs(step_.speed));
     const bool late = phase_time() > limit;
     if (pursuit.left(at) < kStopShort || m.standing > 0 || late) {
@@ -59,34 +78,75 @@ class Driving final : public ActivityWith<Memory> {
       m.standing =
           seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : std::max(m.standing, 1e-9);
       if (m.standing < kStandTime && phase_time() < limit + 10) return false;
-      const double distance = (step_.target - at.p).norm();
-      if (late)
-        return fall_short(StepState::kOutOfTime, "not there after " +
-                                                     number_text(phase_time(), "s") + ", " +
-                                                     metres(distance) + " from the target");
-      if (distance > step_.tolerance)
-        return fall_short(StepState::kOutOfReach, "it stands " + metres(distance) +
-                                                      " from the target; allowed are " +
-                                                      metres(step_.tolerance));
-      return true;
+      return stand(at, late);
     }
     std::string held;
-    const double distance = (step_.target - at.p).norm();
     const StepState progress =
-        m.progress.look(seen, place_.machine, step_.speed, distance, dt, held);
+        m.progress.look(seen, place_.machine, step_.speed, miss(at), dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
     // Accelerate along the ramp, decelerate along the curve that stops at the target.
     m.speed = std::min(
         {std::abs(step_.speed), m.speed + kDriveAcceleration * dt, pursuit.speed_limit(at)});
     const double speed = pursuit.sense() * m.speed;
     // Pursuit steers by a bicycle angle; the drive converts it.
-    const scene::Drive& drive = place_.machine.drive;
-    out.drive =
-        vehicle::DriveInput{speed, vehicle::steer_command(drive, pursuit.steer(at), speed), false};
+    const CurvatureFeedback::Steering steering = m.feedback.correct(
+        bicycle_, at, pursuit.steer(at), speed, forward_speed(at, seen.v_WB), dt);
+    out.drive = vehicle::DriveInput{
+        steering.ease * speed, vehicle::steer_command(place_.machine.drive, steering.angle, speed),
+        false};
+    return false;
+  }
+
+  /// Returns the distance from the target [m].
+  double miss(const PlanePose& at) const { return (step_.target - at.p).norm(); }
+
+  /// Returns the law of the present leg: to the target, or away from it along the same line.
+  Pursuit leg(const PlanePose& at) const {
+    Pursuit out = Pursuit::of(step_, place_.machine.drive, at);
+    // Without a heading, the line is the one seen at the start, not from here.
+    out.heading = m.heading;
+    if (phase_index() != kBackOffPhase) return out;
+    const double back = std::min(kBackOff * bicycle_.wheelbase, m.start_distance);
+    out.target -= out.sense() * back * Vec2(std::cos(m.heading), std::sin(m.heading));
+    out.speed = -out.speed;
+    return out;
+  }
+
+  void begin_leg(const PlanePose& at) {
+    m.speed = m.standing = 0;
+    m.progress.begin(at);
+    m.feedback.begin(at);
+  }
+
+  /// Handles a machine that has come to a stop; returns true when the step is over.
+  bool stand(const PlanePose& at, bool late) {
+    if (late)
+      return fall_short(StepState::kOutOfTime, "not there after " + number_text(phase_time(), "s") +
+                                                   ", " + metres(miss(at)) + " from the target");
+    if (phase_index() == kBackOffPhase) {
+      enter(kDrive);
+      begin_leg(at);
+      return false;
+    }
+    if (miss(at) <= step_.tolerance) {
+      if (m.approaches > 0)
+        remark("its first approach ended " + metres(m.first_miss) +
+               " from the target; it backed off and came again");
+      return true;
+    }
+    if (m.approaches == 0) m.first_miss = miss(at);
+    if (++m.approaches >= kApproaches)
+      return fall_short(StepState::kOutOfReach,
+                        "it stands " + metres(miss(at)) + " from the target after " +
+                            std::to_string(m.approaches) + " approaches; allowed are " +
+                            metres(step_.tolerance));
+    enter(kBackOffPhase);
+    begin_leg(at);
     return false;
   }
 
   const DriveTo& step_;
+  const scene::AckermannDrive bicycle_;
 };
 
 }  // namespace

@@ -7,12 +7,14 @@
 
 namespace navvy::control {
 
-/// Drives the base link's origin to `target` with pure pursuit (see Pursuit), then brakes and waits
-/// until the machine has stood still for half a second.
+/// Drives the base link's origin to `target` with pure pursuit (see Pursuit) and feedback of the
+/// yaw rate (see CurvatureFeedback), then brakes and waits until the machine has stood still for
+/// half a second. If it stands more than `tolerance` from the target, it backs off by up to four
+/// wheelbases along the line that it follows and approaches the target a second time.
 ///
-/// The step fails if the machine ends more than `tolerance` from the target, if it makes no
-/// progress, or if it takes longer than 30 s plus three times the time that the distance needs at
-/// the commanded speed.
+/// The step fails if the machine ends more than `tolerance` from the target a second time, if it
+/// makes no progress, or if one of these drives takes longer than 30 s plus three times the time
+/// that the distance needs at the commanded speed.
 struct DriveTo final : ActivityStep, DriveGoal {
   /// Name of the step's element in scene files.
   static constexpr const char* kElement = "drive_to";
@@ -37,7 +39,7 @@ struct DriveTo final : ActivityStep, DriveGoal {
   void check(const scene::StepSource& source) const;
   /// Returns the name of the step's element in scene files.
   const char* element() const override { return kElement; }
-  /// Returns an activity with one phase, "drive". It commands only the drive.
+  /// Returns an activity with the phases "drive" and "back_off". It commands only the drive.
   std::unique_ptr<Activity> activity(OperatorContext& place) const override;
   /// Reports an error if even a machine that rolls without slip would end too far from the target.
   void check_reach(ReachCheck& check) const override;

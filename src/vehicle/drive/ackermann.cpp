@@ -14,6 +14,9 @@ constexpr double kLeastShare = 0.05;
 constexpr double kSharpest = 20;    // tangent of a bicycle angle
 constexpr double kSameAxle = 0.01;  // [m]
 
+/// Returns -1 for a wheel behind the axle that is not steered, which turns the other way, else 1.
+double turned(const DriveWheel& wheel) { return wheel.x < -kSameAxle ? -1 : 1; }
+
 }  // namespace
 
 double max_bicycle_angle(const scene::AckermannDrive& drive) {
@@ -59,7 +62,7 @@ Roll AckermannLine::rolled(const std::vector<WheelMotion>& motion) const {
     }
     if (!motion[w].steer) continue;
     // Inconsistent angles drag a wheel, and the machine follows their mean.
-    tangent += bicycle_tangent(drive_, *motion[w].steer, wheels_[w].left);
+    tangent += bicycle_tangent(drive_, turned(wheels_[w]) * *motion[w].steer, wheels_[w].left);
     ++steered;
   }
   speed /= std::max(driven, 1);
@@ -76,7 +79,7 @@ std::optional<double> AckermannLine::steer_angle(const DriveInput& input,
                                                  const DriveWheel& wheel) const {
   // Also under the brake: a standing machine turns its wheels for the next start.
   const SteerAngles steer = ackermann(drive_, input.steer);
-  return wheel.left ? steer.left : steer.right;
+  return turned(wheel) * (wheel.left ? steer.left : steer.right);
 }
 
 // One between the wheels of each driven axle, one between the first axle and the others.

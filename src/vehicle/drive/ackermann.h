@@ -4,7 +4,8 @@
 //   R = L / tan(bicycle),   tan(inner) = L / (R - W/2),   tan(outer) = L / (R + W/2)
 //
 // R is the radius of the rear axle's middle [m], L the wheelbase [m], W the distance between king
-// pins [m].
+// pins [m]. Steered wheels behind that axle turn by the same angles the other way; they are as far
+// behind it as the front ones are ahead of it.
 #pragma once
 
 #include "vehicle/drive/drive_line.h"
@@ -47,7 +48,7 @@ class AckermannLine : public DriveLine {
   /// `roll.speed`. The speed difference between inner and outer wheels is neglected.
   double rolling_spin(const Roll& roll, const DriveWheel& wheel) const override;
   /// Returns the Ackermann angle [rad] of the left or right steered wheel for the bicycle angle
-  /// `input.steer`.
+  /// `input.steer`; with the opposite sign for a wheel behind the machine frame's origin.
   std::optional<double> steer_angle(const DriveInput& input,
                                     const DriveWheel& wheel) const override;
   /// Returns the drive's largest steering rate [rad/s].

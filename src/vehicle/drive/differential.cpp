@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace navvy::vehicle {
 namespace {
@@ -26,6 +28,28 @@ DifferentialLine::DifferentialLine(const scene::DifferentialDrive& drive,
     : DriveLine(drive, {driven_side(wheels, true), driven_side(wheels, false)}),
       drive_(drive),
       wheels_(wheels) {}
+
+// The wheels of a side as a chain from front to rear.
+std::vector<Coupled> DifferentialLine::differentials() const {
+  std::vector<Coupled> out;
+  scene::Differential lock;
+  lock.kind = scene::Differential::Kind::kLocked;
+  for (const bool left : {true, false}) {
+    std::vector<std::size_t> chain;
+    for (std::size_t w = 0; w < wheels_.size(); ++w)
+      if (wheels_[w].driven && wheels_[w].left == left) chain.push_back(w);
+    std::stable_sort(chain.begin(), chain.end(),
+                     [this](std::size_t a, std::size_t b) { return wheels_[a].x > wheels_[b].x; });
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      Coupled pair{(left ? "left_" : "right_") + std::to_string(i), lock, {}};
+      pair.weight.resize(wheels_.size());
+      pair.weight[chain[i - 1]] = 1;
+      pair.weight[chain[i]] = -1;
+      out.push_back(std::move(pair));
+    }
+  }
+  return out;
+}
 
 Roll DifferentialLine::roll(const DriveInput& input) const {
   if (input.brake) return {};

@@ -23,7 +23,8 @@ struct SideSpeeds {
 SideSpeeds side_speeds(const scene::DifferentialDrive& drive, const DriveInput& input);
 
 /// Drive line of a machine with differential drive. Each side has its own governor, with half of
-/// the machine's mass, force and power.
+/// the machine's mass, force and power. All driven wheels of a side turn at the same speed, as
+/// through a chain.
 ///
 /// Each side approaches its commanded speed independently. After a new command, the machine may
 /// therefore leave the commanded arc until both sides have reached their speeds.
@@ -46,8 +47,11 @@ class DifferentialLine final : public DriveLine {
                                     const DriveWheel& wheel) const override;
   /// Returns infinity, since this drive steers no wheels.
   double steer_rate() const override;
-  /// Returns false, since each wheel has its own motor.
+  /// Returns false, since each side has its own motor and the wheels' efforts report its torque.
   bool has_shafts() const override { return false; }
+  /// Returns one locked differential between each driven wheel and the next one of its side, named
+  /// left_1, right_1 and so on from front to rear; nothing for one driven wheel per side.
+  std::vector<Coupled> differentials() const override;
 
  private:
   /// Returns the commanded rim speed [m/s] of one side: group 0 is the left side, group 1 the right

@@ -12,10 +12,12 @@
 namespace navvy::vehicle {
 namespace {
 
-// Response time of a crawler's travel motor to a speed error [s]. All of a pump's oil flows through
-// it, and it must turn a machine whose tracks resist with half its weight. With the response time
-// of wheels, a robot asked for 0.5 rad/s reaches 0.1 after 8 s.
+// Response time of the travel motor of a crawler or of a skid-steered machine to a speed error [s].
+// All of a pump's oil flows through it, and it must turn a machine whose tracks or tyres resist
+// with half its weight. With the response time of wheels, a robot asked for 0.5 rad/s reaches 0.1
+// after 8 s.
 constexpr double kTrackResponse = 0.05;
+constexpr double kSameAxle = 0.01, kFar = 1e9;  // [m]
 
 // One overload per kind: a new kind does not build without it.
 std::unique_ptr<DriveLine> line_of(const scene::AckermannDrive& drive,
@@ -60,6 +62,14 @@ DriveLine::Group DriveLine::all_driven(const std::vector<DriveWheel>& wheels) {
 DriveLine::Group DriveLine::driven_side(const std::vector<DriveWheel>& wheels, bool left) {
   Group group;
   group.share = 0.5;
+  // Several axles cannot all roll about one centre.
+  double front = -kFar, rear = kFar;
+  for (const DriveWheel& wheel : wheels) {
+    if (!wheel.driven || wheel.left != left) continue;
+    front = std::max(front, wheel.x);
+    rear = std::min(rear, wheel.x);
+  }
+  group.skids = front - rear > kSameAxle;
   for (const DriveWheel& wheel : wheels)
     group.members.push_back(wheel.driven && wheel.left == left);
   return group;
@@ -86,7 +96,7 @@ DrivenWheels DriveLine::on_line(const Group& group, const std::vector<WheelTurn>
     wheels.spin += turns[w].spin;
     wheels.radius += turns[w].radius;
     wheels.spin_inertia += turns[w].spin_inertia;
-    if (turns[w].running_track) wheels.response = kTrackResponse;
+    if (turns[w].running_track || group.skids) wheels.response = kTrackResponse;
     ++wheels.count;
   }
   if (wheels.count == 0) return wheels;

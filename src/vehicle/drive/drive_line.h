@@ -160,6 +160,9 @@ class DriveLine {
     std::vector<char> members;
     /// Group's share of the machine's mass and of the motor's force and power [-].
     double share = 1;
+    /// True if the wheels skid sideways in a turn, so that the governor must be as stiff as that of
+    /// a track.
+    bool skids = false;
     /// Governor that turns the group's wheels.
     SpeedGovernor governor;
   };
