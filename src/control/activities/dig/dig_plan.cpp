@@ -7,6 +7,7 @@
 namespace navvy::control {
 namespace {
 
+constexpr double kOnFloor = 0.1;     // soil above a floor that counts as down [m]
 constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
 // Length given up before a scoop's start when it brings nothing [m].
@@ -140,7 +141,8 @@ Scoop DigPlan::clean_up(const SurfaceView& surface) const {
          (at(i) > length_ - kFarClear + 1e-9 || !stands(surface, i, dig_.depth, kTolerance)))
     --i;
   const double start = at(run_up(surface, i, dig_.depth, kTolerance));
-  return {start, 0, at(i), dig_.depth, volume_on_floor(surface) > least_rest()};
+  const bool any = volume_on_floor(surface) > least_rest() || state(surface).is_rough();
+  return {start, 0, at(i), dig_.depth, any};
 }
 
 bool DigPlan::thin() {
@@ -172,6 +174,7 @@ TrenchState DigPlan::state(const SurfaceView& surface) const {
   for (int i = 0; i < samples(); ++i) {
     const double before = start_[static_cast<std::size_t>(i)];
     depths.push_back(before - height(surface, at(i)));
+    if (depths.back() > dig_.depth - kOnFloor) out.floor += 1.0 / samples();
     for (int k = 0; i > 0 && k < kStripes; ++k) {
       const Vec2 p = point(at(i)) + ((k + 0.5) / kStripes - 0.5) * dig_.width * across;
       out.left +=

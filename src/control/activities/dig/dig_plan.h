@@ -52,6 +52,10 @@ struct TrenchState {
   /// Median depth below the original surface along the centre line [m]: half of the trench's length
   /// is at least this deep.
   double depth = 0;
+  /// Share of the centre line on which less than 0.1 m of soil is left above the floor [-].
+  double floor = 0;
+  /// Returns true if more than a fifth of the floor is not down yet.
+  bool is_rough() const { return floor < 0.8; }
 };
 
 /// Plan of a straight trench. It stores the original surface along the centre line and the depth

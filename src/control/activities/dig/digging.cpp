@@ -44,11 +44,10 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Share of the design volume: with more left, a trench is not done
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
-constexpr int kMostCleanUps = 2;
-// A pass along the floor that brings less than this share of a load is the last one. The value of
-// DiggingMemory::clean then.
-constexpr double kLeastCleanUp = 0.15;
-constexpr std::int64_t kClean = 1;
+// A pass along the floor that brings less than this share of a load is the last one: one of the
+// first two, a later one, and one along a floor that is not down yet.
+constexpr int kFewCleanUps = 2;
+constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.1;
 constexpr double kHeapRadius = 0.6;  // around the dump point [m]
 // During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.2;
@@ -116,12 +115,13 @@ bool Digging::plan_scoop(const Observation& seen) {
 }
 
 bool Digging::may_clean(const Observation& seen) const {
-  if (m.clean == kClean) return false;
-  if (m.clean_ups < kMostCleanUps) return true;
+  const double least = m.clean_ups <= kFewCleanUps ? kLeastCleanUp : kLeastLateCleanUp;
+  if (m.clean_ups == 0 || m.cleaned >= least * m.full_mass) return true;
   // Walls that go on shedding soil are cleaned up after until the trench is done.
-  const double left =
-      with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface).left; });
-  return left > kUndone * plan_.design_volume();
+  const TrenchState now =
+      with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
+  return now.left > kUndone * plan_.design_volume() ||
+         (now.is_rough() && m.cleaned >= kLeastOnRoughFloor * m.full_mass);
 }
 
 bool Digging::beyond_reach(const Scoop& scoop) const {
@@ -374,7 +374,7 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
       break;
     case kSwing:
       if (!swing(seen)) break;
-      if (m.cleaning != 0 && seen.payload < kLeastCleanUp * m.full_mass) m.clean = kClean;
+      if (m.cleaning != 0) m.cleaned = seen.payload;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       // A pass along the whole floor may bring little; a scoop that does has met soil that cannot
       // be dug.
@@ -406,7 +406,7 @@ void DiggingMemory::visit(Archive& a) {
   a("empty_scoops", empty_scoops);
   a("clean_ups", clean_ups);
   a("cleaning", cleaning);
-  a("clean", clean);
+  a("cleaned", cleaned);
   a("scoop_start", scoop_start);
   a("soil_start", soil_start);
   a("scoop_end", scoop_end);

@@ -27,8 +27,8 @@ struct DiggingMemory {
   std::int64_t clean_ups = 0;
   /// 1 if the current scoop is a cleaning pass along the whole floor, else 0.
   std::int64_t cleaning = 0;
-  /// 1 if a cleaning pass has brought so little that there will be no other, else 0.
-  std::int64_t clean = 0;
+  /// Load of the last cleaning pass [kg].
+  double cleaned = 0;
   /// Current scoop: Scoop::start, Scoop::end and Scoop::level [m].
   double scoop_start = 0, scoop_end = 0, scoop_level = 0;
   /// Current scoop: Scoop::soil [m].

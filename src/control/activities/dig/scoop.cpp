@@ -35,7 +35,8 @@ constexpr double kTurned = 0.7, kRises = 0.4;
 // A curl on the spot pours out soil, so this much of the path to the near end is left to it,
 // whatever the load. tuned: on a trench 1.6 m deep, passes along the floor that dragged on to the
 // end lost 190 of 250 kg in the curl.
-constexpr double kCurlPath = 0.6;  // [m]
+// A pass that cleans up goes on nearer to the end, where the ramps of the scoops are.
+constexpr double kCurlPath = 0.6, kCleanCurlPath = 0.4;  // [m]
 // The bucket rotates by this share about its pin and by the rest about its edge. About the edge,
 // the heel presses on the floor that was just cut and the boom pushes it down. tuned: on the
 // trench's first scoop the soil pushes the bucket up by 42, 17 and 2 kN at 0.25, 0.5 and 0.6, and
@@ -102,8 +103,9 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   const bool full = seen.payload >= kCurlAt * m.full_mass && turned_in;
   const bool planned =
       m.s <= m.scoop_end && (seen.payload > 0.8 * m.full_mass || m.s <= m.scoop_end - kMore);
-  if (!(full || planned || m.s <= std::min(kCurlPath, 0.5 * m.scoop_start) || overdue(kPhaseLimit)))
-    return false;
+  const double left_to_curl = m.cleaning != 0 ? kCleanCurlPath : kCurlPath;
+  const bool at_end = m.s <= std::min(left_to_curl, 0.5 * m.scoop_start);
+  if (!(full || planned || at_end || overdue(kPhaseLimit))) return false;
   // The curl begins where the arm is, not where it was commanded to be.
   m.curl_angle = m.tip.angle = m.tip.reached;
   m.curl_z = m.tip.z = m.tip.z + m.tip.lift;
