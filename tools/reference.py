@@ -165,7 +165,10 @@ def soils(program):
         "# Soils\n",
         NOTE,
         'The shipped soils, used in a scene by `<navvy:soil ref="NAME"/>`. The elements are',
-        "described in [scene elements](scene.md), their use in\n[make your own soil](../howto/soil.md).\n",
+        (
+            "described in [scene elements](scene.md), their use in\n[make your own"
+            " soil](../howto/soil.md).\n"
+        ),
     ]
     for start in range(0, len(names), 4):
         some = names[start : start + 4]
@@ -190,7 +193,10 @@ def machines(program):
         "# Machines\n",
         NOTE,
         "The shipped machines, placed in a scene by `<uri>model://NAME</uri>`. What",
-        "`navvy machines NAME` prints; the sources of the values are in\n`vehicles/NAME/SOURCE.md`.\n",
+        (
+            "`navvy machines NAME` prints; the sources of the values are"
+            " in\n`vehicles/NAME/SOURCE.md`.\n"
+        ),
     ]
     for name in names_listed(output(program, "machines")):
         out += ["## %s\n" % name, fenced(output(program, "machines", name))]
@@ -231,8 +237,14 @@ def channels(program):
         "# Channels\n",
         NOTE,
         "Inputs and outputs of a running scene, by name: for controllers (`--control stdio`,",
-        "[how](../howto/controller.md)), for `telemetry.csv`, and for the library (`World::inputs`,",
-        "`World::outputs`). `navvy channels SCENE` lists those of one scene. MACHINE, JOINT, SHELL and\nHITCH stand",
+        (
+            "[how](../howto/controller.md)), for `telemetry.csv`, and for the library"
+            " (`World::inputs`,"
+        ),
+        (
+            "`World::outputs`). `navvy channels SCENE` lists those of one scene. MACHINE, JOINT,"
+            " SHELL and\nHITCH stand"
+        ),
         "for names of the scene; the last column names a shipped scene that has the channel.\n",
     ]
     for kind in ("inputs", "outputs"):
@@ -264,7 +276,7 @@ PAGES = {
 
 
 def write(program, only_check=False):
-    """Writes the pages, or tells which are stale; true if all are as they should be."""
+    """Writes the pages, or lists the stale ones. Returns True if all are up to date."""
     good = True
     for name, make in PAGES.items():
         path = os.path.join(ROOT, FOLDER, name)

@@ -106,7 +106,7 @@ StepReport Operator::State::report(StepState state, const std::string& reason,
   // A step that has not begun has no account.
   StepReport out{step + 1, present().element(),     state, reason, active ? started : time,
                  time,     seen.X_WB.translation(), {}};
-  if (active) out.figures = active->account(seen);
+  if (active) out.measurements = active->account(seen);
   return out;
 }
 

@@ -27,7 +27,7 @@ void StepReport::visit(Archive& a) {
   a("start", start);
   a("end", end);
   a("place", place);
-  a("figures", figures);
+  a("measurements", measurements);
 }
 
 }  // namespace navvy::control

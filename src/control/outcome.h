@@ -71,7 +71,7 @@ struct StepReport {
   /// Position of the base link's origin in W [m] at the time `end`.
   Vec3 place = Vec3::Zero();
   /// Measurements that the step itself reports (Activity::account).
-  std::vector<Measurement> figures;
+  std::vector<Measurement> measurements;
 
   /// Saves or loads all fields.
   void visit(Archive& a);

@@ -89,8 +89,8 @@ void TipPath::feel_stall(const OperatorContext& place, const Stance& stance,
   // moment apart.
   const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);
   const double speed = std::hypot(next.reach - tip.reach, next.height - tip.height) / kAhead;
-  const double footing = stance.footing(seen.X_WB);
-  slow = std::min(footing, std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
+  const double steady = stance.tilt_factor(seen.X_WB);
+  slow = std::min(steady, std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
   // A lag alone may be the servo's; a tip that lags and hardly moves is held.
   const bool held = (slow < 0.35 || stalled) && speed < kHeld;
   stall_ = held ? stall_ + dt : std::max(0.0, stall_ - 2 * dt);
@@ -98,7 +98,7 @@ void TipPath::feel_stall(const OperatorContext& place, const Stance& stance,
   const double rise = stance.rise(seen.X_WB, arm, seen.joints[place.joint(0)].position);
   const double relief = kReliefRate * std::clamp((rise - kRise) / (kRiseMost - kRise), 0.0, 1.0);
   // Rising helps against soil in front, but not while the curl pulls the machine over.
-  const bool tipping = curling && footing < 1;
+  const bool tipping = curling && steady < 1;
   const double rate = std::max(relief, held && !tipping && stall_ > kGiveIn ? kLiftRate : 0.0);
   lift += rate * dt;
   if (!held && !(rise > 0.5 * kRise)) lift = std::max(0.0, lift - kSinkRate * dt);

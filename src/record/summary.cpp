@@ -132,7 +132,7 @@ json ledger(const session::Session& session, const sim::ActivePlaces& active) {
 json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
                        const heightfield::DesignSurface& design) {
   const heightfield::DesignComparison f = heightfield::against_design(
-      world.ground().view(world.time()).with(active.lying, heightfield::SurfaceKind::kMapped),
+      world.ground().view(world.time()).with(active.on_ground, heightfield::SurfaceKind::kMapped),
       design);
   return {{"area_m2", f.area},
           {"design_cut_m3", f.design_cut},
@@ -154,7 +154,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   const sim::World& world = session.world();
   // One pass over the particles serves all that follows.
   const sim::ActivePlaces active = sim::active_places(world);
-  const Earthwork earth = measure_earthwork(world, active.lying);
+  const Earthwork earth = measure_earthwork(world, active.on_ground);
   const sim::SoilCounts counts = world.soil().counts();
   json out;
   // Scene, status and speed.

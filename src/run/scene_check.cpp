@@ -23,10 +23,12 @@ std::string standing(const std::string& name, const vehicle::Stability& stands, 
   if (falling)
     std::snprintf(text, sizeof text, "does not stand after a second: it is still falling");
   else if (stands.margin == 0)
-    std::snprintf(text, sizeof text, "stands: tilt %.1f deg, on feet that span no area", tilt);
+    std::snprintf(text, sizeof text, "stands: tilt %.1f deg, on a support polygon without area",
+                  tilt);
   else
-    std::snprintf(text, sizeof text, "stands: tilt %.1f deg, centre of mass %.2f m %s its feet",
-                  tilt, std::abs(stands.margin), stands.margin > 0 ? "within" : "outside");
+    std::snprintf(text, sizeof text,
+                  "stands: tilt %.1f deg, centre of mass %.2f m %s its support polygon", tilt,
+                  std::abs(stands.margin), stands.margin > 0 ? "within" : "outside");
   return "'" + name + "' " + text;
 }
 

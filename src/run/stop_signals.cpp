@@ -25,7 +25,7 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kTwice = 500;
 
 std::atomic<int> signals{0}, last{0};
-int wake[2] = {-1, -1};
+int quit_pipe[2] = {-1, -1};
 sigset_t before;
 
 }  // namespace
@@ -36,7 +36,7 @@ sigset_t before;
 // wrong.
 StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
   signals = last = 0;
-  if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
+  if (pipe2(quit_pipe, O_CLOEXEC | O_NONBLOCK) != 0) quit_pipe[0] = quit_pipe[1] = -1;
   sigset_t wanted;
   sigemptyset(&wanted);
   for (const int signal : kSignals) {
@@ -54,11 +54,11 @@ StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
 StopSignals::~StopSignals() {
   over_ = true;
   const char byte = 0;
-  if (::write(wake[1], &byte, 1) < 0) over_ = true;
+  if (::write(quit_pipe[1], &byte, 1) < 0) over_ = true;
   watcher_.join();
   // A second signal may still be pending and would end the process before it returns its status.
   if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
+  for (const int file : {signals_, quit_pipe[0], quit_pipe[1]}) ::close(file);
 }
 
 bool StopSignals::asked() { return signals > 0; }
@@ -92,7 +92,7 @@ void StopSignals::watch() {
   using Clock = std::chrono::steady_clock;
   Clock::time_point first{};
   while (!over_) {
-    pollfd in[] = {{signals_, POLLIN, 0}, {wake[0], POLLIN, 0}};
+    pollfd in[] = {{signals_, POLLIN, 0}, {quit_pipe[0], POLLIN, 0}};
     // Waits for a signal; after the first one it checks often.
     poll(in, 2, signals > 0 ? 50 : 1000);
     signalfd_siginfo what{};

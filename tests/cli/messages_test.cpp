@@ -175,7 +175,7 @@ TEST_F(Messages, CheckFindsShippedScenesByName) {
   expect_said("2 files checked: 0 errors, 0 warnings");
   // `check` reports how the excavator stands without a device.
   expect_said("'excavator' stands: tilt 0.");
-  expect_said("within its feet");
+  expect_said("within its support polygon");
 }
 
 TEST_F(Messages, CheckDoesNotReportAFallingMachineAsStanding) {

@@ -331,10 +331,10 @@ TEST(Stance, FiltersShakingAndDetectsTipping) {
   Stance stance;
   stance.begin(make_pose(1, 2, 0, 0, 0, 0.3));
   const ArmKinematics arm(able_machine());
-  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
+  EXPECT_EQ(stance.tilt_factor(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
   // One and a half degrees come from the tyres; three mean that the bucket tips the machine.
-  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
-  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(3.1), 0.3)), 0);
+  EXPECT_EQ(stance.tilt_factor(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
+  EXPECT_EQ(stance.tilt_factor(make_pose(1, 2, 0, 0, radians(3.1), 0.3)), 0);
   const Vec3 still = stance.swing_frame(arm).translation();
   stance.follow(make_pose(1, 2, 0.1, 0, 0, 0.3), 0.25);
   // After one time constant 1 - 1/e of a jump has passed the filter.
@@ -355,14 +355,14 @@ TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
   EXPECT_NEAR(stance.rise(make_pose(0, 0, 1, 0, 0, 2), arm, 0), 0, 1e-12);  // turned and moved only
   // The front wheels have sunk: once settled, this is the new attitude, and only more counts as
   // tipping.
-  EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
+  EXPECT_EQ(stance.tilt_factor(pitched(-4.7)), 0);
   for (int i = 0; i < 500; ++i) stance.follow(pitched(-4.7), kStep);
-  EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
+  EXPECT_EQ(stance.tilt_factor(pitched(-4.7)), 0);
   stance.settle();
-  EXPECT_EQ(stance.footing(pitched(-4.7)), 1);
+  EXPECT_EQ(stance.tilt_factor(pitched(-4.7)), 1);
   // 20 time constants of the smoothing
   EXPECT_NEAR(stance.rise(pitched(-2.7), arm, 0), radians(2), 1e-6);
-  EXPECT_EQ(stance.footing(pitched(-1.6)), 0);
+  EXPECT_EQ(stance.tilt_factor(pitched(-1.6)), 0);
 }
 
 TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {

@@ -27,7 +27,7 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
 
 /// Returns a value of a step's account by name.
 double value_of(const StepReport& step, const std::string& name) {
-  for (const Measurement& one : step.figures)
+  for (const Measurement& one : step.measurements)
     if (one.name == name) return one.value;
   ADD_FAILURE() << "no value " << name;
   return std::nan("");

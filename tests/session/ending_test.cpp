@@ -86,7 +86,7 @@ TEST(SessionEnd, OfAnExcavatorThatRollsOverIsTippedWhileAnotherContinues) {
   const ProgramReport across = session->programs().at(0), upwards = session->programs().at(1);
   EXPECT_EQ(across.last().state, StepState::kTipped);
   EXPECT_LT(across.last().end, 2);
-  EXPECT_NE(across.last().reason.find("outside its feet"), std::string::npos)
+  EXPECT_NE(across.last().reason.find("outside its support polygon"), std::string::npos)
       << across.last().reason;
   EXPECT_EQ(upwards.last().state, StepState::kDone) << upwards.last().reason;
   EXPECT_GT(upwards.last().end, across.last().end);
@@ -127,7 +127,7 @@ TEST(SessionEnd, OfUncontrolledMachinesReportsTheirFall) {
     EXPECT_EQ(report.last().step, 0);
     EXPECT_GT(report.last().end, 0);
     EXPECT_LT(report.last().end, 2.5);
-    EXPECT_NE(report.last().reason.find("outside its feet"), std::string::npos)
+    EXPECT_NE(report.last().reason.find("outside its support polygon"), std::string::npos)
         << report.last().reason;
   }
   EXPECT_EQ(reports[0].machine, 0);

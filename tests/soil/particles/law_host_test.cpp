@@ -288,11 +288,11 @@ TEST(SoilLaw, TriaxialStatesMobiliseTheAngleOfMatsuokaAndNakai) {
     const double expected = std::atan(std::sqrt((kappa - 9) / 8)) * 180 / kPi;
     const Element compressed = sheared(plain_sand(phi), 20e3, Vec3(0.1, 0.1, -0.2));
     const Element extended = sheared(plain_sand(phi), 20e3, Vec3(-0.1, -0.1, 0.2));
-    const std::string gate = std::to_string(expected) + " +-0.2", source = "[Matsuoka 1974]";
+    const std::string tolerance = std::to_string(expected) + " +-0.2", source = "[Matsuoka 1974]";
     const std::string name =
         ", phi " + std::to_string(phi).substr(0, 2) + ", mobilised angle [deg]";
-    print_value("triaxial compression" + name, mobilised_degrees(compressed), gate, source);
-    print_value("triaxial extension" + name, mobilised_degrees(extended), gate, source);
+    print_value("triaxial compression" + name, mobilised_degrees(compressed), tolerance, source);
+    print_value("triaxial extension" + name, mobilised_degrees(extended), tolerance, source);
     EXPECT_NEAR(mobilised_degrees(compressed), expected, 0.2);
     EXPECT_NEAR(mobilised_degrees(extended), expected, 0.2);
     EXPECT_GT(compressed.q(), 1.3 * extended.q()) << "the cone is no circle";

@@ -97,7 +97,7 @@ bool Digging::drag(const Observation& seen, double dt) {
 
 bool Digging::curl(const Observation& seen, double dt) {
   // A held bucket still curls, slowly; one that tips the machine waits.
-  const double least = m.stance.footing(seen.X_WB) < 1 ? 0 : 0.1;
+  const double least = m.stance.tilt_factor(seen.X_WB) < 1 ? 0 : 0.1;
   m.progress = std::min(1.0, m.progress + std::max(least, m.tip.slow) * dt / kCurlTime);
   if (m.progress < kCutOn && (seen.payload > kFair * m.full_mass || m.s <= kCurlPath))
     m.s = std::max(0.0, m.s - kCurlSpeed * m.tip.slow * dt);
