@@ -43,7 +43,7 @@ class LoadChange : public testing::Test {
     return report_.list;
   }
   static double value(const control::StepReport& step, const std::string& name) {
-    for (const control::Measurement& one : step.figures)
+    for (const control::Measurement& one : step.measurements)
       if (one.name == name) return one.value;
     ADD_FAILURE() << "no " << name;
     return NAN;
