@@ -85,7 +85,7 @@ json tip_list(const session::Session& session) {
 /// Returns an entry for each collision of two links.
 json collision_list(const session::Session& session) {
   json list = json::array();
-  for (const session::Collision& one : session.collisions().collisions()) {
+  for (const session::MachineCollision& one : session.collisions().collisions()) {
     const sim::MachineHandle machine = session.world().machines().at(one.machine),
                              other = session.world().machines().at(one.other_machine);
     list.push_back({{"machine", machine.name()},

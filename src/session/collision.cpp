@@ -27,7 +27,7 @@ std::string name_of_link(const sim::World& world, int machine, int link) {
 
 }  // namespace
 
-void Collision::visit(Archive& a) {
+void MachineCollision::visit(Archive& a) {
   a("machine", machine);
   a("link", link);
   a("other_machine", other_machine);
@@ -46,7 +46,7 @@ void CollisionWatch::look(const sim::World& world) {
       continue;
     const double now = world.time();
     // The newest collisions are at the end.
-    const auto known = std::find_if(list_.rbegin(), list_.rend(), [&](const Collision& one) {
+    const auto known = std::find_if(list_.rbegin(), list_.rend(), [&](const MachineCollision& one) {
       return one.machine == contact.machine && one.link == contact.link &&
              one.other_machine == contact.other_machine && one.other_link == contact.other_link &&
              now - one.end <= kBreak;

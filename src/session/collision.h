@@ -15,7 +15,7 @@ namespace navvy::session {
 
 /// One collision of two links: a time in which they touched. Breaks of less than 0.1 s do not end
 /// it.
-struct Collision {
+struct MachineCollision {
   /// Indices of the two machines in scene::Scene::machines, and of their links.
   int machine = 0, link = 0, other_machine = 0, other_link = 0;
   double start = 0, end = 0;  ///< simulated times of the first and the last contact [s]
@@ -35,7 +35,7 @@ class CollisionWatch {
   /// pair of machines.
   void look(const sim::World& world);
   /// Returns the collisions in the order in which they began, at most kMost of them.
-  const std::vector<Collision>& collisions() const { return list_; }
+  const std::vector<MachineCollision>& collisions() const { return list_; }
   /// Returns the number of all collisions.
   std::int64_t count() const { return count_; }
 
@@ -46,7 +46,7 @@ class CollisionWatch {
   static constexpr std::size_t kMost = 1000;
 
  private:
-  std::vector<Collision> list_;
+  std::vector<MachineCollision> list_;
   std::int64_t count_ = 0;
   /// Pairs of machines whose first collision was logged.
   std::set<std::pair<int, int>> logged_;

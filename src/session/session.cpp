@@ -182,7 +182,7 @@ void Session::State::visit(Archive& a) {
     a("force", force);
     a.unhashed("only reports: a collision changes the states of its machines",
                [&] { a("collisions", collisions); });
-    const auto both_known = [&](const Collision& one) {
+    const auto both_known = [&](const MachineCollision& one) {
       return one.machine >= 0 && one.machine < one.other_machine &&
              one.other_machine < world.machines().count() && has_link(one.machine, one.link) &&
              has_link(one.other_machine, one.other_link);

@@ -26,7 +26,8 @@ struct BodyContact {
 class ContactCapability {
  public:
   /// Returns the contacts of the last step, in an order that equal runs share. Contacts with the
-  /// ground, and those of machines that a closed hitch couples, are not among them.
+  /// ground, between two bodies of one link that forces move, and of machines that a closed hitch
+  /// couples, are not among them.
   virtual const std::vector<BodyContact>& body_contacts() const = 0;
 
  protected:

@@ -55,7 +55,7 @@ TEST_F(Collisions, OfADriveIntoAWallHaveForceAndDepth) {
   const LogLines log;
   run(robot("robot", "-3 0 0 0 0 0", drive_to("3 0")) + kWall);
   ASSERT_FALSE(session_->collisions().collisions().empty());
-  const Collision& first = session_->collisions().collisions().front();
+  const MachineCollision& first = session_->collisions().collisions().front();
   EXPECT_EQ(name(first.machine), "robot");
   EXPECT_EQ(name(first.other_machine), "wall");
   EXPECT_GT(first.start, 1.5);
@@ -78,7 +78,7 @@ TEST_F(Collisions, OfAKinematicMachineThatPassesAWallAreListed) {
   run(robot("robot", "-3 0 0 0 0 0", "<navvy:physics>kinematic</navvy:physics>" + drive_to("3 0")) +
       kWall);
   ASSERT_FALSE(session_->collisions().collisions().empty());
-  const Collision& first = session_->collisions().collisions().front();
+  const MachineCollision& first = session_->collisions().collisions().front();
   EXPECT_EQ(name(first.machine), "robot");
   EXPECT_EQ(name(first.other_machine), "wall");
   EXPECT_EQ(first.force_peak, 0);
@@ -88,7 +88,7 @@ TEST_F(Collisions, OfAKinematicMachineThatPassesAWallAreListed) {
 
 TEST_F(Collisions, AreNoneOfMachinesThatKeepApart) {
   run(robot("one", "-3 2 0 0 0 0", drive_to("-1.5 2")) + robot("two", "-3 -2 0 0 0 0", "") + kWall);
-  for (const Collision& one : session_->collisions().collisions())
+  for (const MachineCollision& one : session_->collisions().collisions())
     ADD_FAILURE() << name(one.machine) << " and " << name(one.other_machine);
   EXPECT_EQ(session_->collisions().count(), 0);
 }

@@ -10,6 +10,11 @@ bool is_same(const ContactBody& a, const ContactBody& b) {
   return a.machine == b.machine && a.obstacle == b.obstacle && a.link == b.link;
 }
 
+/// Returns true for a body of one link that forces move, such as a rock.
+bool is_loose(const BulletMachine& machine) {
+  return !machine.tree().fixed_base() && machine.scene().joints.empty();
+}
+
 /// Collects the depth of the contact of two objects outside the solver.
 class DeepestPoint final : public btCollisionWorld::ContactResultCallback {
  public:
@@ -80,6 +85,10 @@ void ContactList::collect(btCollisionWorld& world,
   btDispatcher& dispatcher = *world.getDispatcher();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const auto* one = static_cast<const BulletMachine*>(manifold.getBody0()->getUserPointer());
+    const auto* other = static_cast<const BulletMachine*>(manifold.getBody1()->getUserPointer());
+    // The ground is no machine, and heaps of loose bodies have thousands of contacts.
+    if (one == nullptr || other == nullptr || (is_loose(*one) && is_loose(*other))) continue;
     double impulse = 0, depth = 0;
     bool touches = false;
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
