@@ -14,7 +14,7 @@ namespace navvy::sim {
 /// Returns the areas of the bodies of `scene`, whose base links stand at the poses `X_WB` in W, one
 /// per machine of the scene, with the joints as in their files. Each collision shape, wheel and
 /// shell has an area of its own; planes have none.
-/// @param included tells for each machine of the scene whether its areas are wanted
+/// @param included nonzero for each machine of the scene whose areas are wanted
 std::vector<heightfield::OccupiedArea> occupied_areas(const scene::Scene& scene,
                                                       const std::vector<Pose>& X_WB,
                                                       const std::vector<char>& included);
