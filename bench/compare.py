@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints two files of bench rows side by side: compare.py A.csv B.csv [--column min_ms].
 
-Rows are matched by bench, device and driver; where a bench ran on one device in each file, by bench alone, so that two
-machines can be held against each other. Ratios are B / A. A changed state hash is marked: then the two did not do the
-same work. Standard library only.
+Rows are matched by bench, device and driver; where a bench ran on one device in each file, by
+bench alone, so that two machines can be compared. Ratios are B / A. A changed state hash is marked:
+then the two did not do the same work. Standard library only.
 """
 import argparse
 import csv
@@ -19,7 +19,9 @@ def read(path):
     except OSError as error:
         sys.exit("compare.py: %s" % error)
     if not rows or "bench" not in rows[0]:
-        sys.exit("compare.py: %s holds no bench rows (wanted: a header with a column 'bench')" % path)
+        sys.exit(
+            "compare.py: %s holds no bench rows (wanted: a header with a column 'bench')" % path
+        )
     return {(r["bench"], r.get("device", ""), r.get("driver", "")): r for r in rows}
 
 
@@ -48,12 +50,17 @@ def number(row, column):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Two files of bench rows side by side; ratios are B / A.")
+    parser = argparse.ArgumentParser(
+        description="Two files of bench rows side by side; ratios are B / A."
+    )
     parser.add_argument("a")
     parser.add_argument("b")
     parser.add_argument("--column", default="min_ms", help="what to compare (default min_ms)")
     options = parser.parse_args()
-    print("%-22s %-26s %12s %12s %7s  %s" % ("bench", "device", "A " + options.column, "B", "B / A", ""))
+    print(
+        "%-22s %-26s %12s %12s %7s  %s"
+        % ("bench", "device", "A " + options.column, "B", "B / A", "")
+    )
     shown = 0
     for row_a, row_b in pair(read(options.a), read(options.b)):
         one = row_a or row_b
@@ -66,7 +73,10 @@ def main():
             note = "state hash differs"
         ratio = "%.3f" % (y / x) if x and y is not None else ""
         text = ["" if v is None else "%.5g" % v for v in (x, y)]
-        print("%-22s %-26s %12s %12s %7s  %s" % (one["bench"], one.get("device", "")[:26], *text, ratio, note))
+        print(
+            "%-22s %-26s %12s %12s %7s  %s"
+            % (one["bench"], one.get("device", "")[:26], *text, ratio, note)
+        )
     if shown == 0:
         sys.exit("compare.py: no row has a number in column '%s'" % options.column)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws bench rows: plot.py ROWS.csv [MORE.csv ...] --out FOLDER leaves roofline.svg and scaling.svg.
+"""Draws bench rows as roofline.svg and scaling.svg: plot.py ROWS.csv [MORE.csv ...] --out FOLDER.
 
-The roofline has operations per byte across and operations per second up; each device's roof is its measured copy
-bandwidth and its measured peak of fused multiply-adds. The scaling picture shows particle-steps per second against active
-particles and, beside it, time against the site's area. Needs Debian's python3-matplotlib.
+The roofline plot shows operations per second over operations per byte; each device's roof is its
+measured copy bandwidth and its measured peak of fused multiply-adds. The scaling plot shows
+particle-steps per second over the number of active particles and, beside it, time over the site's
+area. Needs Debian's python3-matplotlib.
 """
 import argparse
 import csv
@@ -13,10 +14,14 @@ import sys
 
 try:
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 except ImportError:
-    sys.exit("plot.py needs matplotlib: apt-get install python3-matplotlib, and run it with /usr/bin/python3")
+    sys.exit(
+        "plot.py needs matplotlib: apt-get install python3-matplotlib, and run it with"
+        " /usr/bin/python3"
+    )
 
 
 def read(paths):
@@ -35,7 +40,9 @@ def fastest(rows):
     best = {}
     for row in rows:
         key = (row.get("bench"), row.get("device"))
-        if key not in best or value(row, "particle_steps_per_s") > value(best[key], "particle_steps_per_s"):
+        if key not in best or value(row, "particle_steps_per_s") > value(
+            best[key], "particle_steps_per_s"
+        ):
             best[key] = row
     return list(best.values())
 
@@ -56,15 +63,26 @@ def by_device(rows):
 
 def roofline(rows, path):
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
-    reach = [2.0 ** k for k in range(-2, 9)]
+    reach = [2.0**k for k in range(-2, 9)]
     for index, (device, own) in enumerate(sorted(by_device(rows).items())):
         color = "C%d" % index
-        copy, peak = (max(value(r, column) for r in own) for column in ("copy_bytes_per_s", "fma_flops_per_s"))
+        copy, peak = (
+            max(value(r, column) for r in own) for column in ("copy_bytes_per_s", "fma_flops_per_s")
+        )
         if copy <= 0 or peak <= 0:
             continue
         roof = sorted(reach + [peak / copy])
-        axes.plot(roof, [min(peak, copy * x) / 1e9 for x in roof], color=color, label="%s: roof" % device[:40])
-        points = [r for r in own if value(r, "bytes_per_particle_step") > 0 and value(r, "flops_per_particle_step") > 0]
+        axes.plot(
+            roof,
+            [min(peak, copy * x) / 1e9 for x in roof],
+            color=color,
+            label="%s: roof" % device[:40],
+        )
+        points = [
+            r
+            for r in own
+            if value(r, "bytes_per_particle_step") > 0 and value(r, "flops_per_particle_step") > 0
+        ]
         # Rows share one count of operations and bytes, so only the lowest and the highest are
         # labelled.
         points.sort(key=lambda r: value(r, "particle_steps_per_s"))
@@ -73,7 +91,9 @@ def roofline(rows, path):
             y = value(row, "flops_per_particle_step") * value(row, "particle_steps_per_s") / 1e9
             axes.plot(x, y, "o", color=color, markersize=4)
             if k in (0, len(points) - 1):
-                axes.annotate(row["bench"], (x, y), textcoords="offset points", xytext=(6, -3), fontsize=7)
+                axes.annotate(
+                    row["bench"], (x, y), textcoords="offset points", xytext=(6, -3), fontsize=7
+                )
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
     axes.set_xlabel("operations per byte of traffic")
@@ -90,12 +110,20 @@ def scaling(rows, path):
     for index, (device, own) in enumerate(sorted(by_device(rows).items())):
         color, label = "C%d" % index, device[:40]
         for prefix, mark in (("soil_collapse_no_tool", "o-"), ("soil_dig", "s--")):
-            line = sorted((value(r, "particles"), value(r, "particle_steps_per_s") / 1e6) for r in own
-                          if r["bench"].split(":")[0] == prefix and value(r, "particles") > 0)
+            line = sorted(
+                (value(r, "particles"), value(r, "particle_steps_per_s") / 1e6)
+                for r in own
+                if r["bench"].split(":")[0] == prefix and value(r, "particles") > 0
+            )
             if line:
-                left.plot(*zip(*line), mark, color=color, markersize=4, label="%s, %s" % (prefix, label))
-        line = sorted((value(r, "site_m") ** 2 / 1e6, value(r, "min_ms") / max(value(r, "steps"), 1)) for r in own
-                      if value(r, "site_m") > 0)
+                left.plot(
+                    *zip(*line), mark, color=color, markersize=4, label="%s, %s" % (prefix, label)
+                )
+        line = sorted(
+            (value(r, "site_m") ** 2 / 1e6, value(r, "min_ms") / max(value(r, "steps"), 1))
+            for r in own
+            if value(r, "site_m") > 0
+        )
         if line:
             right.plot(*zip(*line), "o-", color=color, markersize=4, label=label)
     left.set_xscale("log")

@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of bench/README.md, made from the rows under bench/results.
+"""Writes the tables of bench/README.md from the rows under bench/results.
 
   table.py write PAGE.md              writes the page's tables anew
   table.py check PAGE.md              fails when a table is not what `write` would make it
-  table.py stamp FOLDER ROWS.csv ...  notes today's date and this commit beside rows that were just measured
+  table.py stamp FOLDER ROWS.csv ...  records today's date and this commit for rows that were just
+                                      measured
   table.py selftest
 
-A table stands in the page between two marks; the first names its kind and its file, relative to the page:
+A table is in the page between two marks; the first names its kind and its file, relative to the
+page:
 
   <!-- generated: begin; soil: results/amd-epyc-avx512-2-cores/soil.csv -->
   <!-- generated: end -->
 
-FOLDER/measured.csv says when and at which commit each file was measured; a file that it does not name is a fault.
+FOLDER/measured.csv says when and at which commit each file was measured; a file that it does not
+name is an error.
 Standard library only.
 """
 import csv
@@ -46,46 +49,86 @@ def per_processor_second(row):
     """Million particle-steps a second of processor time, all threads together."""
     if not row.get("processor_ms"):
         return "-"
-    return "%.1f" % (float(row["particles"]) * float(row["steps"]) / float(row["processor_ms"]) / 1e3)
+    return "%.1f" % (
+        float(row["particles"]) * float(row["steps"]) / float(row["processor_ms"]) / 1e3
+    )
 
 
 def soil(rows):
-    yield "bench", "particles", "M particle-steps/s", "slowest run", "kernels only", "a processor second", \
-        "of copy bandwidth", "of FMA peak", "real-time factor"
+    yield (
+        "bench",
+        "particles",
+        "M particle-steps/s",
+        "slowest run",
+        "kernels only",
+        "a processor second",
+        "of copy bandwidth",
+        "of FMA peak",
+        "real-time factor",
+    )
     for row in rows:
         slowest = float(row["particle_steps_per_s"]) / (1 + float(row["spread"])) / 1e6
-        yield "`%s`" % row["bench"], row["particles"], number(row, "particle_steps_per_s", 1e-6), "%.1f" % slowest, \
-            number(row, "kernel_particle_steps_per_s", 1e-6), per_processor_second(row), \
-            number(row, "share_of_copy_bandwidth", form="%.2f"), number(row, "share_of_fma_peak", form="%.2f"), \
-            number(row, "real_time_factor")
+        yield (
+            "`%s`" % row["bench"],
+            row["particles"],
+            number(row, "particle_steps_per_s", 1e-6),
+            "%.1f" % slowest,
+            number(row, "kernel_particle_steps_per_s", 1e-6),
+            per_processor_second(row),
+            number(row, "share_of_copy_bandwidth", form="%.2f"),
+            number(row, "share_of_fma_peak", form="%.2f"),
+            number(row, "real_time_factor"),
+        )
 
 
 def native(rows):
     """Row of the native loop, which precedes the OpenCL row of the same size."""
-    yield "particles", "native loop, M particle-steps/s and thread", "OpenCL steps", "ratio", "ratio by processor time"
+    yield (
+        "particles",
+        "native loop, M particle-steps/s and thread",
+        "OpenCL steps",
+        "ratio",
+        "ratio by processor time",
+    )
     for loop, ours in zip(rows[0::2], rows[1::2]):
         # The native loop runs one copy per thread; the OpenCL step shares one state among the
         # threads.
         threads = float(loop["particles"]) / float(ours["particles"])
         rate = [float(row["particle_steps_per_s"]) / threads / 1e6 for row in (loop, ours)]
         spent = [float(per_processor_second(row)) for row in (loop, ours)]
-        yield ours["particles"], "%.1f" % rate[0], "%.1f" % rate[1], "%.2f" % (rate[1] / rate[0]), \
-            "%.2f" % (spent[1] / spent[0])
+        yield (
+            ours["particles"],
+            "%.1f" % rate[0],
+            "%.1f" % rate[1],
+            "%.2f" % (rate[1] / rate[0]),
+            "%.2f" % (spent[1] / spent[0]),
+        )
 
 
 def scene(rows):
     yield "scene", "mean active particles", "least ms", "median ms", "real-time factor"
     for row in rows:
-        yield "`%s`" % row["bench"], row["particles"], number(row, "min_ms", form="%.0f"), \
-            number(row, "median_ms", form="%.0f"), number(row, "real_time_factor")
+        yield (
+            "`%s`" % row["bench"],
+            row["particles"],
+            number(row, "min_ms", form="%.0f"),
+            number(row, "median_ms", form="%.0f"),
+            number(row, "real_time_factor"),
+        )
 
 
 def host(rows):
     """Work of the host: machines, maps. A site's edge where it is what varies."""
     yield "bench", "site [m]", "least ms", "median ms", "of processor, ms", "real-time factor"
     for row in rows:
-        yield "`%s`" % row["bench"], row["site_m"] or "-", number(row, "min_ms"), number(row, "median_ms"), \
-            number(row, "processor_ms"), number(row, "real_time_factor")
+        yield (
+            "`%s`" % row["bench"],
+            row["site_m"] or "-",
+            number(row, "min_ms"),
+            number(row, "median_ms"),
+            number(row, "processor_ms"),
+            number(row, "real_time_factor"),
+        )
 
 
 def limits(rows):
@@ -102,8 +145,14 @@ def commands(rows):
         yield row["what"], row["seconds"], row["wanted"] or "-", row["where"]
 
 
-KINDS = {"soil": soil, "native": native, "scene": scene, "host": host, "limits": limits,
-         "commands": commands}
+KINDS = {
+    "soil": soil,
+    "native": native,
+    "scene": scene,
+    "host": host,
+    "limits": limits,
+    "commands": commands,
+}
 
 
 def table(kind, path):
@@ -116,15 +165,33 @@ def table(kind, path):
         if noted["file"] == name:
             break
     else:
-        sys.exit("table.py: %s/measured.csv has no date for the measurement of %s; `table.py stamp %s %s` does" %
-                 (folder, name, folder, name))
-    on = ", ".join("%s, driver %s" % pair if pair[1] else pair[0] for pair in
-                   dict.fromkeys((row["device"], row["driver"]) for row in rows if row.get("device")))
-    peaks = [max((float(row[column]) for row in rows if row.get(column)), default=0) / 1e9
-             for column in ("copy_bytes_per_s", "fma_flops_per_s")]
-    lines = ["%s%s at %s.%s" % (on + "; " if on else "", noted["date"], noted["state"], " " + noted["note"] if noted["note"] else "")]
+        sys.exit(
+            "table.py: %s/measured.csv has no date for the measurement of %s; `table.py stamp %s"
+            " %s` does" % (folder, name, folder, name)
+        )
+    on = ", ".join(
+        "%s, driver %s" % pair if pair[1] else pair[0]
+        for pair in dict.fromkeys(
+            (row["device"], row["driver"]) for row in rows if row.get("device")
+        )
+    )
+    peaks = [
+        max((float(row[column]) for row in rows if row.get(column)), default=0) / 1e9
+        for column in ("copy_bytes_per_s", "fma_flops_per_s")
+    ]
+    lines = [
+        "%s%s at %s.%s"
+        % (
+            on + "; " if on else "",
+            noted["date"],
+            noted["state"],
+            " " + noted["note"] if noted["note"] else "",
+        )
+    ]
     if peaks[0]:
-        lines[0] += " Highest peaks measured with it: copy %.0f GB/s, FMA %.0f GFLOP/s." % tuple(peaks)
+        lines[0] += " Highest peaks measured with it: copy %.0f GB/s, FMA %.0f GFLOP/s." % tuple(
+            peaks
+        )
     lines.append("")
     head, *body = KINDS[kind](rows)
     lines.append("| " + " | ".join(head) + " |")
@@ -141,7 +208,10 @@ def rewritten(page):
             found = BEGIN.match(line)
             if found:
                 if found[1] not in KINDS:
-                    sys.exit("table.py: %s: no kind of table '%s'; known kinds: %s" % (page, found[1], ", ".join(KINDS)))
+                    sys.exit(
+                        "table.py: %s: no kind of table '%s'; known kinds: %s"
+                        % (page, found[1], ", ".join(KINDS))
+                    )
                 out += [line] + table(found[1], os.path.join(os.path.dirname(page), found[2]))
                 inside = True
             elif line == END:
@@ -157,9 +227,18 @@ def rewritten(page):
 def stamp(folder, names):
     path = os.path.join(folder, "measured.csv")
     rows = [row for row in read(path) if row["file"] not in names] if os.path.exists(path) else []
-    state = subprocess.run(["git", "describe", "--always"], capture_output=True, text=True, check=False).stdout.strip()
-    rows += [{"file": name, "date": datetime.date.today().isoformat(), "state": state or "unknown", "note": ""}
-             for name in names]
+    state = subprocess.run(
+        ["git", "describe", "--always"], capture_output=True, text=True, check=False
+    ).stdout.strip()
+    rows += [
+        {
+            "file": name,
+            "date": datetime.date.today().isoformat(),
+            "state": state or "unknown",
+            "note": "",
+        }
+        for name in names
+    ]
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, ["file", "date", "state", "note"], lineterminator="\n")
         writer.writeheader()
@@ -168,19 +247,31 @@ def stamp(folder, names):
 
 def selftest():
     with tempfile.TemporaryDirectory() as folder:
+
         def put(name, text):
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write(text)
             return os.path.join(folder, name)
-        put("n.csv", "bench,device,driver,particles,steps,min_ms,spread,particle_steps_per_s,processor_ms\n"
-                     "native_loop:1k,D,1,2000,10,1,0,2e7,2\nours:1k,D,1,1000,10,1,0,3e7,1\n")
+
+        put(
+            "n.csv",
+            (
+                "bench,device,driver,particles,steps,min_ms,spread,"
+                "particle_steps_per_s,processor_ms\n"
+                "native_loop:1k,D,1,2000,10,1,0,2e7,2\nours:1k,D,1,1000,10,1,0,3e7,1\n"
+            ),
+        )
         put("measured.csv", "file,date,state,note\nn.csv,2026-01-01,abc,Quiet.\n")
         page = put("p.md", "# T\n<!-- generated: begin; native: n.csv -->\nold\n%s\nend\n" % END)
         text = rewritten(page)
         # Two copies of the loop: 10 M a thread; the OpenCL step: 15 M a thread; by processor time
         # 10 to 10.
         assert "| 1000 | 10.0 | 15.0 | 1.50 | 1.00 |" in text, text
-        assert "D, driver 1; 2026-01-01 at abc. Quiet." in text and "old" not in text and text.endswith("end\n"), text
+        assert (
+            "D, driver 1; 2026-01-01 at abc. Quiet." in text
+            and "old" not in text
+            and text.endswith("end\n")
+        ), text
         put("p.md", text)
         assert rewritten(page) == text
     print("table.py: selftest passed")
@@ -194,7 +285,12 @@ def main():
         with open(page, encoding="utf-8") as file:
             same = file.read() == text
         if sys.argv[1] == "check":
-            return 0 if same else "table.py: %s differs from its rows; run `bench/table.py write %s`" % (page, page)
+            return (
+                0
+                if same
+                else "table.py: %s differs from its rows; run `bench/table.py write %s`"
+                % (page, page)
+            )
         with open(page, "w", encoding="utf-8") as file:
             file.write(text)
         return 0

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws docs/map_pictures.png, all layers of the trench's map before and after it was dug.
 
-  docs/map_pictures.py scene > trench_maps.sdf       the trench with a design and a map of all layers every 5 s
+  docs/map_pictures.py scene > trench_maps.sdf
   navvy run trench_maps.sdf --no-render --out out/maps
   docs/map_pictures.py draw out/maps docs/map_pictures.png [SECONDS]
 
-The second picture is the last map of the run, or the one nearest to SECONDS. Needs NumPy, Pillow and matplotlib
-(Debian's python3-matplotlib).
+The scene is the trench with a design and a map of all layers every 5 s. The second picture is the
+last map of the run, or the one nearest to SECONDS. Needs NumPy, Pillow and matplotlib (Debian's
+python3-matplotlib).
 """
 import io
 import json
@@ -15,14 +16,35 @@ import os
 import sys
 import zipfile
 
-LAYERS = ["elevation", "elevation_start", "target", "cut_fill", "slope", "step_height", "roughness", "traversability",
-          "loose_depth", "density", "soil", "disturbed_at", "active"]
+LAYERS = [
+    "elevation",
+    "elevation_start",
+    "target",
+    "cut_fill",
+    "slope",
+    "step_height",
+    "roughness",
+    "traversability",
+    "loose_depth",
+    "density",
+    "soil",
+    "disturbed_at",
+    "active",
+]
 # Lowest and highest colour (None: of both maps), colours.
 RANGES = {
-    "elevation": (-0.8, 1.2, "terrain"), "elevation_start": (-0.8, 1.2, "terrain"), "target": (-0.8, 1.2, "terrain"),
-    "cut_fill": (-1.2, 1.2, "RdBu_r"), "slope": (0, 1.2, "magma_r"), "step_height": (0, 0.4, "magma_r"),
-    "roughness": (0, 0.15, "magma_r"), "traversability": (0, 1, "RdYlGn"), "loose_depth": (0, None, "YlOrBr"),
-    "density": (None, None, "cividis"), "soil": (-0.5, 1.5, "Pastel2"), "disturbed_at": (0, None, "viridis"),
+    "elevation": (-0.8, 1.2, "terrain"),
+    "elevation_start": (-0.8, 1.2, "terrain"),
+    "target": (-0.8, 1.2, "terrain"),
+    "cut_fill": (-1.2, 1.2, "RdBu_r"),
+    "slope": (0, 1.2, "magma_r"),
+    "step_height": (0, 0.4, "magma_r"),
+    "roughness": (0, 0.15, "magma_r"),
+    "traversability": (0, 1, "RdYlGn"),
+    "loose_depth": (0, None, "YlOrBr"),
+    "density": (None, None, "cividis"),
+    "soil": (-0.5, 1.5, "Pastel2"),
+    "disturbed_at": (0, None, "viridis"),
     "active": (0, 1, "YlOrRd"),
 }
 UNKNOWN = "#dcdcdc"
@@ -34,14 +56,19 @@ def scene():
     with open(here, encoding="utf-8") as file:
         text = file.read()
     more = """    <navvy:design>
-      <area><polygon_m>1.65 -0.525 4.85 -0.525 4.85 0.525 1.65 0.525</polygon_m><depth_m>0.8</depth_m></area>
+      <area>
+        <polygon_m>1.65 -0.525 4.85 -0.525 4.85 0.525 1.65 0.525</polygon_m>
+        <depth_m>0.8</depth_m>
+      </area>
     </navvy:design>
     <navvy:record name="maps">
       <format>npz</format>
       <layers>%s</layers>
       <rate_hz>0.2</rate_hz>
     </navvy:record>
-""" % " ".join(LAYERS)
+""" % " ".join(
+        LAYERS
+    )
     before = "    <navvy:recording>"
     if text.count(before) != 1:
         sys.exit("map_pictures.py: trench.sdf has no <navvy:recording> to put the maps before")
@@ -56,12 +83,16 @@ def read(path):
 def draw(folder, out, seconds):
     try:
         import matplotlib
+
         matplotlib.use("Agg")
         from matplotlib import pyplot
         import numpy
         from PIL import Image
     except ImportError:
-        sys.exit("map_pictures.py draw needs matplotlib: apt-get install python3-matplotlib, run with /usr/bin/python3")
+        sys.exit(
+            "map_pictures.py draw needs matplotlib: apt-get install python3-matplotlib, run with"
+            " /usr/bin/python3"
+        )
     maps = os.path.join(folder, "maps")
     files = sorted(os.path.join(maps, name) for name in os.listdir(maps) if name.endswith(".npz"))
     heads = [read(path) for path in files]
@@ -75,8 +106,17 @@ def draw(folder, out, seconds):
     pyplot.rcParams.update({"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.5})
     rows = (len(LAYERS) + 1) // 2
     figure = pyplot.figure(figsize=(12, 2.82 * rows))
-    grid = figure.add_gridspec(rows, 7, width_ratios=[10, 10, 0.45, 3, 10, 10, 0.45], left=0.026, right=0.948,
-                               bottom=0.016, top=0.982, wspace=0.06, hspace=0.16)
+    grid = figure.add_gridspec(
+        rows,
+        7,
+        width_ratios=[10, 10, 0.45, 3, 10, 10, 0.45],
+        left=0.026,
+        right=0.948,
+        bottom=0.016,
+        top=0.982,
+        wspace=0.06,
+        hspace=0.16,
+    )
     for number, layer in enumerate(LAYERS):
         row, column = number // 2, 4 * (number % 2)
         unit = head["layers"][layer]["unit"]
@@ -91,9 +131,18 @@ def draw(folder, out, seconds):
         table.set_bad(UNKNOWN)
         for k, one in enumerate(pair):
             axes = figure.add_subplot(grid[row, column + k])
-            shown = axes.imshow(numpy.ma.masked_invalid(one[layer]), origin="lower", extent=(x0, x1, y0, y1),
-                                cmap=table, vmin=low, vmax=high, interpolation="nearest")
-            axes.set_title("%s, %s" % (layer, "before" if k == 0 else "after %.0f s" % head["time_s"]), pad=3)
+            shown = axes.imshow(
+                numpy.ma.masked_invalid(one[layer]),
+                origin="lower",
+                extent=(x0, x1, y0, y1),
+                cmap=table,
+                vmin=low,
+                vmax=high,
+                interpolation="nearest",
+            )
+            axes.set_title(
+                "%s, %s" % (layer, "before" if k == 0 else "after %.0f s" % head["time_s"]), pad=3
+            )
             axes.set_xlim(PART[:2])
             axes.set_ylim(PART[2:])
             axes.set_xticks(range(-10, 6, 5))
@@ -106,15 +155,24 @@ def draw(folder, out, seconds):
             bar.set_ticks([0, 1])
     note = figure.add_subplot(grid[rows - 1, 4:7])
     note.axis("off")
-    note.text(0.04, 0.92, "Grey: unknown. x and y in m, columns of %g m, one colour bar for both.\n\n"
-              "The excavator stands at x = -4 and digs towards itself, between\nx = 1.65 and 4.85; it tips its spoil "
-              "at (-1.7, 5.9). At (-6, -6.5)\nlies a heap that was there before. Its tyres have left ruts.\n\n"
-              "loose_depth and active: soil that still moves." % head["cell_m"],
-              va="top", fontsize=9, linespacing=1.35)
+    note.text(
+        0.04,
+        0.92,
+        "Grey: unknown. x and y in m, columns of %g m, one colour bar for both.\n\nThe excavator"
+        " stands at x = -4 and digs towards itself, between\nx = 1.65 and 4.85; it tips its spoil"
+        " at (-1.7, 5.9). At (-6, -6.5)\nlies a heap that was there before. Its tyres have left"
+        " ruts.\n\nloose_depth and active: soil that still moves."
+        % head["cell_m"],
+        va="top",
+        fontsize=9,
+        linespacing=1.35,
+    )
     image = io.BytesIO()
     figure.savefig(image, dpi=100, format="png")
     Image.open(image).convert("RGB").save(out, optimize=True)
-    print("%s: %d kB, before and after %.1f s" % (out, os.path.getsize(out) // 1000, head["time_s"]))
+    print(
+        "%s: %d kB, before and after %.1f s" % (out, os.path.getsize(out) // 1000, head["time_s"])
+    )
 
 
 if __name__ == "__main__":

@@ -496,7 +496,7 @@ def write(path, text):
 
 
 def generated(only_check):
-    """Tables and reference pages: writes them, or tells which are stale. True if all are good."""
+    """Writes tables and reference pages, or lists the stale ones. Returns True if all are good."""
 
     def table(script, *arguments):
         done = subprocess.run([sys.executable, script] + list(arguments), cwd=ROOT, check=False)

@@ -149,12 +149,15 @@ def cell(text):
 def soils(program):
     listing = output(program, "soils")
     names = [name for name in names_listed(listing) if name != "soil"]
-    values, sources, names_of_values = {}, {}, []
+    values, sources, names_of_values, tests = {}, {}, [], {}
     for name in names:
         values[name] = {}
         for line in output(program, "soils", name).splitlines():
             found = re.match(r"^  (\w+)  +(\S+(?: \S+)*?)(?:   \((.*)\))?$", line)
             source = re.match(r"^  source: (.*)$", line)
+            test = re.match(r"^    (\w+) +([\d.]+)   (above \d+|[\d.]+)$", line)
+            if test:
+                tests.setdefault(name, []).append((test[1], test[2], test[3]))
             if source:
                 sources[name] = source[1]
             elif found:
@@ -165,7 +168,10 @@ def soils(program):
         "# Soils\n",
         NOTE,
         'The shipped soils, used in a scene by `<navvy:soil ref="NAME"/>`. The elements are',
-        "described in [scene elements](scene.md), their use in\n[make your own soil](../howto/soil.md).\n",
+        (
+            "described in [scene elements](scene.md), their use in\n[make your own"
+            " soil](../howto/soil.md).\n"
+        ),
     ]
     for start in range(0, len(names), 4):
         some = names[start : start + 4]
@@ -180,6 +186,19 @@ def soils(program):
                 "| `%s` | %s | %s |" % (value, " | ".join(cells), ranges[0] if ranges else "")
             )
         out.append("")
+    kinds = [test for test, here, phi in tests[names[0]]]
+    out += [
+        "## Friction angle in each test\n",
+        "What each test would measure on the soil [deg] and, in brackets, the plane-strain angle",
+        "phi if that test had measured the value of the soil's file",
+        "([friction angles](../soil.md#friction-angles)).\n",
+        "| Soil | " + " | ".join("`%s`" % kind for kind in kinds) + " |",
+        "|---|" + "---|" * len(kinds),
+    ]
+    for name in names:
+        cells = ["%s (%s)" % (here, phi) for test, here, phi in tests[name]]
+        out.append("| `%s` | %s |" % (name, " | ".join(cells)))
+    out.append("")
     out += ["## Sources\n", "| Soil | Where its values come from |", "|---|---|"]
     out += ["| `%s` | %s |" % (name, cell(sources.get(name, ""))) for name in names]
     return "\n".join(out) + "\n"
@@ -190,7 +209,10 @@ def machines(program):
         "# Machines\n",
         NOTE,
         "The shipped machines, placed in a scene by `<uri>model://NAME</uri>`. What",
-        "`navvy machines NAME` prints; the sources of the values are in\n`vehicles/NAME/SOURCE.md`.\n",
+        (
+            "`navvy machines NAME` prints; the sources of the values are"
+            " in\n`vehicles/NAME/SOURCE.md`.\n"
+        ),
     ]
     for name in names_listed(output(program, "machines")):
         out += ["## %s\n" % name, fenced(output(program, "machines", name))]
@@ -231,8 +253,14 @@ def channels(program):
         "# Channels\n",
         NOTE,
         "Inputs and outputs of a running scene, by name: for controllers (`--control stdio`,",
-        "[how](../howto/controller.md)), for `telemetry.csv`, and for the library (`World::inputs`,",
-        "`World::outputs`). `navvy channels SCENE` lists those of one scene. MACHINE, JOINT, SHELL and\nHITCH stand",
+        (
+            "[how](../howto/controller.md)), for `telemetry.csv`, and for the library"
+            " (`World::inputs`,"
+        ),
+        (
+            "`World::outputs`). `navvy channels SCENE` lists those of one scene. MACHINE, JOINT,"
+            " SHELL and\nHITCH stand"
+        ),
         "for names of the scene; the last column names a shipped scene that has the channel.\n",
     ]
     for kind in ("inputs", "outputs"):
@@ -264,7 +292,7 @@ PAGES = {
 
 
 def write(program, only_check=False):
-    """Writes the pages, or tells which are stale; true if all are as they should be."""
+    """Writes the pages, or lists the stale ones. Returns True if all are up to date."""
     good = True
     for name, make in PAGES.items():
         path = os.path.join(ROOT, FOLDER, name)

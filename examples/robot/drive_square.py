@@ -35,8 +35,10 @@ class Robot:
     def update(self, registers):
         """Updates the pose from new register values."""
         if self.before:
-            left, right = (between(b, n) * 2 * math.pi * RADIUS / COUNTS_PER_TURN
-                           for b, n in zip(self.before, registers))
+            left, right = (
+                between(b, n) * 2 * math.pi * RADIUS / COUNTS_PER_TURN
+                for b, n in zip(self.before, registers)
+            )
             step, turn = (left + right) / 2, (right - left) / TRACK
             chord = step * (math.sin(turn / 2) / (turn / 2) if turn else 1)
             self.x += chord * math.cos(self.yaw + turn / 2)
@@ -72,16 +74,26 @@ def square(robot, edge, start):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("scene")
     parser.add_argument("--navvy", default="navvy")
     parser.add_argument("--edge", type=float, default=1.0, help="edge of the square [m]")
     parser.add_argument("--slip", type=float, default=0.0, help="slip that the encoders simulate")
     parser.add_argument("--out", help="folder of the results")
     options = parser.parse_args()
-    command = [options.navvy, "run", options.scene, "--control", "stdio", "--control-rate", str(RATE),
-               "--no-render", "--quiet"] + (["--out", options.out] if options.out else [])
+    command = [
+        options.navvy,
+        "run",
+        options.scene,
+        "--control",
+        "stdio",
+        "--control-rate",
+        str(RATE),
+        "--no-render",
+        "--quiet",
+    ] + (["--out", options.out] if options.out else [])
     navvy = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def receive():
@@ -94,8 +106,15 @@ def main():
     robot = Robot(outputs["robot/pose/x"], outputs["robot/pose/y"], outputs["robot/pose/yaw"])
     registers = [f"robot/spin_{side}/counts" for side in ("left", "right")]
     robot.update([outputs[name] for name in registers])
-    send({"inputs": {"robot/drive/brake": 0, "robot/spin_left/encoder_slip": options.slip,
-                    "robot/spin_right/encoder_slip": options.slip}})
+    send(
+        {
+            "inputs": {
+                "robot/drive/brake": 0,
+                "robot/spin_left/encoder_slip": options.slip,
+                "robot/spin_right/encoder_slip": options.slip,
+            }
+        }
+    )
     for left, right in square(robot, options.edge, robot.driven):
         outputs = receive()
         robot.update([outputs[name] for name in registers])
@@ -105,10 +124,12 @@ def main():
     send({"end": True})
     navvy.stdin.close()
     navvy.wait()
-    print(f"{options.scene}: after {outputs['time']:.2f} s its estimate is "
-          f"{robot.x:.3f} {robot.y:.3f} m, {math.degrees(robot.yaw):.1f} deg, its true pose "
-          f"{outputs['robot/pose/x']:.3f} {outputs['robot/pose/y']:.3f} m, "
-          f"{math.degrees(outputs['robot/pose/yaw']):.1f} deg")
+    print(
+        f"{options.scene}: after {outputs['time']:.2f} s its estimate is "
+        f"{robot.x:.3f} {robot.y:.3f} m, {math.degrees(robot.yaw):.1f} deg, its true pose "
+        f"{outputs['robot/pose/x']:.3f} {outputs['robot/pose/y']:.3f} m, "
+        f"{math.degrees(outputs['robot/pose/yaw']):.1f} deg"
+    )
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@
 #ifndef NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 #define NAVVY_KERNELS_SOIL_CONTACT_LAW_H
 
+#include "soil/edge_law.h"
 #include "soil/scheme_constants.h"
 #include "soil/tool.h"
 
@@ -109,6 +110,9 @@ typedef struct ContactNode {
   scalar m, share, settling;
   // mu: friction coefficient; stick: largest shear impulse without any normal impulse [N s].
   scalar mu, stick;
+  // edge: largest impulse of the plate's edge on a node ahead of it [N s]; 0 for a node beside a
+  // face. slow: speed below which the plate counts as standing still [m/s], for edges only.
+  scalar edge, slow;
 } ContactNode;
 
 // State of one contact, as contact_impulse found it.
@@ -121,6 +125,22 @@ typedef struct ContactBranch {
   scalar held;
 } ContactBranch;
 
+// Returns the impulse of the edge of a plate on a node ahead of it [N s] [docs/tools.md, edges]:
+// what stops the node's approach along the plate's outward direction, up to the bearing resistance.
+// A plate that stops is therefore still supported. plate: velocity of the plate at the node [m/s];
+// branch: output, as in contact_impulse.
+INLINED scalar3 edge_impulse(const ContactNode* node, scalar3 plate, ContactBranch* branch) {
+  const scalar approach = dot(plate - node->v, node->n);
+  branch->acts = branch->pushing = approach > 0.0f;
+  branch->sticking = false;
+  const scalar needed = node->m * fmax(approach, 0.0f);
+  const scalar most =
+      node->edge * edge_share(dot(plate, node->n), sqrt(dot(plate, plate)), node->slow);
+  // At the limit the impulse does not depend on the plate's speed.
+  branch->held = needed < most ? 1.0f : 0.0f;
+  return fmin(needed, most) * node->n;
+}
+
 // Returns the impulse of a tool on a node [N s] [docs/tools.md, impulse]; zero without contact.
 // spin: angular velocity of the tool [rad/s]; speed: velocity of the tool's origin [m/s]; opening:
 // separation speed above which adhesion has ended [m/s]; branch: output, the state of the contact.
@@ -132,6 +152,7 @@ typedef struct ContactBranch {
 INLINED scalar3 contact_impulse(const ContactNode* node, scalar3 spin, scalar3 speed,
                                 scalar opening, ContactBranch* branch) {
   const scalar3 plate = speed + cross(spin, node->r);
+  if (node->edge > 0.0f) return edge_impulse(node, plate, branch);
   const scalar3 rel = node->v - plate;
   const scalar leaves = dot(rel, node->n), advance = dot(plate, node->n);
   const scalar behind = (1.0f - node->share) * advance;

@@ -18,25 +18,37 @@ static inline int3 in_block(int n) { return (int3)(n & 3, (n >> 2) & 3, n >> 4);
 // node has no contact.
 //
 // i: index of the node in the near arrays. place: coordinates of the node in G. dx: edge of a cell
-// [m]. field: velocities [m/s] and masses [kg] of field s. only: index of the only tool to
-// consider, -1 for all tools. The other pointers are the near arrays of NearNodes and ShellQuery.
+// [m]. field: velocities [m/s] and masses [kg] of field s. edge: from the kernel edge_nodes. only:
+// index of the only tool to consider, -1 for all tools. The other pointers are the near arrays of
+// NearNodes and ShellQuery.
 static inline bool load_node(ContactNode* node, int s, int i, int3 place, float dx, Reach reach,
                              global const float4* field, global const int* split,
                              global const int* node_tool, global const NodeShell* shell,
-                             global const ContactSoil* surface, global const Tool* tools,
-                             int only) {
-  if (split[i] == 0) return false;
+                             global const ContactSoil* surface, global const float4* edge,
+                             global const Tool* tools, int only) {
+  // Nodes with one field are ahead of an edge, or have no contact.
+  if (split[i] == 0 && (s != 0 || !(edge[i].w > 0.0f))) return false;
   const float4 v = field[i];
   if (!(v.w > MASS_QUANTUM)) return false;
   global const Tool* tool = tools + node_tool[i];
   if (tool->active == 0 || (only >= 0 && only != node_tool[i])) return false;
+  // Lever arm from the tool's origin [m]. Both points are relative to the window corner, so that no
+  // digits are lost far from the site's origin.
+  node->r = dx * (convert_float3(place - 4 * vload3(0, tool->window)) - vload3(0, tool->origin));
+  node->v = v.xyz;
+  node->m = v.w;
+  node->edge = 0.0f;
+  if (split[i] == 0) {
+    node->n = edge[i].xyz;
+    node->edge = edge[i].w * reach.patch;
+    node->slow = reach.slow;
+    return true;
+  }
   // Both fields use the distance to the plate's middle surface: the back field sees it mirrored.
   const float sign = s == 0 ? 1.0f : -1.0f;
   const float clearance = sign * shell[i].distance - tool->half_thickness, inset = shell[i].inset;
   node->share = contact_share(clearance, inset, &reach);
   if (!(node->share > 0.0f)) return false;
-  node->v = v.xyz;
-  node->m = v.w;
   node->n = sign * vload3(0, shell[i].normal);
   node->mu = surface[i].friction * tool->friction;
   const float free_fraction =
@@ -51,9 +63,6 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
     const float adhesion = surface[i].adhesion * tool->adhesion * contact_touch(fill);
     node->stick = contact_stick(adhesion, contact_area(clearance, inset, &reach), &reach);
   }
-  // Lever arm from the tool's origin [m]. Both points are relative to the window corner, so that no
-  // digits are lost far from the site's origin.
-  node->r = dx * (convert_float3(place - 4 * vload3(0, tool->window)) - vload3(0, tool->origin));
   return true;
 }
 
@@ -66,13 +75,14 @@ static inline bool load_node(ContactNode* node, int s, int i, int3 place, float 
   global const float4 *restrict before0, global const float4 *restrict before1,           \
       global const int *restrict split, global const int *restrict node_tool,             \
       global const NodeShell *restrict shell, global const ContactSoil *restrict surface, \
-      global const Tool *restrict tools, const int only, const Reach reach, const float dx
+      global const float4 *restrict edge, global const Tool *restrict tools, const int only,  \
+      const Reach reach, const float dx
 // The arguments of NODE_ARGS, to pass them on.
-#define NODE_SAME before0, before1, split, node_tool, shell, surface, tools, only, reach, dx
+#define NODE_SAME before0, before1, split, node_tool, shell, surface, edge, tools, only, reach, dx
 // Calls load_node for field s of node n in block `key`, with the arguments of NODE_ARGS.
 #define LOAD_NODE(node)                                                                      \
   load_node(node, s, i, 4 * key + in_block(n), dx, reach, s == 0 ? before0 : before1, split, \
-            node_tool, shell, surface, tools, only)
+            node_tool, shell, surface, edge, tools, only)
 
 // Initial value of a ContactSums.
 #define NO_SUMS \

@@ -71,6 +71,23 @@ INLINED real lode_radius(real determinant, real q, real sin_phi) {
   return r;
 }
 
+// Returns the share of bank density in the density state j0: 1 in bank state, 0 when loose.
+INLINED real dense_share(const LawSoil* soil, real j0) {
+  return fmin(fmax(soil->dense_offset - j0 * soil->inv_range, 0.0f), 1.0f);
+}
+
+// Returns the cohesion term of the yield stress, k = c cos phi [Pa], of soil that is not open
+// [docs/soil.md, cohesion]. dense: from dense_share; shear: accumulated plastic shear strain.
+INLINED real cohesion_term(const LawSoil* soil, real dense, real shear) {
+  const real soft = 1.0f + shear * soil->inv_remould;
+  return soil->k_loose + soil->k_dense * dense + soil->k_bond / (soft * soft);
+}
+
+// Returns the share of the cohesion that is left when J / J0 - 1 = open.
+INLINED real opening_share(const LawSoil* soil, real open) {
+  return fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
+}
+
 // Advances the state by dt [s] under the velocity gradient c [1/s], row by row. sigma: output, the
 // stress that acts on the grid, including pressure and viscosity [Pa], in the order xx, yy, zz, xy,
 // yz, xz; positive in tension.
@@ -114,10 +131,9 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // Yield stress from the cohesion of the density state and of the remaining bonds, faded by
   // opening [docs/soil.md, cohesion], then radial return [Klar 2016]
   // [docs/soil.md, return mapping].
-  const real dense = fmin(fmax(soil->dense_offset - j0 * soil->inv_range, 0.0f), 1.0f);
-  const real soft = 1.0f + state->shear * soil->inv_remould;
-  const real k = soil->k_loose + soil->k_dense * dense + soil->k_bond / (soft * soft);
-  const real fade = fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
+  const real dense = dense_share(soil, j0);
+  const real k = cohesion_term(soil, dense, state->shear);
+  const real fade = opening_share(soil, open);
   const real rate =
       sqrt(2.0f * (dxx * dxx + dyy * dyy + dzz * dzz) + 4.0f * (dxy * dxy + dyz * dyz + dxz * dxz));
 #ifdef LAW_EXTENDED

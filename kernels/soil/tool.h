@@ -25,6 +25,8 @@
 //
 // falling: speed at which a plate falls onto soil through nodes that carry almost no load [m/s]
 //
+// slow: speed below which a plate counts as standing still, for the resistance of its edges [m/s]
+//
 // down_x, down_y, down_z: unit vector of gravity in W; zero without gravity
 #define REACH_FIELDS(X) \
   X(h)                  \
@@ -35,6 +37,7 @@
   X(opening)            \
   X(settling)           \
   X(falling)            \
+  X(slow)               \
   X(down_x)             \
   X(down_y)             \
   X(down_z)
@@ -128,6 +131,38 @@ typedef struct NodeShell {
   float unused[3];
 } NodeShell;
 
+// Number of friction angles in an EdgeProfile: sin phi = i EDGE_STEP, i = 0 .. EDGE_ANGLES - 1. The
+// last one is 53 deg, above any soil.
+#define EDGE_ANGLES 65
+#define EDGE_STEP 0.0125f
+
+// Bearing factors of an edge at one friction angle of the soil [docs/tools.md, edges].
+typedef struct EdgeFactors {
+  // Factors of cohesion and of overburden for a blunt edge.
+  float flat_c, flat_q;
+  // The same for a smooth wedge with the edge's bevel.
+  float wedge_c, wedge_q;
+} EdgeFactors;
+
+// Shape of the edges of a tool.
+typedef struct EdgeProfile {
+  // Factors at sin phi = i EDGE_STEP.
+  EdgeFactors at[EDGE_ANGLES];
+  // 1 / tangent of half the bevel; 0 for a blunt edge.
+  float cot;
+  // Padding to 16 bytes.
+  float unused[3];
+} EdgeProfile;
+
+// Part of the edges of a tool that a near node stands for.
+typedef struct NodeEdge {
+  // Outward direction of the plate, times the area of its end that the node stands for [cell
+  // faces].
+  float outward[3];
+  // 0 without an edge; else 1 + tool index + (profile index << 16).
+  int tag;
+} NodeEdge;
+
 // Change of one velocity field of a node by contact.
 typedef struct ContactRecord {
   // Velocity before contact [m/s].
@@ -154,13 +189,14 @@ typedef struct ContactSums {
 } ContactSums;
 
 #ifdef __cplusplus
-static_assert(sizeof(ContactReach) == 44);
+static_assert(sizeof(ContactReach) == 48);
 static_assert(sizeof(Tool) == 232 && offsetof(Tool, origin) == 16 && offsetof(Tool, twist) == 32 &&
               offsetof(Tool, inverse_mass) == 80 && offsetof(Tool, adhesion) == 228);
 static_assert(sizeof(ShellFeature) == 16 && sizeof(ShellTriangle) == 160 &&
               offsetof(ShellTriangle, feature) == 48);
 static_assert(sizeof(ShellRim) == 32 && offsetof(ShellRim, along) == 16);
 static_assert(sizeof(NodeShell) == 32 && offsetof(NodeShell, inset) == 16);
+static_assert(sizeof(EdgeProfile) == 16 * (EDGE_ANGLES + 1) && sizeof(NodeEdge) == 16);
 static_assert(sizeof(ContactRecord) == 32 && offsetof(ContactRecord, after) == 16);
 static_assert(sizeof(ContactSums) == 4 * CONTACT_SUM_WORDS);
 }  // namespace navvy::soil

@@ -77,7 +77,8 @@ bool blame(const char* what, int signal, char* text, std::size_t size) {
   if (driver)
     std::strncat(
         text,
-        "; its messages above may name the cause; check disk, memory and the driver's version",
+        "; its messages above may name the cause; check disk, memory, limits (ulimit -a) and the "
+        "driver's version",
         size - std::strlen(text) - 1);
   return driver;
 }

@@ -20,7 +20,7 @@ enum ExitCode {
   kSimulation = 5,
   /// The run ended before one of its programs was completed. All results were written.
   kIncomplete = 6,
-  /// A result of a laboratory experiment is outside its acceptance range.
+  /// A result of a laboratory experiment is outside its tolerance.
   kOutOfTolerance = 7,
   /// A signal (Ctrl-C, SIGTERM, SIGHUP) or the loss of the controller ended the run. Results up to
   /// then are complete.

@@ -16,6 +16,7 @@
 #include "cli/severity.h"
 #include "control/step_kinds.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "device/device.h"
 #include "run/scene_check.h"
 #include "scene_io/loader.h"
@@ -29,7 +30,7 @@ namespace {
 /// Prints values that follow from a machine's file.
 void print_derived(const std::string& name, const scene::Machine& machine) {
   for (const std::string& one : machine.derived)
-    std::printf("'%s': %s\n", name.c_str(), one.c_str());
+    std::printf("'%s': %s\n", name.c_str(), printable(one).c_str());
 }
 
 /// Prints all faults of all files, and what a first second of each scene shows.
@@ -69,7 +70,7 @@ int check(const std::vector<std::string>& files, const scene_io::Overrides& over
     // Checks that need the machines on their ground.
     if (world) {
       run::SceneCheck start = run::check_scene(*world);
-      for (const std::string& note : start.notes) std::cout << note << "\n";
+      for (const std::string& note : start.notes) std::cout << printable(note) << "\n";
       std::move(start.faults.begin(), start.faults.end(), std::back_inserter(faults));
     }
     for (std::size_t i = 0; i < faults.size(); ++i) {

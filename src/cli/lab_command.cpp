@@ -110,8 +110,8 @@ int list_constants() {
   return kOk;
 }
 
-/// Runs all combinations of the lists, or the one experiment. Results outside their acceptance
-/// range give an exit status of their own, for scripts.
+/// Runs all combinations of the lists, or the one experiment. Results outside their tolerance give
+/// an exit status of their own, for scripts.
 int run_rig(LabOptions options) {
   const lab::Rig& rig = lab::find_rig(options.rig);
   // The runs may take an hour, so the files are checked first.
@@ -130,12 +130,12 @@ int run_rig(LabOptions options) {
                   "give some option more than one, as --cell 0.1,0.05");
   lab::Sweep sweep{plan.axes, {}};
   nlohmann::json runs = nlohmann::json::array();
-  bool missed = false;
+  bool outside = false;
   std::printf("%s: %s\n", rig.name.c_str(), rig.summary.c_str());
   for (const lab::PlannedRun& one : plan.runs) {
     sweep.runs.push_back({one.at, rig.run(one.setup)});
     runs.push_back(to_json(rig, one.setup, sweep.runs.back().report));
-    missed = missed || sweep.runs.back().report.missed();
+    outside = outside || sweep.runs.back().report.outside_tolerance();
   }
   // One experiment gets a table of its results, a sweep a table of its runs.
   if (plan.axes.empty())
@@ -146,7 +146,7 @@ int run_rig(LabOptions options) {
     write_file_atomically(options.json, (plan.axes.empty() ? runs.front() : runs).dump(1) + "\n");
   if (!options.plot.empty())
     write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
-  return missed ? kOutOfTolerance : kOk;
+  return outside ? kOutOfTolerance : kOk;
 }
 
 /// Refuses an option that the rig does not have, and names the nearest.

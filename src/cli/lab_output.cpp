@@ -72,11 +72,11 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
     const std::string name = key(q.name, q.unit);
     out["result"][name] = number(q.measured);
     out["expected"][name] = number(q.expected);
-    // Absent if there is no acceptance range.
+    // Absent if there is no tolerance.
     if (q.has_tolerance()) out["tolerance"][name] = {number(q.low), number(q.high)};
     if (!q.source.empty()) out["source"][name] = q.source;
-    if (q.missed()) out["outside_tolerance"].push_back(name);
-    // The setups for which the acceptance range holds, if this one is none of them.
+    if (q.outside_tolerance()) out["outside_tolerance"].push_back(name);
+    // The setups for which the tolerance holds, if this one is none of them.
     if (!q.in_range) out["not_judged"][name] = q.range;
   }
   // Curves over time or travel, where the rig measures one.
@@ -98,18 +98,18 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 }
 
 void print_table(const lab::Report& report) {
-  std::printf("%-40s %14s %12s %-22s %s\n", "quantity", "measured", "expected", "tolerance",
+  std::printf("%-40s %14s %12s %-24s %s\n", "quantity", "measured", "expected", "tolerance",
               "source");
   for (const lab::Quantity& q : report.results) {
     const std::string tolerance =
         q.has_tolerance() ? text_of(q.low) + " .. " + text_of(q.high) : "";
-    std::printf("%-40s %14s %12s %-22s %s\n",
+    std::printf("%-40s %14s %12s %-24s %s\n",
                 (q.name + (q.unit.empty() ? "" : " [" + q.unit + "]")).c_str(),
                 (std::isnan(q.measured) ? "nan" : text_of(q.measured)).c_str(),
                 text_of(q.expected).c_str(),
-                (tolerance + (q.missed()   ? "  MISS"
-                              : q.in_range ? ""
-                                           : "  not judged"))
+                (tolerance + (q.outside_tolerance() ? "  outside"
+                              : q.in_range          ? ""
+                                                    : "  not judged"))
                     .c_str(),
                 q.source.c_str());
   }

@@ -14,7 +14,7 @@ namespace navvy::cli {
 nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::Report& report);
 
 /// Prints the results of an experiment to standard output, as a table with five significant digits.
-/// Results outside their acceptance range are marked. Lines with information about the run follow.
+/// Results outside their tolerance are marked. Lines with information about the run follow.
 void print_table(const lab::Report& report);
 
 /// Returns a function that shows progress on stderr in a single line; its argument is the completed

@@ -6,10 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "cli/commands.h"
@@ -19,6 +21,7 @@
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "device/device_error.h"
 
 namespace {
@@ -85,25 +88,37 @@ int guarded(const cli::Action& action) {
   try {
     return action();
   } catch (const InputError& error) {
-    // Faults contain their own severity.
+    // Faults contain their own severity, and their texts are printable.
     std::cerr << error.what() << "\n";
     return cli::kBadInput;
   } catch (const device::DeviceError& error) {
-    std::cerr << error.what() << "\n";
+    // The log of a compiler has several lines.
+    std::cerr << printable_lines(error.what()) << "\n";
     return cli::kDevice;
   } catch (const FileError& error) {
-    std::cerr << "error: " << error.what() << "\n";
+    std::cerr << "error: " << printable(error.what()) << "\n";
     return cli::kFile;
   } catch (const SimulationError& error) {
-    std::cerr << "error: " << error.what() << "\n";
+    std::cerr << "error: " << printable_lines(error.what()) << "\n";
     return cli::kSimulation;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "error: " << printable(error.what()) << "\n";
+    return cli::kFile;
+  } catch (const std::system_error& error) {
+    // A thread that cannot be started, of this program or inside the driver.
+    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;
+    std::cerr << (scarce ? "error: no further thread can be started: " : "internal error: ")
+              << printable(error.what())
+              << (scarce ? "; raise the limits of processes (ulimit -u) and of memory (ulimit -v)\n"
+                         : "\n");
+    return scarce ? cli::kDevice : cli::kInternal;
   } catch (const std::bad_alloc&) {
     // Memory of the host; that of the device has its own error.
     std::cerr << "error: out of memory; use a larger soil cell (--set solver.cell_m=0.15) or a "
                  "smaller site\n";
     return cli::kInternal;
   } catch (const std::exception& error) {
-    std::cerr << "internal error: " << error.what() << "\n";
+    std::cerr << "internal error: " << printable_lines(error.what()) << "\n";
     return cli::kInternal;
   }
 }
@@ -122,8 +137,8 @@ int run(int argc, char** argv) {
       "file could not\n"
       "be written, 5 the simulation failed (it leaves failed.snapshot), 6 the run ended before a "
       "program of it did\n"
-      "(see programs in summary.json), 7 `navvy lab` measured a result outside its acceptance "
-      "range, 130\n"
+      "(see programs in summary.json), 7 `navvy lab` measured a result outside its "
+      "tolerance, 130\n"
       "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
       "which is reported.\n"
       "docs/README.md lists all pages; docs/reference/scene.md has the elements of scene files.");
@@ -148,8 +163,8 @@ int run(int argc, char** argv) {
     std::vector<std::string> names;
     names.reserve(commands.size());
     for (const CLI::App* command : commands) names.push_back(command->get_name());
-    std::cerr << "error: '" << argv[1] << "' is no command; " << suggestion(argv[1], names)
-              << " (navvy --help)\n";
+    std::cerr << "error: '" << printable(argv[1]) << "' is no command; "
+              << suggestion(argv[1], names) << " (navvy --help)\n";
     return cli::kBadInput;
   }
   try {
@@ -157,7 +172,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors.
     if (error.get_exit_code() == 0) return app.exit(error) == 0 ? cli::kOk : cli::kBadInput;
-    std::cerr << "error: " << complaint(app, error, argc, argv) << "\n";
+    std::cerr << "error: " << printable(complaint(app, error, argc, argv)) << "\n";
     return cli::kBadInput;
   }
   // Parsing prints its own messages, so the log follows it.

@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "core/sealed.h"
 #include "device/device.h"
 #include "formats/formats.h"
@@ -127,7 +128,8 @@ scene::Scene load(const std::string& file) {
 /// Returns the scene file in the folder of a run. @throws InputError when there is none.
 std::string scene_of(const std::filesystem::path& folder, const std::string& asked) {
   const std::string file = (folder / "scene.sdf").string();
-  if (std::filesystem::is_regular_file(file)) return file;
+  std::error_code unreadable;
+  if (std::filesystem::is_regular_file(file, unreadable)) return file;
   throw InputError(Fault{Fault::Severity::kError, "", 0, "map", asked,
                          "there is no scene.sdf in '" + folder.string() + "'",
                          "give a run's folder, or for a snapshot its scene with --scene FILE"});
@@ -193,7 +195,8 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
           const std::vector<map::MapLayer>& layers) {
   // The name is a folder, a file with the header of a snapshot, or else a scene.
   const std::filesystem::path from(options.from);
-  if (std::filesystem::is_directory(from)) {
+  std::error_code unreadable;
+  if (std::filesystem::is_directory(from, unreadable)) {
     const scene::Scene scene = load(scene_of(from, options.from));
     const std::string end = (from / "terrain_end.tif").string();
     require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
@@ -223,7 +226,8 @@ int map(const MapCommand& options) {
   std::vector<map::MapLine> lines;
   if (options.paths) {
     const std::string file = (std::filesystem::path(options.from) / "paths.csv").string();
-    if (!std::filesystem::is_regular_file(file))
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(file, unreadable))
       throw InputError(Fault{Fault::Severity::kError, "", 0, "--paths", options.from,
                              "holds no paths.csv",
                              "give the folder of a run whose program has a go_to"});
@@ -243,7 +247,7 @@ int map(const MapCommand& options) {
   // The files of a run do not hold the time.
   if (made.time() == made.time()) std::snprintf(when, sizeof when, " at %g s", made.time());
   if (!unknown.empty()) names += "; unknown everywhere: " + unknown;
-  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", options.out.c_str(),
+  std::printf("map: %s, %s, %d x %d columns of %g m%s: %s\n", printable(options.out).c_str(),
               format.name.c_str(), made.nx(), made.ny(), made.cell(), when, names.c_str());
   return kOk;
 }

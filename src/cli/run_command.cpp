@@ -13,6 +13,7 @@
 #include "cli/scene_options.h"
 #include "cli/validators.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "core/stopwatch.h"
 #include "link/control_stdio.h"
 #include "link/published_map.h"
@@ -135,8 +136,9 @@ void print_programs(std::FILE* out, const session::Session& session) {
     if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
     const std::string& name =
         session.world().description().machines[static_cast<std::size_t>(report.machine)].name;
-    std::fprintf(out, "incomplete: %s\n",
-                 session::report_line(report, name, "the controller ended the run").c_str());
+    std::fprintf(
+        out, "incomplete: %s\n",
+        printable(session::report_line(report, name, "the controller ended the run")).c_str());
   }
 }
 
@@ -148,7 +150,7 @@ int print_end(const RunOptions& options, const session::Session& session, const 
     std::fprintf(out, "interrupted: %s, at %.6g s\n", end.cause.c_str(), end.time);
   else
     print_programs(out, session);
-  std::fprintf(out, "results: %s/summary.json\n", options.simulation.folder.c_str());
+  std::fprintf(out, "results: %s/summary.json\n", printable(options.simulation.folder).c_str());
   if (end.reason == run::EndReason::kInterrupted) return kInterrupted;
   if (end.snapshot_missed) return kFile;
   // A duration on the command line asks for no more than that: a program that it cuts off is
@@ -212,7 +214,7 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
   command
       ->add_option("--control-rate", options->control_rate,
                    "control steps per simulated second (50); the base step divides their period")
-      ->check(CLI::Range(0.001, 1e5))
+      ->check(within(0.001, 1e5))
       ->needs(control);
   CLI::Option* snapshot = command->add_option("--snapshot", options->simulation.snapshot,
                                               "file to save the state to at --snapshot-at");
@@ -240,7 +242,7 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
                           "publish the changing map to other processes: tcp:PORT "
                           "(on 127.0.0.1), tcp:HOST:PORT, or a new folder");
   command->add_option("--publish-rate", options->publish.rate, "updates per simulated second (10)")
-      ->check(CLI::Range(0.001, 1e4))
+      ->check(within(0.001, 1e4))
       ->needs(publish);
   command
       ->add_option("--publish-layers", options->publish.layers, "names separated by commas (all)")

@@ -2,6 +2,7 @@
 #include "cli/scene_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "cli/validators.h"
 #include "control/step_kinds.h"
@@ -19,7 +20,7 @@ Vec2 parse_pair(const std::string& option, const std::string& text) {
     const double x = std::stod(text, &used);
     if (used < text.size() && text[used] == ',') {
       const double y = std::stod(text.substr(used + 1), &rest);
-      if (used + 1 + rest == text.size()) return Vec2(x, y);
+      if (used + 1 + rest == text.size() && std::isfinite(x) && std::isfinite(y)) return Vec2(x, y);
     }
   } catch (const std::exception&) {
     // The message below covers it.

@@ -81,6 +81,27 @@ int soils() {
   return kOk;
 }
 
+/// Prints what each test would measure on the soil, and the plane-strain angle that the soil's
+/// angle would stand for if that test had measured it.
+void print_friction_tests(const scene::Soil& soil) {
+  const bool given = soil.friction_test != scene::FrictionTest::kPlaneStrain;
+  const double source = given ? soil.tested_friction_angle : soil.friction_angle;
+  std::printf("  friction angle in each test [deg], given for %s; psi %g deg\n",
+              scene::name_of(soil.friction_test), degrees(soil.dilatancy_angle));
+  std::printf("    %-14s %10s   phi if it had measured %.4g\n", "test", "this soil",
+              degrees(source));
+  for (const auto& [name, test] : scene::kFrictionTests) {
+    const double phi = scene::plane_strain_angle(test, source, soil.dilatancy_angle);
+    const bool above = scene::check_friction(test, source, soil.dilatancy_angle).has_value();
+    char text[32];
+    std::snprintf(text, sizeof text, above ? "above %.0f" : "%.1f",
+                  above ? scene::kMostFrictionDegrees : degrees(phi));
+    std::printf("    %-14s %10.1f   %s\n", name,
+                degrees(scene::angle_in_test(test, soil.friction_angle, soil.dilatancy_angle)),
+                text);
+  }
+}
+
 /// Prints every value of a soil under its name in scene files, ready to be copied into a scene.
 int one_soil(const std::string& name) {
   scene::Soil soil = scene_io::shipped_soil(name, "soils");
@@ -96,6 +117,7 @@ int one_soil(const std::string& name) {
                   ? "the default of its cohesion"
                   : "its own, not 200 x its cohesion",
               std::sqrt(soil.young_modulus / 1e6));
+  print_friction_tests(soil);
   if (const auto soft = scene::too_soft(soil)) std::printf("  %s\n", soft->text().c_str());
   return kOk;
 }

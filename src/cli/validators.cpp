@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 namespace navvy::cli {
 namespace {
@@ -25,6 +26,16 @@ std::string above_zero(const std::string& text) {
 
 std::string not_negative(const std::string& text) {
   return number(text) >= 0 ? "" : "'" + text + "': must be a number, 0 or above";
+}
+
+std::function<std::string(const std::string&)> within(double least, double most) {
+  return [least, most](const std::string& text) {
+    const double value = number(text);
+    if (value >= least && value <= most) return std::string();
+    char range[80];
+    std::snprintf(range, sizeof range, "': must be a number from %g to %g", least, most);
+    return "'" + text + range;
+  };
 }
 
 // Seeds use all 64 bits, which a double does not hold.

@@ -61,6 +61,7 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
   // of the bucket's tip and edge.
   const int bucket_link = machine.link_index(bucket_data_.link);
   const Vec3 tip = X_MS.inverse() * (link(bucket_link).X_ML * bucket_data_.p_tip);
+  weigh(machine, X_MS, {p0, p1, p2});
   pin_reach_ = p0.x();
   pin_height_ = p0.z();
   boom_ = (p1 - p0).norm();
@@ -75,6 +76,14 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
     if (shell.name != bucket_data_.shell) continue;
     const Pose X_SL = X_MS.inverse() * link(machine.link_index(shell.link)).X_ML;
     const Eigen::Rotation2Dd level(-tip_angle_);
+    // Pyramids from the tip, which is in the plane of the mouth, on all triangles.
+    for (const auto& triangle : shell.triangles) {
+      const auto corner = [&](std::size_t i) -> Vec3 {
+        return shell.vertices[static_cast<std::size_t>(triangle[i])] - bucket_data_.p_tip;
+      };
+      struck_ -= corner(0).dot(corner(1).cross(corner(2))) / 6;
+    }
+    struck_ = std::abs(struck_);
     for (const Vec3& v : shell.vertices) {
       const Vec3 d = X_SL * v - tip;
       profile_.push_back(level * Vec2(d.x(), d.z()));
@@ -84,6 +93,63 @@ ArmKinematics::ArmKinematics(const scene::Machine& machine) {
         profile_edges_.push_back({triangle[i], triangle[(i + 1) % 3]});
     break;
   }
+}
+
+void ArmKinematics::weigh(const scene::Machine& machine, const Pose& X_MS,
+                          const std::array<Vec3, 3>& pins) {
+  for (std::size_t k = 0; k < machine.links.size(); ++k) {
+    // The part that the link belongs to: that of the first of the arm's joints towards the base.
+    int part = -1;
+    for (int at = static_cast<int>(k); at > 0 && part < 0;) {
+      int parent = 0;
+      for (std::size_t j = 0; j < machine.joints.size(); ++j) {
+        const scene::Joint& joint = machine.joints[j];
+        if (joint.child != at) continue;
+        parent = joint.parent;
+        if (static_cast<int>(j) == swing_) part = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+          if (static_cast<int>(j) == joints_[i]) part = static_cast<int>(i) + 1;
+        break;
+      }
+      at = parent;
+    }
+    if (part < 0) continue;
+    const scene::Link& link = machine.links[k];
+    const Pose X_SL = X_MS.inverse() * link.X_ML;
+    const Vec3 pin = part == 0 ? Vec3(Vec3::Zero()) : pins[static_cast<std::size_t>(part) - 1];
+    const Vec3 p = X_SL * link.p_LCom - pin;
+    // Second moments of the link's own mass, from its inertia: half its trace less the inertia.
+    const Mat3 own = X_SL.linear() * link.inertia * X_SL.linear().transpose();
+    const Mat3 second = 0.5 * own.trace() * Mat3::Identity() - own + link.mass * p * p.transpose();
+    Part& out = parts_[static_cast<std::size_t>(part)];
+    out.mass += link.mass;
+    out.along += link.mass * p.x();
+    out.across += link.mass * p.z();
+    out.xx += second(0, 0);
+    out.xz += second(0, 2);
+    out.zz += second(2, 2);
+    out.yy += second(1, 1);
+  }
+}
+
+double ArmKinematics::swing_inertia(const ArmAngles& q, double load) const {
+  // The upper structure does not turn in the swing plane; its pin is on the axis.
+  double sum = parts_[0].xx + parts_[0].yy;
+  const double lengths[3] = {boom_, stick_, bucket_};
+  double reach = pin_reach_, angle = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    angle += q[i];
+    const Part& part = parts_[i + 1];
+    // Frames of the parts are parallel to S at joint position zero, so joint angles turn them.
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double first = c * part.along - s * part.across;
+    sum += part.mass * reach * reach + 2 * reach * first + c * c * part.xx - 2 * c * s * part.xz +
+           s * s * part.zz + part.yy;
+    const double line = i == 2 ? angle + tip_angle_ : angle;
+    if (i == 2) sum += load * std::pow(reach + 0.5 * bucket_ * std::cos(line), 2);
+    reach += lengths[i] * std::cos(line);
+  }
+  return sum;
 }
 
 // Only vertices can be lowest or farthest out; edges matter where they are cut off at a height.

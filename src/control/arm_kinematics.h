@@ -53,6 +53,13 @@ class ArmKinematics {
   /// when the bucket is at `angle` [rad]. Only the part of the shell that is less than `height` [m]
   /// above the tip counts.
   double beyond_tip(double angle, double height) const;
+  /// Returns the inertia of upper structure and arm about the swing axis at the joint angles `q`,
+  /// with soil of the mass `load` [kg] at the middle of the line from the bucket's pin to its tip
+  /// [kg m2].
+  double swing_inertia(const ArmAngles& q, double load) const;
+  /// Returns the struck capacity of the bucket: the volume between its shell and the plane of its
+  /// mouth [m3]. 0 if the shell is unknown.
+  double struck_capacity() const { return struck_; }
   /// Returns the distance between the bucket's pin and its tip [m].
   double bucket_length() const { return bucket_; }
   /// Returns the maximum distance of the tip from the boom's pin, with the arm stretched [m].
@@ -95,6 +102,22 @@ class ArmKinematics {
   double swing_lower_ = 0, swing_upper_ = 0;
   // Pose of the swing axis frame S in the frame of the base link, at a swing angle of zero.
   Pose X_BS_ = Pose::Identity();
+  // Links that move as one with upper structure, boom, stick and bucket, for the swing inertia.
+  struct Part {
+    // Mass [kg], and first moments of mass about the pin, along and across the part [kg m].
+    double mass = 0, along = 0, across = 0;
+    // Second moments of mass about the pin: along x along, along x across, across x across, and
+    // across the swing plane [kg m2].
+    double xx = 0, xz = 0, zz = 0, yy = 0;
+  };
+  // Sums the links of `machine` into `parts_`; `X_MS` is the pose of S in the machine's frame, and
+  // `pins` are the pins of boom, stick and bucket in S, with all joints at position zero.
+  void weigh(const scene::Machine& machine, const Pose& X_MS, const std::array<Vec3, 3>& pins);
+  // Upper structure (about the swing axis), boom, stick and bucket (about their pins, in the axes
+  // of S with all joints at position zero).
+  std::array<Part, 4> parts_{};
+  // Struck capacity of the bucket [m3].
+  double struck_ = 0;
   // Position of the boom's pin in S: distance from the swing axis and height [m].
   double pin_reach_ = 0, pin_height_ = 0;
   // Distances between successive pins [m]; the last one is from the bucket's pin to its tip.

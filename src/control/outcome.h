@@ -33,6 +33,10 @@ enum class StepState : std::uint8_t {
   kBuried,
   /// The planner found no path to the target.
   kNoPath,
+  /// The machine slid or was pushed away during a step in which it stands.
+  kMoved,
+  /// The machine's base has left the site.
+  kOffSite,
 };
 
 /// Returns the name of a state as used in files and messages, such as "out_of_reach".
@@ -67,7 +71,7 @@ struct StepReport {
   /// Position of the base link's origin in W [m] at the time `end`.
   Vec3 place = Vec3::Zero();
   /// Measurements that the step itself reports (Activity::account).
-  std::vector<Measurement> figures;
+  std::vector<Measurement> measurements;
 
   /// Saves or loads all fields.
   void visit(Archive& a);

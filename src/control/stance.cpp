@@ -61,7 +61,7 @@ double Stance::rise(const Pose& X_WB, const ArmKinematics& arm, double swing) co
   return std::asin(std::clamp(outward.dot(Vec3(up_[0], up_[1], up_[2])), -1.0, 1.0));
 }
 
-double Stance::footing(const Pose& X_WB) const {
+double Stance::tilt_factor(const Pose& X_WB) const {
   // Sine of the angle between the base's z axis then and now, as in rise.
   const double tilt = Vec3(up_[0], up_[1], up_[2]).cross(Vec3(X_WB.linear().col(2))).norm();
   return std::clamp(2 - tilt / kTilt, 0.0, 1.0);

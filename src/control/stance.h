@@ -31,7 +31,7 @@ class Stance {
   void settle();
   /// Returns 1 while the inclination differs by at most 1.5 deg from the reference. Beyond that,
   /// the value falls linearly to 0 at 3 deg.
-  double footing(const Pose& X_WB) const;
+  double tilt_factor(const Pose& X_WB) const;
   /// Returns the angle [rad] by which the machine has pitched since the reference was set, in the
   /// direction of the arm: positive if the side towards the bucket has risen, negative if it has
   /// sunk. `swing` is the current swing angle [rad].

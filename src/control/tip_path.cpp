@@ -9,8 +9,12 @@
 namespace navvy::control {
 namespace {
 
-// Lag of the tip behind its path at which the path waits [m].
-constexpr double kLag = 0.12;
+// Lag of the tip behind its path at which the path waits [m]. The servo's own lag does not count:
+// targets are ahead of the path by it.
+constexpr double kLag = 0.2;
+// Time by which a position servo follows behind a moving target [s]: its gain is 20 /s; and the
+// time over which rates are smoothed [s].
+constexpr double kServoLag = 0.05, kRateTime = 0.1;
 // Speed below which a waiting tip counts as held by the soil [m/s].
 constexpr double kHeld = 0.08;
 constexpr double kGiveIn = 0.2;  // [s] of being held before the path rises
@@ -42,13 +46,14 @@ Axes TipPath::start(const OperatorContext& place, const Stance& stance, const Ve
   lift = 0;
   slow = 1;
   stall_ = 0;
+  rate_ = {};
   const Solution solution = solve(place, stance, p, z);
   reached = solution.angle;
   return solution.q;
 }
 
 void TipPath::follow(OperatorContext& place, const Stance& stance, const Vec2& p,
-                     const Observation& seen, double dt, bool curling) {
+                     const Observation& seen, double dt, bool curling, Command& out) {
   // Out of reach, `reached` keeps its last value.
   const Solution solution = solve(place, stance, p, z + lift);
   if (solution.found) reached = solution.angle;
@@ -57,7 +62,11 @@ void TipPath::follow(OperatorContext& place, const Stance& stance, const Vec2& p
     // The servo gets no jumps, whatever the machine's pose or an arm limit did.
     const double rate =
         1.5 * std::min(2.0, std::max(0.1, seen.joints[place.joint(i)].velocity_limit));
-    q[i] += std::clamp(solution.q[i] - q[i], -rate * dt, rate * dt);
+    const double step = std::clamp(solution.q[i] - q[i], -rate * dt, rate * dt);
+    q[i] += step;
+    rate_[i] += (step / dt - rate_[i]) * (1 - std::exp(-dt / kRateTime));
+    out.joints[place.joint(i)] =
+        vehicle::JointInput{vehicle::JointMode::kPosition, q[i] + kServoLag * rate_[i]};
   }
   feel_stall(place, stance, seen, dt, curling);
 }
@@ -68,6 +77,7 @@ void TipPath::visit(Archive& a) {
   a("reached", reached);
   a("lift", lift);
   a("slow", slow);
+  a("rate", rate_);
   a("stall", stall_);
 }
 
@@ -89,8 +99,8 @@ void TipPath::feel_stall(const OperatorContext& place, const Stance& stance,
   // moment apart.
   const double lag = std::hypot(tip.reach - wanted.reach, tip.height - wanted.height);
   const double speed = std::hypot(next.reach - tip.reach, next.height - tip.height) / kAhead;
-  const double footing = stance.footing(seen.X_WB);
-  slow = std::min(footing, std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
+  const double steady = stance.tilt_factor(seen.X_WB);
+  slow = std::min(steady, std::clamp(2 - 2 * lag / kLag, 0.0, 1.0));
   // A lag alone may be the servo's; a tip that lags and hardly moves is held.
   const bool held = (slow < 0.35 || stalled) && speed < kHeld;
   stall_ = held ? stall_ + dt : std::max(0.0, stall_ - 2 * dt);
@@ -98,7 +108,7 @@ void TipPath::feel_stall(const OperatorContext& place, const Stance& stance,
   const double rise = stance.rise(seen.X_WB, arm, seen.joints[place.joint(0)].position);
   const double relief = kReliefRate * std::clamp((rise - kRise) / (kRiseMost - kRise), 0.0, 1.0);
   // Rising helps against soil in front, but not while the curl pulls the machine over.
-  const bool tipping = curling && footing < 1;
+  const bool tipping = curling && steady < 1;
   const double rate = std::max(relief, held && !tipping && stall_ > kGiveIn ? kLiftRate : 0.0);
   lift += rate * dt;
   if (!held && !(rise > 0.5 * kRise)) lift = std::max(0.0, lift - kSinkRate * dt);

@@ -35,10 +35,11 @@ class TipPath {
              double tip_angle);
   /// Commands the tip to the point `p` (x, y) in W [m] at the height `z + lift`, then updates
   /// `reached`, `lift` and `slow` from the machine's response. `dt` [s] is the length of the
-  /// control step. While `curling` is true and the machine tilts, a held tip does not raise the
-  /// path, because that would pull the machine over.
+  /// control step. The angles of the path go to OperatorContext::handover; the targets in `out` are
+  /// ahead of them by the servo's own lag. While `curling` is true and the machine tilts, a held
+  /// tip does not raise the path, because that would pull the machine over.
   void follow(OperatorContext& place, const Stance& stance, const Vec2& p, const Observation& seen,
-              double dt, bool curling);
+              double dt, bool curling, Command& out);
 
   /// Saves or loads the path.
   void visit(Archive& a);
@@ -61,6 +62,8 @@ class TipPath {
   void feel_stall(const OperatorContext& place, const Stance& stance, const Observation& seen,
                   double dt, bool curling);
 
+  // Filtered rates of the path's joint angles [rad/s].
+  Axes rate_{};
   // Time for which the tip has been held [s]; decreases while it is free.
   double stall_ = 0;
 };

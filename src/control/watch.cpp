@@ -18,7 +18,7 @@ StepState Watch::look(const Observation& seen, double dt, std::string& reason) {
   if (!stands.free) return StepState::kRunning;
   const std::string tilt = "it tilts by " + number_text(degrees(stands.tilt), "deg");
   const std::string outside =
-      "its centre of mass is " + metres(-stands.margin) + " outside its feet";
+      "its centre of mass is " + metres(-stands.margin) + " outside its support polygon";
   outside_ = stands.margin < 0 && stands.tilt_rate > kTiltRate ? outside_ + dt : 0;
   if (stands.tilt > kFarthestTilt || outside_ > kOutside) {
     reason = stands.margin < 0 ? outside + " and " + tilt : tilt;

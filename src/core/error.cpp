@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/printable.h"
+
 namespace navvy {
 
 std::string Fault::text() const {
@@ -19,7 +21,8 @@ std::string Fault::text() const {
   if (!value.empty()) out += "'" + value + "': ";
   out += rule;
   if (!remedy.empty()) out += " (" + remedy + ")";
-  return out;
+  // Paths, names and values come from files of any origin.
+  return printable(out);
 }
 
 namespace {

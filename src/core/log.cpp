@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/printable.h"
+
 namespace navvy {
 namespace {
 LogSink& sink() {
@@ -15,7 +17,7 @@ LogSink& sink() {
 void set_log_sink(LogSink replacement) { sink() = std::move(replacement); }
 
 void log(LogLevel level, const std::string& text) {
-  if (sink()) sink()(level, text);
+  if (sink()) sink()(level, printable(text));
 }
 
 }  // namespace navvy

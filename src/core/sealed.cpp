@@ -15,11 +15,14 @@
 namespace navvy {
 namespace {
 
-constexpr char kMagic[16] = "navvy state 1\n\n";
-/// Length of the part of the magic that all versions share.
+constexpr char kMagic[16] = "navvy state 2\n\n";
+/// Length of the part of the magic that all versions share; the version follows it.
 constexpr std::size_t kName = 11;
-/// Size of the file's head [bytes]: magic, length of the file, checksum of both.
-constexpr std::size_t kHead = sizeof kMagic + 2 * sizeof(std::uint64_t);
+constexpr std::size_t kNumber = sizeof(std::uint64_t);
+/// Positions in the head: magic, length of the file, checksum of the last section, checksum of all
+/// these.
+constexpr std::size_t kLength = sizeof kMagic, kLast = kLength + kNumber, kSum = kLast + kNumber,
+                      kHead = kSum + kNumber;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& rule) {
   throw InputError(Fault{
@@ -38,10 +41,14 @@ std::uint64_t number_at(const char* at) {
   return out;
 }
 
-/// Returns the hash of a section's bytes and its index, so that exchanged sections are found.
-std::uint64_t checksum(std::uint64_t place, const char* data, std::size_t size) {
+/// Returns the hash of a section's bytes, its index and the checksum of the section before it (0
+/// for the first and for the head). A section of another state, even of the same run a step later,
+/// thus has another checksum in its place.
+std::uint64_t checksum(std::uint64_t place, std::uint64_t before, const char* data,
+                       std::size_t size) {
   StateHash sum;
   sum.value(place);
+  sum.value(before);
   sum.bytes(data, size);
   return sum.digest();
 }
@@ -68,37 +75,54 @@ std::string name_of(std::uint64_t place, const char* at, std::size_t size) {
 
 std::vector<char> seal(const std::vector<char>& state) {
   std::vector<char> out(kHead);
-  std::uint64_t place = 0;
+  std::uint64_t place = 0, last = 0;
   for (std::size_t at = 0; at < state.size(); ++place) {
     const std::size_t size = section_size(state.data() + at, state.size() - at);
     if (size == 0)
       throw Error("seal: byte " + std::to_string(at) + " of the state lies in no section");
-    const std::uint64_t sum = checksum(place, state.data() + at, size);
-    append(out, &sum, sizeof sum);
+    last = checksum(place, last, state.data() + at, size);
+    append(out, &last, sizeof last);
     append(out, state.data() + at, size);
     at += size;
   }
   const std::uint64_t length = out.size();
   // The head is written last, when the length is known.
   std::memcpy(out.data(), kMagic, sizeof kMagic);
-  std::memcpy(out.data() + sizeof kMagic, &length, sizeof length);
-  const std::uint64_t sum = checksum(0, out.data(), sizeof kMagic + sizeof length);
-  std::memcpy(out.data() + sizeof kMagic + sizeof length, &sum, sizeof sum);
+  std::memcpy(out.data() + kLength, &length, sizeof length);
+  std::memcpy(out.data() + kLast, &last, sizeof last);
+  const std::uint64_t sum = checksum(0, 0, out.data(), kSum);
+  std::memcpy(out.data() + kSum, &sum, sizeof sum);
   return out;
 }
 
-std::vector<char> unseal(const std::vector<char>& content) {
+namespace {
+
+/// Checks magic, length and checksum of the head.
+void check_head(const std::vector<char>& content) {
+  if (content.size() >= sizeof kMagic && std::memcmp(content.data(), kMagic, kName) == 0 &&
+      std::memcmp(content.data(), kMagic, sizeof kMagic) != 0) {
+    const std::string version(content.data() + kName, content.data() + sizeof kMagic);
+    throw InputError(Fault{
+        Fault::Severity::kError, "snapshot", 0, "head", version.substr(1, version.find('\n') - 1),
+        std::string("another version of Navvy wrote this format; this one reads ") +
+            kMagic[kName + 1],
+        "continue with that version, or record the snapshot again"});
+  }
   if (content.size() < kHead || std::memcmp(content.data(), kMagic, sizeof kMagic) != 0)
-    refuse("head", "must be a snapshot of this version");
-  const char* const numbers = content.data() + sizeof kMagic;
-  if (number_at(numbers + sizeof(std::uint64_t)) !=
-      checksum(0, content.data(), kHead - sizeof(std::uint64_t)))
+    refuse("head", "must be a snapshot");
+  if (number_at(content.data() + kSum) != checksum(0, 0, content.data(), kSum))
     refuse("head", "the checksum does not match");
-  if (number_at(numbers) != content.size())
+  if (number_at(content.data() + kLength) != content.size())
     refuse("head", "the file is truncated or longer than it was written");
+}
+
+}  // namespace
+
+std::vector<char> unseal(const std::vector<char>& content) {
+  check_head(content);
   std::vector<char> out;
   out.reserve(content.size());
-  std::uint64_t place = 0;
+  std::uint64_t place = 0, last = 0;
   for (std::size_t at = kHead; at < content.size(); ++place) {
     const std::size_t left = content.size() - at;
     if (left < sizeof(std::uint64_t)) refuse(name_of(place, "", 0), "the section is truncated");
@@ -106,11 +130,14 @@ std::vector<char> unseal(const std::vector<char>& content) {
     const std::string where = name_of(place, section, left - sizeof(std::uint64_t));
     const std::size_t size = section_size(section, left - sizeof(std::uint64_t));
     if (size == 0) refuse(where, "the section is truncated");
-    if (number_at(content.data() + at) != checksum(place, section, size))
-      refuse(where, "the checksum does not match");
+    last = checksum(place, last, section, size);
+    if (number_at(content.data() + at) != last)
+      refuse(where, "the checksum does not match: the section is damaged, or of another state");
     append(out, section, size);
     at += sizeof(std::uint64_t) + size;
   }
+  if (number_at(content.data() + kLast) != last)
+    refuse("head", "the last section is of another state");
   return out;
 }
 

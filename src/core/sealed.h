@@ -10,7 +10,8 @@ namespace navvy {
 
 /// Returns the content of a file for a saved state that consists of sections (core/saved_state.h).
 /// The content has a head with its length, and a checksum before each outermost section, which also
-/// covers the position of the section. This takes one copy and one pass over the state.
+/// covers the position of the section and the checksum before it; the head holds the last one. So
+/// all sections belong to one state. This takes one copy and one pass over the state.
 /// @throws Error if bytes of the state do not belong to a section
 std::vector<char> seal(const std::vector<char>& state);
 

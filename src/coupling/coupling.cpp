@@ -45,7 +45,7 @@ Coupling::Coupling(const scene::Scene& world, vehicle::PhysicsEngine& engine,
       load.machine = static_cast<int>(m);
       load.shell = static_cast<int>(s);
       load.link = placed.machine.link_index(shell.link);
-      load.tool = solver.add_tool(shell);
+      load.tool = solver.add_tool(placed.machine.with_teeth(shell));
       tools_.push_back(load);
     }
   }
@@ -139,6 +139,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.impulse = impulse;
     tool.force_W = impulse.force_W;
     tool.moment_W = impulse.moment_W;
+    tool.edge_force_W = impulse.edge_force_W;
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
     Vec3 rock_W = Vec3::Zero();
     if (const vehicle::RockCapability* rock = engine(tool.machine).rock())
@@ -197,10 +198,13 @@ void ToolLoad::visit(Archive& a) {
   // one.
   a("force_W", force_W);
   a("moment_W", moment_W);
+  a("edge_force_W", edge_force_W);
   a("smooth_W", smooth_W);
   a("rock_W", rock_W);
   a("J_W", impulse.J_W);
   a("L_W", impulse.L_W);
+  a("J_edge_W", impulse.J_edge_W);
+  a("L_edge_W", impulse.L_edge_W);
   a("p_W", impulse.p_W);
   a("normal", impulse.normal);
   a("friction", impulse.friction);
@@ -211,7 +215,7 @@ void ToolLoad::visit(Archive& a) {
 }
 
 void Coupling::visit(Archive& a) {
-  a.section("coupling", 6, [&] {
+  a.section("coupling", 7, [&] {
     a("steps", steps_);
     a.fixed("tools", tools_);
     a("ruts", ruts_);

@@ -29,6 +29,8 @@ struct ToolLoad {
   Vec3 force_W = Vec3::Zero();
   /// Mean soil moment about the origin of the link over the same time, in W [N m].
   Vec3 moment_W = Vec3::Zero();
+  /// Part of force_W that acts on the edges of the shell's plates [N].
+  Vec3 edge_force_W = Vec3::Zero();
   /// Low-pass filtered soil force in W [N], for display and control. The cutoff frequency is 3 Hz.
   Vec3 smooth_W = Vec3::Zero();
   /// Low-pass filtered force of the rock below the soil, in W [N]. The cutoff frequency is 3 Hz.

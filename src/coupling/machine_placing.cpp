@@ -51,15 +51,16 @@ Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& groun
   Pose standing =
       make_pose(origin.x(), origin.y(), origin.z(), 0, 0, std::atan2(ahead.y(), ahead.x()));
   X_WM.translation().z() += origin.z();
-  const std::vector<Vec3> feet = contacts(placed.machine, standing);
-  if (feet.size() < 3) return X_WM;
-  // Fit the plane h = a + b x + c y to the ground's height above the feet, x and y from the origin.
+  const std::vector<Vec3> support_points = contacts(placed.machine, standing);
+  if (support_points.size() < 3) return X_WM;
+  // Fit the plane h = a + b x + c y to the ground's height above the support points, x and y from
+  // the origin.
   Mat3 normal_matrix = Mat3::Zero();
   Vec3 right = Vec3::Zero();
   double highest = 0;
-  for (const Vec3& foot : feet) {
-    const Vec3 row(1, foot.x() - origin.x(), foot.y() - origin.y());
-    const double step = ground.sample(foot.x(), foot.y()) - foot.z();
+  for (const Vec3& point : support_points) {
+    const Vec3 row(1, point.x() - origin.x(), point.y() - origin.y());
+    const double step = ground.sample(point.x(), point.y()) - point.z();
     normal_matrix += row * row.transpose();
     right += step * row;
     highest = std::max(highest, std::abs(step));
@@ -70,8 +71,8 @@ Pose place(const scene::MachineInWorld& placed, const heightfield::Ground& groun
   const Mat3 tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), up).toRotationMatrix();
   standing.linear() = tilt * standing.linear();
   double raise = -std::numeric_limits<double>::infinity();
-  for (const Vec3& foot : contacts(placed.machine, standing))
-    raise = std::max(raise, ground.sample(foot.x(), foot.y()) - foot.z());
+  for (const Vec3& point : contacts(placed.machine, standing))
+    raise = std::max(raise, ground.sample(point.x(), point.y()) - point.z());
   // Add the height over the ground, roll and pitch of the scene.
   X_WM.linear() = tilt * X_WM.linear();
   X_WM.translation().z() += raise;

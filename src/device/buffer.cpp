@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/buffer.h"
 
+#include "core/long_work.h"
 #include "device/opencl_private.h"
 
 namespace navvy::device {
@@ -76,6 +77,7 @@ void RawBuffer::write(const void* data, std::size_t offset, std::size_t bytes, b
 void RawBuffer::read(void* data, std::size_t offset, std::size_t bytes) const {
   if (bytes == 0) return;
   Device::State& device = *memory_->device;
+  const LongWork work("the OpenCL driver was busy or did not answer");
   check(clEnqueueReadBuffer(device.queue, memory_->memory, CL_TRUE, offset, bytes, data, 0, nullptr,
                             nullptr),
         "clEnqueueReadBuffer", device);
@@ -109,6 +111,7 @@ void* RawBuffer::map(Access access, std::size_t offset, std::size_t bytes, bool 
   Device::State& device = *memory_->device;
   const cl_map_flags flags = access == Access::kRead ? CL_MAP_READ : CL_MAP_READ | CL_MAP_WRITE;
   cl_int code = CL_SUCCESS;
+  const LongWork work("the OpenCL driver was busy or did not answer");
   void* at = clEnqueueMapBuffer(device.queue, memory_->memory, wait ? CL_TRUE : CL_FALSE, flags,
                                 offset, bytes, 0, nullptr, nullptr, &code);
   check(code, "clEnqueueMapBuffer", device);

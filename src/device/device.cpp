@@ -9,8 +9,11 @@
 #include <mutex>
 #include <string_view>
 
+#include "core/long_work.h"
+#include "core/printable.h"
 #include "device/kernel_cache.h"
 #include "device/opencl_private.h"
+#include "device/scarcity.h"
 
 namespace navvy::device {
 namespace {
@@ -151,13 +154,15 @@ int match(const std::vector<Found>& found, const std::string& choice) {
         "written: " +
         cache.trouble + "; set POCL_CACHE_DIR to a folder that can be written");
   }
+  if (const std::string scarce = found.empty() ? scarcity() : ""; !scarce.empty())
+    throw DeviceError("no OpenCL device: a driver is installed, but could not start: " + scarce);
   if (found.empty()) {
     throw DeviceError(
         "no OpenCL device: no platform is installed or none offers a device; install one, for "
         "example the CPU device "
         "with 'apt-get install pocl-opencl-icd' or your GPU vendor's OpenCL driver");
   }
-  std::string text = "no OpenCL device matches '" + choice + "'";
+  std::string text = "no OpenCL device matches '" + printable(choice) + "'";
   if (from_environment) text += " (from the environment variable NAVVY_DEVICE)";
   text += "; available devices:";
   for (const Found& f : found) text += "\n  " + f.info.text();
@@ -216,6 +221,7 @@ void Device::State::open_queue() {
 }
 
 void Device::State::finish() {
+  const LongWork work("the OpenCL driver was busy or did not answer");
   check(clFinish(queue), "clFinish", *this);
   compiling.reset();
   collect();

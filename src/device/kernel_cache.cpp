@@ -9,10 +9,12 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -45,12 +47,45 @@ constexpr std::uintmax_t kLeastCapacity = std::uintmax_t{16} << 20;
   throw FileError("kernel cache '" + folder.string() + "': " + cause);
 }
 
-/// Returns the hash of a file's content.
-std::string hash_of(const fs::path& file) {
-  const std::vector<char> bytes = read_file(file.string());
+/// Stops the use of a folder whose state is unknown: too many open files, no memory, a failing disk
+/// or no permission say nothing about the files in it, which may be intact and in use.
+[[noreturn]] void fail_unread(const fs::path& folder, const fs::path& file, int code) {
+  fail(folder, "'" + file.string() + "' in it cannot be read: " + std::strerror(code));
+}
+
+/// Returns true for errors that say that there is no such file.
+bool is_missing(int code) { return code == ENOENT || code == ENOTDIR; }
+
+/// Returns the content of a file of the folder; nothing if there is no such file.
+/// @throws FileError for any other reason not to read it
+std::optional<std::string> content_of(const fs::path& folder, const fs::path& file) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(
+      std::fopen((folder / file).c_str(), "rbe"), std::fclose);
+  if (!in && is_missing(errno)) return {};
+  if (!in) fail_unread(folder, file, errno);
+  std::string out;
+  char buffer[65536];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, in.get()))
+    out.append(buffer, n);
+  if (std::ferror(in.get()) != 0) fail_unread(folder, file, errno);
+  return out;
+}
+
+/// Returns the hash of a file's content; nothing if there is no such file.
+std::optional<std::string> hash_of(const fs::path& folder, const fs::path& file) {
+  const std::optional<std::string> content = content_of(folder, file);
+  if (!content) return {};
   StateHash hash;
-  hash.bytes(bytes.data(), bytes.size());
+  hash.bytes(content->data(), content->size());
   return hash.hex();
+}
+
+/// Returns the size of a file [bytes]; nothing if there is no such file.
+std::optional<std::uintmax_t> size_of(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(folder / file, error);
+  if (error && !is_missing(error.value())) fail_unread(folder, file, error.value());
+  return error ? std::optional<std::uintmax_t>() : size;
 }
 
 /// Returns true for files that the manifest lists: the driver's files without its time stamps,
@@ -67,17 +102,15 @@ bool is_temporary(const fs::path& relative) {
 }
 
 /// Prevents other processes from writing the manifest between reading and writing it; waits for
-/// them, a few milliseconds. If the lock file cannot be created, there is no lock: an incomplete
-/// list only makes the next process compile again.
+/// them, a few milliseconds.
 class ManifestLock {
  public:
   explicit ManifestLock(const fs::path& folder)
       : file_(::open((folder / kManifestLockName).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-    if (file_ >= 0) flock(file_, LOCK_EX);
+    if (file_ < 0) fail_unread(folder, kManifestLockName, errno);
+    flock(file_, LOCK_EX);
   }
-  ~ManifestLock() {
-    if (file_ >= 0) ::close(file_);
-  }
+  ~ManifestLock() { ::close(file_); }
   ManifestLock(const ManifestLock&) = delete;
   ManifestLock& operator=(const ManifestLock&) = delete;
 
@@ -85,19 +118,29 @@ class ManifestLock {
   int file_;
 };
 
-/// Returns all regular files of a folder, relative to it.
-std::vector<fs::path> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  // If listing the folder fails, the files found so far are returned. check() then misses files and
-  // removes their programs, which is safe.
+/// Lists all regular files of a folder, relative to it. Returns false if another process has
+/// removed a folder in it meanwhile.
+bool list_files(const fs::path& folder, std::vector<fs::path>& files) {
+  files.clear();
   std::error_code error;
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
        it.increment(error)) {
     // Another process may rename its temporary file between listing and query.
     std::error_code gone;
     if (it->is_regular_file(gone) && !gone) files.push_back(it->path().lexically_relative(folder));
+    if (gone && !is_missing(gone.value())) fail_unread(folder, it->path(), gone.value());
   }
-  return files;
+  if (error && !is_missing(error.value())) fail_unread(folder, ".", error.value());
+  return !error;
+}
+
+/// Returns all regular files of a folder, relative to it.
+/// @throws FileError if it cannot be listed completely: files that are not seen are not missing
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (int times = 0; times < 10; ++times)
+    if (list_files(folder, files)) return files;
+  fail_unread(folder, ".", EAGAIN);
 }
 
 /// Returns the part of the path that identifies one compiled program. The driver takes the presence
@@ -161,18 +204,10 @@ void KernelCache::lock() {
 }
 
 // A manifest that is missing, damaged or of another layout lists fewer files, and what is not
-// listed is compiled again. Reading it therefore needs no errors.
+// listed is compiled again. One that cannot be read lists an unknown number of them.
 KernelCache::Manifest KernelCache::read_manifest() const {
   Manifest out;
-  std::string text;
-  try {
-    const std::vector<char> bytes = read_file((folder_ / kManifestName).string());
-    text.assign(bytes.begin(), bytes.end());
-  } catch (const FileError&) {
-    // No manifest yet: the first run with this folder.
-    return out;
-  }
-  std::istringstream lines(text);
+  std::istringstream lines(content_of(folder_, kManifestName).value_or(""));
   std::string line;
   if (!std::getline(lines, line) || line != kManifestHead) return out;
   while (std::getline(lines, line)) {
@@ -220,30 +255,18 @@ void KernelCache::check(bool alone) {
   std::set<fs::path> bad;
   std::set<std::string> seen;
   for (const fs::path& file : files) {
-    if (!is_listed(file)) continue;
-    std::error_code error;
-    if (is_temporary(file)) {
-      // PoCL leaves one temporary file behind in every run, which is no damage. Another process may
-      // be about to rename its own.
-      if (alone) fs::remove(folder_ / file, error);
-      continue;
-    }
-    const std::uintmax_t size = fs::file_size(folder_ / file, error);
+    if (!is_listed(file) || is_temporary(file)) continue;
+    const std::optional<std::uintmax_t> size = size_of(folder_, file);
     const auto entry = manifest.find(file.generic_string());
     seen.insert(file.generic_string());
-    bytes += error ? 0 : size;
-    bool good = !error;
+    bytes += size.value_or(0);
+    bool good = size.has_value();
     if (entry == manifest.end()) {
       // The file is not listed. If this process is alone, a killed process left it, maybe
       // truncated; otherwise another process may just have finished it.
       good = !alone;
     } else if (good) {
-      try {
-        good = size == entry->second.size && hash_of(folder_ / file) == entry->second.hash;
-      } catch (const FileError&) {
-        // It exists but is not readable.
-        good = false;
-      }
+      good = size == entry->second.size && hash_of(folder_, file) == entry->second.hash;
       // If two processes compile one program, both use this file name, and the later file is not
       // listed yet.
       std::error_code gone;
@@ -254,8 +277,16 @@ void KernelCache::check(bool alone) {
   // A missing file invalidates its program like a changed one.
   for (const auto& [path, entry] : manifest)
     if (seen.count(path) == 0) bad.insert(program_of(path));
+  // Nothing was removed up to here, so a file that cannot be read leaves the folder as it was.
   for (const fs::path& file : files) {
-    if (!is_listed(file) || is_temporary(file)) continue;
+    if (!is_listed(file)) continue;
+    if (is_temporary(file)) {
+      // PoCL leaves one temporary file behind in every run, which is no damage. Another process may
+      // be about to rename its own.
+      std::error_code error;
+      if (alone) fs::remove(folder_ / file, error);
+      continue;
+    }
     const bool remove = bad.count(program_of(file)) > 0 || (alone && bytes > kMostBytes);
     ++(remove ? removed_ : whole_);
     if (!remove) found_.insert(file.generic_string());
@@ -293,16 +324,14 @@ void KernelCache::seal() noexcept {
         now[name] = entry->second;
         continue;
       }
-      try {
-        now[name] = Entry{fs::file_size(folder_ / file), hash_of(folder_ / file)};
-      } catch (const FileError&) {             // NOLINT(bugprone-empty-catch)
-      } catch (const fs::filesystem_error&) {  // NOLINT(bugprone-empty-catch)
-        // Another process has removed the file meanwhile.
-      }
+      // Without a size or hash, another process has removed the file meanwhile.
+      const std::optional<std::uintmax_t> size = size_of(folder_, file);
+      const std::optional<std::string> hash = hash_of(folder_, file);
+      if (size && hash) now[name] = Entry{*size, *hash};
     }
     write_manifest(now);
   } catch (const std::exception&) {
-    // The next process finds files that are not listed and compiles them again.
+    // The list stays as it was: the next process compiles again what this one has compiled.
   }
 }
 
@@ -378,7 +407,23 @@ void ProcessCache::open_temporary() {
   }
 }
 
+/// PoCL links each kernel with the program `ld`, which it looks for in PATH, and aborts without it.
+/// The usual folders are appended where none of PATH has it.
+void complete_path() {
+  const std::string path = environment("PATH");
+  std::istringstream folders(path);
+  std::error_code none;
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && fs::exists(folder + "/ld", none)) return;
+  for (const char* folder : {"/usr/bin", "/usr/local/bin", "/bin"})
+    if (fs::exists(std::string(folder) + "/ld", none)) {
+      ::setenv("PATH", (path.empty() ? folder : path + ":" + folder).c_str(), 1);
+      return;
+    }
+}
+
 ProcessCache::ProcessCache() {
+  complete_path();
   const fs::path folder = usual_folder();
   if (folder.empty()) status.trouble = "neither POCL_CACHE_DIR, XDG_CACHE_HOME nor HOME is set";
   if (folder.empty() || !open(folder)) open_temporary();

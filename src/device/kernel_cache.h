@@ -27,7 +27,8 @@ class KernelCache {
   /// Creates the folder if necessary, takes the lock and verifies the files, which reads the whole
   /// folder (a few MB).
   /// @throws FileError naming folder and cause if the folder cannot be created, locked or written,
-  /// or if its disk is nearly full
+  /// if its disk is nearly full, or if a file in it cannot be read (too many open files, no memory,
+  /// a failing disk, no permission); nothing was removed then
   explicit KernelCache(const std::filesystem::path& folder);
   /// Calls `seal` and releases the lock.
   ~KernelCache();
@@ -61,6 +62,7 @@ class KernelCache {
 
   /// Returns the manifest in the folder. If it is damaged or missing, the result has fewer entries
   /// or none.
+  /// @throws FileError if it is there and cannot be read
   Manifest read_manifest() const;
   /// Replaces the manifest in the folder.
   /// @throws FileError if it cannot be written

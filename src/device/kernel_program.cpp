@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/long_work.h"
 #include "device/kernel_cache.h"
 #include "device/opencl_private.h"
 
@@ -73,6 +74,7 @@ std::string build_log(cl_program program, const Device::State& device) {
 /// throw through the driver's C code, which then keeps its locks for ever. All objects of the
 /// driver are then given up, since releasing any program would wait for a lock.
 cl_int build_or_give_up(KernelProgram::State& state, const std::string& flags) {
+  const LongWork work("the OpenCL driver was busy compiling kernels");
   try {
     return clBuildProgram(state.program, 1, &state.device->device, flags.c_str(), nullptr, nullptr);
   } catch (const std::exception& error) {
@@ -219,6 +221,7 @@ void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   if (!state_->launched && !device.compiling)
     device.compiling = log_if_slow(device, "kernel " + state_->name);
   state_->launched = true;
+  const LongWork work("the OpenCL driver was busy compiling or starting a kernel");
   // With fewer axes a driver may choose better work-groups.
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
   check(clEnqueueNDRangeKernel(device.queue, state_->kernel, axes, nullptr, global.n, local, 0,

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "core/long_work.h"
 #include "heightfield/procedural.h"
 #include "heightfield/settle.h"
 #ifdef NAVVY_WITH_GDAL
@@ -113,6 +114,7 @@ int site_columns(double length, double cell) {
 
 // Faults of size, place and layers are found before a map is read, because that may take seconds.
 Ground make_ground(const scene::Scene& world, std::string* report) {
+  const LongWork work("the columns of the ground were being made");
   // Sizes come first, because everything else is counted in columns.
   check_size(world);
   const scene::StartGround& ground = world.ground;

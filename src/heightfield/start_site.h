@@ -133,8 +133,8 @@ class StartHeights {
   /// over the whole site.
   const TileHeights& passing(int tx, int ty, TileHeights& buffer) const;
 
-  /// Returns true if so many columns were computed one by one that replacing the cache by an empty
-  /// one saves time. The threshold is one eighth of the columns that the cache can hold.
+  /// Returns true if so many column heights were computed one by one that replacing the cache by an
+  /// empty one saves time. The threshold is one eighth of the columns that the cache can hold.
   bool worn() const {
     return computed_.load(std::memory_order_relaxed) > kMostTiles / 8 * kTileColumns;
   }
@@ -155,7 +155,8 @@ class StartHeights {
   /// Computes tile (tx, ty), caches it and returns it. Returns null if the cache is full, and the
   /// tile of another thread if that thread cached it first.
   const TileHeights* fill(int tx, int ty) const;
-  /// Computes the initial height of one column that is not cached, and counts it for `worn`.
+  /// Computes the initial height of column (ix, iy), whose tile is not cached, as world z [m].
+  /// Increments the count of such queries, which `worn` compares with its threshold.
   double single(int ix, int iy) const;
 
   /// Site whose heights are cached.
@@ -167,7 +168,7 @@ class StartHeights {
   mutable std::vector<std::atomic<Group*>> groups_;
   /// Number of cached tiles.
   mutable std::atomic<int> tiles_{0};
-  /// Number of columns that were computed one by one.
+  /// Number of column heights that were computed one by one because their tile is not cached.
   mutable std::atomic<std::int64_t> computed_{0};
 };
 

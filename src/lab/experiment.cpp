@@ -23,6 +23,14 @@ InputError refused(const std::string& where, const std::string& value, const std
   return InputError(Fault{Fault::Severity::kError, "", 0, where, value, rule, remedy});
 }
 
+/// Options that give a friction angle, with the test that measured it.
+constexpr std::pair<const char*, scene::FrictionTest> kAngleOptions[] = {
+    {"phi-deg", scene::FrictionTest::kPlaneStrain},
+    {"direct-shear-deg", scene::FrictionTest::kDirectShear},
+    {"triaxial-deg", scene::FrictionTest::kTriaxial},
+    {"repose-deg", scene::FrictionTest::kRepose}};
+const std::string kAngleName = "friction_angle_deg";
+
 const std::string kSchemePrefix = "scheme.";
 
 /// Returns true for a setting of the particle scheme, false for one of the soil.
@@ -38,8 +46,22 @@ double number_of(const std::string& name, const std::string& text) {
   return number;
 }
 
+/// Sets the friction angle by friction_angle_deg.TEST.
+void set_angle(scene::Soil& soil, const std::string& name, const std::string& text) {
+  const std::string wanted = name.substr(kAngleName.size() + 1);
+  std::vector<std::string> names;
+  for (const auto& [test_name, test] : scene::kFrictionTests) {
+    names.emplace_back(test_name);
+    if (wanted == test_name) return set_friction(soil, test, number_of(name, text) * kDegree);
+  }
+  throw refused("--set", name, "unknown test '" + wanted + "'",
+                "did you mean '" + nearest_name(names, wanted) + "'?");
+}
+
 /// Sets a number of the soil by its name in scene files, in that file's unit.
 void set_value(scene::Soil& soil, const std::string& name, const std::string& text) {
+  if (name == kAngleName) soil.friction_test = scene::FrictionTest::kPlaneStrain;
+  if (name.rfind(kAngleName + ".", 0) == 0) return set_angle(soil, name, text);
   std::vector<std::string> names;
   for (const scene::SoilValue& value : scene::soil_values(soil)) {
     names.emplace_back(value.name);
@@ -59,6 +81,20 @@ double given(const Experiment& experiment, const std::string& name) {
   for (const SoilOption& option : soil_options())
     if (name == option.name) return values->second.front() * option.factor;
   return kNone;
+}
+
+/// Takes the friction angle from the options, of which at most one may give it.
+void take_friction(const Experiment& experiment, scene::Soil& soil) {
+  std::string first;
+  for (const auto& [name, test] : kAngleOptions) {
+    const double angle = given(experiment, name);
+    if (std::isnan(angle)) continue;
+    if (!first.empty())
+      throw refused(std::string("--") + name, scene::short_text(angle / kDegree),
+                    "the friction angle is given already by --" + first, "remove one of them");
+    first = name;
+    set_friction(soil, test, angle);
+  }
 }
 
 /// Returns the shortest text that reads back as the same number.
@@ -130,7 +166,11 @@ Setup setup_of(const Experiment& experiment, const Rig& rig, device::Device& dev
 const std::vector<SoilOption>& soil_options() {
   using scene::Soil;
   static const std::vector<SoilOption> table = {
-      {"phi-deg", "friction angle phi (plane strain) [deg]", &Soil::friction_angle, kDegree},
+      {"phi-deg", "friction angle phi in plane strain, the law's own [deg]", nullptr, kDegree},
+      {"direct-shear-deg", "friction angle of a direct shear test instead of phi [deg]", nullptr,
+       kDegree},
+      {"triaxial-deg", "friction angle of triaxial compression instead of phi [deg]", nullptr,
+       kDegree},
       {"repose-deg", "angle of repose t instead of phi: sin phi = tan t [deg]", nullptr, kDegree},
       {"cohesion-pa", "cohesion c, also the residual cohesion unless the soil's is lower [Pa]",
        nullptr},
@@ -153,9 +193,7 @@ const std::vector<SoilOption>& soil_options() {
 
 scene::Soil soil_of(const Experiment& experiment, scene::Soil soil) {
   const double cohesion_before = soil.cohesion, residual_before = soil.residual_cohesion;
-  // An angle of repose first: a phi given beside it wins.
-  const double repose = given(experiment, "repose-deg");
-  if (!std::isnan(repose)) soil.friction_angle = friction_from_repose(repose);
+  take_friction(experiment, soil);
   const double cohesion = given(experiment, "cohesion-pa");
   if (!std::isnan(cohesion)) {
     const double before = std::exchange(soil.cohesion, cohesion);
@@ -170,6 +208,11 @@ scene::Soil soil_of(const Experiment& experiment, scene::Soil soil) {
       soil.*option.value = value;
   for (const auto& [name, text] : experiment.settings)
     if (!is_scheme_setting(name)) set_value(soil, name, text);
+  // After the dilatancy is known.
+  if (auto refused = scene::follow_friction_test(soil)) {
+    refused->element = std::string("lab friction angle, ") + scene::name_of(soil.friction_test);
+    throw InputError(*refused);
+  }
   const auto is_set = [&](const std::string& name) {
     return std::any_of(experiment.settings.begin(), experiment.settings.end(),
                        [&](const auto& setting) { return setting.first == name; });

@@ -41,8 +41,9 @@ struct Experiment {
   /// value makes a sweep axis.
   std::map<std::string, std::vector<double>> soil_values;
   /// Pairs of name and number, both as text. The name is either a soil value as scene files call it
-  /// (scene/soil_values.h), with the number in the unit of scene files, or "scheme.NAME" for a
-  /// constant of the particle method (soil/scheme.h). These settings override `soil_values`.
+  /// (scene/soil_values.h), with the number in the unit of scene files, "friction_angle_deg.TEST"
+  /// for the angle of a test, or "scheme.NAME" for a constant of the particle method
+  /// (soil/scheme.h). These settings override `soil_values`.
   std::vector<std::pair<std::string, std::string>> settings;
   /// Texts of the rig's parameters, keyed by Parameter::name. A list of values, separated by
   /// commas, makes a sweep axis.
@@ -75,7 +76,8 @@ struct ExperimentPlan {
 /// Returns `soil` with the changes of `experiment`: first `soil_values`, of which only the first
 /// value of each list counts, then `settings`. Values that depend on others by default are updated,
 /// unless they are given: residual cohesion, loose cohesion and Young's modulus.
-/// @throws InputError for an unknown name or a text that is not a number.
+/// @throws InputError for an unknown name, a text that is not a number, two friction angles, or one
+/// above the limit in plane strain.
 scene::Soil soil_of(const Experiment& experiment, scene::Soil soil);
 
 /// Returns the plan of all runs of `experiment` on `rig`. All runs are checked here, so an error in

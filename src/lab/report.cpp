@@ -8,9 +8,9 @@ namespace navvy::lab {
 
 bool Quantity::has_tolerance() const { return !std::isnan(low) || !std::isnan(high); }
 
-bool Quantity::missed() const {
+bool Quantity::outside_tolerance() const {
   if (!judged()) return false;
-  // Written so that a measured NaN misses.
+  // Written so that a measured NaN is outside.
   const bool above = std::isnan(low) || measured >= low,
              below = std::isnan(high) || measured <= high;
   return !(above && below) || std::isnan(measured);
@@ -28,8 +28,9 @@ void Report::note(const std::string& name, double measured, const std::string& u
   results.push_back({name, measured, unit, kNone, kNone, kNone, source});
 }
 
-bool Report::missed() const {
-  return std::any_of(results.begin(), results.end(), [](const Quantity& q) { return q.missed(); });
+bool Report::outside_tolerance() const {
+  return std::any_of(results.begin(), results.end(),
+                     [](const Quantity& q) { return q.outside_tolerance(); });
 }
 
 const Quantity* Report::find(const std::string& name) const {

@@ -45,7 +45,7 @@ struct Quantity {
   /// Returns true if there is a tolerance and it is valid for the setup that was run.
   bool judged() const { return has_tolerance() && in_range; }
   /// Returns true if the quantity is judged and its measured value is outside the tolerance or NaN.
-  bool missed() const;
+  bool outside_tolerance() const;
   /// Restricts the tolerance to some setups: `where` describes them, and `here` says whether the
   /// setup that was run is one of them. If `here` is false, the quantity is not judged.
   void holds_for(const std::string& where, bool here) { range = where, in_range = here; }
@@ -93,7 +93,7 @@ struct Report {
   /// the next result is appended.
   const Quantity* find(const std::string& name) const;
   /// Returns true if at least one result is judged and outside its tolerance.
-  bool missed() const;
+  bool outside_tolerance() const;
 };
 
 }  // namespace navvy::lab

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/soils.h"
 
-#include <cmath>
-
-#include "core/error.h"
 #include "core/math.h"
 
 namespace navvy::lab {
@@ -35,14 +32,9 @@ scene::Soil without_tool_friction(scene::Soil soil) {
   return soil;
 }
 
-double friction_from_repose(double repose) {
-  // Flowing soil mobilises tau / sigma_n = sin phi on the slope at which it comes to rest.
-  const double sine = std::tan(repose);
-  // By this rule friction alone holds no slope beyond 45 degrees.
-  if (repose > 0 && sine < 1) return std::asin(sine);
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "repose",
-                         std::to_string(degrees(repose)) + " deg", "above 0 and below 45 degrees",
-                         "give phi and cohesion instead"});
+void set_friction(scene::Soil& soil, scene::FrictionTest test, double angle) {
+  soil.friction_test = test;
+  soil.friction_angle = soil.tested_friction_angle = angle;
 }
 
 // A billionth is rounding of a file's value.

@@ -14,10 +14,9 @@ scene::Soil cohesive(double phi_degrees, double cohesion);
 /// Returns `soil` without friction and adhesion on tools, for the smooth side plates of
 /// plane-strain rigs.
 scene::Soil without_tool_friction(scene::Soil soil);
-/// Returns the friction angle in plane strain [rad] of a soil whose angle of repose is `repose`
-/// [rad]. On a flowing slope, shear stress / normal stress is sin phi, so sin phi = tan repose.
-/// @throws InputError unless `repose` is between 0 and 45 degrees.
-double friction_from_repose(double repose);
+/// Gives `soil` the friction angle that `test` measures as `angle` [rad]. Its plane-strain angle is
+/// up to date after scene::follow_friction_test.
+void set_friction(scene::Soil& soil, scene::FrictionTest test, double angle);
 
 /// Returns true if remoulding reduces the soil's cohesion, that is, if the residual cohesion is
 /// below the cohesion. Formulas for a constant cohesion do not apply to such a soil.

@@ -94,7 +94,7 @@ std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& swee
     }
     row.push_back(std::to_string(run.report.steps));
     row.push_back(short_text(std::round(10 * run.report.wall_time) / 10));
-    row.emplace_back(run.report.missed() ? "MISS" : "");
+    row.emplace_back(run.report.outside_tolerance() ? "outside" : "");
     out.push_back(std::move(row));
   }
   return out;

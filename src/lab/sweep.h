@@ -55,7 +55,7 @@ std::vector<std::string> shown_results(const Rig& rig, const Report& report);
 
 /// Returns a table of the sweep as rows of cell texts. The first row holds the headings; each
 /// further row holds one run: its axis values, its shown results, its steps, its wall time [s], and
-/// "MISS" if a result is outside its tolerance.
+/// "outside" if a result is outside its tolerance.
 std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& sweep);
 
 /// Returns the table as text with right-aligned columns. `table` holds rows of cell texts.

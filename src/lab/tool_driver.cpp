@@ -28,6 +28,7 @@ void ToolDriver::step(double dt) {
   trace_.time.push_back(site_->time());
   trace_.travel.push_back(travelled_);
   trace_.force.push_back(impulse.force_W);
+  trace_.edge.push_back(impulse.edge_force_W);
   trace_.moment.push_back(impulse.moment_W);
 }
 
@@ -75,10 +76,10 @@ void ToolDriver::write(Report& report, double cutoff, const std::string& prefix)
   report.series.push_back({prefix + "time", "s", trace_.time});
   report.series.push_back({prefix + "travel", "m", trace_.travel});
   // Components in W, also for a tool that turns.
-  const char* const names[] = {"force_x", "force_y", "force_z"};
-  for (int a = 0; a < 3; ++a) {
+  const char* const names[] = {"force_x", "force_y", "force_z", "edge_x", "edge_y", "edge_z"};
+  for (int a = 0; a < 6; ++a) {
     std::vector<double> values;
-    for (const Vec3& force : trace_.force) values.push_back(force[a]);
+    for (const Vec3& force : a < 3 ? trace_.force : trace_.edge) values.push_back(force[a % 3]);
     // Only the written series is smoothed; results are means of the raw forces.
     if (cutoff > 0) values = low_pass(trace_.time, values, cutoff);
     report.series.push_back({prefix + names[a], "N", std::move(values)});

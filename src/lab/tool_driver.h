@@ -9,7 +9,7 @@
 
 namespace navvy::lab {
 
-/// Recorded forces on a tool. All four lists have one entry per time step. Vectors have the axes of
+/// Recorded forces on a tool. All five lists have one entry per time step. Vectors have the axes of
 /// the world frame W.
 struct Trace {
   /// Simulated time at the end of each step [s].
@@ -20,6 +20,8 @@ struct Trace {
   /// Force of the soil on the tool, averaged over the last completed transfer between particles and
   /// grid [N].
   std::vector<Vec3> force;
+  /// Part of `force` that acts on the edges of the tool's plates [N].
+  std::vector<Vec3> edge;
   /// Moment of the soil on the tool about the origin of the tool's frame, averaged like `force`
   /// [N m].
   std::vector<Vec3> moment;
@@ -70,7 +72,8 @@ class ToolDriver {
 
   /// Returns the forces recorded since the driver was created.
   const Trace& trace() const { return trace_; }
-  /// Appends the trace to the series of `report`: time, travel and the three force components in W.
+  /// Appends the trace to the series of `report`: time, travel, and the three components in W of
+  /// the force and of its part on edges.
   /// The forces are low-pass filtered if `cutoff` [Hz] is above 0. `prefix` is put before each
   /// series name.
   void write(Report& report, double cutoff = 0, const std::string& prefix = "") const;

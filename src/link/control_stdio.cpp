@@ -9,6 +9,7 @@
 #include <climits>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -59,9 +60,20 @@ json parsed(const std::string& line) {
   if (nesting(line) > ControlStdio::kDeepestNesting)
     throw fault("line", shown(line),
                 "must nest at most " + std::to_string(ControlStdio::kDeepestNesting) + " deep");
-  // The parser does not throw, so that both kinds of wrong lines get the same error.
-  json in = json::parse(line, nullptr, false);
+  // The parser does not throw, so that both kinds of wrong lines get the same error. It would take
+  // the last of two values of one name.
+  std::vector<std::set<std::string>> open;
+  std::string twice;
+  const auto look = [&](int, json::parse_event_t event, const json& value) {
+    if (event == json::parse_event_t::object_start) open.emplace_back();
+    if (event == json::parse_event_t::object_end) open.pop_back();
+    if (event == json::parse_event_t::key && !open.back().insert(value).second)
+      twice = value.get<std::string>();
+    return true;
+  };
+  json in = json::parse(line, look, false);
   if (!in.is_object()) throw fault("line", shown(line), "must be one JSON object");
+  if (!twice.empty()) throw fault(shown(twice), "", "stands twice in one object");
   return in;
 }
 

@@ -255,12 +255,13 @@ void MapPublisher::State::sweep() {
   });
 }
 
-// Poll with a timeout, because closing the listener from another thread would not wake `accept`.
+// Poll with a timeout, because closing the listener from another thread would not interrupt
+// `accept`.
 void MapPublisher::State::accept_readers() {
   // Logged once until a reader is accepted again: one that retries for ever would fill the log.
-  bool told = false;
-  const auto tell = [&told](const std::string& what) {
-    if (!std::exchange(told, true)) log_warning(what);
+  bool warned = false;
+  const auto warn_once = [&warned](const std::string& what) {
+    if (!std::exchange(warned, true)) log_warning(what);
   };
   while (!feed.closed()) {
     pollfd in{listener, POLLIN, 0};
@@ -270,24 +271,25 @@ void MapPublisher::State::accept_readers() {
     const int file = ::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC);
     if (file < 0) {
       if (errno == EINTR || errno == EAGAIN || errno == ECONNABORTED) continue;
-      tell(std::string("a reader of the map cannot be accepted: ") + std::strerror(errno));
+      warn_once(std::string("a reader of the map cannot be accepted: ") + std::strerror(errno));
       // The connection stays in the queue, and the next poll would find it at once.
       std::this_thread::sleep_for(std::chrono::duration<double>(kGlance));
       continue;
     }
     if (readers.size() >= kMostReaders) {
-      tell("a reader of the map was refused: " + std::to_string(kMostReaders) + " are connected");
+      warn_once("a reader of the map was refused: " + std::to_string(kMostReaders) +
+                " are connected");
       ::close(file);
       continue;
     }
     Reader& reader = readers.emplace_back();
     try {
       reader.thread = std::thread([this, file, &reader] { serve(file, reader.done); });
-      told = false;
+      warned = false;
     } catch (const std::system_error& error) {
       readers.pop_back();
       ::close(file);
-      tell(std::string("a reader of the map cannot be accepted: ") + error.what());
+      warn_once(std::string("a reader of the map cannot be accepted: ") + error.what());
     }
   }
 }

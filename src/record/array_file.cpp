@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "record/file_copy.h"
 
 namespace navvy::record {
 namespace {
@@ -113,7 +114,7 @@ void ArrayFile::flush() {
     // A file of an earlier run is replaced as a whole, never overwritten in part.
     const std::string header = header_of(descr_, 0);
     write_file_atomically(path_, header);
-    file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    file_ = ::open(path_.c_str(), O_RDWR | O_CLOEXEC);
     if (file_ < 0) fail("open", errno);
     header_bytes_ = header.size();
   }
@@ -129,6 +130,14 @@ void ArrayFile::append() {
   if (const int code = write_at(file_, header_of(descr_, count), 0)) fail("update", code);
   written_ = count;
   waiting_.clear();
+}
+
+void ArrayFile::move_to(const std::string& path) {
+  if (file_ >= 0) {
+    const int copy = copy_to_new_file(file_, path, 0);
+    ::close(std::exchange(file_, copy));
+  }
+  path_ = path;
 }
 
 void ArrayFile::sync() {

@@ -45,6 +45,10 @@ class ArrayFile {
   /// Writes the buffered records and waits until the file is stored on the disk.
   /// @throws FileError if writing fails.
   void sync();
+  /// Continues in a new file at `path`, which gets a copy of all records; for a folder that was
+  /// removed while the file was open.
+  /// @throws FileError if the records cannot be copied; the file then stays where it was.
+  void move_to(const std::string& path);
   /// Returns the number of records that were added.
   std::uint64_t records() const { return records_; }
 

@@ -34,6 +34,11 @@ void ArrayRecorder::open_new() {
   for (std::size_t i = streams_.size(); i < channels.size(); ++i)
     streams_.push_back(
         {std::make_unique<ArrayFile>(folder_.path(file_of(channels[i])), channels[i]), 0});
+  write_index();
+}
+
+void ArrayRecorder::write_index() {
+  const std::vector<sim::ArrayChannel>& channels = session_.world().arrays().channels();
   nlohmann::json index = nlohmann::json::array();
   for (const sim::ArrayChannel& channel : channels) index.push_back(entry_of(channel));
   write_file_atomically(folder_.path("arrays/index.json"),
@@ -55,6 +60,13 @@ void ArrayRecorder::restart() {
   open_new();
   for (std::size_t i = 0; i < streams_.size(); ++i)
     streams_[i].sequence = session_.world().arrays().view(static_cast<int>(i)).sequence();
+}
+
+void ArrayRecorder::move_out() {
+  const std::vector<sim::ArrayChannel>& channels = session_.world().arrays().channels();
+  for (std::size_t i = 0; i < streams_.size(); ++i)
+    streams_[i].file->move_to(folder_.path(file_of(channels[i])));
+  if (!streams_.empty()) write_index();
 }
 
 void ArrayRecorder::checkpoint(bool end) {

@@ -34,6 +34,9 @@ class ArrayRecorder {
   /// on the disk.
   /// @throws FileError if writing fails.
   void checkpoint(bool end);
+  /// Continues in copies of its files in the folder, which has moved out (RunFolder::move_out).
+  /// @throws FileError if a file cannot be copied.
+  void move_out();
 
  private:
   /// Output file of one array, and the last value that was written to it.
@@ -46,6 +49,8 @@ class ArrayRecorder {
   /// Opens files for arrays that were added to the world since the last call, and updates the
   /// index.
   void open_new();
+  /// Writes the list of all arrays.
+  void write_index();
 
   const session::Session& session_;
   RunFolder& folder_;

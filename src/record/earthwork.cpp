@@ -22,16 +22,16 @@ void bank_volumes(const std::vector<heightfield::SoilLayer>& column,
 }  // namespace
 
 Earthwork measure_earthwork(const sim::World& world) {
-  return measure_earthwork(world, sim::active_places(world).lying);
+  return measure_earthwork(world, sim::active_places(world).on_ground);
 }
 
-Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying) {
+Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& on_ground) {
   const heightfield::Ground& ground = world.ground();
   const std::vector<scene::Soil>& soils = ground.setup().soils;
   const heightfield::TerrainView surface =
-      ground.view(world.time()).with(lying, heightfield::SurfaceKind::kMapped);
+      ground.view(world.time()).with(on_ground, heightfield::SurfaceKind::kMapped);
   std::map<std::pair<int, int>, std::vector<double>> active;  // bank volumes on columns [m3]
-  for (const heightfield::LooseGrain& grain : lying.grains()) {
+  for (const heightfield::LooseGrain& grain : on_ground.grains()) {
     std::vector<double>& volumes = active[{grain.ix, grain.iy}];
     volumes.resize(soils.size());
     volumes[grain.soil] += kilograms(grain.mass) / soils[grain.soil].bank_density;
@@ -40,7 +40,7 @@ Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoi
   sum.soils.resize(soils.size());
   // Only columns that were touched or on which soil fell can have changed.
   heightfield::CellRect rect = ground.touched_rect();
-  for (const heightfield::LooseSoil::Column& column : lying.columns())
+  for (const heightfield::LooseSoil::Column& column : on_ground.columns())
     rect.include({column.ix, column.iy, column.ix + 1, column.iy + 1});
   const double area = ground.cell() * ground.cell();
   // A threshold of a twentieth of a cell keeps rounding errors of activated and deposited columns

@@ -31,10 +31,10 @@ struct Earthwork {
   std::vector<SoilMoved> soils;
 };
 
-/// Returns the earth moved since the start. `lying` is the active soil that lies on columns
-/// (ActivePlaces::lying of sim::active_places). Costs a pass over the changed columns.
-Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& lying);
-/// Returns the earth moved since the start. Determines the active soil that lies on columns itself,
+/// Returns the earth moved since the start. `on_ground` is the active soil that rests on
+/// columns (ActivePlaces::on_ground of sim::active_places). Costs a pass over the changed columns.
+Earthwork measure_earthwork(const sim::World& world, const heightfield::LooseSoil& on_ground);
+/// Returns the earth moved since the start. Determines the active soil on the columns itself,
 /// which costs a pass over all particles.
 Earthwork measure_earthwork(const sim::World& world);
 

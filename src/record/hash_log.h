@@ -28,6 +28,9 @@ class HashLog {
   /// stored on the disk.
   /// @throws FileError if the file cannot be written.
   void finish();
+  /// Continues in a copy of the file at `path`.
+  /// @throws FileError if the rows cannot be copied.
+  void move_to(const std::string& path) { file_.move_to(path); }
 
  private:
   /// Appends a row with the hashes of the current state and writes it to the file.

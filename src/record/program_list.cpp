@@ -17,7 +17,7 @@ json step_entry(const control::StepReport& report) {
               {"start_s", report.start},
               {"end_s", report.end},
               {"place_m", {report.place.x(), report.place.y(), report.place.z()}}};
-  for (const control::Measurement& figure : report.figures) out[figure.name] = figure.value;
+  for (const control::Measurement& one : report.measurements) out[one.name] = one.value;
   return out;
 }
 

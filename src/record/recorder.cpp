@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Recorder::State {
       : session(s),
         options(std::move(o)),
         folder(std::move(f)),
-        crash_summary(folder->path("summary.reserve"), folder->path("summary.json")),
+        crash_summary(std::in_place, folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
         arrays(s, *folder),
         pictures(s.world()) {
@@ -42,7 +43,7 @@ struct Recorder::State {
   session::Session& session;
   Options options;
   std::unique_ptr<RunFolder> folder;
-  CrashSummary crash_summary;
+  std::optional<CrashSummary> crash_summary;
   Telemetry telemetry;
   ArrayRecorder arrays;
   CameraPictures pictures;
@@ -66,6 +67,8 @@ struct Recorder::State {
   void write_paths();
   std::string summary(bool with_hash) const { return summary_json(session, status, with_hash); }
   void write_start();
+  void write_description();
+  void move_out();
 };
 
 Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<RunFolder> folder) {
@@ -84,11 +87,7 @@ Recorder::Recorder(session::Session& session, Options options, std::unique_ptr<R
 void Recorder::State::write_start() {
   // The summary exists from the start, so that every run has one, whatever happens.
   write_summary(false);
-  // The description of the run follows.
-  const scene::Scene& scene = session.world().description();
-  if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
-  write_file_atomically(path("run.json"), run_json({kRunFormat, navvy_version(), options.command,
-                                                    scene.file, session.device_name()}));
+  write_description();
   write_terrain(session.world(), path("terrain_start.tif"));
   // The first row is the state before any step.
   sample_when_due();
@@ -96,9 +95,37 @@ void Recorder::State::write_start() {
   draw_when_due();
   if (options.hash_every > 0)
     hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
-  if (!scene.records.empty()) maps = std::make_unique<MapRecorder>(session, *folder);
+  if (!session.world().description().records.empty())
+    maps = std::make_unique<MapRecorder>(session, *folder);
   map_when_due();
   checkpoint(true);
+}
+
+/// Writes what describes the run: its scene, command and version.
+void Recorder::State::write_description() {
+  if (!options.scene_text.empty()) write_file_atomically(path("scene.sdf"), options.scene_text);
+  write_file_atomically(path("run.json"),
+                        run_json({kRunFormat, navvy_version(), options.command,
+                                  session.world().description().file, session.device_name()}));
+}
+
+/// Saves what can be saved when the folder was removed or replaced: open files still hold their
+/// rows, and the files of the end of a run are made from its state. Always throws then.
+void Recorder::State::move_out() {
+  if (folder->intact()) return;
+  const std::string lost = folder->directory();
+  folder->move_out();
+  telemetry.move_to(path("telemetry.csv"));
+  if (hashes) hashes->move_to(path("hashes.csv"));
+  arrays.move_out();
+  crash_summary.reset();
+  crash_summary.emplace(path("summary.reserve"), path("summary.json"));
+  write_description();
+  throw FileError(
+      "the folder of the results '" + lost +
+      "' was removed or replaced while the run wrote to it: summary, telemetry, hashes, "
+      "arrays and the final ground are saved in '" +
+      folder->directory() + "'; pictures, maps and the ground at the start are lost");
 }
 
 Recorder::~Recorder() = default;
@@ -171,6 +198,9 @@ void Recorder::State::checkpoint(bool force) {
   status.wall_time = total.seconds() - status.render_time - status.record_time;
   if (!force && since_checkpoint.seconds() < options.checkpoint) return;
   const Lap lap(status.record_time);
+  if (!folder->intact())
+    throw FileError("the folder of the results '" + folder->directory() +
+                    "' was removed or replaced while the run wrote to it");
   // Checkpoints come at least two seconds apart, except for the last.
   telemetry.checkpoint(force);
   arrays.checkpoint(force);
@@ -183,7 +213,7 @@ void Recorder::State::checkpoint(bool force) {
 /// Also updates the text that a crash would write.
 void Recorder::State::write_summary(bool with_hash) {
   const std::string text = summary(with_hash);
-  crash_summary.keep(text);
+  crash_summary->keep(text);
   write_file_atomically(path("summary.json"), text);
   summary_bytes = text.size();
   since_summary.restart();
@@ -233,6 +263,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
       if (!first) first = std::current_exception();
     }
   };
+  attempt([&] { s.move_out(); });
   // The state at the failure, for analysis.
   if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
   attempt([&] {
@@ -261,7 +292,7 @@ void Recorder::finish(const std::string& status, const std::string& message) {
     } catch (const std::exception&) {
       text.clear();
     }
-    if (text.empty() || !s.crash_summary.write(text))
+    if (text.empty() || !s.crash_summary->write(text))
       write_crash_summary("failed", s.status.message.c_str());
   }
   // The cause of a failed run is known already.

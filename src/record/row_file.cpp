@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "record/file_copy.h"
 
 namespace navvy::record {
 namespace {
@@ -46,7 +47,7 @@ void RowFile::flush() {
   if (file_ < 0) {
     // A file of an earlier run is replaced as a whole, never overwritten in part.
     write_file_atomically(path_, waiting_);
-    file_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    file_ = ::open(path_.c_str(), O_RDWR | O_APPEND | O_CLOEXEC);
     if (file_ < 0) fail("open", path_, errno);
     on_disk_ = waiting_.size();
     waiting_.clear();
@@ -68,6 +69,14 @@ void RowFile::flush() {
   }
   on_disk_ += waiting_.size();
   waiting_.clear();
+}
+
+void RowFile::move_to(const std::string& path) {
+  if (file_ >= 0) {
+    const int copy = copy_to_new_file(file_, path, O_APPEND);
+    ::close(std::exchange(file_, copy));
+  }
+  path_ = path;
 }
 
 void RowFile::sync() {

@@ -38,6 +38,11 @@ class RowFile {
   /// @throws FileError if writing fails.
   void sync();
 
+  /// Continues in a new file at `path`, which gets a copy of all rows; for a folder that was
+  /// removed while the file was open.
+  /// @throws FileError if the rows cannot be copied; the file then stays where it was.
+  void move_to(const std::string& path);
+
   /// Returns the number of rows that were added, without the header.
   std::uint64_t rows() const { return rows_; }
   /// Returns the size of the rows in the file, including the header [bytes].

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -131,6 +133,50 @@ RunFolder::Marker RunFolder::open_marker(const std::string& folder, bool make) c
   return out;
 }
 
+namespace {
+
+/// Opens a folder to recognise it later.
+int open_place(const std::string& folder) {
+  const int place = ::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (place < 0) fail("open", folder, errno);
+  return place;
+}
+
+/// Returns true if the open file still has a name, and `path` leads to it.
+bool is_at(int file, const std::string& path) {
+  struct stat own {
+  }, named{};
+  return fstat(file, &own) == 0 && own.st_nlink > 0 && stat(path.c_str(), &named) == 0 &&
+         own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+bool RunFolder::intact() const {
+  return is_at(place_, directory_) && is_at(lock_, directory_ + "/" + kMarker);
+}
+
+std::string RunFolder::move_out() {
+  const std::string name = fs::path(directory_).filename().string() + ".saved-XXXXXX";
+  std::error_code code;
+  for (const fs::path& parent :
+       {fs::path(directory_).parent_path(), fs::temp_directory_path(code), fs::path("/tmp")}) {
+    std::string made = (parent / name).string();
+    if (mkdtemp(made.data()) == nullptr) continue;
+    // The lock on the former list ends here, since that list protects nothing any more.
+    for (int* file : {&lock_, &place_})
+      if (*file >= 0) ::close(std::exchange(*file, -1));
+    directory_ = made;
+    lock_ = open_marker(directory_, true).file;
+    place_ = open_place(directory_);
+    listed_.clear();
+    write_list(directory_, lock_, listed_, false);
+    return directory_;
+  }
+  throw FileError("cannot create a folder for the results of '" + directory_ +
+                  "': " + std::strerror(errno));
+}
+
 /// Results must not replace a file of another origin.
 void RunFolder::require_free(const Marker& marker, const std::string& folder) const {
   for (const char* name : kNames)
@@ -173,6 +219,7 @@ RunFolder::RunFolder(const std::string& directory, const std::vector<std::string
   try {
     Marker marker = open_marker(directory_, true);
     lock_ = marker.file;
+    place_ = open_place(directory_);
     unused_ = marker.unused;
     require_free(marker, directory_);
     listed_ = std::move(marker.names);
@@ -196,8 +243,8 @@ void RunFolder::leave() {
   close_previous();
   // The marker file is removed while it is locked, so that no other run locks a file that vanishes.
   if (unused_ && !begun_) ::unlink((directory_ + "/" + kMarker).c_str());
-  if (lock_ >= 0) ::close(lock_);
-  lock_ = -1;
+  for (int* file : {&lock_, &place_})
+    if (*file >= 0) ::close(std::exchange(*file, -1));
   // Only empty folders are removed.
   for (const std::string& path : made_)
     if (begun_ || ::rmdir(path.c_str()) != 0) break;
@@ -290,8 +337,11 @@ void RunFolder::begin() {
 
 std::string RunFolder::path(const std::string& name) {
   const std::string path = directory_ + "/" + name;
-  if (listed_.count(name) > 0) return path;
   if (!is_plain(name)) throw Error("run folder: '" + name + "' is no name of a file in it");
+  if (!intact())
+    throw FileError("the folder of the results '" + directory_ +
+                    "' was removed or replaced while the run wrote to it");
+  if (listed_.count(name) > 0) return path;
   if (is_there(path))
     throw FileError("cannot write '" + path + "': it is there and this run did not write it");
   std::error_code code;

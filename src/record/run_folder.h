@@ -37,9 +37,18 @@ class RunFolder {
   void begin();
   /// Adds a result file to the list, creates the folders in which it lies, and returns its path.
   /// `name` is relative to the run's folder: "summary.json", "frames/left_00001.png".
-  /// @throws FileError if a file of that name exists that this run has not listed, or if the list
-  /// cannot be written; Error for a name that leads out of the folder.
+  /// @throws FileError if a file of that name exists that this run has not listed, if the list
+  /// cannot be written, or if the folder is not `intact()`; Error for a name that leads out of the
+  /// folder.
   std::string path(const std::string& name);
+  /// Returns true if `directory()` still names the folder that this object locked, with its marker
+  /// file: it was not removed, moved, emptied or replaced by another folder or a link to one.
+  bool intact() const;
+  /// Locks a new folder for the rest of the results, with a new list: "<folder>.saved-XXXXXX", or
+  /// one of the temporary files if that cannot be made. `directory()` and `path()` refer to it from
+  /// then on; the former folder is left alone. Returns the path of the new folder.
+  /// @throws FileError if no folder can be made.
+  std::string move_out();
   /// Returns the path of the folder, without a slash at its end.
   const std::string& directory() const { return directory_; }
 
@@ -87,6 +96,8 @@ class RunFolder {
   /// Descriptors of the locked marker files of the folder and of "<folder>.previous"; -1 if not
   /// open.
   int lock_ = -1, previous_lock_ = -1;
+  /// Descriptor of the folder, for its identity; -1 if not open.
+  int place_ = -1;
   /// Listed result files of the folder and of "<folder>.previous", relative to these folders.
   std::set<std::string> listed_, previous_listed_;
   /// True if an earlier move to "<folder>.previous" was interrupted.

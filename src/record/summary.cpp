@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "heightfield/design_surface.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
@@ -81,6 +82,24 @@ json tip_list(const session::Session& session) {
   return tips;
 }
 
+/// Returns an entry for each collision of two links.
+json collision_list(const session::Session& session) {
+  json list = json::array();
+  for (const session::Collision& one : session.collisions().collisions()) {
+    const sim::MachineHandle machine = session.world().machines().at(one.machine),
+                             other = session.world().machines().at(one.other_machine);
+    list.push_back({{"machine", machine.name()},
+                    {"link", machine.link(one.link).name()},
+                    {"other_machine", other.name()},
+                    {"other_link", other.link(one.other_link).name()},
+                    {"start_s", one.start},
+                    {"end_s", one.end},
+                    {"force_peak_n", one.force_peak},
+                    {"depth_m", one.depth_peak}});
+  }
+  return list;
+}
+
 /// Returns the present payload of buckets and beds [kg], by "machine/shell".
 json carried(const session::Session& session) {
   json out = json::object();
@@ -113,7 +132,7 @@ json ledger(const session::Session& session, const sim::ActivePlaces& active) {
 json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
                        const heightfield::DesignSurface& design) {
   const heightfield::DesignComparison f = heightfield::against_design(
-      world.ground().view(world.time()).with(active.lying, heightfield::SurfaceKind::kMapped),
+      world.ground().view(world.time()).with(active.on_ground, heightfield::SurfaceKind::kMapped),
       design);
   return {{"area_m2", f.area},
           {"design_cut_m3", f.design_cut},
@@ -135,7 +154,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   const sim::World& world = session.world();
   // One pass over the particles serves all that follows.
   const sim::ActivePlaces active = sim::active_places(world);
-  const Earthwork earth = measure_earthwork(world, active.lying);
+  const Earthwork earth = measure_earthwork(world, active.on_ground);
   const sim::SoilCounts counts = world.soil().counts();
   json out;
   // Scene, status and speed.
@@ -143,7 +162,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["scenario"] = world.description().name;
   out["status"] = status.status;
   // Absent in a run without problems.
-  if (!status.message.empty()) out["message"] = status.message;
+  if (!status.message.empty()) out["message"] = printable_lines(status.message);
   // Results are bit-identical on one device only.
   out["device"] = session.device_name();
   out["steps"] = world.steps();
@@ -167,6 +186,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
     out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
+  out["collisions"] = collision_list(session);
+  out["collision_count"] = session.collisions().count();
   // Results on the ground.
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;
@@ -198,7 +219,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["mass_ledger"] = ledger(session, active);
   // Null while the run goes on, as the hash costs a pass over the state.
   out["state_hash"] = with_hash ? json(session.state_hash()) : json(nullptr);
-  return out.dump(2) + "\n";
+  // A name that is not UTF-8 may come from a library's scene, and must not cost the summary.
+  return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace navvy::record

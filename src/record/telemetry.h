@@ -33,6 +33,9 @@ class Telemetry {
   /// the disk.
   /// @throws FileError if writing fails.
   void checkpoint(bool end) { end ? file_.sync() : file_.flush(); }
+  /// Continues in a copy of the file at `path`.
+  /// @throws FileError if the rows cannot be copied.
+  void move_to(const std::string& path) { file_.move_to(path); }
   /// Returns the number of rows that were added, without the header.
   std::uint64_t rows() const { return file_.rows(); }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/long_work.h"
 #include "map/map_maker.h"
 #include "sim/world_terrain.h"
 #ifdef NAVVY_WITH_GDAL
@@ -13,6 +14,7 @@
 namespace navvy::record {
 
 void write_terrain(const sim::World& world, const std::string& path) {
+  const LongWork work("a terrain file was being written");
 #ifdef NAVVY_WITH_GDAL
   const heightfield::TerrainView view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
   std::vector<heightfield::MapBand> more;

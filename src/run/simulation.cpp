@@ -74,6 +74,7 @@ struct Simulation::State {
   template <class Load>
   void replace(const Load& load);
   RunEnd end_now(bool requested, const std::string& interrupted_by) const;
+  std::string message_of(const RunEnd& end) const;
   RunEnd finish(RunEnd end);
   void fail(const std::string& cause) noexcept;
 };
@@ -213,6 +214,21 @@ RunEnd Simulation::State::end_now(bool requested, const std::string& interrupted
   return end;
 }
 
+/// Returns why a run is not finished: the cause of an interruption, or the programs that did not
+/// reach their end. Empty for a finished run.
+std::string Simulation::State::message_of(const RunEnd& end) const {
+  if (!end.cause.empty() || end.reason == EndReason::kComplete) return end.cause;
+  std::string out;
+  for (const session::ProgramReport& report : session->programs()) {
+    if (report.by_inputs() || report.last().state == control::StepState::kDone) continue;
+    const auto machine = static_cast<std::size_t>(report.machine);
+    const std::string& name = world().description().machines[machine].name;
+    out += (out.empty() ? "" : "; ") +
+           session::report_line(report, name, "the caller or the controller ended the run");
+  }
+  return out.empty() ? "the caller or the controller ended the run" : out;
+}
+
 /// Observers finish before the recorder, so that their failure is part of the summary.
 RunEnd Simulation::State::finish(RunEnd end) {
   close();
@@ -231,7 +247,7 @@ RunEnd Simulation::State::finish(RunEnd end) {
   observers.clear();
   // The folder is closed even if one of its files cannot be written.
   const std::unique_ptr<record::Recorder> closing = std::move(recorder);
-  if (closing) closing->finish(status_of(end.reason), end.cause);
+  if (closing) closing->finish(status_of(end.reason), message_of(end));
   return end;
 }
 

@@ -8,8 +8,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <utility>
 
+#include "core/long_work.h"
 #include "device/kernel_cache.h"
 #include "record/crash_summary.h"
 
@@ -23,7 +25,7 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kTwice = 500;
 
 std::atomic<int> signals{0}, last{0};
-int wake[2] = {-1, -1};
+int quit_pipe[2] = {-1, -1};
 sigset_t before;
 
 }  // namespace
@@ -34,7 +36,7 @@ sigset_t before;
 // wrong.
 StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
   signals = last = 0;
-  if (pipe2(wake, O_CLOEXEC | O_NONBLOCK) != 0) wake[0] = wake[1] = -1;
+  if (pipe2(quit_pipe, O_CLOEXEC | O_NONBLOCK) != 0) quit_pipe[0] = quit_pipe[1] = -1;
   sigset_t wanted;
   sigemptyset(&wanted);
   for (const int signal : kSignals) {
@@ -52,11 +54,11 @@ StopSignals::StopSignals(Leave leave) : leave_(std::move(leave)) {
 StopSignals::~StopSignals() {
   over_ = true;
   const char byte = 0;
-  if (::write(wake[1], &byte, 1) < 0) over_ = true;
+  if (::write(quit_pipe[1], &byte, 1) < 0) over_ = true;
   watcher_.join();
   // A second signal may still be pending and would end the process before it returns its status.
   if (!asked()) pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  for (const int file : {signals_, wake[0], wake[1]}) ::close(file);
+  for (const int file : {signals_, quit_pipe[0], quit_pipe[1]}) ::close(file);
 }
 
 bool StopSignals::asked() { return signals > 0; }
@@ -71,21 +73,26 @@ std::string StopSignals::name() {
 /// Runs beside the thread of the run, which may hang in the driver, so it touches no object of the
 /// run. The kernel cache is left unfinished, as the driver may be writing to it.
 void StopSignals::leave(bool again) {
+  // The mark is set by the thread of the run, and names what it cannot leave. That thread may hold
+  // any lock, so the texts are made without allocating memory.
+  const char* work = long_work();
+  if (work == nullptr) work = "the run was busy with a step or a file";
+  char cause[256], message[256];
+  std::snprintf(cause, sizeof cause,
+                "stopped by a signal while %s; results are those of the last checkpoint", work);
+  std::snprintf(message, sizeof message, "%s: the run does not wait for it", work);
   record::write_crash_summary(
-      "interrupted", again ? "stopped by a second signal: what was not written by then is missing"
-                           : "stopped by a signal while the OpenCL driver was busy: it compiles "
-                             "kernels or does not answer; results "
-                             "are those of the last checkpoint");
+      "interrupted",
+      again ? "stopped by a second signal: what was not written by then is missing" : cause);
   device::abandon_kernel_cache();
-  leave_(again ? "a second signal came: the run does not wait any longer"
-               : "the OpenCL driver is busy: the run does not wait for it");
+  leave_(again ? "a second signal came: the run does not wait any longer" : message);
 }
 
 void StopSignals::watch() {
   using Clock = std::chrono::steady_clock;
   Clock::time_point first{};
   while (!over_) {
-    pollfd in[] = {{signals_, POLLIN, 0}, {wake[0], POLLIN, 0}};
+    pollfd in[] = {{signals_, POLLIN, 0}, {quit_pipe[0], POLLIN, 0}};
     // Waits for a signal; after the first one it checks often.
     poll(in, 2, signals > 0 ? 50 : 1000);
     signalfd_siginfo what{};

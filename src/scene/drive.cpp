@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvy::scene {
 
@@ -43,9 +44,19 @@ bool turns_freely(const LinkageDrive& drive) {
   return true;
 }
 
+namespace {
+
+/// Returns a drive of every kind, in the order of the variant: the default first.
+template <std::size_t... I>
+std::vector<Drive> drive_of_each_kind(std::index_sequence<I...>) {
+  return {std::variant_alternative_t<I, Drive>()...};
+}
+
+}  // namespace
+
 void describe_drive(Fields& f, Drive& drive) {
-  // Every alternative of the variant by its name, the default first.
-  static const std::vector<Drive> kinds = {AckermannDrive(), DifferentialDrive(), LinkageDrive()};
+  static const std::vector<Drive> kinds =
+      drive_of_each_kind(std::make_index_sequence<std::variant_size_v<Drive>>());
   Types types{"type", "Kind of the drive.", {}, drive.index(), {}, {}};
   for (const Drive& kind : kinds) types.names.push_back(drive_name(kind));
   types.choose = [&drive](std::size_t i) { drive = kinds.at(i); };

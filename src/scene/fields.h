@@ -85,6 +85,13 @@ struct NamedChoice {
   std::function<std::size_t()> get;      ///< returns the index in `names` of the current value
   std::function<void(std::size_t)> set;  ///< sets the value to that of an index in `names`
 };
+/// Attribute of an element that holds a value: an enumeration that says how the value is meant. The
+/// first of its names is the default.
+struct ValueAttribute {
+  const char* name;    ///< name of the attribute
+  NamedChoice choice;  ///< its allowed values
+  const char* text;    ///< one sentence of documentation
+};
 /// Pointer to a unit vector; the reader normalizes the vector that a file gives.
 struct Direction {
   Vec3* value;  ///< the unit vector
@@ -115,6 +122,8 @@ struct Field {
   const char* text;
   Mark mark;                         ///< options of the field
   Refers refers = Refers::kNothing;  ///< type of the object that the value names
+  /// Attribute of the value's element, if it has one.
+  std::optional<ValueAttribute> attribute = {};
 };
 
 /// Description of a child element that has fields of its own.
@@ -203,6 +212,25 @@ class Fields {
                   Mark mark = {}) {
     field({name, &member, {}, text, mark, refers});
   }
+  /// Visits a number whose element has an attribute.
+  void operator()(const char* name, double& member, Range range, const char* text,
+                  ValueAttribute attribute) {
+    field({name, &member, range, text, {}, Refers::kNothing, std::move(attribute)});
+  }
+  /// Returns the accessors of an enumeration or flag. `choices` holds the name of each allowed
+  /// value.
+  template <class T>
+  static NamedChoice choice_of(T& member, std::vector<std::pair<const char*, T>> choices) {
+    NamedChoice choice;
+    for (const auto& [key, value] : choices) choice.names.push_back(key);
+    choice.get = [&member, choices] {
+      std::size_t i = 0;
+      while (i + 1 < choices.size() && choices[i].second != member) ++i;
+      return i;
+    };
+    choice.set = [&member, choices](std::size_t i) { member = choices.at(i).second; };
+    return choice;
+  }
   /// Visits a unit vector.
   void operator()(const char* name, Direction member, const char* text, Mark mark = {}) {
     field({name, member, {-1e6, 1e6}, text, mark});
@@ -215,15 +243,7 @@ class Fields {
   template <class T>
   void operator()(const char* name, T& member, std::vector<std::pair<const char*, T>> choices,
                   const char* text, Mark mark = {}) {
-    NamedChoice choice;
-    for (const auto& [key, value] : choices) choice.names.push_back(key);
-    choice.get = [&member, choices] {
-      std::size_t i = 0;
-      while (i + 1 < choices.size() && choices[i].second != member) ++i;
-      return i;
-    };
-    choice.set = [&member, choices](std::size_t i) { member = choices.at(i).second; };
-    field({name, std::move(choice), {}, text, mark});
+    field({name, choice_of(member, std::move(choices)), {}, text, mark});
   }
   /// Visits a child element that may be missing; the element exists if `member` has a value.
   template <class T>

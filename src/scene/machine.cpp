@@ -24,6 +24,14 @@ std::string Shell::surface_hash() const {
   return sum.hex();
 }
 
+Shell Machine::with_teeth(const Shell& shell) const {
+  Shell out = shell;
+  for (const Bucket& bucket : buckets)
+    if (bucket.shell == shell.name && bucket.teeth)
+      out.toothed = ToothedEdge{*bucket.teeth, bucket.p_tip, bucket.cut_direction, bucket.width};
+  return out;
+}
+
 int Machine::link_index(const std::string& name_of_link) const {
   for (std::size_t i = 0; i < links.size(); ++i)
     if (links[i].name == name_of_link) return static_cast<int>(i);

@@ -17,6 +17,7 @@
 #include "scene/drive.h"
 #include "scene/fields.h"
 #include "scene/material.h"
+#include "scene/tool_shell.h"
 
 namespace navvy::scene {
 
@@ -394,45 +395,6 @@ struct Levers {
   }
 };
 
-/// A thin shell of triangles in the link's frame [m], which touches soil: a bucket, blade, plate or
-/// bed. The front of the triangles is the inside. An edge of only one triangle is a free edge. A
-/// shell has two sides and a thickness. It may be open, and then holds soil on its front
-/// [docs/tools.md, shells].
-struct Shell : geometry::TriangleMesh {
-  std::string name;               ///< name of the shell
-  std::string link;               ///< name of the link that carries the shell
-  double half_thickness = 0.015;  ///< half of the plate's thickness [m]
-  /// Factors on the tangent of the soil's tool friction angle (`friction_share`) and on the soil's
-  /// adhesion (`adhesion_share`) for contact with this shell [-].
-  double friction_share = 1, adhesion_share = 1;
-  std::string mesh;  ///< OBJ file with the triangles; empty: the file lists them
-  /// Coordinates of vertices and indices of triangle corners as the file lists them; cleared once
-  /// the triangles have been built.
-  std::vector<double> vertex_numbers, corner_numbers;
-
-  /// Passes the fields of a <navvy:shell> to the visitor `f`.
-  void describe(Fields& f) {
-    f.attribute("name", name, "Name of the shell.", kNeeded);
-    f("link", link, Refers::kLink, "Link that carries the shell.", kNeeded);
-    f("mesh", mesh, "OBJ file of the surface; of a bucket best the middle surface of its plates.",
-      kShown);
-    f("vertices_m", vertex_numbers, {-1000, 1000}, "Vertices x y z, instead of a mesh.", kShown);
-    f("triangles", corner_numbers, {0, 1e6},
-      "Three numbers of vertices, from 0, per triangle; counter-clockwise as seen from the inside "
-      "of a bucket, or from outside of a closed body.",
-      kShown);
-    f.derived_text("surface", [this] { return surface_hash(); });
-    f("half_thickness_m", half_thickness, {1e-4, 1}, "Half the thickness of the plate.");
-    f("friction_share", friction_share, {0, 2},
-      "Share of the tangent of a soil's tool friction angle; 0 with adhesion_share 0: smooth.");
-    f("adhesion_share", adhesion_share, {0, 2}, "Share of a soil's adhesion.");
-  }
-
- private:
-  /// Returns a hash of all vertices and triangles, which represents the surface as one parameter.
-  std::string surface_hash() const;
-};
-
 /// Marks a link as a digging bucket. Automatic operators aim the cutting edge according to the
 /// members; the soil interacts only with the shell.
 struct Bucket {
@@ -445,7 +407,8 @@ struct Bucket {
   Vec3 cut_direction = Vec3::UnitX();
   /// Unit vector in the link's frame that points out of the bucket's mouth.
   Vec3 opening = Vec3::UnitZ();
-  std::string name;  ///< name of the bucket, for readers of the file
+  std::optional<Teeth> teeth;  ///< teeth on the cutting edge
+  std::string name;            ///< name of the bucket, for readers of the file
 
   /// Passes the fields of a <navvy:bucket> to the visitor `f`.
   void describe(Fields& f) {
@@ -458,6 +421,7 @@ struct Bucket {
     f("cut_direction", Direction{&cut_direction},
       "Direction of the edge, along the floor and outward.");
     f("opening", Direction{&opening}, "Direction out of the mouth.");
+    f("teeth", teeth, "Teeth on the cutting edge.");
   }
 };
 
@@ -586,6 +550,8 @@ struct Machine {
 
   /// Returns the index of the link with this name in `links`; -1 if there is none.
   int link_index(const std::string& name_of_link) const;
+  /// Returns `shell`, a shell of this machine, with the teeth of the bucket that it belongs to.
+  Shell with_teeth(const Shell& shell) const;
   /// Returns the index of the joint with this name in `joints`; -1 if there is none.
   int joint_index(const std::string& name_of_joint) const;
   /// Returns true if the shell with index `shell` belongs to a digging bucket.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scene/fields.h"
+#include "scene/friction.h"
 
 namespace navvy::scene {
 
@@ -17,8 +18,11 @@ struct Soil {
   double bank_density = 1540;      ///< density of undisturbed, moist soil [kg/m3]
   double swell = 1.23;             ///< loose volume / bank volume [-]
   double friction_angle = 0.5236;  ///< internal friction angle phi in plane strain [rad]
-  double repose_angle = 0;  ///< angle of repose t that gives phi by sin phi = tan t [rad], if given
-  bool has_repose_angle = false;  ///< true: `repose_angle` was given instead of `friction_angle`
+  /// Test whose result was given; `friction_angle` follows from it and from the dilatancy angle.
+  FrictionTest friction_test = FrictionTest::kPlaneStrain;
+  double tested_friction_angle = 0;  ///< result of that test [rad]; unused in plane strain
+  double repose_angle = 0;           ///< angle of repose [rad], if given
+  bool has_repose_angle = false;     ///< true: `repose_angle` was given, a result of kRepose
   /// Relative increase in strength of soil that is at rest or sheared at less than 0.1 /s, compared
   /// with flowing soil [-].
   double static_friction_share = 0.1;
@@ -65,10 +69,13 @@ struct Soil {
     f("source", source, "Origin of the values.", kShown);
     f("bank_density_kg_per_m3", bank_density, {50, 20000}, "Density of undisturbed, moist soil.");
     f("swell", swell, {1, 2}, "Loose volume / bank volume.");
-    f("friction_angle_deg", friction_angle, {0, 60},
-      "Internal friction angle phi in plane strain.");
+    f("friction_angle_deg", friction_angle, {0, kMostFrictionDegrees},
+      "Internal friction angle: phi in plane strain unless `test` names another test, from whose "
+      "result and psi the loader computes phi.",
+      friction_test_attribute(friction_test));
     f("repose_angle_deg", repose_angle, {0, 44},
-      "Angle of repose t, to give instead of phi: sin phi = tan t.",
+      "Angle of repose t, to give instead of friction_angle_deg: the same as there with "
+      "test=\"repose\", sin phi = tan t.",
       kShown | given(has_repose_angle));
     f("static_friction_share", static_friction_share, {0, 0.1},
       "Share by which soil at rest, or sheared slower than 0.1 /s, is stronger than flowing soil.");

@@ -64,6 +64,16 @@ void follow_residual_cohesion(Soil& soil, double before) {
     soil.loose_cohesion = default_loose_cohesion(soil.residual_cohesion);
 }
 
+std::optional<Fault> follow_friction_test(Soil& soil) {
+  if (soil.friction_test == FrictionTest::kPlaneStrain) return std::nullopt;
+  auto refused =
+      check_friction(soil.friction_test, soil.tested_friction_angle, soil.dilatancy_angle);
+  if (!refused)
+    soil.friction_angle =
+        plane_strain_angle(soil.friction_test, soil.tested_friction_angle, soil.dilatancy_angle);
+  return refused;
+}
+
 std::optional<Fault> too_soft(const Soil& soil) {
   const double ratio = soil.young_modulus / soil.cohesion;
   if (!(soil.cohesion > 0) || !(ratio < kTooSoft)) return std::nullopt;

@@ -43,6 +43,11 @@ double default_loose_cohesion(double residual);
 /// [Pa]: a default is replaced by that of the new residual cohesion; any other value is kept.
 void follow_residual_cohesion(Soil& soil, double before);
 
+/// Updates the friction angle of a soil whose angle is the result of another test than plane
+/// strain, from that result and the dilatancy angle. Returns a fault, and leaves the angle as it
+/// is, if phi would be above the limit [docs/soil.md, friction angles].
+std::optional<Fault> follow_friction_test(Soil& soil);
+
 /// Returns the plastic shear [-] assigned to soil that has slid or was dug; 1 % of its bonds is
 /// then left.
 inline float remoulded_shear(const Soil& soil) {

@@ -109,9 +109,12 @@ void finish_kind(Element& element, scene::LinkageDrive& drive, Faults& faults) {
                "a tie rod nearer to track_m, a longer arm_m, a smaller max_steer_deg");
 }
 
-void finish_kind(Element&, scene::DifferentialDrive&, Faults&) {}
-
-void check_kind(const Element&, const scene::AckermannDrive&, const scene::Machine&, Faults&) {}
+/// Does nothing: a kind of drive without an overload has no rules that concern several elements.
+template <class Kind>
+void finish_kind(Element&, Kind&, Faults&) {}
+/// Does nothing: a kind of drive without an overload has no rules that concern the machine.
+template <class Kind>
+void check_kind(const Element&, const Kind&, const scene::Machine&, Faults&) {}
 
 void check_kind(const Element& element, const scene::DifferentialDrive&,
                 const scene::Machine& machine, Faults& faults) {

@@ -169,6 +169,29 @@ void ElementReader::read_attribute(const Field& field) {
                   field.text);
 }
 
+void ElementReader::read_value_attribute(const Element& child,
+                                         const scene::ValueAttribute& attribute) {
+  attributed_.push_back(child.Name());
+  const std::vector<std::string> names(attribute.choice.names.begin(),
+                                       attribute.choice.names.end());
+  std::size_t index = 0;
+  for (const auto* at = child.FirstAttribute(); at; at = at->Next()) {
+    if (std::string_view(at->Name()) != attribute.name) {
+      faults_.error(child, at->Name(), "unknown attribute",
+                    faults_.nearest(at->Name(), {attribute.name}));
+      continue;
+    }
+    const auto found = std::find(names.begin(), names.end(), at->Value());
+    index = static_cast<std::size_t>(found - names.begin());
+    if (found != names.end()) continue;
+    std::string rule = std::string("unknown ") + attribute.name + "; must be one of";
+    for (const std::string& name : names) rule += " " + name;
+    faults_.error(child, at->Value(), rule, faults_.nearest(at->Value(), names));
+    index = 0;
+  }
+  attribute.choice.set(index);
+}
+
 void ElementReader::field(const Field& field) {
   if (field.mark.has(Mark::kDerived)) return;
   if (field.mark.has(Mark::kAttribute)) return read_attribute(field);
@@ -184,6 +207,8 @@ void ElementReader::field(const Field& field) {
   if (repeats) repeatable_.push_back(field.name);
   for (; child != nullptr; child = repeats ? child->NextSiblingElement(field.name) : nullptr)
     std::visit(ValueReader{field, *child, faults_, factor}, field.value);
+  if (field.attribute)
+    read_value_attribute(*element_.FirstChildElement(field.name), *field.attribute);
   if (field.refers != Refers::kNothing)
     check_reference(*element_.FirstChildElement(field.name), *std::get<std::string*>(field.value),
                     field.refers);
@@ -290,7 +315,7 @@ void ElementReader::finish() {
     if (repeats || contains(nested_, name)) continue;
     if (child->FirstChildElement())
       faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements");
-    if (child->FirstAttribute())
+    if (child->FirstAttribute() && !contains(attributed_, name))
       faults_.error(*child, child->FirstAttribute()->Name(), "takes no attributes");
   }
   for (const auto* at = element_.FirstAttribute(); at; at = at->Next())

@@ -58,6 +58,8 @@ class ElementReader final : public scene::Fields {
   Element* take(const scene::Mark& mark, const char* name);
   /// Reads a field that is an attribute.
   void read_attribute(const scene::Field& field);
+  /// Reads the attribute of a value's element `child` and reports unknown ones.
+  void read_value_attribute(const Element& child, const scene::ValueAttribute& attribute);
   /// Reads a child element with a reader of its own, which `describe` visits.
   void read_inside(Element& child, const std::function<void(scene::Fields&)>& describe);
   /// Reports an error at `child` if there is no object `name` of the type `refers`.
@@ -67,8 +69,9 @@ class ElementReader final : public scene::Fields {
   Faults& faults_;      ///< list to which errors are added
   bool mixed_;          ///< true: only children in the namespace `navvy:` are read
   /// Names of allowed children, of those that may occur several times, of those with children of
-  /// their own, and of allowed attributes; each is filled while fields are visited.
-  std::vector<std::string> known_, repeatable_, nested_, attributes_;
+  /// their own, of values with an attribute, and of allowed attributes; each is filled while fields
+  /// are visited.
+  std::vector<std::string> known_, repeatable_, nested_, attributed_, attributes_;
 };
 
 /// Reads the struct `into`, which has a function `describe`, from an element and reports everything

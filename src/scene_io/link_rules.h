@@ -7,8 +7,8 @@
 
 namespace navvy::scene_io {
 
-/// Checks parent, child, axes and limits of every joint of a model. `names` holds the model's
-/// names.
+/// Checks parent, child, axes and limits of every joint of a model. `names` holds the names of the
+/// model's links and frames, to which joints refer.
 void check_joints(const Element& model, const Names& names, Faults& faults);
 
 /// Checks masses, inertias and shapes of every link of a model. `needs_mass` is true if the links

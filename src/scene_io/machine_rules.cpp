@@ -80,6 +80,20 @@ void check_bed(const Element& element, std::size_t index, const Names& names,
                  "name the joint that tips it");
 }
 
+/// Teeth stand side by side on the cutting edge.
+void check_teeth(const Element& element, const scene::Bucket& bucket, Faults& faults) {
+  const Element* teeth = element.FirstChildElement("teeth");
+  if (teeth == nullptr || !bucket.teeth) return;
+  const double width = bucket.teeth->number * bucket.teeth->width;
+  if (width > bucket.width * (1 + 1e-9))
+    faults.error(child_or_self(*teeth, "width_m"),
+                 std::to_string(bucket.teeth->number) + " teeth of " +
+                     scene::short_text(bucket.teeth->width) + " m",
+                 "together, the teeth are at most as wide as the bucket, " +
+                     scene::short_text(bucket.width) + " m",
+                 "give fewer or narrower teeth, or correct width_m of the bucket");
+}
+
 /// A plane carries whatever rests on it, everywhere: only the rock under the ground can be one.
 void check_planes(const Element& model, const scene::Machine& machine, Faults& faults) {
   for (std::size_t l = 0; l < machine.links.size(); ++l)
@@ -155,6 +169,9 @@ void check_extensions(Element& model, const Names& names, const scene::Machine& 
   i = 0;
   for (const Element* e : children_of(model, {"navvy:bed"}))
     check_bed(*e, i++, names, machine, faults);
+  i = 0;
+  for (const Element* e : children_of(model, {"navvy:bucket"}))
+    check_teeth(*e, machine.buckets.at(i++), faults);
   if (const Element* e = model.FirstChildElement("navvy:levers")) check_levers(*e, machine, faults);
   if (const Element* e = model.FirstChildElement("navvy:pump")) {
     if (machine.cylinders.empty())

@@ -152,6 +152,8 @@ class Settings {
     if (!split_key(key, parts) || !parts.back().which.empty())
       return key_fault(key, value, "a setting must look like object.element=value",
                        "e.g. soil.cohesion_pa=8000", faults_);
+    std::string choice;
+    if (!take_choice(key, value, parts, choice)) return;
     const SchemaNode* node = schema().root().child("world");
     std::vector<Element*> targets = {&world_};
     if (!find_targets(key, value, parts, targets, node)) return;
@@ -159,12 +161,37 @@ class Settings {
     // them.
     const std::string& leaf = parts.back().name;
     bool changed = false;
-    for (Element* target : targets) changed = set(*target, node, key, leaf, value) || changed;
+    for (Element* target : targets)
+      changed = set(*target, node, {key, leaf, value, choice}) || changed;
     if (!changed)
       warn(key, value, "has no effect: the scene has this value already", "remove the setting");
   }
 
  private:
+  /// One setting: its key, the element or attribute it names, its value, and the value of the
+  /// element's attribute if the key ends in one.
+  struct Setting {
+    std::string key, leaf, value, choice;
+  };
+
+  /// Takes the last part of a key such as soil.friction_angle_deg.triaxial, where it is a value of
+  /// an attribute of the element before it. Returns false after an error.
+  bool take_choice(const std::string& key, const std::string& value, std::vector<Part>& parts,
+                   std::string& choice) {
+    if (parts.size() < 3) return true;
+    const std::vector<const SchemaNode*>& own = schema().children(parts[parts.size() - 2].name);
+    if (own.size() != 1 || !own[0]->attribute || own[0]->type != "choice") return true;
+    choice = parts.back().name;
+    const std::vector<std::string>& known = own[0]->choices;
+    if (std::find(known.begin(), known.end(), choice) == known.end()) {
+      key_fault(key, value, "unknown " + own[0]->name + " '" + choice + "'",
+                faults_.nearest(choice, known), faults_);
+      return false;
+    }
+    parts.pop_back();
+    return true;
+  }
+
   void warn(const std::string& key, const std::string& value, const std::string& rule,
             const std::string& remedy) {
     faults_.add({Fault::Severity::kWarning, "command line", 0, key, value, rule, remedy});
@@ -231,8 +258,8 @@ class Settings {
   }
 
   /// Sets one value of `target`; returns false if it had this value already.
-  bool set(Element& target, const SchemaNode* node, const std::string& key, const std::string& leaf,
-           const std::string& value) {
+  bool set(Element& target, const SchemaNode* node, const Setting& setting) {
+    const auto& [key, leaf, value, choice] = setting;
     const SchemaNode* child = node != nullptr ? node->child(leaf) : nullptr;
     if (node != nullptr && node->key == "machine") {
       const std::string before = child_text(target, "pose");
@@ -260,26 +287,49 @@ class Settings {
       target.SetAttribute(name.c_str(), value.c_str());
       return changed;
     }
-    const bool changed = !same_value(value, present_value(target, child, name));
+    // The attribute of a value's element; an element with a value has no other children.
+    const SchemaNode* own = child != nullptr && child->type != "element" && !child->children.empty()
+                                ? &child->children[0]
+                                : nullptr;
+    const bool same_choice = own == nullptr || present_choice(target, *child) ==
+                                                   (choice.empty() ? own->initial : choice);
+    const bool changed = !same_choice || !same_value(value, present_value(target, child, name));
     // A soil's strength is given by one of two elements; the new one replaces the other.
     if (name == "friction_angle_deg" || name == "repose_angle_deg")
       for (const char* other : {"friction_angle_deg", "repose_angle_deg"})
         if (Element* old = target.FirstChildElement(other)) target.DeleteChild(old);
     set_value(target, name, value);
+    if (own != nullptr && !choice.empty())
+      target.FirstChildElement(name.c_str())->SetAttribute(own->name.c_str(), choice.c_str());
     return changed;
   }
 
-  /// Returns the value that `target` has without the setting: its own, that of the soil it refers
-  /// to, or the default.
-  std::string present_value(const Element& target, const SchemaNode* child,
-                            const std::string& name) const {
-    if (has(target, name.c_str())) return child_text(target, name.c_str());
+  /// Returns what `read` finds in the element that gives `target` its value `name` without the
+  /// setting: its own or that of the soil it refers to; without either, `initial`.
+  template <class Read>
+  static std::string present(const Element& target, const std::string& name,
+                             const std::string& initial, const Read& read) {
+    if (const Element* own = target.FirstChildElement(name.c_str())) return read(*own);
     const std::string ref = attribute(target, "ref");
-    if (ref.empty()) return child != nullptr ? child->initial : "";
+    if (ref.empty()) return initial;
     Faults unread;
     const auto document = Document::open(soil_file(target, ref), unread);
     const Element* soil = document ? document->root()->FirstChildElement("navvy:soil") : nullptr;
-    return soil != nullptr ? child_text(*soil, name.c_str()) : "";
+    const Element* value = soil != nullptr ? soil->FirstChildElement(name.c_str()) : nullptr;
+    return value != nullptr ? read(*value) : "";
+  }
+  static std::string present_value(const Element& target, const SchemaNode* child,
+                                   const std::string& name) {
+    return present(target, name, child != nullptr ? child->initial : "",
+                   [](const Element& value) { return text_of(value); });
+  }
+  /// Returns the attribute of a value's element.
+  static std::string present_choice(const Element& target, const SchemaNode& child) {
+    const SchemaNode& own = child.children[0];
+    return present(target, child.name, own.initial, [&own](const Element& value) {
+      return value.Attribute(own.name.c_str()) != nullptr ? attribute(value, own.name.c_str())
+                                                          : own.initial;
+    });
   }
 
   Element& world_;

@@ -52,6 +52,7 @@ class Builder final : public scene::Fields {
                       (**value < f.range.min * unit.factor || **value > f.range.max * unit.factor);
     if (!out.needed && !f.mark.given && !none && out.type != "pose")
       out.initial = scene::value_text(f.value, unit.factor);
+    if (f.attribute) add_attribute(out, *f.attribute);
   }
   void group(const scene::Group& group, const std::function<void(Fields&)>& describe) override {
     Builder inner(add(group.name, group.text, group.mark));
@@ -98,6 +99,15 @@ class Builder final : public scene::Fields {
   }
 
  private:
+  static void add_attribute(SchemaNode& node, const scene::ValueAttribute& attribute) {
+    SchemaNode& out = node.children.emplace_back();
+    out.name = out.key = attribute.name;
+    out.type = "choice";
+    out.text = attribute.text;
+    out.attribute = true;
+    out.choices.assign(attribute.choice.names.begin(), attribute.choice.names.end());
+    out.initial = out.choices.front();
+  }
   SchemaNode& add(const char* name, const char* text, const Mark& mark) {
     SchemaNode& out = node_.children.emplace_back();
     out.name = name;

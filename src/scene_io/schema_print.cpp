@@ -111,10 +111,16 @@ void print_markdown(const SchemaNode& node, const std::string& path, std::string
   if (node.repeats) out += "At most " + std::to_string(node.most) + ".\n";
   if (node.children.empty()) return;
   out += "\n| Element | Unit or type | Default | Range | Meaning |\n|---|---|---|---|---|\n";
-  for (const SchemaNode& child : node.children)
-    out += "| " + (child.attribute ? "attribute " : std::string()) + code(child.name) + " | " +
-           unit_or_type(child) + " | " + initial_of(child) + " | " + range_of(child) + " | " +
-           sentence(child) + " |\n";
+  const auto row = [&out](const SchemaNode& child, const std::string& owner) {
+    out += "| " + (child.attribute ? "attribute " : std::string()) + code(child.name) + owner +
+           " | " + unit_or_type(child) + " | " + initial_of(child) + " | " + range_of(child) +
+           " | " + sentence(child) + " |\n";
+  };
+  for (const SchemaNode& child : node.children) {
+    row(child, "");
+    if (child.type == "element") continue;
+    for (const SchemaNode& own : child.children) row(own, " of " + code(child.name));
+  }
   for (const SchemaNode& child : node.children)
     if (child.type == "element" && !child.children.empty())
       print_markdown(child, path + "/" + child.name, out);

@@ -21,15 +21,16 @@ bool is_used_sdf(const Element& element);
 /// Returns true if Navvy uses the SDF element `name` inside an element `parent`.
 bool is_used_sdf(const char* parent, const char* name);
 
-/// Treatment of some SDF elements, for the reference page.
+/// One rule that states whether Navvy reads, ignores or refuses certain SDF elements; the reference
+/// page lists these rules.
 struct SdfUse {
-  /// Names of parent elements, and names of the elements inside them to which the rule applies;
-  /// each list is separated by blanks.
+  /// Names of parent elements, and names of the child elements to which the rule applies; the names
+  /// in each list are separated by blanks.
   std::string parents, names;
-  std::string use;  ///< treatment: read, ignored or refused
-  std::string why;  ///< reason for the treatment
+  std::string use;  ///< what Navvy does with the child elements: "read", "ignored" or "refused"
+  std::string why;  ///< remedy for an element that is not read; may be empty
 };
-/// Returns the treatment of all SDF elements, in the order of the rules' table.
+/// Returns the rules for all SDF elements, in the order of the table of rules.
 std::vector<SdfUse> sdf_uses();
 
 /// Checks that the root element is <sdf> with a supported version. Returns false after an error.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "core/edit_distance.h"
 #include "core/error.h"
@@ -40,7 +41,9 @@ std::map<std::string, std::string> shipped_scenes() {
 }
 
 std::string find_scene(const std::string& name) {
-  if (fs::exists(name)) return name;
+  // A loop of links, or a folder that may not be entered, is reported by the reader of the file.
+  std::error_code unreadable;
+  if (fs::exists(name, unreadable) || unreadable) return name;
   for (const std::string& candidate : {name, "scenarios/" + name, "scenarios/" + name + ".sdf"})
     if (const std::string found = find_data(candidate); !found.empty()) return found;
   if (name.find('/') != std::string::npos) return name;

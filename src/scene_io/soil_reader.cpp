@@ -2,7 +2,6 @@
 #include "scene_io/soil_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "scene/soil_values.h"
@@ -20,6 +19,30 @@ void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
     const Element* child =
         element.FirstChildElement(fault.element.substr(fault.element.rfind('/') + 1).c_str());
     faults.error(child != nullptr ? *child : element, fault.value, fault.rule, fault.remedy);
+  }
+}
+
+/// Computes phi from the angle that the element gives, or that it inherits beside a new dilatancy.
+void read_friction(const Element& element, scene::Soil& soil, Faults& faults) {
+  const Element* angle = element.FirstChildElement("friction_angle_deg");
+  const Element* repose = element.FirstChildElement("repose_angle_deg");
+  if (angle != nullptr && repose != nullptr) {
+    const bool steeper = soil.repose_angle > soil.friction_angle;
+    faults.error(*repose, text_of(*repose),
+                 std::string("give either repose_angle_deg or friction_angle_deg") +
+                     (steeper ? "; no heap stands steeper than phi" : ""),
+                 "remove one");
+    return;
+  }
+  if (angle != nullptr) soil.tested_friction_angle = soil.friction_angle;
+  if (repose != nullptr) {
+    soil.friction_test = scene::FrictionTest::kRepose;
+    soil.tested_friction_angle = soil.repose_angle;
+  }
+  if (const auto refused = scene::follow_friction_test(soil)) {
+    const Element& dilatancy = child_or_self(element, "dilatancy_angle_deg");
+    faults.error(angle != nullptr ? *angle : (repose != nullptr ? *repose : dilatancy),
+                 refused->value, refused->rule, refused->remedy);
   }
 }
 
@@ -73,14 +96,7 @@ scene::Soil read_soil(Element& element, Faults& faults) {
                  "needs an attribute name=\"...\" (own values) or ref=\"...\" (a shipped soil)");
   const double cohesion = soil.cohesion, residual = soil.residual_cohesion;
   read_element(element, soil, nullptr, faults);
-  // In plane strain without dilatancy, loose soil flows above atan(sin phi).
-  if (const Element* repose = element.FirstChildElement("repose_angle_deg")) {
-    if (has(element, "friction_angle_deg"))
-      faults.error(*repose, text_of(*repose), "give either repose_angle_deg or friction_angle_deg",
-                   "remove one");
-    else
-      soil.friction_angle = std::asin(std::min(1.0, std::tan(soil.repose_angle)));
-  }
+  read_friction(element, soil, faults);
   // A residual cohesion that was not given follows the cohesion down, so that a clean sand needs
   // one line.
   if (!element.FirstChildElement("residual_cohesion_pa") && soil.cohesion < cohesion)

@@ -30,13 +30,16 @@ void read_section(Element& world, const char* name, T& into, Faults& faults) {
   if (Element* e = world.FirstChildElement(name)) read_element(*e, into, nullptr, faults);
 }
 
-/// Names of scenes, cameras and maps become names of files.
+/// Names of scenes, cameras and maps become names of files and folders, which people hand on to
+/// shells. check_name refuses other characters that no name may hold.
 void require_file_name(const Element& element, const std::string& name, Faults& faults) {
-  const bool plain = name != "." && name != ".." && name.find('/') == std::string::npos &&
-                     std::none_of(name.begin(), name.end(),
-                                  [](char c) { return static_cast<unsigned char>(c) < 32; });
+  const bool plain =
+      name.empty() || (name.front() != '.' && name.back() != ' ' &&
+                       name.find_first_of("/\\~$`'(){}[]<>|&;*?!#%") == std::string::npos);
   if (!plain)
-    faults.error(element, name, "results are named after it: no '/', no '..'",
+    faults.error(element, name,
+                 "files and folders of results are named after it: no '.' at its start, no blank "
+                 "at its end, no '/' and no character that a shell interprets",
                  "use letters, digits, _ and -");
 }
 

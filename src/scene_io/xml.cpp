@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/xml.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -19,14 +20,15 @@
 namespace navvy::scene_io {
 
 namespace {
-/// Returns the text as one line of valid UTF-8.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-  // The cut of a long value may have split a character.
-  for (std::size_t bad = first_bad_utf8(text); bad != std::string::npos; bad = first_bad_utf8(text))
-    text[bad] = '?';
-  return text;
+/// Returns the start of a value, which is enough to find it, on one line.
+std::string shown(const std::string& value) {
+  constexpr std::size_t kMost = 80;
+  std::string text = value.size() > kMost ? value.substr(0, kMost - 3) : value;
+  // The cut may have split a character; a file is valid UTF-8 otherwise.
+  if (text.size() < value.size()) text.resize(std::min(first_bad_utf8(text), text.size()));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return text.size() < value.size() ? text + "..." : text;
 }
 }  // namespace
 
@@ -38,9 +40,8 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
   const Place place = place_of(at);
   fault.line = place.line;
   fault.file = place.file ? *place.file : "command line";
-  fault.element = printable(element_path(at));
-  // The start of a long value is enough to find it.
-  fault.value = value.size() > 80 ? printable(value.substr(0, 77)) + "..." : printable(value);
+  fault.element = element_path(at);
+  fault.value = shown(value);
   fault.rule = rule;
   fault.remedy = remedy;
   list_.push_back(std::move(fault));

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/limits.h"
+#include "core/printable.h"
 #include "core/utf8.h"
 #include "scene_io/schema.h"
 
@@ -168,16 +169,20 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
 bool check_tree(const Element& root, Faults& faults) { return check_element(root, 1, faults); }
 
 bool check_name(const Element& at, const std::string& name, Faults& faults) {
-  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == ',' || c == '"';
-  });
-  if (plain && name.size() <= limits::kNameBytes) return true;
-  faults.error(
-      at, name,
-      plain
-          ? "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes"
-          : "a name must hold no comma, no quote and no line break: it heads columns of CSV files",
-      "use letters, digits, blanks, _ and -");
+  std::string rule;
+  if (name.size() > limits::kNameBytes)
+    rule = "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes";
+  else if (name.find_first_of(",\"") != std::string::npos ||
+           (first_bad_utf8(name) == std::string::npos && printable(name) != name))
+    rule =
+        "a name must hold no comma, no quote, no line break and no invisible character: it heads "
+        "columns of CSV files";
+  else if (!name.empty() && std::strchr("=+-@ ", name.front()) != nullptr)
+    rule =
+        "a name must not begin with = + - @ or a blank: it heads columns of CSV files, which "
+        "spreadsheets would run as a formula";
+  if (rule.empty()) return true;
+  faults.error(at, name, rule, "use letters, digits, blanks, _ and -, and begin with a letter");
   return false;
 }
 

@@ -30,9 +30,9 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
 /// exceeded, in which case reading must stop. An invalid name or character is only reported.
 bool check_tree(const Element& root, Faults& faults);
 
-/// Checks a name that will become part of CSV headers, JSON and file names: no control characters,
-/// commas or quotes, and a limited length. Otherwise reports an error at the element `at` and
-/// returns false.
+/// Checks a name that will become part of CSV headers, JSON and file names: no comma, quote,
+/// control or invisible character, none of `= + - @` and no blank at its start, and a limited
+/// length. Otherwise reports an error at the element `at` and returns false.
 bool check_name(const Element& at, const std::string& name, Faults& faults);
 
 }  // namespace navvy::scene_io

@@ -80,6 +80,7 @@ bool ToolHandle::is_bed() const {
 }
 // The coupling stores these after each step; only the payload is computed on demand.
 Vec3 ToolHandle::force() const { return load(*parts_, tool_).force_W; }
+Vec3 ToolHandle::edge_force() const { return load(*parts_, tool_).edge_force_W; }
 Vec3 ToolHandle::moment() const { return load(*parts_, tool_).moment_W; }
 Vec3 ToolHandle::smooth_force() const { return load(*parts_, tool_).smooth_W; }
 Vec3 ToolHandle::rock_force() const { return load(*parts_, tool_).rock_W; }

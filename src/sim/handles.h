@@ -122,6 +122,8 @@ class ToolHandle {
   /// Returns the force of the soil on the tool [N], averaged over the last completed transfer
   /// between particles and grid.
   Vec3 force() const;
+  /// Returns the part of force() that acts on the edges of the tool's plates, teeth included [N].
+  Vec3 edge_force() const;
   /// Returns the moment of the soil on the tool about the origin of the tool's link [N m], averaged
   /// over the last completed transfer between particles and grid.
   Vec3 moment() const;

@@ -151,7 +151,7 @@ namespace {
 std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
-  const heightfield::DesignComparison figures = heightfield::against_design(ground, *design);
+  const heightfield::DesignComparison comparison = heightfield::against_design(ground, *design);
   double least = INFINITY, most = -INFINITY;
   for (const float z : design->z) {
     least = std::fmin(least, static_cast<double>(z));
@@ -166,7 +166,7 @@ std::string reported_design(const scene::Scene& scene, const heightfield::Ground
   std::snprintf(
       out.data(), out.size(),
       ": %.4g m2 of the site, heights %.3f .. %.3f m in W, %.4g m3 to cut, %.4g m3 to fill\n",
-      figures.area, least, most, figures.design_cut, figures.design_fill);
+      comparison.area, least, most, comparison.design_cut, comparison.design_fill);
   return "design " + what + out.data();
 } catch (const InputError&) {
   return "";
@@ -196,13 +196,13 @@ StartCheck check_start(const scene::Scene& scene) {
       // A machine in the air has no ground to tip on yet.
       if (!stands.free || out.falling[m] || (stands.margin >= 0 && stands.tilt < kTipped)) continue;
       const std::string tilt = text("%.1f deg", degrees(stands.tilt));
-      out.faults.push_back(
-          error(scene, scene.machines[m], tilt,
-                std::string("the machine tips over within its first second") +
-                    (stands.margin < 0 ? ": its centre of mass is " +
-                                             text("%.2f m", -stands.margin) + " outside its feet"
-                                       : ""),
-                "place it on flatter ground, or turn it along the slope"));
+      out.faults.push_back(error(
+          scene, scene.machines[m], tilt,
+          std::string("the machine tips over within its first second") +
+              (stands.margin < 0 ? ": its centre of mass is " + text("%.2f m", -stands.margin) +
+                                       " outside its support polygon"
+                                 : ""),
+          "place it on flatter ground, or turn it along the slope"));
     }
   } catch (const InputError& fault) {
     for (const Fault& one : fault.faults()) out.faults.push_back(one);

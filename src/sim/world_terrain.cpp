@@ -40,8 +40,8 @@ ActivePlaces active_places(const World& world) {
     (held[i] != 0 ? out.held : out.elsewhere)[particles[i].soil] += particles[i].mass;
     if (held[i] == 0) grains.push_back(grain_of(world, particles[i]));
   }
-  out.lying = heightfield::LooseSoil(world.ground(), std::move(grains));
-  for (const heightfield::LooseGrain& grain : out.lying.grains()) {
+  out.on_ground = heightfield::LooseSoil(world.ground(), std::move(grains));
+  for (const heightfield::LooseGrain& grain : out.on_ground.grains()) {
     out.resting[grain.soil] += grain.mass;
     out.elsewhere[grain.soil] -= grain.mass;
   }
@@ -53,7 +53,7 @@ heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKi
   heightfield::TerrainView columns = world.ground().view(world.time());
   if (surface == heightfield::SurfaceKind::kColumns) return columns;
   if (surface == heightfield::SurfaceKind::kMapped)
-    return columns.with(active_places(world).lying, surface)
+    return columns.with(active_places(world).on_ground, surface)
         .with(std::make_shared<const std::vector<heightfield::OccupiedArea>>(
             occupied_areas(world, all_bodies(world.description()))));
   std::vector<heightfield::LooseGrain> grains;

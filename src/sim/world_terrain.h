@@ -24,9 +24,10 @@ heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKi
 /// mass list has one entry per soil of the scene, in units of kMassQuantum. The three masses of a
 /// soil sum exactly to its mass in MassLedger::particles.
 struct ActivePlaces {
-  /// Active soil that lies on ground columns. Maps add it to the height of the columns.
-  heightfield::LooseSoil lying;
-  /// Mass of the soil in `lying`, per soil of the scene [kMassQuantum].
+  /// Active soil that rests on ground columns, directly or on other soil. Maps add it to the height
+  /// of the columns.
+  heightfield::LooseSoil on_ground;
+  /// Mass of the active soil that rests on ground columns, per soil of the scene [kMassQuantum].
   std::vector<std::int64_t> resting;
   /// Mass of the soil in buckets and beds, per soil of the scene [kMassQuantum]; payloads contain
   /// it.

@@ -25,6 +25,8 @@ struct EnergyAccount {
   double viscous = 0;
   /// Dissipated: friction of soil that slides along tools, and impacts of tools.
   double contact = 0;
+  /// Dissipated: soil displaced by the edges of plates, which are thinner than a cell.
+  double edge = 0;
   /// Dissipated: kinetic energy of the velocity components that are lost when velocities pass from
   /// particles to nodes and back.
   double transfer = 0;
@@ -38,7 +40,7 @@ struct EnergyAccount {
   /// Returns the energy supplied to the particles since recording began [J].
   double supplied() const { return tools + gravity + exchanged; }
   /// Returns the energy dissipated since recording began [J].
-  double dissipated() const { return plastic + viscous + contact + transfer + mixing; }
+  double dissipated() const { return plastic + viscous + contact + edge + transfer + mixing; }
   /// Returns the error of the balance, supplied - stored - dissipated [J]. It is not zero because
   /// stresses and velocities of a step belong to slightly different times.
   double residual() const { return supplied() - kinetic - elastic - dissipated(); }
@@ -59,6 +61,7 @@ void each_energy(const Visit& visit) {
   visit("plastic", &EnergyAccount::plastic);
   visit("viscous", &EnergyAccount::viscous);
   visit("contact", &EnergyAccount::contact);
+  visit("edge", &EnergyAccount::edge);
   visit("transfer", &EnergyAccount::transfer);
   visit("mixing", &EnergyAccount::mixing);
   visit("apart", &EnergyAccount::apart);

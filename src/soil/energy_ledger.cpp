@@ -243,18 +243,23 @@ std::vector<Vec3> EnergyLedger::velocities(Transfer& transfer, Contact& contact)
 void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after,
                                 std::span<const ToolMotion> motions,
                                 std::span<const ToolImpulse> impulses) {
-  double work = 0, got = 0;
+  // Of edges and of all nodes.
+  double work = 0, edge_work = 0, got = 0, edge_got = 0;
   for (std::size_t m = 0; m < motions.size(); ++m) {
-    Vec6 twist, impulse;
+    Vec6 twist, impulse, edge;
     twist << motions[m].w_WT, motions[m].v_WT;
     impulse << impulses[m].L_W, impulses[m].J_W;
-    work -= impulse.dot(twist + motions[m].inverse_mass * impulse);
+    edge << impulses[m].L_edge_W, impulses[m].J_edge_W;
+    const Vec6 after_step = twist + motions[m].inverse_mass * impulse;
+    work -= impulse.dot(after_step);
+    edge_work -= edge.dot(after_step);
   }
   const auto blocks = static_cast<std::size_t>(contact.nodes().count);
   const std::size_t count = nodes_.size() / 2;
   if (blocks > 0 && !motions.empty()) {
     const auto list = contact.nodes().list.map_read(0, blocks);
     const auto touched = contact.touched().map_read(0, blocks);
+    const auto split = contact.nodes().split.map_read(0, blocks * BLOCK_NODES);
     const auto records = contact.records().map_read(0, 2 * blocks * BLOCK_NODES);
     for (std::size_t i = 0; i < 2 * blocks * BLOCK_NODES; ++i) {
       const std::size_t node = i / 2, block = node / BLOCK_NODES;
@@ -263,15 +268,19 @@ void EnergyLedger::record_tools(Contact& contact, const std::vector<Vec3>& after
       const ContactRecord& record = records[i];
       const std::size_t at = static_cast<std::size_t>(list[block]) * BLOCK_NODES +
                              node % BLOCK_NODES + (i % 2) * count;
+      double gain = 0;
       for (int a = 0; a < 3; ++a)
         // Work on a node: its change of momentum times its mean velocity over the step.
-        got += static_cast<double>(record.mass) *
-               (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) *
-               0.5 * (nodes_[at].v[a] + after[at][a]);
+        gain += static_cast<double>(record.mass) *
+                (static_cast<double>(record.after[a]) - static_cast<double>(record.before[a])) *
+                0.5 * (nodes_[at].v[a] + after[at][a]);
+      got += gain;
+      if (Contact::at_edge(split[node])) edge_got += gain;
     }
   }
   account_.tools += work;
-  account_.contact += work - got;
+  account_.edge += edge_work - edge_got;
+  account_.contact += work - edge_work - (got - edge_got);
 }
 
 void EnergyLedger::begin_step(const ParticleStore& store, bool hold) {

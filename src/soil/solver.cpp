@@ -41,6 +41,8 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   // Moments are about each part's own origin; shift them to that of the first part.
   sum.L_W += part.L_W + (part.p_W - sum.p_W).cross(part.J_W);
   sum.J_W += part.J_W;
+  sum.L_edge_W += part.L_edge_W + (part.p_W - sum.p_W).cross(part.J_edge_W);
+  sum.J_edge_W += part.J_edge_W;
   sum.normal += part.normal;
   sum.friction += part.friction;
   sum.residual += part.residual;
@@ -50,6 +52,7 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
   // Means over a transfer: those of the last part are the newest.
   sum.force_W = part.force_W;
   sum.moment_W = part.moment_W;
+  sum.edge_force_W = part.edge_force_W;
 }
 
 }  // namespace
@@ -233,7 +236,7 @@ void Solver::State::queue(double dt, bool hold) {
   ParticleStore& store = particles.store();
   if (!hold) contact.classify(store, transfer);
   transfer.scatter(store, contact.nodes(), dt, frame.cell, world.gravity, hold);
-  contact.solve(transfer, dt);
+  contact.solve(store, transfer, dt);
   transfer.gather(store, contact.nodes(), dt, crowding ? dt / current.length() : 0, frame.cell);
   contact.queue_read();
   // Nothing changes a mass while a transfer lasts.

@@ -137,7 +137,7 @@ void Solver::State::rebuild(Archive& a) {
 
 void Solver::visit(Archive& a) {
   // An energy account is not part of the state: it begins anew after loading.
-  a.section("soil", 5, [&] {
+  a.section("soil", 6, [&] {
     state_->visit(a);
     if (a.loading()) state_->rebuild(a);
     if (a.loading() && state_->energy) state_->open_energy();

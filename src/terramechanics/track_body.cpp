@@ -212,21 +212,21 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
   const double large = std::max(gear[1].radius, std::min(idler.radius, sprocket.radius));
 
   std::vector<TrackStation> out;
-  const auto touching = [&](const Vec3& foot, const Vec3& down) {
-    out.push_back({foot - large * down, large, 0, 0});
+  const auto touching = [&](const Vec3& point, const Vec3& down) {
+    out.push_back({point - large * down, large, 0, 0});
   };
-  std::vector<Vec3> feet;
+  std::vector<Vec3> lowest;
   for (std::size_t i = 0; i < gear.size(); ++i) {
     const bool outer = i == 0 || i + 1 == gear.size();
     const Vec3 ahead =
         i > 0 ? lower_tangent(gear[i - 1], gear[i]) : lower_tangent(gear[0], gear[1]);
     const Vec3 behind = i + 1 < gear.size() ? lower_tangent(gear[i], gear[i + 1]) : ahead;
     const Vec3 down = (ahead + behind).normalized();
-    feet.push_back(gear[i].p_C + gear[i].radius * down);
+    lowest.push_back(gear[i].p_C + gear[i].radius * down);
     if (outer)
       out.push_back({gear[i].p_C, gear[i].radius, 0, 0});
     else
-      touching(feet.back(), down);
+      touching(lowest.back(), down);
     if (i + 1 == gear.size()) break;
     // The run to the next wheel.
     const Vec3 from = gear[i].p_C + gear[i].radius * behind,
@@ -234,12 +234,12 @@ std::vector<TrackStation> track_stations(const scene::Wheel& wheel, const Vec3& 
     const double pieces =
         std::clamp(std::ceil((to - from).norm() / (kSpacing * large)), 1.0, double{kMostPieces});
     for (double k = 1; k < pieces; ++k) {
-      feet.emplace_back(from + k / pieces * (to - from));
-      touching(feet.back(), behind);
+      lowest.emplace_back(from + k / pieces * (to - from));
+      touching(lowest.back(), behind);
     }
   }
   for (std::size_t s = 1; s < out.size(); ++s) {
-    const double step = (feet[s] - feet[s - 1]).norm();
+    const double step = (lowest[s] - lowest[s - 1]).norm();
     out[s].along = out[s - 1].along + step;
     out[s - 1].length += 0.5 * step;
     out[s].length += 0.5 * step;

@@ -11,6 +11,9 @@ namespace {
 constexpr double kGain = 20;
 // [s] from closed to full flow (U: 0.1 to 0.2 for pilot-operated spools).
 constexpr double kValveTime = 0.15;
+// Share of its effort by which a joint plans to brake. A joint without limits turns on a ring and
+// carries no weight; a joint with limits may have to hold its load as well.
+constexpr double kBrakeShare = 0.5, kFreeBrakeShare = 0.75;
 // Share of a limit: the solver stops within its residual, not at the last bit.
 constexpr double kSaturated = 0.999;
 // Share of the full flow; less only holds a joint in place.
@@ -33,11 +36,12 @@ double JointServo::wanted_speed(const scene::Joint& joint, const JointLimits& li
         joint.has_limits ? std::clamp(input_.target, joint.lower, joint.upper) : input_.target;
     const double error = target - q,
                  speed_limit = error > 0 ? limits.speed_positive : limits.speed_negative;
-    // Available deceleration: that of the closing valve, plus half of what the effort does to the
-    // load.
+    // Available deceleration: that of the closing valve, and a share of what the effort does to
+    // the load.
     double brake = 0.4 * speed_limit / kValveTime;
     const double effort = std::min(limits.effort_positive, limits.effort_negative);
-    if (limits.inertia > 0) brake = std::min(brake, 0.5 * effort / limits.inertia);
+    const double part = joint.has_limits ? kBrakeShare : kFreeBrakeShare;
+    if (limits.inertia > 0) brake = std::min(brake, part * effort / limits.inertia);
     // Far away the speed from which it can still stop, close by proportional to the error, and
     // stable in a long step.
     const double speed = std::min(std::min(kGain, 0.2 / dt) * std::abs(error),

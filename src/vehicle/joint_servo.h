@@ -26,8 +26,8 @@ struct JointLimits {
 /// reach in this step.
 ///
 /// The valve takes 0.15 s to open fully. Near its target, a position servo slows down so that half
-/// its effort can stop the load. When commanded to zero velocity, it holds the position at which
-/// the joint stopped.
+/// its effort can stop the load, or three quarters if the joint has no limits (a swing). When
+/// commanded to zero velocity, it holds the position at which the joint stopped.
 ///
 /// Call open(), demand() and settle() once per step, in this order.
 class JointServo {

@@ -60,14 +60,19 @@ double head_area(const scene::Cylinder& cylinder);
 /// [m2].
 double rod_area(const scene::Cylinder& cylinder);
 
-/// Cylinder of a machine with its names resolved to indices, for evaluation in every step.
+/// Hydraulic cylinder that moves one joint of a machine. Stores indices instead of the names in the
+/// scene, so that it is fast enough to evaluate in every step.
 ///
-/// A four-bar linkage lies in the plane normal to the joint's axis. Its rocker turns about
-/// `p_rocker` on base_link; the rod's pin and the coupler's pin are on one ray from that pivot. Two
-/// assemblies of the bars are possible; the convex one is used. It is chosen in the middle of the
-/// joint's range: there the rocker's coupler pin and the joint are on opposite sides of the line
-/// from the rocker's pivot to the bucket's coupler pin. The assembly is the same over the whole
-/// range.
+/// The rod moves its link directly or through a four-bar linkage. The linkage is in the plane
+/// normal to the joint's axis and consists of four bars: base_link, rod_link, a rocker and a
+/// coupler. The rocker turns about its pivot on base_link. It carries the pin of the rod and one
+/// pin of the coupler, both in the same direction from the pivot; the coupler's other pin is on
+/// rod_link.
+///
+/// Four bars of given lengths can be assembled in two ways for each joint position. This class uses
+/// the convex one, in which the line from the rocker's pivot to the coupler's pin on rod_link
+/// passes between the joint and the coupler's pin on the rocker. It selects that assembly in the
+/// middle of the joint's range and keeps it over the whole range.
 class CylinderMap {
  public:
   /// Resolves the names of `cylinder` in `machine` and checks its geometry.
@@ -96,9 +101,9 @@ class CylinderMap {
   CylinderMap(const scene::Machine& machine, const scene::Cylinder& cylinder, Unchecked);
   /// Returns the pose of rod_link in base_link at joint position `q`.
   Pose rod_in_base(double q) const;
-  /// Computes the pin between rocker and coupler, `pin`, for the bucket's coupler pin at `c`, both
-  /// in base_link's frame [m]. Returns false if the bars cannot meet; `pin` is then the
-  /// nearest point.
+  /// Computes `pin`, the position of the pin between rocker and coupler, if the coupler's other pin
+  /// is at `c`, both in base_link's frame [m]. Returns false if rocker and coupler are too short or
+  /// too long to meet; `pin` is then the nearest point.
   bool close_linkage(const Vec3& c, Vec3& pin) const;
   /// Checks the diameters, and that the linkage closes within the joint's limits.
   /// @throws InputError otherwise.
@@ -112,8 +117,8 @@ class CylinderMap {
   bool base_is_child_ = false, prismatic_ = false, has_limits_ = false;
   /// Range of the joint [rad|m]; +-pi without limits.
   double lower_ = 0, upper_ = 0;
-  /// Pose of the joint's pivot in its parent link, and of the child link in the pivot frame. The
-  /// joint's motion is in between.
+  /// Pose of the joint frame in the parent link, and pose of the child link in the joint frame
+  /// after the joint's motion.
   Pose X_parent_pivot_ = Pose::Identity(), X_pivot_child_ = Pose::Identity();
   /// Unit axis of the joint in the pivot frame.
   Vec3 axis_ = Vec3::UnitZ();

@@ -100,8 +100,8 @@ struct LinkState {
   Vec3 w_WL = Vec3::Zero();
 };
 
-/// Stability of a machine against tipping over. The feet are the points on which the machine stands
-/// (vehicle/stability.h).
+/// Stability of a machine against tipping over. Its support polygon is the convex hull of the
+/// points on which it stands, seen from above (vehicle/stability.h).
 struct Stability {
   /// True if the machine is dynamic, has wheels and is not fixed to the world, so that it can tip.
   /// If false, the other values have no meaning.
@@ -110,9 +110,9 @@ struct Stability {
   double tilt = 0;
   /// Rate of change of `tilt` [rad/s]; positive while it grows.
   double tilt_rate = 0;
-  /// Distance of the centre of mass from the edge of the polygon of the feet, seen from above [m];
-  /// negative outside the polygon. 0 if the feet span no area, as for the two wheels of a balancing
-  /// robot: only `tilt` is useful there.
+  /// Distance of the centre of mass from the edge of the support polygon, seen from above [m];
+  /// negative outside the polygon. 0 if the polygon has no area, as for the two wheels of a
+  /// balancing robot: only `tilt` is useful there.
   double margin = 0;
   /// Mass [kg] that, hung on the bucket's joint in addition to all links, tips the machine over its
   /// weakest edge. kNoTippingLoad if no edge can tip; 0 for a machine that is already tipping or
@@ -121,14 +121,14 @@ struct Stability {
   /// Direction in which the machine would tip over its weakest edge, as an angle from the base
   /// link's x axis, positive to the left [rad].
   double tipping_heading = 0;
-  /// Distance of the centre of pressure on the ground from the edge of the polygon of the feet,
+  /// Distance of the centre of pressure on the ground from the edge of the support polygon,
   /// seen from above [m]; negative outside the polygon. In contrast to `margin`, it includes the
   /// effect of soil, loads and towed machines.
   double loaded_margin = 0;
 };
 
 /// Value of the tipping load [kg] that means: no load tips the machine, since the load point is
-/// above the polygon of the feet.
+/// above the support polygon.
 inline constexpr double kNoTippingLoad = 1e6;
 
 /// Largest distance between the hook and the eye of a hitch at which the hitch can be closed [m].

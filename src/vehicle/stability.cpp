@@ -37,19 +37,19 @@ struct Bearing {
   Vec3 p_W = Vec3::Zero(), f_W = Vec3::Zero();
 };
 
-/// Returns the point straight below the centre of a wheel, in its plane: a tilted axle has its foot
-/// to the side.
-Vec3 foot_of(const scene::Wheel& wheel, const Pose& X_WWheel) {
+/// Returns the point straight below the centre of a wheel, in its plane: for a
+/// tilted axle it is to the side.
+Vec3 lowest_point(const scene::Wheel& wheel, const Pose& X_WWheel) {
   const Vec3 axis = X_WWheel.linear().col(1);
   const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
   return X_WWheel.translation() + wheel.radius * down.stableNormalized();
 }
 
-/// Returns the feet of wheel `w`: one, or the ends of its track's lower run.
-std::vector<Vec3> feet_of(const scene::Machine& machine, const PhysicsEngine& engine, int index,
-                          std::size_t w) {
+/// Returns the support points of wheel `w`: one, or the ends of its track's lower run.
+std::vector<Vec3> support_points_of(const scene::Machine& machine, const PhysicsEngine& engine,
+                                    int index, std::size_t w) {
   const scene::Wheel& wheel = machine.wheels[w];
-  if (!wheel.track) return {foot_of(wheel, engine.wheel(index, static_cast<int>(w)).X_WWheel)};
+  if (!wheel.track) return {lowest_point(wheel, engine.wheel(index, static_cast<int>(w)).X_WWheel)};
   const int joint = machine.joint_index(wheel.joint);
   const Pose X_WC = engine.link(index, machine.joints[static_cast<std::size_t>(joint)].parent).X_WL;
   const std::array<Vec3, 2> run = wheel.track->lower_run();
@@ -63,7 +63,7 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
     const WheelState wheel = engine.wheel(index, static_cast<int>(w));
     if (!machine.wheels[w].track) {
-      out.push_back({foot_of(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
+      out.push_back({lowest_point(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
       continue;
     }
     const std::vector<terramechanics::TrackPatch> patches =
@@ -77,8 +77,8 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine
   return out;
 }
 
-/// Computes the centre of pressure on the ground: the point at the height of the feet about which
-/// all ground forces have no horizontal moment.
+/// Computes the centre of pressure on the ground: the point at the height of the support points
+/// about which all ground forces have no horizontal moment.
 bool centre_of_pressure(const std::vector<Bearing>& bearings, Vec2& out) {
   double load = 0, height = 0;
   for (const Bearing& one : bearings) {
@@ -92,8 +92,9 @@ bool centre_of_pressure(const std::vector<Bearing>& bearings, Vec2& out) {
   return true;
 }
 
-/// Machines stand on parts that reach down to within this share of a wheel's radius of its foot.
-constexpr double kFoot = 0.25;
+/// Machines stand on parts that reach down to within this share of a wheel's radius of its lowest
+/// point.
+constexpr double kStanding = 0.25;
 
 /// Returns the lowest point of a collision shape against `up`, both in the frame of its link.
 Vec3 lowest(const scene::Collision& collision, const Vec3& up) {
@@ -125,12 +126,12 @@ bool goes_with_base(const scene::Machine& machine, int link) {
          });
 }
 
-/// Returns the points of such links' collision shapes that are as low as the wheels' feet, in W:
+/// Returns the points of such links' collision shapes that are as low as the wheels, in W:
 /// skids and caster balls.
-/// @param feet mean height of the wheels' feet along the base's z axis
+/// @param bottom mean height of the wheels' support points along the base's z axis
 /// @param radius of the smallest wheel [m]
 std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engine, int index,
-                        double feet, double radius) {
+                        double bottom, double radius) {
   using Kind = scene::Geometry::Kind;
   const Vec3 up = engine.link(index, 0).X_WL.linear().col(2);
   std::vector<Vec3> out;
@@ -143,7 +144,7 @@ std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engi
       const Kind kind = collision.geometry.kind;
       if (kind == Kind::kMesh || kind == Kind::kPlane || kind == Kind::kCone) continue;
       const Vec3 p = X_WL * lowest(collision, X_WL.linear().transpose() * up);
-      if (up.dot(p) < feet + kFoot * radius) out.push_back(p);
+      if (up.dot(p) < bottom + kStanding * radius) out.push_back(p);
     }
   }
   return out;
@@ -152,8 +153,9 @@ std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engi
 }  // namespace
 
 // Inside, the nearest edge counts; outside, the distance to the polygon.
-double support_margin(std::vector<Vec2> feet, const Vec2& p) {
-  const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
+double support_margin(std::vector<Vec2> support_points, const Vec2& p) {
+  const std::vector<Vec2> hull =
+      support_points.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(support_points));
   if (hull.size() < 3) return 0;
   bool inside = true;
   double least = std::numeric_limits<double>::infinity();
@@ -169,10 +171,11 @@ double support_margin(std::vector<Vec2> feet, const Vec2& p) {
 }
 
 // Takes the minimum over all edges of the polygon.
-TippingLoad tipping_load(std::vector<Vec2> feet, const Vec2& centre, double mass,
+TippingLoad tipping_load(std::vector<Vec2> support_points, const Vec2& centre, double mass,
                          const Vec2& load_point) {
   TippingLoad out;
-  const std::vector<Vec2> hull = feet.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(feet));
+  const std::vector<Vec2> hull =
+      support_points.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(support_points));
   if (hull.size() < 3) return {0, Vec2::Zero()};
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
@@ -197,7 +200,7 @@ Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, 
   return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
 }
 
-// Collects the feet first: margins and loads refer to their polygon.
+// Collects the support points first: margins and loads refer to their polygon.
 Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
   Stability out;
   out.free = !machine.kinematic && !machine.fixed_base && !machine.wheels.empty();
@@ -208,33 +211,34 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   // d/dt of up = w x up, and of its height cos(tilt). An upright axis has no direction of tilt.
   const double sine = std::sin(out.tilt);
   if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
-  std::vector<Vec2> feet;
+  std::vector<Vec2> support_points;
   double height = 0, radius = std::numeric_limits<double>::infinity();
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
-    const std::vector<Vec3> own = feet_of(machine, engine, index, w);
-    for (const Vec3& foot : own) {
-      feet.push_back(foot.head<2>());
-      height += up.dot(foot) / double(machine.wheels.size() * own.size());
+    const std::vector<Vec3> own = support_points_of(machine, engine, index, w);
+    for (const Vec3& point : own) {
+      support_points.push_back(point.head<2>());
+      height += up.dot(point) / double(machine.wheels.size() * own.size());
     }
     radius = std::min(radius, machine.wheels[w].radius);
   }
-  for (const Vec3& p : skids(machine, engine, index, height, radius)) feet.push_back(p.head<2>());
+  for (const Vec3& p : skids(machine, engine, index, height, radius))
+    support_points.push_back(p.head<2>());
   const Vec2 centre = centre_of_mass(machine, engine, index).head<2>();
-  out.margin = support_margin(feet, centre);
+  out.margin = support_margin(support_points, centre);
   const int joint = machine.joint_index(machine.arm.bucket);
   if (joint < 0) return out;
   const scene::Joint& pin = machine.joints[static_cast<std::size_t>(joint)];
   const Vec3 load_point = engine.link(index, pin.child).X_WL * Vec3(pin.X_LcJ.translation());
   double mass = 0;
   for (const scene::Link& link : machine.links) mass += link.mass;
-  const TippingLoad weakest = tipping_load(feet, centre, mass, load_point.head<2>());
+  const TippingLoad weakest = tipping_load(support_points, centre, mass, load_point.head<2>());
   out.tipping_load = weakest.load;
   const Vec2 ahead = base.X_WL.linear().col(0).head<2>(), left(-ahead.y(), ahead.x());
   out.tipping_heading = std::atan2(weakest.outward.dot(left), weakest.outward.dot(ahead));
   // Without ground forces, or for a machine that nothing moves, use the centre of mass.
   Vec2 pressure_centre = centre;
   centre_of_pressure(bearings(machine, engine, index), pressure_centre);
-  out.loaded_margin = support_margin(std::move(feet), pressure_centre);
+  out.loaded_margin = support_margin(std::move(support_points), pressure_centre);
   return out;
 }
 

@@ -72,6 +72,12 @@ TEST_F(Control, AnswersAFaultyLineAndContinuesTheRun) {
       {"\"\xff\xfe\"", "one JSON object"},
       {"null", "one JSON object"},
       {std::string(3, '\0'), "one JSON object"},
+      // The text after a NUL is part of the answer.
+      {R"({"inputs": {"a\u0000b": 1}})", "a\\x00b"},
+      {R"({"inputs": {"bucket/slide_x/velocity": 1}, "inputs": {}})", "inputs: stands twice"},
+      {R"({"inputs": {"bucket/slide_x/velocity": 1, "bucket/slide_x/velocity": 0}})",
+       "bucket/slide_x/velocity: stands twice"},
+      {R"({"changed": {"a": [{"b": 1, "b": 2}]}})", "b: stands twice"},
   };
   std::string input;
   for (const auto& [line, message] : bad) input += line + "\n";

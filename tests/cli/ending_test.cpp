@@ -56,6 +56,7 @@ TEST_F(Ending, IsFinishedWhenAllProgramsAreDone) {
   EXPECT_EQ(summary().at("status"), "finished");
   for (const nlohmann::json& program : summary().at("programs"))
     EXPECT_EQ(program.at("state"), "done") << program;
+  EXPECT_FALSE(summary().contains("message"));
   EXPECT_EQ(said().find("incomplete"), std::string::npos) << said();
 }
 
@@ -85,6 +86,7 @@ TEST_F(Ending, HasItsOwnStatusWhenAProgramFailedWhileTheOtherContinues) {
   const std::string line = "'early', step 1 of 2 (wait_for): out_of_time: ";
   EXPECT_NE(complained().find("warning: " + line), std::string::npos) << complained();
   EXPECT_NE(said().find("incomplete: " + line), std::string::npos) << said();
+  EXPECT_EQ(written.at("message").get<std::string>().rfind(line, 0), 0u) << written.at("message");
 }
 
 TEST_F(Ending, IsIncompleteWhenTheDurationCutsAProgramOffAndFailsOnlyUnrequested) {
@@ -93,6 +95,10 @@ TEST_F(Ending, IsIncompleteWhenTheDurationCutsAProgramOffAndFailsOnlyUnrequested
   EXPECT_EQ(summary().at("status"), "incomplete");
   EXPECT_EQ(summary().at("programs").at(0).at("state"), "done");
   EXPECT_EQ(summary().at("programs").at(1).at("state"), "out_of_time");
+  EXPECT_EQ(summary().at("message").get<std::string>().rfind(
+                "'late', step 1 of 1 (wait): out_of_time: the run's duration of 0.3 s", 0),
+            0u)
+      << summary().at("message");
   EXPECT_NE(said().find("the run's duration of 0.3 s was over first"), std::string::npos) << said();
   // A user who asks for this duration gets the same report and no failure.
   EXPECT_EQ(run({scene, "--duration", "0.25"}), 0) << complained();

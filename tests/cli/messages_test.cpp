@@ -55,6 +55,10 @@ TEST_F(Messages, ReportEveryValueOfASoilWithItsUnit) {
   expect_said("bank_density_kg_per_m3");
   expect_said("friction_angle_deg");
   expect_said("janosi_k_m");
+  // Each test on loam with phi 30 deg, and phi if that test had measured 30 deg.
+  expect_said("    direct_shear         26.6   35.3\n");
+  expect_said("    triaxial             26.6   33.7\n");
+  expect_said("    repose               26.6   35.3\n");
   EXPECT_EQ(run({"soils", "loem"}), 2);
   expect_complained("did you mean 'loam'?");
   EXPECT_EQ(run({"soils", "dry_sand"}), 2);
@@ -133,12 +137,49 @@ TEST_F(Messages, ReportAWrongSeedInOneLine) {
   }
 }
 
+TEST_F(Messages, ALoopOfLinksIsNoInternalError) {
+  const std::string loop = (directory_ / "loop.sdf").string();
+  std::filesystem::create_symlink("loop.sdf", loop);
+  EXPECT_EQ(run({"run", loop}), 2);
+  expect_complained("loop.sdf: error: cannot be read: ");
+  expect_complained("Too many levels of symbolic links");
+  EXPECT_EQ(run({"check", loop}), 2);
+  expect_said("Too many levels of symbolic links");
+  EXPECT_EQ(run({"map", loop, "--format", "nav2", "--out", out()}), 2);
+  expect_complained("Too many levels of symbolic links");
+}
+
+TEST_F(Messages, NumbersOfOptionsAreFinite) {
+  for (const std::string wrong : {"nan", "inf", "0", "-1", "1e9", "1x"}) {
+    EXPECT_EQ(run({"run", "trench", "--publish", out(), "--publish-rate", wrong}), 2) << wrong;
+    expect_complained("must be a number from 0.001 to 10000");
+    EXPECT_EQ(run({"run", "trench", "--control", "stdio", "--control-rate", wrong}), 2) << wrong;
+    expect_complained("must be a number from 0.001 to 100000");
+  }
+  for (const std::string wrong : {"nan,1", "1,inf", "1e400,1"}) {
+    EXPECT_EQ(run({"run", "trench", "--size", wrong}), 2) << wrong;
+    expect_complained("two numbers in metres");
+  }
+}
+
+TEST_F(Messages, CheckStatesTheCostOfALargeSite) {
+  const std::string large = (directory_ / "large.sdf").string();
+  std::ofstream(large) << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"w\">"
+                          "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>3200 3200</size_m>"
+                          "</navvy:ground></world></sdf>";
+  EXPECT_EQ(run({"check", large}), 0) << said();
+  expect_said("the site has 1.02e+09 columns: each of terrain_start.tif and terrain_end.tif takes");
+  expect_said("up to 4.1 GB");
+  EXPECT_EQ(run({"check", "trench"}), 0);
+  EXPECT_EQ(said().find("columns"), std::string::npos) << said();
+}
+
 TEST_F(Messages, CheckFindsShippedScenesByName) {
   EXPECT_EQ(run({"check", "trench", "bucket_path.sdf"}), 0) << said();
-  expect_said("2 files checked: 0 errors, 0 warnings");
+  expect_said("2 files checked: 0 errors");
   // `check` reports how the excavator stands without a device.
   expect_said("'excavator' stands: tilt 0.");
-  expect_said("within its feet");
+  expect_said("within its support polygon");
 }
 
 TEST_F(Messages, CheckDoesNotReportAFallingMachineAsStanding) {

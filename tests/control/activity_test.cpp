@@ -331,10 +331,10 @@ TEST(Stance, FiltersShakingAndDetectsTipping) {
   Stance stance;
   stance.begin(make_pose(1, 2, 0, 0, 0, 0.3));
   const ArmKinematics arm(able_machine());
-  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
+  EXPECT_EQ(stance.tilt_factor(make_pose(1, 2, 0, 0, 0, 0.3)), 1);
   // One and a half degrees come from the tyres; three mean that the bucket tips the machine.
-  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
-  EXPECT_EQ(stance.footing(make_pose(1, 2, 0, 0, radians(3.1), 0.3)), 0);
+  EXPECT_EQ(stance.tilt_factor(make_pose(1, 2, 0, 0, radians(1.4), 0.3)), 1);
+  EXPECT_EQ(stance.tilt_factor(make_pose(1, 2, 0, 0, radians(3.1), 0.3)), 0);
   const Vec3 still = stance.swing_frame(arm).translation();
   stance.follow(make_pose(1, 2, 0.1, 0, 0, 0.3), 0.25);
   // After one time constant 1 - 1/e of a jump has passed the filter.
@@ -355,14 +355,14 @@ TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
   EXPECT_NEAR(stance.rise(make_pose(0, 0, 1, 0, 0, 2), arm, 0), 0, 1e-12);  // turned and moved only
   // The front wheels have sunk: once settled, this is the new attitude, and only more counts as
   // tipping.
-  EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
+  EXPECT_EQ(stance.tilt_factor(pitched(-4.7)), 0);
   for (int i = 0; i < 500; ++i) stance.follow(pitched(-4.7), kStep);
-  EXPECT_EQ(stance.footing(pitched(-4.7)), 0);
+  EXPECT_EQ(stance.tilt_factor(pitched(-4.7)), 0);
   stance.settle();
-  EXPECT_EQ(stance.footing(pitched(-4.7)), 1);
+  EXPECT_EQ(stance.tilt_factor(pitched(-4.7)), 1);
   // 20 time constants of the smoothing
   EXPECT_NEAR(stance.rise(pitched(-2.7), arm, 0), radians(2), 1e-6);
-  EXPECT_EQ(stance.footing(pitched(-1.6)), 0);
+  EXPECT_EQ(stance.tilt_factor(pitched(-1.6)), 0);
 }
 
 TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
@@ -370,6 +370,8 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
   Stance stance;
   stance.begin(Pose::Identity());
   TipPath tip;
+  Command out;
+  out.joints.resize(alone.seen.joints.size());
   const Vec2 p(6.5, 0);
   alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
   const auto follow = [&](double nose_up_deg, double seconds) {
@@ -378,7 +380,7 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
       // The arm follows at once: nothing blocks it, the machine itself moves.
       for (std::size_t k = 0; k < 4; ++k)
         alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-      tip.follow(alone.place, stance, p, alone.seen, kStep, true);
+      tip.follow(alone.place, stance, p, alone.seen, kStep, true, out);
     }
   };
   follow(1.4, 1);
@@ -398,13 +400,15 @@ TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
   Stance stance;
   stance.begin(Pose::Identity());
   TipPath tip;
+  Command out;
+  out.joints.resize(alone.seen.joints.size());
   const Vec2 p(6.5, 0);
   alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
   for (std::size_t i = 0; i < 4; ++i)
     alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
   // The path goes down half a metre while the joints stay, blocked by soil.
   tip.z = -0.3;
-  for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false);
+  for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
   EXPECT_LT(tip.slow, 0.35);  // below this a tip at rest counts as blocked
   // 0.3 m/s for the rest of 2 s after the lag has grown and been detected
   EXPECT_GT(tip.lift, 0.2);
@@ -413,7 +417,7 @@ TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
   for (int i = 0; i < 50; ++i) {
     for (std::size_t k = 0; k < 4; ++k)
       alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-    tip.follow(alone.place, stance, p, alone.seen, kStep, false);
+    tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
   }
   EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; blocked for a step or two before
 }

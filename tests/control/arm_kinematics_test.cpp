@@ -25,6 +25,45 @@ TEST(ArmKinematics, ForwardAgreesWithTheTreesKinematics) {
   EXPECT_NEAR(pose.angle, q[0] + q[1] + q[2], 1e-12);
 }
 
+TEST(ArmKinematics, SwingInertiaIsThatOfTheLinks) {
+  const scene::Machine machine = testing::ew180_like();
+  const ArmKinematics arm(machine);
+  for (const ArmAngles& q : {ArmAngles{0.4, -1.7, -0.9}, ArmAngles{-0.3, -0.8, 0.2}}) {
+    const auto links =
+        vehicle::forward_kinematics(machine, Pose::Identity(), {0, q[0], q[1], q[2]});
+    const Vec3 axis = (machine.links[0].X_ML.inverse() * arm.X_BS()).translation();
+    double sum = 0;
+    for (const char* name : {"upper", "boom", "stick", "bucket"}) {
+      const auto k = static_cast<std::size_t>(machine.link_index(name));
+      const Mat3 R = links[k].linear();
+      const Vec3 p = links[k] * machine.links[k].p_LCom - axis;
+      sum += (R * machine.links[k].inertia * R.transpose())(2, 2) +
+             machine.links[k].mass * p.head<2>().squaredNorm();
+    }
+    EXPECT_NEAR(arm.swing_inertia(q, 0), sum, 1e-9 * sum);  // the same sums, rounding only
+    // 500 kg halfway between pin and tip.
+    const BucketPose tip = arm.forward(q);
+    const double middle = tip.reach - 0.5 * arm.bucket_length() * std::cos(tip.angle);
+    EXPECT_NEAR(arm.swing_inertia(q, 500) - sum, 500 * middle * middle, 1e-9 * sum);
+  }
+}
+
+TEST(ArmKinematics, StruckCapacityIsTheVolumeUpToTheMouth) {
+  // A prism 1.05 m wide: the profile's area by the formula for polygons. The sides are added here.
+  scene::Machine machine = testing::ew180_like();
+  for (int k = 1; k < 8; ++k) {
+    machine.shells[0].triangles.push_back({0, k, k + 1});
+    machine.shells[0].triangles.push_back({9, k + 10, k + 9});
+  }
+  const auto& v = machine.shells[0].vertices;
+  double area = 0;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const Vec3 a = v[k], b = v[(k + 1) % 9];
+    area += 0.5 * (a.x() * b.z() - b.x() * a.z());
+  }
+  EXPECT_NEAR(ArmKinematics(machine).struck_capacity(), 1.05 * std::abs(area), 1e-12);
+}
+
 TEST(ArmKinematics, InverseReproducesEveryForwardPose) {
   const ArmKinematics arm(testing::ew180_like());
   int tried = 0;

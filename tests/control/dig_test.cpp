@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "control/activities/dig/fill.h"
 #include "control/activities/dump.h"
 #include "control/activities/swing.h"
 #include "control/activities/trajectory.h"
@@ -27,7 +28,7 @@ scene::Program program(std::vector<scene::ProgramStep> steps) {
 
 /// Returns a value of a step's account by name.
 double value_of(const StepReport& step, const std::string& name) {
-  for (const Measurement& one : step.figures)
+  for (const Measurement& one : step.measurements)
     if (one.name == name) return one.value;
   ADD_FAILURE() << "no value " << name;
   return std::nan("");
@@ -293,6 +294,39 @@ TEST(Program, RefusesATrajectoryOfAnUnknownJoint) {
   path.times = {0};
   path.positions = {{0}};
   EXPECT_THROW(Operator(ew180_like(), program({path})), InputError);
+}
+
+TEST(Dig, FillsByTheKindOfSoil) {
+  const ArmKinematics arm(ew180_like());
+  const auto fill = [&](double swell, double cohesion, double friction) {
+    scene::Soil soil;
+    soil.swell = swell;
+    soil.cohesion = cohesion;
+    soil.friction_angle = radians(friction);
+    return usual_fill(soil, arm);
+  };
+  EXPECT_EQ(fill(1.23, 6000, 30), 1.05);    // loam
+  EXPECT_EQ(fill(1.44, 3000, 29), 1.05);    // topsoil
+  EXPECT_EQ(fill(1.24, 20000, 20), 0.9);    // stiff clay
+  EXPECT_EQ(fill(1.25, 10000, 17.5), 0.9);  // wet clay
+  EXPECT_EQ(fill(1.67, 0, 42), 0.7);        // crushed stone
+  // Struck capacity and a heap at the angle of repose; the heaped capacity has one of 45 deg.
+  const double struck = arm.struck_capacity() / arm.bucket().capacity;
+  EXPECT_NEAR(fill(1.13, 0, 31), struck + (1 - struck) * std::tan(radians(31)), 1e-12);
+  EXPECT_NEAR(fill(1.12, 0, 45), 1, 1e-12);
+}
+
+TEST(Dig, FillsAsFullAsTheSceneSets) {
+  // Half the fill takes twice the cycles, and no load exceeds it by more than the curl adds.
+  Dig half = trench();
+  half.fill = 0.5;
+  half.has_fill = true;
+  DigRig rig(ew180_like(), program({half}), make_pose(-4, 0, 0));
+  ASSERT_TRUE(rig.run(600)) << rig.op.phase();
+  report(rig, measure(rig.ground, half));
+  DigRig usual(ew180_like(), program({trench()}), make_pose(-4, 0, 0));
+  ASSERT_TRUE(usual.run(600)) << usual.op.phase();
+  EXPECT_GE(rig.cycles.size(), usual.cycles.size() + 2);
 }
 
 struct Lift {

@@ -83,9 +83,9 @@ struct Trial {
 
 TEST(StepState, HasADistinctNamePerState) {
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(StepState::kNoPath); ++i)
+  for (int i = 0; i <= static_cast<int>(StepState::kOffSite); ++i)
     names.insert(name_of(static_cast<StepState>(i)));
-  EXPECT_EQ(names.size(), 9u);
+  EXPECT_EQ(names.size(), 11u);
   EXPECT_FALSE(fell_short(StepState::kRunning));
   EXPECT_FALSE(fell_short(StepState::kDone));
   EXPECT_TRUE(fell_short(StepState::kBlocked));
@@ -103,9 +103,9 @@ TEST(Outcome, OfADoneStepHasItsAccountAndTheProgramContinues) {
   EXPECT_EQ(report.reason, "harder than it looks");
   EXPECT_NEAR(report.end - report.start, 0.5, 0.011);
   EXPECT_DOUBLE_EQ(report.place.x(), report.end);
-  ASSERT_EQ(report.figures.size(), 2u);
-  EXPECT_EQ(report.figures[0].name, "way_m");
-  EXPECT_DOUBLE_EQ(report.figures[0].value, report.end);
+  ASSERT_EQ(report.measurements.size(), 2u);
+  EXPECT_EQ(report.measurements[0].name, "way_m");
+  EXPECT_DOUBLE_EQ(report.measurements[0].value, report.end);
 }
 
 TEST(Outcome, OfAFailedStepEndsTheProgramAndStopsTheMachine) {
@@ -127,7 +127,7 @@ TEST(Outcome, OfAFailedStepEndsTheProgramAndStopsTheMachine) {
   EXPECT_EQ(trial.last.drive->steer, 0.2);
   ASSERT_EQ(trial.op.reports().size(), 2u);
   EXPECT_EQ(trial.op.reports()[1].reason, "it did not work");
-  EXPECT_EQ(trial.op.reports()[1].figures.size(), 2u);
+  EXPECT_EQ(trial.op.reports()[1].measurements.size(), 2u);
   // No further command follows.
   const Command after = trial.step();
   EXPECT_FALSE(after.drive.has_value());
@@ -141,7 +141,7 @@ TEST(Outcome, OfARunningStepIsReportedWithoutSideEffects) {
   const StepReport present = trial.op.present(trial.seen, trial.time);
   EXPECT_EQ(present.step, 2);
   EXPECT_EQ(present.state, StepState::kRunning);
-  EXPECT_EQ(present.figures.size(), 2u);
+  EXPECT_EQ(present.measurements.size(), 2u);
   EXPECT_EQ(hash_of(trial.op).digest(), before);
 }
 
@@ -165,7 +165,8 @@ TEST(Watch, EndsAProgramWhoseMachineTipsOver) {
   EXPECT_EQ(past.end, 0);
   const StepReport over = standing({true, radians(31), 0.3, -0.12}, 1);
   EXPECT_EQ(over.state, StepState::kTipped);
-  EXPECT_EQ(over.reason, "its centre of mass is 0.12 m outside its feet and it tilts by 31.00 deg");
+  EXPECT_EQ(over.reason,
+            "its centre of mass is 0.12 m outside its support polygon and it tilts by 31.00 deg");
   EXPECT_NEAR(over.end, 0.2, 2 * kStep);
 }
 

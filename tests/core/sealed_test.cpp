@@ -86,7 +86,7 @@ TEST(Sealed, ADamagedSectionIsReportedByPlaceAndName) {
             std::string::npos)
       << message_of(content.size() - 1);
   // The name itself is damaged: its leading letters are reported.
-  const std::size_t name = 32 + 8;
+  const std::size_t name = 40 + 8;
   EXPECT_NE(message_of(name + 2).find("section 1, 'pa': "), std::string::npos)
       << message_of(name + 2);
   EXPECT_NE(message_of(name).find("section 1: "), std::string::npos) << message_of(name);
@@ -108,11 +108,49 @@ TEST(Sealed, SwappedSectionsAreRefused) {
   const std::vector<char> one = seal(saved(State())), other = seal(saved(swapped));
   ASSERT_EQ(one.size(), other.size());
   // Swaps the two equal sections of one file, including their checksums.
-  const std::size_t head = 32, size = 8 + 28 + 8 + 24;
+  const std::size_t head = 40, size = 8 + 28 + 8 + 24;
   std::vector<char> mixed = one;
   std::copy(one.begin() + head, one.begin() + head + size, mixed.begin() + head + size);
   std::copy(one.begin() + head + size, one.begin() + head + 2 * size, mixed.begin() + head);
   EXPECT_TRUE(refused(mixed));
+}
+
+// Two states of one run have sections of equal names and lengths.
+TEST(Sealed, SectionsOfAnotherStateAreRefusedInEveryCombination) {
+  State later;
+  later.first.values = {1.5, 2, 3};
+  later.second.values = {4.5, 5, 6};
+  later.third.values = {7.5};
+  const std::vector<char> one = seal(saved(State())), other = seal(saved(later));
+  ASSERT_EQ(one.size(), other.size());
+  // Head and sections, with their checksums, end here.
+  const std::size_t ends[] = {40, 40 + 68, 40 + 2 * 68, one.size()};
+  int tried = 0;
+  for (unsigned from_other = 1; from_other < 15; ++from_other) {
+    std::vector<char> mixed = one;
+    for (std::size_t part = 0, begin = 0; part < 4; begin = ends[part++])
+      if ((from_other >> part & 1) != 0)
+        std::copy(other.begin() + static_cast<std::ptrdiff_t>(begin),
+                  other.begin() + static_cast<std::ptrdiff_t>(ends[part]),
+                  mixed.begin() + static_cast<std::ptrdiff_t>(begin));
+    EXPECT_TRUE(refused(mixed)) << from_other;
+    ++tried;
+  }
+  EXPECT_EQ(tried, 14);
+  EXPECT_FALSE(refused(other));
+}
+
+TEST(Sealed, AnotherVersionIsNamed) {
+  std::vector<char> content = seal(saved(State()));
+  content[12] = '1';
+  try {
+    unseal(content);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "snapshot: error: head: '1': another version of Navvy wrote this format; this one "
+              "reads 2 (continue with that version, or record the snapshot again)");
+  }
 }
 
 }  // namespace

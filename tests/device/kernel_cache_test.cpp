@@ -2,10 +2,12 @@
 #include "device/kernel_cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -150,17 +152,100 @@ TEST(KernelCache, ADamagedListOnlyCausesRecompilation) {
   }
 }
 
+/// Returns the number of open file descriptors of this process.
+rlim_t open_files() {
+  rlim_t count = 0;
+  for (const auto& file : fs::directory_iterator("/proc/self/fd")) count += file.exists() ? 1 : 0;
+  return count;
+}
+
+TEST(KernelCache, RemovesNothingWhenItRunsOutOfFileDescriptors) {
+  const test::Folder folder;
+  fill(folder.path());
+  const std::string manifest = text_of(folder.path() / "navvy.manifest");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  int refused = 0;
+  // From none to enough: every call that opens a file fails once as the first.
+  for (rlim_t spare = 0; spare < 12; ++spare) {
+    rlimit few = before;
+    few.rlim_cur = open_files() + spare;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    try {
+      const KernelCache cache(folder.path());
+    } catch (const FileError& error) {
+      ++refused;
+      EXPECT_NE(std::string(error.what()).find("Too many open files"), std::string::npos)
+          << error.what();
+    }
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    EXPECT_EQ(text_of(folder.path() / "navvy.manifest"), manifest) << spare;
+    const KernelCache whole(folder.path());
+    EXPECT_EQ(whole.whole(), 4u) << spare;
+    EXPECT_EQ(whole.removed(), 0u) << spare;
+  }
+  EXPECT_GE(refused, 4) << "lock, lock of the list, list and folders";
+  EXPECT_LT(refused, 12);
+}
+
+TEST(KernelCache, SealsNothingWhenItRunsOutOfFileDescriptors) {
+  const test::Folder folder;
+  fill(folder.path());
+  const std::string manifest = text_of(folder.path() / "navvy.manifest");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  KernelCache cache(folder.path());
+  for (rlim_t spare = 0; spare < 6; ++spare) {
+    rlimit few = before;
+    few.rlim_cur = open_files() + spare;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    cache.seal();
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    EXPECT_EQ(text_of(folder.path() / "navvy.manifest"), manifest) << spare;
+  }
+}
+
+TEST(KernelCache, RemovesNothingWhenItsListCannotBeRead) {
+  const test::Folder folder;
+  fill(folder.path());
+  // Reading a folder fails with EISDIR, whoever reads it.
+  fs::rename(folder.path() / "navvy.manifest", folder.path() / "kept");
+  fs::create_directory(folder.path() / "navvy.manifest");
+  EXPECT_THROW(KernelCache{folder.path()}, FileError);
+  EXPECT_TRUE(fs::exists(folder.path() / "AB/one/program.bc"));
+  fs::remove(folder.path() / "navvy.manifest");
+  fs::rename(folder.path() / "kept", folder.path() / "navvy.manifest");
+  EXPECT_EQ(KernelCache(folder.path()).whole(), 4u);
+}
+
+TEST(KernelCache, RemovesNothingWhenAFileMayNotBeRead) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may read every file";
+  const test::Folder folder;
+  fill(folder.path());
+  const fs::path code = folder.path() / "AB/one/add/1-1-1/add.so";
+  ASSERT_EQ(chmod(code.c_str(), 0), 0);
+  EXPECT_THROW(KernelCache{folder.path()}, FileError);
+  ASSERT_EQ(chmod(code.c_str(), 0644), 0);
+  EXPECT_EQ(KernelCache(folder.path()).whole(), 4u);
+}
+
 TEST(KernelCache, RefusesAFolderThatCannotBeCreated) {
   const test::Folder folder;
   write(folder.path() / "file", "in the way");
   EXPECT_THROW(KernelCache{folder.path() / "file" / "cache"}, FileError);
 }
 
+std::string environment_path() {
+  const char* path = std::getenv("PATH");
+  return path == nullptr ? "" : path;
+}
+
 /// Runs this program in a new process: one kernel built and run, with its cache below `cache`.
-int run_one_kernel(const std::string& cache, const std::string& log) {
+int run_one_kernel(const std::string& cache, const std::string& log,
+                   const std::string& path = environment_path()) {
   test::Command command{fs::read_symlink("/proc/self/exe").string(),
                         {"--gtest_filter=Sizes/VectorAdd.*/3:Device.ListsItselfUnderItsIndex"},
-                        {{"POCL_CACHE_DIR", cache}},
+                        {{"POCL_CACHE_DIR", cache}, {"PATH", path}},
                         "/dev/null",
                         log,
                         log + ".err"};
@@ -180,6 +265,13 @@ TEST(KernelCacheOfTheDriver, TruncatedMachineCodeIsCompiledAgainInsteadOfCrashin
   for (const fs::path& file : code) write(file, "");
   EXPECT_EQ(run_one_kernel(cache, folder / "third"), 0);
   EXPECT_EQ(run_one_kernel(cache, folder / "fourth"), 0);
+}
+
+TEST(KernelCacheOfTheDriver, TheLinkerIsFoundWithoutPath) {
+  const test::Folder folder;
+  for (const char* path : {"", "/nonexistent"})
+    EXPECT_EQ(run_one_kernel(folder / "cache", folder / "log", path), 0)
+        << path << text_of(folder / "log.err");
 }
 
 TEST(KernelCacheOfTheDriver, AFolderThatCannotBeCreatedIsReplacedByATemporaryOne) {

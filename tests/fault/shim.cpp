@@ -4,7 +4,7 @@
 // NAVVY_FAULT=call:n:errno makes the n-th call (from 1) fail; call:n+:errno that one and all after
 // it. `call` is open, write, fsync, rename (each with its relatives; write of regular files only),
 // new (operator new called from the program's own code, by whatever thread, once main has begun:
-// sigaltstack tells) or buffer (clCreateBuffer, which says that the device has no memory left,
+// sigaltstack shows it) or buffer (clCreateBuffer, which says that the device has no memory left,
 // whatever the errno). With n+ and write, what lies within a file's present size still succeeds, as
 // on a full disk. NAVVY_FAULT_COUNT=FILE appends the number of calls of each kind when the program
 // ends. NAVVY_FAULT_TRACE=1 prints who made the failing call. NAVVY_HANG=build:n:seconds lets the

@@ -100,7 +100,31 @@ TEST_F(Stop, WorksWhileTheDriverCompiles) {
   EXPECT_EQ(ended.status, 130) << complained();
   EXPECT_LT(ended.seconds, kLongBefore);
   EXPECT_LT(ended.processor, kSoon);
-  EXPECT_NE(complained().find("driver is busy"), std::string::npos) << complained();
+  EXPECT_NE(complained().find("the OpenCL driver was busy compiling kernels: the run does not"),
+            std::string::npos)
+      << complained();
+}
+
+// The driver has nothing to do with the files of a site of 10^9 columns.
+TEST_F(Stop, NamesTheFileThatIsBeingWritten) {
+  const std::string scene = folder_ / "large.sdf";
+  std::ofstream(scene) << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"large\">"
+                          "<navvy:soil ref=\"loam\"/><navvy:ground><size_m>3200 3200</size_m>"
+                          "</navvy:ground></world></sdf>";
+  const pid_t child =
+      test::start({NAVVY_PROGRAM,
+                   {"run", scene, "--no-render", "--duration", "0.1", "--out", out()},
+                   {},
+                   "/dev/null",
+                   "/dev/null",
+                   folder_ / "stderr"});
+  wait_for_file(out() + "/terrain_start.tif.part");
+  const Ended ended = send(child, SIGTERM);
+  EXPECT_EQ(ended.status, 130) << complained();
+  EXPECT_LT(ended.seconds, kLongBefore);
+  EXPECT_NE(complained().find("a terrain file was being written"), std::string::npos)
+      << complained();
+  EXPECT_EQ(complained().find("driver was"), std::string::npos) << complained();
 }
 
 // The compiler inside the driver has its own handlers, which delete the file it is writing: the

@@ -64,7 +64,7 @@ store = get_typestore(Stores.EMPTY)
 out, path = {}, Path(sys.argv[1])
 def learn(text, kind):
     store.register({k: v for k, v in get_types_from_msg(text, kind).items() if k not in store.fielddefs})
-def tell(topic, kind, ns, raw):
+def show(topic, kind, ns, raw):
     m = store.deserialize_cdr(raw, kind)
     t = out.setdefault(topic, {'type': kind, 'times': []})
     t['times'].append(ns)
@@ -113,7 +113,7 @@ if path.suffix == '.mcap':
     for schema, channel, message in reader.iter_messages():
         assert schema.encoding == 'ros2msg' and channel.message_encoding == 'cdr'
         learn(schema.data.decode(), schema.name)
-        tell(channel.topic, schema.name, message.log_time, message.data)
+        show(channel.topic, schema.name, message.log_time, message.data)
 else:
     from rosbags.rosbag2 import Reader
     for kind, text in json.load(open(sys.argv[4])).items():
@@ -121,7 +121,7 @@ else:
     with Reader(path) as reader:
         out['statistics'] = [reader.message_count, len(reader.topics), reader.duration]
         for connection, ns, raw in reader.messages():
-            tell(connection.topic, connection.msgtype, ns, raw)
+            show(connection.topic, connection.msgtype, ns, raw)
 print(json.dumps(out))
 )";
 

@@ -29,8 +29,8 @@ std::string link_of(const Element& model, std::string name) {
 Pose pose_of(const Element& element) {
   Pose X = Pose::Identity();
   // Faults that check_sdf has reported already.
-  Faults told;
-  if (const Element* pose = element.FirstChildElement("pose")) read_pose(*pose, X, told);
+  Faults faults;
+  if (const Element* pose = element.FirstChildElement("pose")) read_pose(*pose, X, faults);
   return X;
 }
 
@@ -66,9 +66,9 @@ scene::Joint joint_of(const Element& element) {
   const Element* axis = element.FirstChildElement("axis");
   if (axis == nullptr) return joint;
   std::vector<double> xyz;
-  Faults told;
+  Faults faults;
   if (const Element* e = axis->FirstChildElement("xyz");
-      e != nullptr && read_numbers(*e, 3, {-1e3, 1e3}, xyz, told))
+      e != nullptr && read_numbers(*e, 3, {-1e3, 1e3}, xyz, faults))
     joint.axis = Vec3(xyz[0], xyz[1], xyz[2]).normalized();
   const Element* limit = axis->FirstChildElement("limit");
   joint.lower = number_in(limit, "lower", -1e16);

@@ -38,7 +38,7 @@ scene::DesignArea box(double length, double width, double depth, double batter_d
   return area;
 }
 
-DesignComparison figures(const scene::Scene& world) {
+DesignComparison comparison(const scene::Scene& world) {
   const Ground ground = make_ground(world);
   return against_design(ground, make_design(world, ground).value());
 }
@@ -58,7 +58,7 @@ constexpr double kShare = 0.005;
 TEST(DesignArea, OfAPrismHasItsVolume) {
   scene::Scene world = flat();
   world.design.areas = {box(6, 4, 1.5, 90)};
-  const DesignComparison f = figures(world);
+  const DesignComparison f = comparison(world);
   EXPECT_NEAR(f.design_cut, 36, kShare * 36);
   EXPECT_NEAR(f.under_dig, f.design_cut, 1e-9);
   EXPECT_NEAR(f.area, 24, kShare * 24);
@@ -75,10 +75,10 @@ TEST(DesignArea, OfABatteredPitHasTheVolumeOfItsFrustumWithRoundCorners) {
   world.design.areas = {box(6, 4, 1.5, 45)};
   // Prism, four wedges, and a cone made of the four corners.
   const double volume = 36 + (6 + 4) * 1.5 * 1.5 + kPi * std::pow(1.5, 3) / 3;
-  EXPECT_NEAR(figures(world).design_cut, volume, kShare * volume);
+  EXPECT_NEAR(comparison(world).design_cut, volume, kShare * volume);
   // A pad is the same shape upside down.
   world.design.areas = {box(6, 4, -1.5, 45)};
-  EXPECT_NEAR(figures(world).design_fill, volume, kShare * volume);
+  EXPECT_NEAR(comparison(world).design_fill, volume, kShare * volume);
 }
 
 TEST(DesignArea, OfAConesFrustumHasItsVolume) {
@@ -93,7 +93,7 @@ TEST(DesignArea, OfAConesFrustumHasItsVolume) {
   area.batter = std::atan(0.5);
   world.design.areas = {area};
   const double volume = kPi * 2 / 3 * (0.25 + 0.5 * 4.5 + 4.5 * 4.5);
-  EXPECT_NEAR(figures(world).design_cut, volume, kShare * volume);
+  EXPECT_NEAR(comparison(world).design_cut, volume, kShare * volume);
 }
 
 TEST(DesignArea, FallsAlongItsDirectionAndEndsAtTheGround) {
@@ -176,7 +176,7 @@ TEST(DesignTin, OfAFrustumHasItsVolume) {
   world.design.tin = frustum();
   // Prismatoid: 2/6 (floor + 4 middle + top).
   const double volume = 2.0 / 6 * (24 + 4 * 8 * 6 + 80);
-  const DesignComparison f = figures(world);
+  const DesignComparison f = comparison(world);
   EXPECT_NEAR(f.design_cut, volume, kShare * volume);
   EXPECT_NEAR(f.area, 80, kShare * 80);
 }

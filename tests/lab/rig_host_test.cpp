@@ -134,19 +134,19 @@ TEST(Rig, SuggestsTheNearestForUnknownNames) {
 }
 
 TEST(Quantity, FailsOutsideItsToleranceAndWhenItIsNotANumber) {
-  EXPECT_FALSE((Quantity{"a", 2, "", kNone, kNone, kNone, ""}.missed()));
-  EXPECT_FALSE((Quantity{"a", 2, "", 2, 1.9, 2.1, ""}.missed()));
-  EXPECT_TRUE((Quantity{"a", 2.2, "", 2, 1.9, 2.1, ""}.missed()));
-  EXPECT_TRUE((Quantity{"a", kNone, "", 2, 1.9, kNone, ""}.missed()));
-  EXPECT_TRUE((Quantity{"a", 1, "", kNone, kNone, 0.5, ""}.missed()));
+  EXPECT_FALSE((Quantity{"a", 2, "", kNone, kNone, kNone, ""}.outside_tolerance()));
+  EXPECT_FALSE((Quantity{"a", 2, "", 2, 1.9, 2.1, ""}.outside_tolerance()));
+  EXPECT_TRUE((Quantity{"a", 2.2, "", 2, 1.9, 2.1, ""}.outside_tolerance()));
+  EXPECT_TRUE((Quantity{"a", kNone, "", 2, 1.9, kNone, ""}.outside_tolerance()));
+  EXPECT_TRUE((Quantity{"a", 1, "", kNone, kNone, 0.5, ""}.outside_tolerance()));
   Report report;
   report.add("a", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", false);
-  EXPECT_FALSE(report.missed());
+  EXPECT_FALSE(report.outside_tolerance());
   EXPECT_TRUE(report.results[0].has_tolerance());
   EXPECT_FALSE(report.results[0].judged());
   EXPECT_EQ(report.results[0].range, "sand");
   report.add("b", 2.2, "", 2, 1.9, 2.1, "").holds_for("sand", true);
-  EXPECT_TRUE(report.missed());
+  EXPECT_TRUE(report.outside_tolerance());
 }
 
 }  // namespace

@@ -39,9 +39,9 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
     EXPECT_TRUE(q.in_range || !q.range.empty()) << name << ", " << q.name;
     std::printf("[ VALUE    ] %-8s %-40s %12.5g %-5s expected %g, tolerance %g .. %g %s (%s)\n",
                 name.c_str(), q.name.c_str(), q.measured, q.unit.c_str(), q.expected, q.low, q.high,
-                q.missed()   ? "MISS"
-                : q.in_range ? ""
-                             : "not judged",
+                q.outside_tolerance() ? "outside"
+                : q.in_range          ? ""
+                                      : "not judged",
                 q.source.c_str());
   }
   std::printf("[ VALUE    ] %-8s cell %g m, %d particles, %.2f s simulated, %.2f s\n", name.c_str(),
@@ -49,11 +49,11 @@ inline Report run_rig(const std::string& name, const std::map<std::string, doubl
   return report;
 }
 
-/// Returns the names of the results outside their tolerances, for EXPECT_EQ(misses(report), "").
-inline std::string misses(const Report& report) {
+/// Returns the names of the results outside their tolerances, each followed by "; ".
+inline std::string outside_tolerance(const Report& report) {
   std::string out;
   for (const Quantity& q : report.results)
-    if (q.missed()) out += q.name + "; ";
+    if (q.outside_tolerance()) out += q.name + "; ";
   return out;
 }
 

@@ -56,7 +56,7 @@ TEST(Sweep, TableHasAxesHeadlineAndDeviations) {
   EXPECT_EQ(table[1][2], "1");
   EXPECT_EQ(table[1].back(), "");
   EXPECT_EQ(table[2][2], "0.75");
-  EXPECT_EQ(table[2].back(), "MISS");
+  EXPECT_EQ(table[2].back(), "outside");
   EXPECT_EQ(text_of({{"a", "long"}, {"100", "b"}}), "  a  long\n100     b\n");
 }
 

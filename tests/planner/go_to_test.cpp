@@ -79,7 +79,7 @@ struct Trip {
     return least;
   }
   double value_of(const std::string& name) const {
-    for (const control::Measurement& each : op.reports().back().figures)
+    for (const control::Measurement& each : op.reports().back().measurements)
       if (each.name == name) return each.value;
     return NAN;
   }

@@ -38,7 +38,7 @@ TEST(SoilValues, ReportsValuesOutOfRangeWithSceneNameAndUnit) {
   soil.poisson = std::nan("");
   soil.residual_cohesion = 2 * soil.cohesion;
   const std::string all = messages(soil);
-  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 60"),
+  EXPECT_NE(all.find("soil[mud]/friction_angle_deg: '75': must be a number from 0 to 50"),
             std::string::npos)
       << all;
   EXPECT_NE(all.find("soil[mud]/poisson: 'nan'"), std::string::npos) << all;

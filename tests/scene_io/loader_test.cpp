@@ -339,6 +339,47 @@ TEST(Overrides, ChangeOneOrAllObjects) {
   EXPECT_EQ(load(kBody, set("camera[follow].rate_hz=9")).cameras[1].rate, 9);
 }
 
+TEST(Overrides, GiveAFrictionAngleWithItsTest) {
+  const auto phi = [](const char* setting) {
+    return degrees(load(kBody, set(setting)).soils[0].friction_angle);
+  };
+  EXPECT_NEAR(phi("soil[loam].friction_angle_deg.triaxial=35"), 38.957, 1e-3);
+  EXPECT_NEAR(phi("soil.friction_angle_deg.direct_shear=35"), 44.443, 1e-3);
+  EXPECT_NEAR(phi("soil.friction_angle_deg=35"), 35, 1e-9);
+  EXPECT_NE(failure(kBody, set("soil.friction_angle_deg.triax=35"))
+                .find("unknown test 'triax' (did you mean 'triaxial'?)"),
+            std::string::npos);
+  // Elements elsewhere have no such attribute.
+  EXPECT_NE(failure(kBody, set("ground.friction_angle_deg.triaxial=35")).find("unknown element"),
+            std::string::npos);
+  EXPECT_NE(failure(kBody, set("machine[first].program.wait.friction_angle_deg.triaxial=35"))
+                .find("unknown element"),
+            std::string::npos);
+  EXPECT_NE(failure(kBody, set("soil.friction_angle_deg.triaxial=48"))
+                .find("'48': is above the limit of 50 deg in plane strain"),
+            std::string::npos);
+}
+
+TEST(Loader, ConvertsATestedFrictionAngleByTheDilatancyOfTheSoilThatUsesIt) {
+  const test::Folder folder;
+  write_file_atomically(
+      folder / "tested.sdf",
+      std::string("<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><navvy:soil name=\"tested\">"
+                  "<friction_angle_deg test=\"direct_shear\">35</friction_angle_deg>"
+                  "</navvy:soil></sdf>"));
+  const std::string ref = "ref=\"" + (folder / "tested.sdf") + "\"";
+  const std::string body =
+      "<navvy:soil name=\"a\" " + ref + "/><navvy:soil name=\"b\" " + ref +
+      "><dilatancy_angle_deg>10</dilatancy_angle_deg></navvy:soil><navvy:soil name=\"c\" " + ref +
+      "><friction_angle_deg>35</friction_angle_deg></navvy:soil><navvy:soil name=\"d\" " + ref +
+      "><repose_angle_deg>29</repose_angle_deg></navvy:soil>"
+      "<navvy:ground><layer><soil>a</soil></layer></navvy:ground>";
+  const scene::Scene world = load(body);
+  const double expected[] = {44.443, 39.262, 35, 33.663};
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(degrees(world.soils.at(i).friction_angle), expected[i], 1e-3);
+}
+
 TEST(Overrides, MoveMachinesAndChangeTheirPrograms) {
   const scene::Scene moved = load(kBody, set("machine[first].x_m=-3.25"));
   EXPECT_EQ(Vec3(moved.machines[0].X_WM.translation()), Vec3(-3.25, 2, 0.5));
@@ -435,8 +476,10 @@ std::string logged_by(const Overrides& overrides) {
 
 TEST(Overrides, WithoutEffectGiveWarnings) {
   EXPECT_EQ(logged_by(set("soil[fill].swell=1.3")), "");
+  EXPECT_EQ(logged_by(set("soil[fill].friction_angle_deg.triaxial=35")), "");
   // Equal to the file's value, to that of the shipped soil, and to the default.
   for (const char* setting : {"soil[loam].cohesion_pa=7e3", "soil[loam].swell=1.23",
+                              "soil[loam].friction_angle_deg.plane_strain=30",
                               "recording.settle_s=1", "machine[first].x_m=1"})
     EXPECT_NE(logged_by(set(setting)).find("has no effect: the scene has this value already"),
               std::string::npos)

@@ -109,7 +109,7 @@ TEST(Resolved, TextOfEveryShippedSceneReadsAsTheSameScene) {
 TEST(Resolved, TextHoldsEveryOverride) {
   Overrides overrides =
       with({"soil.cohesion_pa=3000", "solver.cell_m=0.2", "machine[excavator].x_m=-8.5",
-            "machine[excavator].program.dig.depth_m=0.6"});
+            "machine[excavator].program.dig.depth_m=0.6", "soil.friction_angle_deg.triaxial=31"});
   overrides.seed = 77;
   overrides.duration = 12.5;
   overrides.render = false;
@@ -122,6 +122,7 @@ TEST(Resolved, TextHoldsEveryOverride) {
   EXPECT_EQ(resolved.seed, 77u);
   EXPECT_EQ(resolved.recording.duration, 12.5);
   EXPECT_EQ(resolved.soils[0].cohesion, 3000);
+  EXPECT_EQ(resolved.soils[0].friction_test, scene::FrictionTest::kTriaxial);
   // Not stated: it followed the cohesion.
   EXPECT_EQ(resolved.soils[0].residual_cohesion, world.soils[0].residual_cohesion);
   EXPECT_EQ(resolved.machines[0].X_WM.translation().x(), -8.5);

@@ -61,6 +61,7 @@ TEST(Schema, PrintsPartsAsTextAndJson) {
   const std::string text = schema_text(*all.find("soil"));
   EXPECT_NE(text.find("cohesion_pa"), std::string::npos);
   EXPECT_NE(text.find("0..60"), std::string::npos);
+  EXPECT_NE(text.find("plane_strain, direct_shear, triaxial, repose"), std::string::npos) << text;
   const std::string json = schema_json(*all.find("solver"));
   EXPECT_NE(json.find("{\"name\": \"cell_m\", \"type\": \"number\", \"unit\": \"m\", "
                       "\"default\": \"0.1\", \"min\": 0.005, \"max\": 2"),

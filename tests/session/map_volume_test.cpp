@@ -112,14 +112,14 @@ TEST(MapVolume, OfADigStoppedAtTenTimesAgreesWithTheLedger) {
         sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
     const MapVolume shown = volume_of(map);
     double lying_volume = 0;
-    for (const heightfield::LooseGrain& grain : active.lying.grains())
+    for (const heightfield::LooseGrain& grain : active.on_ground.grains())
       lying_volume +=
           kilograms(grain.mass) * static_cast<double>(grain.specific_volume) / loam.bank_density;
     // Floats of the map round each of 4000 columns to 0.1 um: less than a thousandth of a litre.
     EXPECT_NEAR(shown.fill - shown.cut, column_volume_change(world) + lying_volume, 1e-6);
     // Column by column: the map is above the columns by the soil that rests there, and not by soil
     // in the air.
-    expect_columns_and_what_lies(map, world.ground(), active.lying.grains(), loam.bank_density);
+    expect_columns_and_what_lies(map, world.ground(), active.on_ground.grains(), loam.bank_density);
     // In mass: the columns lack exactly the soil that rests on them, is carried, or is in the air.
     EXPECT_NEAR(
         kilograms_of(ledger.columns) + lies + held + elsewhere + kilograms_of(ledger.left_site), 0,
@@ -128,7 +128,7 @@ TEST(MapVolume, OfADigStoppedAtTenTimesAgreesWithTheLedger) {
     EXPECT_GE(lying_volume, 0.88 * lies / loam.bank_density);
     EXPECT_LE(lying_volume, 1.001 * loam.swell * lies / loam.bank_density);
 
-    const record::Earthwork earth = record::measure_earthwork(world, active.lying);
+    const record::Earthwork earth = record::measure_earthwork(world, active.on_ground);
     EXPECT_GE(earth.loose_volume, 0);
     EXPECT_GE(earth.bank_volume, 0);
     // A twentieth of a cell per column is omitted from the sums of earthwork: at most this share of

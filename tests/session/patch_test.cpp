@@ -53,7 +53,8 @@ TEST(SessionWithPatches, HasALedgerPerSoilOfLayersAndPatch) {
       active[i] = std::max(active[i], kilograms(ledger.particles[i]));
     }
   }
-  const record::Earthwork earth = record::measure_earthwork(world, sim::active_places(world).lying);
+  const record::Earthwork earth =
+      record::measure_earthwork(world, sim::active_places(world).on_ground);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = world.description().soils.at(i).name;
     const double ratio = earth.soils.at(i).spoil / earth.soils[i].dug;

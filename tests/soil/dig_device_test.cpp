@@ -135,7 +135,7 @@ TEST(SoilDig, ScoopFillsHoldsItsLoadAndTheMassBalanceHolds) {
   EXPECT_EQ(scoop.solver().stats().shell_crossings, 0u);
   EXPECT_LT(scoop.worst(), 1e-5);
   EXPECT_EQ(scoop.solver().ledger().error(), 0);
-  std::printf("[ VALUE    ] particles %d (peak %d), blocks %d, wakes %lu, deposits %lu\n",
+  std::printf("[ VALUE    ] particles %d (peak %d), blocks %d, activations %lu, deposits %lu\n",
               scoop.solver().stats().particles, scoop.solver().stats().particles_peak,
               scoop.solver().stats().blocks,
               static_cast<unsigned long>(scoop.solver().stats().activations),

@@ -71,6 +71,21 @@ TEST(Files, HaveNoLineBeyondTheColumnLimit) {
   EXPECT_EQ(report(found), "");
 }
 
+TEST(Files, OfScriptsHaveNoLineBeyondTheColumnLimit) {
+  constexpr std::size_t kWidest = 100;
+  std::vector<std::string> found;
+  for (const char* folder : {"tools", "bench", "tests", "docs", "examples"})
+    for (const SourceFile& file : sources(folder, {".py"})) {
+      std::istringstream lines(file.text);
+      std::string line;
+      for (int number = 1; std::getline(lines, line); ++number)
+        if (line.size() > kWidest)
+          found.push_back(file.path + ":" + std::to_string(number) + ": " +
+                          std::to_string(line.size()) + " characters");
+    }
+  EXPECT_EQ(report(found), "");
+}
+
 /// Words that `folder`'s files must not use, each with the reason.
 struct Ban {
   const char* word;

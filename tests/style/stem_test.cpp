@@ -61,6 +61,7 @@ TEST(Stems, OfKernelsHaveARowInABench) {
                                                     {"rebin", "collapse_8k"},
                                                     {"mass_count", "collapse_64k"},
                                                     {"shell", "dig"},
+                                                    {"edge", "dig"},
                                                     {"contact", "held_bucket"}};
   const std::vector<SourceFile> bench = sources("bench/kernels", {"soil_bench.cpp"});
   ASSERT_EQ(bench.size(), 1u);

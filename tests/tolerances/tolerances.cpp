@@ -111,7 +111,7 @@ const char* mark(Verdict verdict) {
       return "known deviation";
     case Verdict::kOutOfTolerance:
     case Verdict::kWorse:
-      return "MISS";
+      return "outside";
     case Verdict::kNewlyMet:
       return "ok, table old";
     case Verdict::kToleranceMoved:

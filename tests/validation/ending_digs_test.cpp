@@ -43,7 +43,7 @@ class ScoopWatch {
 
 /// Returns a value of a step's account; NaN if it is missing, which fails every tolerance.
 double value_of(const control::StepReport& step, const std::string& name) {
-  for (const control::Measurement& one : step.figures)
+  for (const control::Measurement& one : step.measurements)
     if (one.name == name) return one.value;
   return std::nan("");
 }

@@ -3,6 +3,8 @@
 // in tolerances/known_deviations.md.
 #include <utility>
 
+#include "lab/soils.h"
+#include "scene/soil_values.h"
 #include "validation/rig_case.h"
 #include "values.h"
 
@@ -62,6 +64,33 @@ double narrow_blade(double depth, double speed, double courant, double cell) {
                     soil.friction_angle = radians(35);
                     soil.tool_friction_angle = radians(16.2);
                   });
+}
+
+// The source gives 35 deg without naming its test; the measured forces should lie between both
+// readings.
+TEST(ToolLab, ReportsBothReadingsOfTheNarrowBladesFrictionAngle) {
+  using scene::FrictionTest;
+  const double depths[] = {0.10, 0.15, 0.20, 0.25};
+  const char* measured[] = {"280 N measured", "505 N measured", "820 N measured",
+                            "1310 N measured"};
+  for (int i = 0; i < 4; ++i)
+    for (const FrictionTest test : {FrictionTest::kTriaxial, FrictionTest::kDirectShear}) {
+      const double force = force_of({{"plane", 0},
+                                     {"width", 0.2},
+                                     {"depth", depths[i]},
+                                     {"speed", 0.45},
+                                     {"from", 0.5},
+                                     {"travel", 1.5}},
+                                    0.025, [test](scene::Soil& soil) {
+                                      soil.bank_density = 1440;
+                                      lab::set_friction(soil, test, radians(35));
+                                      scene::follow_friction_test(soil);
+                                      soil.tool_friction_angle = radians(16.2);
+                                    });
+      print_value("narrow blade, " + lab::short_text(depths[i]) + " m deep, 35 deg of " +
+                      scene::name_of(test) + ", cells of 0.025 m [N]",
+                  force, measured[i], "[Obermayr 2011]");
+    }
 }
 
 TEST(ToolLab, CutsAtSpeedsAndStepsWithANarrowBlade) {

@@ -47,6 +47,15 @@ TEST(ToolSpread, IsSmallForASmoothBladeOverSpeedsAndSteps) {
                  kStep);
 }
 
+// The curve of navvy::run::force_share, which `navvy check` warns by; depth 0.3 m.
+TEST(CellsPerDepth, SetTheShareOfASmoothBladesForce) {
+  for (const double cells : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0})
+    print_value(
+        "smooth blade, 0.15 m/s, " + lab::short_text(cells) + " cells per depth: force / Rankine",
+        blade(0.3 / cells, 0.15, 0.5), "1, no tolerance",
+        "[Rankine 1857] [docs/validation.md, Cells per depth of cut]");
+}
+
 // Four times slower than the slowest of the others: contact does not depend on time.
 TEST(ToolSpread, IsSmallForACreepingBlade) {
   const double creeping = blade(0.05, 0.0125, 0.5);

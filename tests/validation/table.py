@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Results of the tests: from their output into results.csv, from there into the tables of docs/validation.md.
+"""Collects results of the tests in results.csv and writes the tables of docs/validation.md.
 
-  table.py collect RESULTS.csv CASE=LOG... [--state S] [--device D] [--date DAY] [--seconds SECONDS.csv]
+  table.py collect RESULTS.csv CASE=LOG... [--state S] [--device D] [--date DAY]
+                   [--seconds SECONDS.csv]
   table.py write RESULTS.csv PAGE.md    writes the page's tables anew
   table.py check RESULTS.csv PAGE.md    fails when a table is not what `write` would make it
-  table.py summary RESULTS.csv PAGE.md  writes the table of one row per case, of summary.csv beside RESULTS.csv
+  table.py summary RESULTS.csv PAGE.md  writes the table of one row per case that summary.csv, in
+                                        the folder of RESULTS.csv, lists
   table.py check-summary RESULTS.csv PAGE.md
   table.py selftest
 
@@ -14,8 +16,9 @@ A table is in the page between two marks; the first names the cases it holds, as
   <!-- generated: begin; cases: Rest.* GranularLab.*/Rest -->
   <!-- generated: end -->
 
-Every row of results.csv belongs to exactly one table. `collect` renews the rows of the cases in the logs; a log without
-`CASE=` is ctest's of many tests. Two kinds of lines are read: rows of tests/tolerances,
+Every row of results.csv belongs to exactly one table. `collect` renews the rows of the cases in
+the logs; a log without `CASE=` is the output of ctest with many tests. Two kinds of lines are read:
+rows of tests/tolerances,
 | quantity | measured | expected | tolerance | result | source |, and those of tests/values.h,
 [ VALUE    ] quantity: measured M, expected E (source).
 """
@@ -27,10 +30,27 @@ import os
 import re
 import sys
 
-COLUMNS = ["case", "quantity", "measured", "half", "expected", "tolerance", "result", "source", "seconds", "date", "device",
-           "state"]
-RESULTS = {"ok": "within", "MISS": "miss", "known deviation": "known deviation", "ok, table old": "within",
-           "TOLERANCE MOVED": "miss"}
+COLUMNS = [
+    "case",
+    "quantity",
+    "measured",
+    "half",
+    "expected",
+    "tolerance",
+    "result",
+    "source",
+    "seconds",
+    "date",
+    "device",
+    "state",
+]
+RESULTS = {
+    "ok": "within",
+    "outside": "miss",
+    "known deviation": "known deviation",
+    "ok, table old": "within",
+    "TOLERANCE MOVED": "miss",
+}
 BEGIN = re.compile(r"^<!-- generated: begin; cases: (.*) -->$")
 SUMMARY = "<!-- generated: begin; summary -->"
 END = "<!-- generated: end -->"
@@ -70,27 +90,55 @@ def rows_of(text, case=None):
             running = started[1]
         value, judged = VALUE.match(line), JUDGED.match(line)
         if value:
-            out.append({"case": running, "quantity": tidy(value[1]), "measured": value[2], "expected": tidy(value[3]),
-                        "tolerance": "", "result": "value", "source": value[4]})
+            out.append(
+                {
+                    "case": running,
+                    "quantity": tidy(value[1]),
+                    "measured": value[2],
+                    "expected": tidy(value[3]),
+                    "tolerance": "",
+                    "result": "value",
+                    "source": value[4],
+                }
+            )
         elif judged:
             cells = [cell.strip() for cell in judged[1].split("|")]
             if len(cells) != 6 or cells[4] not in RESULTS:
                 continue
-            out.append({"case": running, "quantity": cells[0], "measured": cells[1], "expected": cells[2],
-                        "tolerance": " ".join(cells[3].split()), "result": RESULTS[cells[4]], "source": cells[5]})
+            out.append(
+                {
+                    "case": running,
+                    "quantity": cells[0],
+                    "measured": cells[1],
+                    "expected": cells[2],
+                    "tolerance": " ".join(cells[3].split()),
+                    "result": RESULTS[cells[4]],
+                    "source": cells[5],
+                }
+            )
     return out
 
 
 def collect(rows, found, seconds, date, device, state):
-    """`rows` with those of the cases in `found` renewed in their place; values entered for half the cell are kept."""
+    """Returns `rows` with the rows of the cases in `found` replaced by those.
+
+    Values entered for half the cell are kept."""
     half = {(row["case"], row["quantity"]): row["half"] for row in rows}
     fresh = collections.defaultdict(list)
     for row in found:
         if NO_RESULTS.match(row["case"]):
             continue
         key = (row["case"], row["quantity"])
-        fresh[row["case"]].append(dict(row, half=half.get(key, ""), seconds=seconds.get(row["case"], ""), date=date,
-                                       device=device, state=state))
+        fresh[row["case"]].append(
+            dict(
+                row,
+                half=half.get(key, ""),
+                seconds=seconds.get(row["case"], ""),
+                date=date,
+                device=device,
+                state=state,
+            )
+        )
     out = []
     for row in rows:
         if row["case"] not in fresh:
@@ -119,7 +167,8 @@ def bold(text, row):
 
 
 def merged(rows):
-    """`rows` with the same quantity of a case with parameters (Case/0, Case/1 ...) in one, as least .. largest."""
+    """Returns `rows` with the rows of one quantity of a case with parameters (Case/0, Case/1 ...)
+    merged into one, which shows the range from the smallest to the largest value."""
     out, place = [], {}
     for row in rows:
         family = re.sub(r"/\d+$", "/*", row["case"])
@@ -136,14 +185,22 @@ def merged(rows):
 
 
 def table(rows):
-    """Markdown of one table. A case whose name ends in Half becomes a column of the case it halves."""
+    """Returns the Markdown of one table.
+
+    A case whose name ends in Half becomes a column of the case that it repeats with half the cell.
+    """
     rows = merged(rows)
     names = {row["case"] for row in rows}
-    halves = {(row["case"][:-4], row["quantity"]): row for row in rows
-              if row["case"].endswith("Half") and row["case"][:-4] in names}
+    halves = {
+        (row["case"][:-4], row["quantity"]): row
+        for row in rows
+        if row["case"].endswith("Half") and row["case"][:-4] in names
+    }
     runs = []
-    lines = ["| Case | Quantity | Measured | Half the cell | Expected | Tolerance | Source | s | Run |",
-             "|---|---|---|---|---|---|---|---|---|"]
+    lines = [
+        "| Case | Quantity | Measured | Half the cell | Expected | Tolerance | Source | s | Run |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
     last = None
     for row in rows:
         if row["case"].endswith("Half") and row["case"][:-4] in names:
@@ -158,8 +215,17 @@ def table(rows):
             seconds += "; half " + finer["seconds"] if finer["seconds"] else ""
         again = row["case"] == last
         last = row["case"]
-        cells = ["" if again else row["case"], row["quantity"], bold(row["measured"], row), half, row["expected"],
-                 shown_tolerance(row["tolerance"]), row["source"], "" if again else seconds, "abcdefghijkl"[runs.index(run)]]
+        cells = [
+            "" if again else row["case"],
+            row["quantity"],
+            bold(row["measured"], row),
+            half,
+            row["expected"],
+            shown_tolerance(row["tolerance"]),
+            row["source"],
+            "" if again else seconds,
+            "abcdefghijkl"[runs.index(run)],
+        ]
         lines.append("| " + " | ".join(cells) + " |")
     lines.append("")
     for letter, (date, state, device) in zip("abcdefghijkl", runs):
@@ -178,7 +244,9 @@ def written(page, rows):
                 wrong.append("a table begins within another: " + line)
             inside = True
             patterns = begin[1].split()
-            mine = [row for row in rows if any(fnmatch.fnmatchcase(row["case"], p) for p in patterns)]
+            mine = [
+                row for row in rows if any(fnmatch.fnmatchcase(row["case"], p) for p in patterns)
+            ]
             for case in {row["case"] for row in mine}:
                 taken[case] += 1
             for pattern in patterns:
@@ -206,6 +274,7 @@ def shown_result(row):
 
 def rounded(text):
     """Numbers with four digits, for a table on one screen."""
+
     def shorter(found):
         if len(re.sub(r"\D", "", found[0])) < 5:
             return found[0]
@@ -225,7 +294,10 @@ def summary(rows, chosen):
     found, wrong = {}, []
     for row in rows:
         found.setdefault((row["case"], row["quantity"]), row)
-    lines = ["| Section | Case | Measured | Expected | Tolerance | Pass |", "|---|---|---|---|---|---|"]
+    lines = [
+        "| Section | Case | Measured | Expected | Tolerance | Pass |",
+        "|---|---|---|---|---|---|",
+    ]
     last = None
     for choice in chosen:
         row = found.get((choice["case"], choice["quantity"]))
@@ -235,16 +307,36 @@ def summary(rows, chosen):
         section = choice["section"]
         link = "" if section == last else "[%s](validation.md#%s)" % (section, slug(section))
         last = section
-        lines.append("| " + " | ".join([link, choice["what"], bold(rounded(row["measured"]), row),
-                                        rounded(row["expected"]), rounded(shown_tolerance(row["tolerance"])), shown_result(row)]) + " |")
+        lines.append(
+            "| "
+            + " | ".join(
+                [
+                    link,
+                    choice["what"],
+                    bold(rounded(row["measured"]), row),
+                    rounded(row["expected"]),
+                    rounded(shown_tolerance(row["tolerance"])),
+                    shown_result(row),
+                ]
+            )
+            + " |"
+        )
     counts = collections.Counter(row["result"] for row in rows)
-    lines += ["", "Of all %d results with a tolerance of their own, %d are within it and %d are not; of these, %d are"
-              % (sum(counts.values()) - counts["value"], counts["within"], counts["miss"] + counts["known deviation"],
-                 counts["known deviation"]),
-              "known deviations of automatic cases, and %d are runs of the laboratory by hand. Another %d results are"
-              % (counts["miss"], counts["value"]),
-              "asserted by their tests. Measured between %s and %s."
-              % (min(row["date"] for row in rows), max(row["date"] for row in rows))]
+    lines += [
+        "",
+        "Of all %d results with a tolerance of their own, %d are within it and %d are not; of"
+        " these, %d are"
+        % (
+            sum(counts.values()) - counts["value"],
+            counts["within"],
+            counts["miss"] + counts["known deviation"],
+            counts["known deviation"],
+        ),
+        "known deviations of automatic cases, and %d are runs of the laboratory by hand. Another %d"
+        " results are" % (counts["miss"], counts["value"]),
+        "asserted by their tests. Measured between %s and %s."
+        % (min(row["date"] for row in rows), max(row["date"] for row in rows)),
+    ]
     return lines, wrong
 
 
@@ -259,8 +351,11 @@ def with_summary(page, rows, chosen):
 
 
 def selftest():
-    log = ("7: [ RUN      ] A.Holds\n7: | force [N] |  2 |  1 |  0 .. inf | known deviation | Rankine |\n"
-           "[ VALUE    ] drag (dry): measured 3.5, expected 3 +-20 % (statics, as above)\n| Test | Figure |\n")
+    log = (
+        "7: [ RUN      ] A.Holds\n7: | force [N] |  2 |  1 |  0 .. inf | known deviation | Rankine"
+        " |\n[ VALUE    ] drag (dry): measured 3.5, expected 3 +-20 % (statics, as above)\n| Test |"
+        " Value |\n"
+    )
     rows = rows_of(log)
     assert [r["case"] for r in rows] == ["A.Holds", "A.Holds"], rows
     assert rows[0]["tolerance"] == "0 .. inf" and rows[0]["result"] == "known deviation", rows
@@ -270,27 +365,47 @@ def selftest():
     kept = collect([], rows + finer, {"A.Holds": "2"}, "2026-01-02", "cpu", "abc")
     assert len(collect(kept, rows, {}, "2026-01-03", "cpu", "abc")) == 3
     page = "# t\n<!-- generated: begin; cases: A.* -->\nby hand\n<!-- generated: end -->\nprose\n"
-    assert merged([dict(kept[0], case="D/%d" % n, measured=str(n)) for n in (2, 0, 1)])[0]["measured"] == "0 .. 2"
+    assert (
+        merged([dict(kept[0], case="D/%d" % n, measured=str(n)) for n in (2, 0, 1)])[0]["measured"]
+        == "0 .. 2"
+    )
     assert tidy("20.000000 at 0.342020 of 0.50") == "20 at 0.34202 of 0.50"
     text, wrong = written(page, kept)
     assert not wrong and "by hand" not in text and text.endswith("prose\n"), (text, wrong)
     assert "| A.Holds | force [N] | **2** | 4 | 1 | at least 0 | Rankine | 2 | a |" in text, text
     assert written(text, kept)[0] == text
     assert rounded("26064 .. 31857.4, 1, 0.12703") == "26064 .. 31857, 1, 0.127"
-    chosen = [{"section": "Rest, and stress", "what": "a force", "case": "A.Holds", "quantity": "force [N]"}]
+    chosen = [
+        {
+            "section": "Rest, and stress",
+            "what": "a force",
+            "case": "A.Holds",
+            "quantity": "force [N]",
+        }
+    ]
     page = SUMMARY + "\nold\n" + END + "\nprose\n"
     short, wrong = with_summary(page, kept, chosen)
     assert not wrong and "old" not in short and short.endswith("prose\n"), (short, wrong)
-    assert "[Rest, and stress](validation.md#rest-and-stress) | a force | **2** | 1 | at least 0 | **no**" in short, short
-    assert with_summary(page, kept, [dict(chosen[0], quantity="x")])[1] == ["no result 'x' of A.Holds"]
+    assert (
+        "[Rest, and stress](validation.md#rest-and-stress) | a force | **2** | 1 | at least 0 |"
+        " **no**"
+        in short
+    ), short
+    assert with_summary(page, kept, [dict(chosen[0], quantity="x")])[1] == [
+        "no result 'x' of A.Holds"
+    ]
     assert written(text, kept + [dict(kept[0], case="B")])[1] == ["B is in 0 tables"]
-    assert written("<!-- generated: begin; cases: C.* -->\n", [])[1] == ["no case is called C.*",
-                                                                         "the last table does not end"]
+    assert written("<!-- generated: begin; cases: C.* -->\n", [])[1] == [
+        "no case is called C.*",
+        "the last table does not end",
+    ]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("command", choices=["collect", "write", "check", "summary", "check-summary", "selftest"])
+    parser.add_argument(
+        "command", choices=["collect", "write", "check", "summary", "check-summary", "selftest"]
+    )
     parser.add_argument("results", nargs="?")
     parser.add_argument("rest", nargs="*")
     parser.add_argument("--date", default="")
@@ -311,7 +426,10 @@ def main():
             case, _, path = argument.rpartition("=")
             with open(path, errors="replace") as file:
                 found += rows_of(file.read(), case or None)
-        save(options.results, collect(rows, found, seconds, options.date, options.device, options.state))
+        save(
+            options.results,
+            collect(rows, found, seconds, options.date, options.device, options.state),
+        )
         return None
     path = options.rest[0]
     with open(path) as file:
@@ -328,7 +446,10 @@ def main():
             file.write(after)
     elif before != after:
         wrong.append("edited")
-        print("%s: a table differs from %s: ./dev docs writes it" % (path, options.results), file=sys.stderr)
+        print(
+            "%s: a table differs from %s: ./dev docs writes it" % (path, options.results),
+            file=sys.stderr,
+        )
     return 1 if wrong else 0
 
 

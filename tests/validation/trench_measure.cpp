@@ -154,18 +154,39 @@ std::vector<double> heap_slopes(const heightfield::Ground& ground, const control
   return out;
 }
 
-double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
-                        double spoil_radius, const WheelTracks& tracks) {
+namespace {
+
+/// Calls `use` with the change of height [m] of each column outside the trench, the spoil and the
+/// tracks.
+template <class Use>
+void visit_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
+                     double spoil_radius, const WheelTracks& tracks, Use use) {
   const Line line(dig);
-  double most = 0;
   for (int iy = 0; iy < ground.ny(); ++iy)
     for (int ix = 0; ix < ground.nx(); ++ix) {
       const Vec2 p = middle_of(ground, ix, iy);
       if (belongs_to_dig(line.at(p), line.length, dig.width) ||
           (p - dig.dump_at).norm() < spoil_radius || tracks.hold(ix, iy))
         continue;
-      most = std::max(most, std::abs(ground.height(ix, iy) - ground.start_height(ix, iy)));
+      use(ground.height(ix, iy) - ground.start_height(ix, iy));
     }
+}
+
+}  // namespace
+
+double volume_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
+                        double spoil_radius, const WheelTracks& tracks) {
+  double sum = 0;
+  visit_elsewhere(ground, dig, spoil_radius, tracks,
+                  [&](double change) { sum += std::max(0.0, change); });
+  return sum * ground.cell() * ground.cell();
+}
+
+double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
+                        double spoil_radius, const WheelTracks& tracks) {
+  double most = 0;
+  visit_elsewhere(ground, dig, spoil_radius, tracks,
+                  [&](double change) { most = std::max(most, std::abs(change)); });
   return most;
 }
 

@@ -57,4 +57,9 @@ std::vector<double> heap_slopes(const heightfield::Ground& ground, const control
 double change_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
                         double spoil_radius, const WheelTracks& tracks);
 
+/// Returns the volume [m3] by which the ground has risen outside the trench (and half a metre
+/// around it), the spoil and the tracks: soil lost on the way.
+double volume_elsewhere(const heightfield::Ground& ground, const control::Dig& dig,
+                        double spoil_radius, const WheelTracks& tracks);
+
 }  // namespace navvy::validation

@@ -34,20 +34,20 @@ TEST(SupportMargin, IsUndefinedForCollinearOrMissingSupports) {
 
 TEST(TippingLoad, IsTheMomentBalanceOverTheWeakestEdge) {
   // 2 m wide, 3 m long; 18 t, 0.4 m left of its middle.
-  const std::vector<Vec2> feet = {{0, -1}, {3, -1}, {3, 1}, {0, 1}};
+  const std::vector<Vec2> points = {{0, -1}, {3, -1}, {3, 1}, {0, 1}};
   const Vec2 centre(1.5, 0.4);
-  const TippingLoad side = tipping_load(feet, centre, 18000, Vec2(1.5, 7));
+  const TippingLoad side = tipping_load(points, centre, 18000, Vec2(1.5, 7));
   EXPECT_NEAR(side.load, 18000 * 0.6 / 6, 1e-9);
   EXPECT_TRUE(side.outward.isApprox(Vec2(0, 1)));
-  const TippingLoad front = tipping_load(feet, centre, 18000, Vec2(8, 0));
+  const TippingLoad front = tipping_load(points, centre, 18000, Vec2(8, 0));
   EXPECT_NEAR(front.load, 18000 * 1.5 / 5, 1e-9);
   EXPECT_TRUE(front.outward.isApprox(Vec2(1, 0)));
   // Over a corner it tips over the weaker edge.
-  EXPECT_NEAR(tipping_load(feet, centre, 18000, Vec2(6, 4)).load,
+  EXPECT_NEAR(tipping_load(points, centre, 18000, Vec2(6, 4)).load,
               std::min(18000 * 1.5 / 3, 18000 * 0.6 / 3), 1e-9);
   // Inside the supports no load tips it; a machine that tips by itself carries none.
-  EXPECT_EQ(tipping_load(feet, centre, 18000, Vec2(2, 0)).load, kNoTippingLoad);
-  EXPECT_EQ(tipping_load(feet, Vec2(1, 1.2), 18000, Vec2(2, 0)).load, 0);
+  EXPECT_EQ(tipping_load(points, centre, 18000, Vec2(2, 0)).load, kNoTippingLoad);
+  EXPECT_EQ(tipping_load(points, Vec2(1, 1.2), 18000, Vec2(2, 0)).load, 0);
   EXPECT_EQ(tipping_load({{0, 0}, {1, 0}}, Vec2(0.5, 0), 18000, Vec2(2, 0)).load, 0);
 }
 

@@ -6,6 +6,13 @@
 // Parallel: one work-group per near block, one node per work-item. Repeatable: sums over nodes and
 // blocks are added pairwise in a fixed order. Host: src/soil/tools/contact.cpp.
 #include "soil/contact_node.h"
+#include "soil/edge_node.h"
+
+__attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void edge_nodes(
+    EDGE_ARGS, global float4* restrict edge) {
+  const int near = get_group_id(0), me = get_local_id(0);
+  edge[near_node(near, me)] = edge_node(near, me, EDGE_SAME);
+}
 
 // Computes the sums of one tool. Out: one ContactSums per near block.
 __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void contact_sums(

@@ -9,6 +9,16 @@
 // Parallel: one work-item per near block. Repeatable: fixed order of sums. Host:
 // src/soil/tools/contact.cpp.
 #include "soil/contact_node.h"
+#include "soil/edge_node.h"
+
+// Finds the resistance of soil on the edges of plates. Out: float4 per near node: outward direction
+// of the plate, largest force of the edge [Pa cell faces].
+__attribute__((reqd_work_group_size(1, 1, 1))) kernel void edge_nodes(
+    EDGE_ARGS, global float4* restrict edge) {
+  const int near = get_global_id(0);
+  for (int n = 0; n < BLOCK_NODES; ++n)
+    edge[near_node(near, n)] = edge_node(near, n, EDGE_SAME);
+}
 
 // Computes the sums of one tool. Out: one ContactSums per near block.
 __attribute__((reqd_work_group_size(1, 1, 1))) kernel void contact_sums(

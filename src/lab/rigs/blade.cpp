@@ -120,19 +120,19 @@ void read_force(const Setup& setup, const ToolDriver& driver, double scale, cons
 
 /// Returns the height over the edge [m] of the soil at x ahead of it, averaged over the middle half
 /// of the chute. Beyond the bed's end the ground rests, `depth` over the edge.
-std::function<double(double)> profile(const Site& site, const Vec3& p_lip, const ChuteBed& bed,
+std::function<double(double)> profile(const Site& site, const Vec3& p_edge, const ChuteBed& bed,
                                       double gap, double depth) {
   const HeapSurface s =
-      surface_of(in_contact(site, site.solver().particles()), site.cell(), p_lip.z());
-  const int low = static_cast<int>((p_lip.y() + 0.25 * gap - s.origin.y()) / s.spacing),
-            high = static_cast<int>((p_lip.y() + 0.75 * gap - s.origin.y()) / s.spacing);
+      surface_of(in_contact(site, site.solver().particles()), site.cell(), p_edge.z());
+  const int low = static_cast<int>((p_edge.y() + 0.25 * gap - s.origin.y()) / s.spacing),
+            high = static_cast<int>((p_edge.y() + 0.75 * gap - s.origin.y()) / s.spacing);
   // A cell before the bed's end, where particles lean on resting ground.
-  const double end = bed.ahead - p_lip.x() - site.cell();
+  const double end = bed.ahead - p_edge.x() - site.cell();
   return [=](double x) {
-    const int ix = static_cast<int>(std::lround((p_lip.x() + x - s.origin.x()) / s.spacing));
+    const int ix = static_cast<int>(std::lround((p_edge.x() + x - s.origin.x()) / s.spacing));
     if (x > end || ix < 0 || ix >= s.nx) return depth;
     double sum = 0;
-    for (int iy = low; iy <= high; ++iy) sum += s.at(ix, iy) - p_lip.z();
+    for (int iy = low; iy <= high; ++iy) sum += s.at(ix, iy) - p_edge.z();
     return sum / (high - low + 1);
   };
 }

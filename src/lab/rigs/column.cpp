@@ -190,7 +190,7 @@ Rig column_rig() {
       "holds the lowest layer, so the floor has the soil's own friction. Tolerances apply to l0 "
       "of at least 30 cells, phi 33 and a = 1 or 5 (plane), 1 or 3 (round).";
   rig.examples = {
-      {"Negative control: nearly rigid sand must fall outside the band", "--phi-deg 59"}};
+      {"Negative control: nearly rigid sand must fall outside the band", "--phi-deg 50"}};
   rig.parameters = {
       choice("shape", "plane", "",
              {{"plane", 0, "a block between plates"}, {"round", 1, "a free cylinder"}}),

@@ -142,6 +142,17 @@ Strained strain_cube(const Setup& setup, const Vec3& rate, Report& report) {
   return out;
 }
 
+/// Reports the mobilised `angle` [rad] against the one that was given for `test`, if it was.
+void report_given(const Setup& setup, scene::FrictionTest test, double angle, bool judged,
+                  Report& report) {
+  if (setup.soil.friction_test != test) return;
+  const double given = degrees(setup.soil.tested_friction_angle);
+  report
+      .add("angle of the test that was given", degrees(angle), "deg", given, given - 1, given + 1,
+           "the given angle, converted to plane strain [docs/soil.md, friction angles]")
+      .holds_for("soil without cohesion and dilatancy, strained by 0.04 or more", judged);
+}
+
 /// Returns true if the theory of both rigs applies to this setup.
 bool plain(const Setup& setup) {
   return !(setup.soil.cohesion > 0) && !(setup.soil.dilatancy_angle > 0) &&
@@ -162,7 +173,10 @@ Report run_shear(const Setup& setup) {
            std::string("sin phi, zero dilatancy, and the static share below 0.1 /s ") + kSource)
       .holds_for("soil without cohesion and dilatancy, strained by 0.04 or more, 0.005 .. 0.6 m/s",
                  plain(setup) && speed > 0.00499 && speed < 0.6001);
+  report_given(setup, scene::FrictionTest::kDirectShear, std::atan(got.sine), plain(setup), report);
   report.note("tau over sigma / sin phi", got.sine / expected, "");
+  report.note("angle of a direct shear test", degrees(std::atan(got.sine)), "deg",
+              "atan(tau / sigma)");
   report.note("middle stress over the mean of the others",
               2 * got.last.yy / (got.last.xx + got.last.zz), "", "1 without dilatancy");
   report.note("normal stress", 0.5 * (got.last.xx + got.last.zz), "Pa");
@@ -179,6 +193,7 @@ Report run_triaxial(const Setup& setup) {
            expected - 0.2, expected + 0.2,
            std::string("[Matsuoka 1974] matched in plane strain ") + kSource)
       .holds_for("soil without cohesion and dilatancy, strained by 0.04 or more", plain(setup));
+  report_given(setup, scene::FrictionTest::kTriaxial, std::asin(got.sine), plain(setup), report);
   report.note("plane-strain angle", degrees(setup.soil.friction_angle), "deg");
   report.note("axial stress", got.last.zz, "Pa");
   report.note("stress on the sides", 0.5 * (got.last.xx + got.last.yy), "Pa");
@@ -200,7 +215,8 @@ Rig shear_rig() {
       "stays, until the strain is `strain`. tau over sigma is that of the shearing planes, (s1 - "
       "s3) / (s1 + s3) of the mean stress of the particles in the middle, over the last quarter. "
       "Forces on plates are not used.";
-  rig.examples = {{"As slow as a machine ever moves", "--speed 0.005"}};
+  rig.examples = {{"As slow as a machine ever moves", "--speed 0.005"},
+                  {"A sand of 35 deg in direct shear", "--direct-shear-deg 35"}};
   rig.parameters = {{"edge", 8, "cells", "of the cube", above(0)},
                     {"pressure-pa", 10000, "Pa", "at the start", above(0)},
                     {"speed", 0.05, "m/s", "of the plates", above(0)},
@@ -220,7 +236,8 @@ Rig triaxial_rig() {
       "opposite direction, so that its volume is constant. The angle is that of the largest and "
       "least mean stress of the particles in the middle, over the last quarter. Sand has 2 to 4 "
       "degrees less than its plane-strain angle here, in compression and in extension.";
-  rig.examples = {{"Extension", "--path extension"}};
+  rig.examples = {{"Extension", "--path extension"},
+                  {"A sand of 35 deg in triaxial compression", "--triaxial-deg 35"}};
   rig.parameters = {choice("path", "compression", "",
                            {{"compression", 0, "the axis is compressed, the sides extend"},
                             {"extension", 1, "the axis extends, the sides are compressed"}}),

@@ -55,6 +55,9 @@ Rig footing_rig();
 /// Returns the description of the rig `plate`, which simulates a plate that is pressed into the
 /// ground.
 Rig plate_rig();
+/// Returns the description of the rig `tip`, which simulates a thin plate that is pushed edge first
+/// into the ground and held.
+Rig tip_rig();
 /// Returns the description of the rig `wheel`, which simulates one wheel at a prescribed slip.
 Rig wheel_rig();
 /// Returns the description of the rig `cut`, which simulates vertical cuts of several heights in

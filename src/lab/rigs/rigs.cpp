@@ -35,6 +35,7 @@ const std::vector<Rig>& rigs() {
       wall_rig(),
       footing_rig(),
       plate_rig(),
+      tip_rig(),
       wheel_rig(),
       cut_rig(),
       shear_box_rig(),

@@ -83,7 +83,7 @@ Report run(const Setup& setup) {
   Report report;
   // Without a tolerance: the value includes the effects of rim and lid.
   report.add("tau over sigma, large strain", ratio, "", std::sin(setup.soil.friction_angle), kNone,
-             kNone, "sin phi, zero dilatancy; rig `shear` has the gate");
+             kNone, "sin phi, zero dilatancy; rig `shear` has the tolerance");
   const double peak = peak_ratio(trace, travel, normal);
   report.add("tau over sigma, peak", peak, "", std::tan(setup.soil.friction_angle), kNone, kNone,
              "the peak may approach tan phi");

@@ -15,6 +15,7 @@
 #include "lab/rigs/rig_list.h"
 #include "lab/soils.h"
 #include "lab/tool_driver.h"
+#include "scene/soil_values.h"
 #include "terramechanics/rigid_wheel.h"
 
 namespace navvy::lab {
@@ -42,15 +43,27 @@ WheelCase wheel_of(const Setup& setup) {
   return wheel;
 }
 
-/// Returns dry sand of a single-wheel test bed [docs/validation.md, Wheels]: its plate curve is
-/// 1734 kPa (z / m)^1.34; 20 degrees of friction on the rim are an estimate.
+/// Returns dry sand of a single-wheel test bed [docs/validation.md, Wheels]: its angle of 29
+/// degrees is one of repose, its plate curve is 1734 kPa (z / m)^1.34; 20 degrees of friction on
+/// the rim are an estimate.
 scene::Soil wheel_bed_sand() {
-  scene::Soil soil = clean_sand(29);
+  scene::Soil soil = clean_sand(0);
+  set_friction(soil, scene::FrictionTest::kRepose, radians(29));
+  scene::follow_friction_test(soil);
   soil.bank_density = 13000 / kGravity;
   soil.tool_friction_angle = radians(20);
   // For the plate curve: used by the formula beside the rig, not by the particles.
   soil.bekker_kc = 0, soil.bekker_kphi = 1734000, soil.bekker_n = 1.34;
   soil.janosi_k = 0.021;
+  return soil;
+}
+
+/// Returns the soil as the wheel law reads it: Janosi's friction angle is that of a shear plate, a
+/// direct shear test [docs/soil.md, friction angles].
+scene::Soil law_soil(const Setup& setup) {
+  scene::Soil soil = setup.soil;
+  soil.friction_angle = scene::angle_in_test(scene::FrictionTest::kDirectShear, soil.friction_angle,
+                                             soil.dilatancy_angle);
   return soil;
 }
 
@@ -81,7 +94,7 @@ void check_wheel(const Setup& setup) {
 /// Reports the wheel law by itself.
 Report law_alone(const Setup& setup) {
   const WheelCase wheel = wheel_of(setup);
-  const WheelForce law = rigid_wheel(wheel, setup.soil);
+  const WheelForce law = rigid_wheel(wheel, law_soil(setup));
   const auto value = [&law](double number) { return law.carried ? number : kNone; };
   const std::string source = law.carried ? kLawSource : kNotCarried;
   Report report;
@@ -241,7 +254,7 @@ Report run(const Setup& setup) {
   const Steady mean =
       steady_part(trace, carriage.height(), start + travel_time * setup["from"] / setup["travel"]);
   // A soil too soft for the law has no expected values; the report says so.
-  const WheelForce law = rigid_wheel(wheel, setup.soil);
+  const WheelForce law = rigid_wheel(wheel, law_soil(setup));
   const std::string source = law.carried ? kLawSource : kNotCarried;
   const auto expected = [&law](double value) { return law.carried ? value : kNone; };
   Report report;

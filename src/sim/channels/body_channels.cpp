@@ -76,7 +76,7 @@ void add_stability_channels(const MachineChannels& out) {
                   [machine] { return machine.stability().tilt; });
   out.outputs.add({base + "margin", "m",
                    "distance of the centre of mass, without soil, inside the nearest edge of its "
-                   "feet; negative outside"},
+                   "support polygon; negative outside"},
                   [machine] { return machine.stability().margin; });
   if (machine.description().joint_index(machine.description().arm.bucket) < 0) return;
   out.outputs.add({base + "tipping_load", "kg",

@@ -13,6 +13,9 @@ void add_forces(const ToolHandle& tool, const std::string& base, bool rock, Outp
         {base + "force_" + axis, "N",
          "force of the soil on the tool, mean over the last completed transfer, world axes"},
         [tool, i] { return tool.force()[i]; });
+    outputs.add({base + "edge_force_" + axis, "N",
+                 "part of that force on the edges of the tool's plates and on its teeth"},
+                [tool, i] { return tool.edge_force()[i]; });
     outputs.add(
         {base + "moment_" + axis, "N m",
          "moment of the soil on the tool about the link's origin, the same mean, world axes"},

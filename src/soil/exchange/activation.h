@@ -49,15 +49,16 @@ class Activator {
     std::uint16_t soil;
     /// Mass [kMassQuantum].
     std::int64_t mass;
-    /// `bottom`: height of the slice's bottom above the cut [m]. `thickness`: thickness of the
-    /// slice [m].
+    /// `bottom`: height of the slice's bottom above the lowest soil that is activated [m].
+    /// `thickness`: thickness of the slice [m].
     double bottom, thickness;
     /// `specific_volume`: volume / bank volume of the soil. `shear`: plastic shear strain of the
     /// soil.
     float specific_volume, shear;
   };
   /// Divides the layers [first, last) of `taken_`, which must be of one soil, into slices and
-  /// appends them to `slices_`. `bottom`: height of the first layer's bottom above the cut [m].
+  /// appends them to `slices_`. `bottom`: height of the bottom of layer `first` above the lowest
+  /// soil that is activated [m].
   void slice(std::size_t first, std::size_t last, double bottom);
   /// Sets stress and volume ratio of a particle of the slice so that it is in equilibrium under the
   /// vertical stress `weight` [Pa].

@@ -51,7 +51,7 @@ class ShapeFinder {
 
   /// Columns of the site.
   const heightfield::Ground& ground_;
-  /// Active particles.
+  /// Active particles of the soil, sorted by the column that they are over.
   const ColumnIndex& index_;
   /// Heights of the current block's columns with a margin of one column, 6 x 6, x fastest
   /// [cells above datum].

@@ -26,9 +26,10 @@ class ParticleToGrid {
 
   /// Allocates memory for this number of particle blocks and tiles.
   void set_blocks(std::size_t particle_blocks, int tiles);
-  /// Queues soil law and scatter of a step of dt [s]; `cell`: edge of a cell [m]. With `hold`
-  /// (every step of a transfer except the first) only the impulse of the stresses is scattered,
-  /// because the nodes still have their momentum. Writes Report.broken of every particle block.
+  /// Queues the stress update and the scatter for a step of dt [s]; `cell`: edge of a cell [m].
+  /// With `hold` (every step of a transfer except the first) only the impulse of the stresses is
+  /// scattered, because the nodes still have their momentum. Writes Report.broken of every particle
+  /// block.
   void enqueue(ParticleStore& store, device::Buffer<Report>& report, double dt, double cell,
                bool hold);
 
@@ -44,7 +45,8 @@ class ParticleToGrid {
   SchemeConstants scheme_;
   /// Compiled program of the kernel.
   device::KernelProgram program_;
-  /// Kernel of law and scatter.
+  /// Kernel that updates the stress of each particle by the soil law and scatters its mass and
+  /// momentum.
   device::Kernel kernel_;
   /// TILE_NODES x 4 floats per tile: momentum [kg m/s] and mass [kg].
   device::Buffer<float> tiles_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/friction.h"
 #include "scene/soil_values.h"
 
 namespace navvy::soil {
@@ -15,17 +16,6 @@ namespace {
 constexpr double kNeverCompacts = 1e30;
 /// Density of quartz, for the inertial number [kg/m3].
 constexpr double kGrainDensity = 2650;
-
-/// Returns the radius of the yield surface / that of s_zz = 0, in plane strain of soil that dilates
-/// by b. There s_zz = -2/3 b q, and the yield surface of law.h would be narrower by this factor
-/// [docs/soil.md, dilatancy].
-double radius_of_dilating(double sin_phi, double b) {
-  const double a = 0.5 * sin_phi * (3 - sin_phi * sin_phi) * -(2 * b / 3) * (1 - 4 * b * b / 9);
-  double r = 1;
-  for (int newton = 0; newton < 10; ++newton)
-    r -= ((a * r - 1) * r * r + 1) / ((3 * a * r - 2) * r);
-  return r;
-}
 
 }  // namespace
 
@@ -61,12 +51,8 @@ LawConstants law_constants(const scene::Soil& soil, double cell, const SchemeCon
   k.loosening = (soil.swell - 1) / soil.loosening_strain;
   // In plane strain without elastic strain: volume strain / largest shear strain = sin psi, and
   // Mohr-Coulomb's radius for phi [docs/soil.md, dilatancy].
-  const double sin_psi = std::sin(soil.dilatancy_angle),
-               b = sin_psi / std::sqrt(1 + sin_psi * sin_psi / 3);
-  k.dilatancy = soil.swell > 1 ? b : 0;
-  const double cone =
-      1 / (std::sqrt(1 - k.dilatancy * k.dilatancy / 3) + k.dilatancy * k.alpha / 3);
-  k.matched = cone / radius_of_dilating(k.alpha, k.dilatancy) - 1;
+  k.dilatancy = soil.swell > 1 ? scene::dilatancy_ratio(soil.dilatancy_angle) : 0;
+  k.matched = scene::dilatant_match(k.alpha, k.dilatancy);
   k.alpha_fast = std::max(0.0, std::sin(soil.fast_friction_angle) - k.alpha);
   k.grain = soil.grain_diameter * std::sqrt(kGrainDensity);
   k.inertial = soil.inertial_number;

@@ -26,8 +26,11 @@ Contact::Contact(device::Device& device, double cell, const Vec3& origin_W, cons
       origin_(origin_W),
       down_(gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(Vec3::Zero())),
       scheme_(scheme),
+      weight_(-gravity.z()),
       shells_(device, scheme),
+      edges_(device, cell, scheme),
       contact_program_(device, kernel_path(device, "contact"), scheme_options(scheme)),
+      edges_kernel_(contact_program_, "edge_nodes"),
       sums_kernel_(contact_program_, "contact_sums"),
       twist_kernel_(contact_program_, "contact_twist"),
       apply_kernel_(contact_program_, "contact_apply") {}
@@ -41,6 +44,7 @@ int Contact::add_tool(const scene::Shell& shell) {
         tools_.back().first_triangle + static_cast<int>(tools_.back().geometry->triangles().size());
   // Adhesion acts per area of the shell, but the kernels sum over nodes.
   tool.area_factor = plate_area_factor(*tool.geometry, cell_, scheme_);
+  edges_.add_tool(*tool.geometry);
   tools_.push_back(std::move(tool));
   return static_cast<int>(tools_.size()) - 1;
 }
@@ -49,13 +53,26 @@ template <class... Tail>
 void Contact::launch(device::Kernel& kernel, Transfer& transfer, int only, const Tail&... tail) {
   kernel
       .args(nodes_.list, transfer.active_keys(), nodes_.before0, nodes_.before1, nodes_.split,
-            shells_.node_tool(), shells_.node_shell(), nodes_.surface, shells_.tools(), only,
-            reach_, static_cast<float>(cell_), tail...)
+            shells_.node_tool(), shells_.node_shell(), nodes_.surface, edges_.force(),
+            shells_.tools(), only, reach_, static_cast<float>(cell_), tail...)
       .enqueue_groups(static_cast<std::size_t>(nodes_.count));
 }
 
-void Contact::solve(Transfer& transfer, double dt) {
+void Contact::find_edges(ParticleStore& store, Transfer& transfer) {
+  if (!edges_.any()) return;
+  edges_.enqueue(store);
+  edges_kernel_
+      .args(nodes_.before0, nodes_.before1, transfer.velocity(), nodes_.split, shells_.node_tool(),
+            nodes_.surface, shells_.tools(), edges_.nodes(), edges_.profiles(),
+            edges_.above_first(), edges_.above(), nodes_.slot, edges_.around(), edges_.strength(),
+            static_cast<float>(weight_ / (cell_ * cell_)), static_cast<float>(cell_),
+            edges_.force())
+      .enqueue_groups(static_cast<std::size_t>(nodes_.count));
+}
+
+void Contact::solve(ParticleStore& store, Transfer& transfer, double dt) {
   if (nodes_.count == 0) return;
+  find_edges(store, transfer);
   // Speeds of the scheme are in units of sqrt(g h), so that they scale with the cell.
   reach_ = {static_cast<float>(scheme_.contact_reach),
             static_cast<float>(scheme_.contact_ramp),
@@ -65,6 +82,7 @@ void Contact::solve(Transfer& transfer, double dt) {
             static_cast<float>(scheme_.contact_opening * std::sqrt(kGravity * cell_)),
             static_cast<float>(scheme_.contact_settling * std::sqrt(kGravity * cell_)),
             static_cast<float>(scheme_.contact_falling * std::sqrt(kGravity * cell_)),
+            static_cast<float>(scheme_.edge_slow * std::sqrt(kGravity * cell_)),
             static_cast<float>(down_.x()),
             static_cast<float>(down_.y()),
             static_cast<float>(down_.z())};
@@ -89,8 +107,10 @@ struct Momentum {
        after_moment = Vec3::Zero();
 };
 
-/// Adds one field of a node; r = lever arm from the tool's origin [m].
-void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Momentum& sum) {
+/// Adds one field of a node; r = lever arm from the tool's origin [m]; edge: it is ahead of an
+/// edge.
+void add_record(const ContactRecord& record, const Vec3& r, bool edge, ToolImpulse& out,
+                Momentum& sum) {
   const Vec3 before(record.before[0], record.before[1], record.before[2]);
   const Vec3 after(record.after[0], record.after[1], record.after[2]);
   const auto mass = static_cast<double>(record.mass), push = static_cast<double>(record.push);
@@ -98,6 +118,10 @@ void add_record(const ContactRecord& record, const Vec3& r, ToolImpulse& out, Mo
   const Vec3 J = mass * (after - before), L = r.cross(J);
   out.J_W -= J;
   out.L_W -= L;
+  if (edge) {
+    out.J_edge_W -= J;
+    out.L_edge_W -= L;
+  }
   out.scale += J.norm();
   out.scale_moment += L.norm();
   out.normal += push;
@@ -116,6 +140,7 @@ void Contact::queue_read() {
   const auto blocks = static_cast<std::size_t>(nodes_.count);
   results_.emplace(Results{touched_.map_read_later(0, blocks),
                            shells_.node_tool().map_read_later(0, blocks * BLOCK_NODES),
+                           nodes_.split.map_read_later(0, blocks * BLOCK_NODES),
                            records_.map_read_later(0, 2 * blocks * BLOCK_NODES)});
 }
 
@@ -130,7 +155,7 @@ void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
   for (std::size_t m = 0; m < motions_.size(); ++m)
     motion_of[static_cast<std::size_t>(motions_[m].tool)] = static_cast<int>(m);
   std::vector<Momentum> momentum(motions_.size());
-  const auto& [touched, tool_of, records] = read;
+  const auto& [touched, tool_of, split, records] = read;
   if (std::none_of(touched.begin(), touched.end(), [](std::int32_t t) { return t != 0; })) return;
 
   for (std::size_t near = 0; near < blocks; ++near) {
@@ -148,7 +173,8 @@ void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
         const Vec3 grid(kBlockCells * key.x + static_cast<int>(n & 3),
                         kBlockCells * key.y + static_cast<int>((n >> 2) & 3),
                         kBlockCells * key.z + static_cast<int>(n >> 4));
-        add_record(record, grid * cell_ + origin_ - impulses[m].p_W, impulses[m], momentum[m]);
+        add_record(record, grid * cell_ + origin_ - impulses[m].p_W, at_edge(split[i]), impulses[m],
+                   momentum[m]);
       }
     }
   }
@@ -164,14 +190,17 @@ void Contact::add_impulses(double dt, std::span<ToolImpulse> impulses) {
   for (std::size_t m = 0; m < motions_.size(); ++m) {
     Registered& tool = tools_[static_cast<std::size_t>(motions_[m].tool)];
     tool.J_W += impulses[m].J_W;
+    tool.J_edge_W += impulses[m].J_edge_W;
     tool.L_W += impulses[m].L_W;
     tool.summed_time += dt;
     // In the first transfer of a contact there is no earlier mean, so the running mean is reported.
     if (!tool.has_mean) {
       tool.force_W = tool.J_W / tool.summed_time;
       tool.moment_W = tool.L_W / tool.summed_time;
+      tool.edge_force_W = tool.J_edge_W / tool.summed_time;
     }
     impulses[m].force_W = tool.force_W;
+    impulses[m].edge_force_W = tool.edge_force_W;
     impulses[m].moment_W = tool.moment_W;
   }
 }
@@ -183,7 +212,8 @@ void Contact::end_transfer() {
     tool.has_mean = tool.summed_time > 0;
     tool.force_W = tool.has_mean ? Vec3(tool.J_W / tool.summed_time) : Vec3(Vec3::Zero());
     tool.moment_W = tool.has_mean ? Vec3(tool.L_W / tool.summed_time) : Vec3(Vec3::Zero());
-    tool.J_W = tool.L_W = Vec3::Zero();
+    tool.edge_force_W = tool.has_mean ? Vec3(tool.J_edge_W / tool.summed_time) : Vec3(Vec3::Zero());
+    tool.J_W = tool.L_W = tool.J_edge_W = Vec3::Zero();
     tool.summed_time = 0;
   }
 }

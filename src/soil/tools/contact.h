@@ -13,6 +13,7 @@
 #include "device/kernel_program.h"
 #include "soil/particles/particle_store.h"
 #include "soil/particles/transfer.h"
+#include "soil/tools/edge.h"
 #include "soil/tools/marks.h"
 #include "soil/tools/shell.h"
 #include "soil/tools/shell_geometry.h"
@@ -91,14 +92,18 @@ class Contact {
   /// Returns one flag per near block: not 0 if contact changed a node of the block in the last
   /// step.
   const device::Buffer<std::int32_t>& touched() const { return touched_; }
+  /// Returns true if a record of a near node whose NearNodes::split is `split` is that of an edge:
+  /// nodes with one velocity field have no contact with faces.
+  static bool at_edge(std::int32_t split) { return split == 0; }
 
   /// Queues the kernels that find signed distances of near nodes and sides of particles, and that
   /// push particles out of plates. Push distances and crossings are added to the transfer's report.
   void classify(ParticleStore& store, Transfer& transfer);
-  /// Queues the solve for the motion of tools that are not scripted, and then the contact impulses
-  /// on the nodes in a step of dt [s]. The impulse on a tool is minus the momentum change of its
+  /// Queues the kernels that find the resistance of the soil on the edges of plates, the solve for
+  /// the motion of tools that are not scripted, and then the contact impulses on the nodes in a
+  /// step of dt [s]. The impulse on a tool is minus the momentum change of its
   /// nodes, exact up to rounding; the tests Momentum.* check that the machine receives it.
-  void solve(Transfer& transfer, double dt);
+  void solve(ParticleStore& store, Transfer& transfer, double dt);
   /// Queues the transfer of the contact records to the host; does not wait.
   void queue_read();
   /// Adds the contact records of the last step to the impulses on the tools. Before the call, the
@@ -111,6 +116,10 @@ class Contact {
   void add_impulses(double dt, std::span<ToolImpulse> impulses);
   /// Returns the mean force on tool `tool` that was last reported, in W [N].
   const Vec3& force(int tool) const { return tools_[static_cast<std::size_t>(tool)].force_W; }
+  /// Returns the part of force(tool) that acts on the edges of plates, in W [N].
+  const Vec3& edge_force(int tool) const {
+    return tools_[static_cast<std::size_t>(tool)].edge_force_W;
+  }
   /// Returns the mean moment on tool `tool` that was last reported, about the origin of the tool's
   /// frame, axes of W [N m].
   const Vec3& moment(int tool) const { return tools_[static_cast<std::size_t>(tool)].moment_W; }
@@ -129,8 +138,8 @@ class Contact {
   /// Contact results of a step, mapped for the host.
   struct Results {
     /// `touched`: one flag per near block. `tool_of`: tool index of each near node, -1 if no tool
-    /// is near.
-    device::Mapped<const std::int32_t> touched, tool_of;
+    /// is near. `split`: NearNodes::split.
+    device::Mapped<const std::int32_t> touched, tool_of, split;
     /// Two records per near node: front field, back field.
     device::Mapped<const ContactRecord> records;
   };
@@ -157,13 +166,17 @@ class Contact {
     /// Sums over the current transfer: impulse J_W [N s] and angular impulse L_W about the tool's
     /// origin [N m s].
     Vec3 J_W = Vec3::Zero(), L_W = Vec3::Zero();
-    /// Time over which J_W and L_W were summed [s].
+    /// Part of J_W that acted on edges [N s].
+    Vec3 J_edge_W = Vec3::Zero();
+    /// Time over which they were summed [s].
     double summed_time = 0;
     /// True if force_W and moment_W are means over a complete previous transfer.
     bool has_mean = false;
     /// Reported mean force [N] and moment [N m]: means over the previous transfer or, before there
     /// is one, over the steps so far.
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
+    /// Part of force_W that acts on edges [N].
+    Vec3 edge_force_W = Vec3::Zero();
     /// Visits poses, sums and means of the tool.
     void visit(Archive& a);
   };
@@ -177,6 +190,10 @@ class Contact {
   /// Marks the triangles near each block: `nodes` has one row per active block, `particle_blocks`
   /// one row per particle block; columns are triangle indices.
   void find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const;
+  /// Queues the kernels that find the resistance of edges at the near nodes.
+  void find_edges(ParticleStore& store, Transfer& transfer);
+  /// Distributes the edges of the tools among the near nodes.
+  void place_edges();
   /// Uploads the triangles, free edges and tools of this step.
   void upload_tools();
   /// Returns tool `index` in the form that the kernels read, with the tool's current twist.
@@ -200,13 +217,18 @@ class Contact {
   std::vector<Registered> tools_;
   /// Motions of the current step.
   std::vector<ToolMotion> motions_;
+  /// Downward component of gravity [m/s2]; negative for an upward one.
+  double weight_;
   /// Kernels that find node and particle sides.
   ShellQuery shells_;
+  /// Edges of the tools and the soil around them.
+  Edges edges_;
   /// Compiled program of the contact kernels.
   device::KernelProgram contact_program_;
-  /// Contact kernels: sums_kernel_ sums impulses and stiffness over nodes, twist_kernel_ updates
-  /// the twist of a tool, apply_kernel_ applies the impulses.
-  device::Kernel sums_kernel_, twist_kernel_, apply_kernel_;
+  /// Contact kernels: edges_kernel_ finds the resistance of edges, sums_kernel_ sums impulses and
+  /// stiffness over nodes, twist_kernel_ updates the twist of a tool, apply_kernel_ applies the
+  /// impulses.
+  device::Kernel edges_kernel_, sums_kernel_, twist_kernel_, apply_kernel_;
   /// One flag per particle block: 1 if near a shell.
   std::vector<std::uint8_t> near_particle_blocks_;
   /// One entry per active block: its index in the near arrays, or -1.

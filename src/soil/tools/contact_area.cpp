@@ -48,6 +48,7 @@ double plate_area_factor(const ShellGeometry& geometry, double cell,
                            0,
                            0,
                            0,
+                           0,
                            0};
   double whole = 0, stood_for = 0;
   for (const ShellGeometry::Triangle& triangle : geometry.triangles())

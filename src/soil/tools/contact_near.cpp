@@ -105,6 +105,7 @@ void Contact::resume(Transfer& transfer) {
   }
   if (nodes_.count == 0) return;
   upload_tools();
+  place_edges();
   shells_.enqueue_nodes(transfer, nodes_, scheme_.contact_band);
   // The next step may replace the uploaded data.
   device_.finish();
@@ -129,7 +130,10 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
     }
     list_near(table);
   }
-  if (nodes_.count > 0) upload_tools();
+  if (nodes_.count > 0) {
+    upload_tools();
+    place_edges();
+  }
   return again;
 }
 
@@ -206,6 +210,7 @@ void Contact::list_near(const BlockTable& table) {
   upload(device_, nodes_.list, near_list);
   upload(device_, nodes_.slot, near_slot_);
   shells_.set_near(node_candidates, particle_candidates, near_particle_blocks);
+  edges_.set_near(table, near_list);
   const std::size_t nodes = near_list.size() * BLOCK_NODES;
   ensure(device_, nodes_.split, nodes);
   ensure(device_, nodes_.before0, 4 * nodes);
@@ -283,6 +288,15 @@ void Contact::upload_tools() {
   shells_.set_tools(std::move(shells));
 }
 
+void Contact::place_edges() {
+  std::vector<Edges::Placed> placed;
+  for (std::size_t t = 0; t < tools_.size(); ++t)
+    if (tools_[t].present)
+      placed.push_back(
+          {static_cast<int>(t), to_grid(tools_[t].X.translation()), tools_[t].X.linear()});
+  edges_.place(placed);
+}
+
 void Contact::classify(ParticleStore& store, Transfer& transfer) {
   if (nodes_.count == 0) return;
   shells_.enqueue(store, transfer, nodes_, scheme_.contact_band, scheme_.contact_max_push);
@@ -296,10 +310,12 @@ void Contact::Registered::visit(Archive& a) {
   a("X", X);
   a("J_W", J_W);
   a("L_W", L_W);
+  a("J_edge_W", J_edge_W);
   a("felt_for", summed_time);
   a("has_mean", has_mean);
   a("force_W", force_W);
   a("moment_W", moment_W);
+  a("edge_force_W", edge_force_W);
   a.require(std::isfinite(summed_time) && summed_time >= 0, "felt_for",
             "must be finite and not negative");
   a.require(std::max(X_listed.translation().norm(), X.translation().norm()) < limits::kFarthest,

@@ -12,8 +12,8 @@ namespace {
 
 /// A tool stands while no corner of its shell is faster [m/s], for this long [s].
 constexpr double kStill = 1e-3, kStillTime = 0.8;
-/// Highest foot above the lowest, along the ground's normal [cells]. Higher vertices stand on other
-/// ground.
+/// Highest contact vertex above the lowest, along the ground's normal [cells]. Higher vertices
+/// stand on other ground.
 constexpr double kLevel = 0.25;
 /// The same on a slope, where the lower edge carries more load and sinks deeper; no more than
 /// contact reaches.
@@ -29,9 +29,9 @@ constexpr double kLoadTime = 0.1;
 constexpr double kPressOut = 0.1;
 /// Fastest correction [m/s].
 constexpr double kSlowly = 0.01;
-/// Iterations over the rows, eight feet at most.
+/// Iterations over the rows, of eight vertices at most.
 constexpr int kSweeps = 60;
-/// Share of the soil's wrench that the feet need not exert.
+/// Share of the soil's wrench that the contact need not exert.
 constexpr double kUncarried = 0.01;
 
 struct Row {
@@ -59,8 +59,8 @@ void solve(Row& row, Vec6& twist, double wanted, double low, double high) {
   row.impulse = next;
 }
 
-/// Returns the impulse (moment about the tool's origin, impulse) of feet at `arms` [m] that rise
-/// along `up` by at least `rise` [m/s] each. Updates `twist`.
+/// Returns the impulse (moment about the tool's origin, impulse) of contact vertices at `arms` [m]
+/// that rise along `up` by at least `rise` [m/s] each. Updates `twist`.
 Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const Vec3& up,
            const Mat6& inverse_mass, double friction, Vec6& twist) {
   const std::array<Vec3, 2> along = along_ground(up);
@@ -76,8 +76,8 @@ Vec6 stand(const std::vector<Vec3>& arms, const std::vector<double>& rise, const
       for (const std::size_t side : {1U, 2U}) solve(rows[i][side], twist, 0, -bound, bound);
     }
   Vec6 out = Vec6::Zero();
-  for (const auto& foot : rows)
-    for (const Row& row : foot) out += row.impulse * row.direction;
+  for (const auto& vertex : rows)
+    for (const Row& row : vertex) out += row.impulse * row.direction;
   return out;
 }
 
@@ -96,10 +96,10 @@ double farthest(const scene::Shell& shell, const Pose& X, const Pose& other) {
   return out;
 }
 
-std::vector<Vec3> arms_of(const std::vector<Vec3>& feet, const Pose& X_WT) {
+std::vector<Vec3> arms_of(const std::vector<Vec3>& vertices, const Pose& X_WT) {
   std::vector<Vec3> out;
-  out.reserve(feet.size());
-  for (const Vec3& foot : feet) out.push_back(X_WT.linear() * foot);
+  out.reserve(vertices.size());
+  for (const Vec3& vertex : vertices) out.push_back(X_WT.linear() * vertex);
   return out;
 }
 
@@ -112,7 +112,8 @@ std::array<Vec3, 2> along_ground(const Vec3& up) {
   return {across.cross(up), across};
 }
 
-std::vector<Vec3> feet(const scene::Shell& shell, const Pose& X_WT, double cell, const Vec3& up) {
+std::vector<Vec3> contact_vertices(const scene::Shell& shell, const Pose& X_WT, double cell,
+                                   const Vec3& up) {
   const std::array<Vec3, 2> along = along_ground(up);
   double lowest = HUGE_VAL;
   for (const Vec3& v : shell.vertices) lowest = std::min(lowest, up.dot(X_WT * v));
@@ -152,12 +153,13 @@ bool RestingContact::has_settled(const scene::Shell& shell, const ToolMotion& mo
 
 void RestingContact::start(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
                            const Vec3& moment, double tangent, double cell, const Vec3& normal) {
-  // Motion of the tool without the soil, which the feet must stop.
+  // Motion of the tool without the soil, which the contact must stop.
   Vec6 wrench;
   wrench << moment, force;
   const Vec6 free = -(motion.inverse_mass * wrench);
   Vec6 twist = free;
-  const std::vector<Vec3> arms = arms_of(feet(shell, motion.X_WT, cell, normal), motion.X_WT);
+  const std::vector<Vec3> arms =
+      arms_of(contact_vertices(shell, motion.X_WT, cell, normal), motion.X_WT);
   stand(arms, std::vector<double>(arms.size(), 0.0), normal, motion.inverse_mass, tangent, twist);
   if (!(fastest(shell, motion.X_WT, twist) < kUncarried * fastest(shell, motion.X_WT, free)))
     return;
@@ -180,12 +182,12 @@ bool RestingContact::apply(const scene::Shell& shell, const ToolMotion& motion, 
   got << impulse.L_W, impulse.J_W;
   twist << motion.w_WT, motion.v_WT;
   twist += motion.inverse_mass * got;
-  const std::vector<Vec3> standing = feet(shell, X_WT, cell, up);
+  const std::vector<Vec3> standing = contact_vertices(shell, X_WT, cell, up);
   std::vector<double> rise;
-  for (const Vec3& foot : standing) {
-    // A foot above its place may come down to it, and no farther. One that sank by rounding is
+  for (const Vec3& vertex : standing) {
+    // A vertex above its place may come down to it, and no farther. One that sank by rounding is
     // pushed out slowly.
-    const double above = up.dot(motion.X_WT * foot) - up.dot(X_WT * foot);
+    const double above = up.dot(motion.X_WT * vertex) - up.dot(X_WT * vertex);
     rise.push_back(above > 0 ? -above / dt : std::min(-kPressOut * above / dt, kSlowly));
   }
   const Vec6 given =

@@ -16,7 +16,7 @@ class Archive;
 
 namespace navvy::soil {
 
-/// Rigid contact at the feet of a tool: the vertices that it stands on. It replaces the force of
+/// Rigid contact at the vertices on which a tool stands. It replaces the force of
 /// the soil once the ground has carried the tool for a while, and lasts until the tool moves or is
 /// loaded much more than at the start [docs/tools.md, resting contact].
 ///
@@ -44,10 +44,10 @@ struct RestingContact {
   /// since the last call; `force`: force of the soil on the tool [N].
   bool has_settled(const scene::Shell& shell, const ToolMotion& motion, double seconds,
                    const Vec3& force);
-  /// Starts the contact if rigid feet can exert the current force and moment of the soil on the
-  /// tool; otherwise nothing changes. `force` [N]; `moment` about the tool's origin [N m];
-  /// `tangent`: friction coefficient; `cell`: edge of a cell [m]; `normal`: unit normal of the
-  /// ground below.
+  /// Starts the contact if rigid contact at the tool's lowest vertices can exert the current force
+  /// and moment of the soil on the tool; otherwise nothing changes. `force` [N]; `moment` about the
+  /// tool's origin [N m]; `tangent`: friction coefficient; `cell`: edge of a cell [m]; `normal`:
+  /// unit normal of the ground below.
   void start(const scene::Shell& shell, const ToolMotion& motion, const Vec3& force,
              const Vec3& moment, double tangent, double cell, const Vec3& normal);
   /// Adds the impulse of the contact in a step of dt [s] to `impulse`, which must already contain
@@ -69,7 +69,8 @@ std::array<Vec3, 2> along_ground(const Vec3& up);
 /// Returns the vertices that a tool stands on, in the tool's frame [m]: among the lowest vertices
 /// along `up` those that are farthest in eight directions along the ground. `cell`: edge of a cell
 /// [m].
-std::vector<Vec3> feet(const scene::Shell& shell, const Pose& X_WT, double cell, const Vec3& up);
+std::vector<Vec3> contact_vertices(const scene::Shell& shell, const Pose& X_WT, double cell,
+                                   const Vec3& up);
 
 /// Returns the unit normal of ground with gradient (dz/dx, dz/dy) under a tool of horizontal length
 /// `across` [m]. Ground that rises by less than a quarter of a cell over that length counts as

@@ -81,7 +81,7 @@ class ShellQuery {
   device::Kernel nodes_kernel_, particles_kernel_;
   /// Uploaded tools. Uploads do not wait, so the device may still be reading this memory.
   ToolShells now_;
-  /// Number of near particle blocks.
+  /// Number of near particle blocks: those that a tool's shell may touch in this transfer.
   std::size_t near_particle_blocks_ = 0;
   /// Triangles of all tools, written by the host.
   device::Buffer<ShellTriangle> triangles_;

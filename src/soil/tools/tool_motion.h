@@ -43,6 +43,10 @@ struct ToolImpulse {
   /// display and sensors. The impulses of single steps vary like a saw-tooth within a transfer
   /// [docs/tools.md, force].
   Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
+  /// Parts of J_W and L_W that act on the edges of plates; the rest acts on faces.
+  Vec3 J_edge_W = Vec3::Zero(), L_edge_W = Vec3::Zero();
+  /// Part of force_W that acts on the edges of plates [N].
+  Vec3 edge_force_W = Vec3::Zero();
   /// Sum of the magnitudes of the normal impulses at all nodes [N s].
   double normal = 0;
   /// Sum of the magnitudes of the tangential impulses at all nodes [N s].

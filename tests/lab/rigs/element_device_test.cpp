@@ -5,6 +5,8 @@
 
 #include "core/math.h"
 #include "lab/run_rig.h"
+#include "lab/soils.h"
+#include "scene/soil_values.h"
 
 namespace navvy::lab {
 namespace {
@@ -14,6 +16,26 @@ TEST(LabShear, SampleMobilisesTheSineOfItsFriction) {
   // A smaller cube whose plates are closer: 3 % where the rig's own size has 1 %.
   EXPECT_NEAR(measured(report, "tau over sigma / sin phi"), 1, 0.03);
   EXPECT_EQ(report.ledger_error, 0);
+}
+
+/// Runs a rig of its own size in sand whose friction angle `test` measured as 35 deg. The rig has
+/// the tolerance, 1 deg.
+void expect_given_angle(const char* rig, scene::FrictionTest test) {
+  const Report report = run_rig(rig, {}, [test](lab::Setup& s) {
+    set_friction(s.soil, test, radians(35));
+    ASSERT_FALSE(scene::follow_friction_test(s.soil));
+  });
+  EXPECT_EQ(outside_tolerance(report), "");
+  EXPECT_TRUE(report.find("angle of the test that was given")->judged());
+  EXPECT_NEAR(measured(report, "angle of the test that was given"), 35, 1);
+}
+
+TEST(LabShear, ReturnsTheAngleOfADirectShearTest) {
+  expect_given_angle("shear", scene::FrictionTest::kDirectShear);
+}
+
+TEST(LabTriaxial, ReturnsTheAngleOfATriaxialTest) {
+  expect_given_angle("triaxial", scene::FrictionTest::kTriaxial);
 }
 
 TEST(LabTriaxial, CompressionAndExtensionMobiliseAnAngleBelowOrAboveThePlaneOne) {

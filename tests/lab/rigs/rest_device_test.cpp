@@ -7,7 +7,7 @@ namespace {
 
 TEST(LabRest, StressIsTheWeightAbove) {
   const Report report = run_rig("rest", {});
-  EXPECT_EQ(misses(report), "");
+  EXPECT_EQ(outside_tolerance(report), "");
   EXPECT_EQ(report.ledger_error, 0);
 }
 

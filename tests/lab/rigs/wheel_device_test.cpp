@@ -30,7 +30,7 @@ TEST(LabWheel, CarriesItsLoadAndPullsMoreWithSlip) {
   // A locked wheel would continue to sink.
   for (const double slip : {-0.5, 0.0, 0.5}) {
     const Report report = roll(slip, 20);
-    EXPECT_EQ(misses(report), "") << slip;
+    EXPECT_EQ(outside_tolerance(report), "") << slip;
     EXPECT_EQ(measured(report, "particles through the wheel"), 0) << slip;
     EXPECT_LT(measured(report, "momentum residual"), 1e-5) << slip;
     EXPECT_GT(measured(report, "power in: torque x turning less pull x speed"), 0) << slip;

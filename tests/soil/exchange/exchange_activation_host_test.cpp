@@ -119,19 +119,19 @@ TEST(ExchangeActivation, AToolActivatesTwoDigDepthsAheadOneAsideAndACellBelow) {
   tool.velocity = Vec3(0.5, 0, 0);
   const Exchange::Result result = site.check({tool});
   EXPECT_GT(result.activated_columns, 0);
-  heightfield::CellRect woken;
+  heightfield::CellRect activated;
   for (int iy = 0; iy < 60; ++iy)
     for (int ix = 0; ix < 60; ++ix)
       if (site.ground.height(ix, iy) < -0.01) {
-        woken.include({ix, iy, ix + 1, iy + 1});
+        activated.include({ix, iy, ix + 1, iy + 1});
         EXPECT_LE(site.ground.height(ix, iy), -0.4 + 1e-6);
         EXPECT_GE(site.ground.height(ix, iy), -0.5 - 1e-6);
       }
   // 2 d = 0.6 m ahead of 2.12 m, 1 d = 0.3 m to the other sides.
-  EXPECT_EQ(woken.x1, 28);
-  EXPECT_EQ(woken.x0, 17);
-  EXPECT_EQ(woken.y0, 17);
-  EXPECT_EQ(woken.y1, 33);
+  EXPECT_EQ(activated.x1, 28);
+  EXPECT_EQ(activated.x0, 17);
+  EXPECT_EQ(activated.y0, 17);
+  EXPECT_EQ(activated.y1, 33);
   EXPECT_EQ(site.mass_errors(), site.closed());
   // Nothing new happens while it stays.
   EXPECT_EQ(site.checks(0.4, {tool}).activated_columns, 0);
@@ -140,14 +140,15 @@ TEST(ExchangeActivation, AToolActivatesTwoDigDepthsAheadOneAsideAndACellBelow) {
 TEST(ExchangeActivation, MotionBesideRestingSoilActivatesItRingingAndElasticWavesDoNot) {
   struct Case {
     float speed, shear;  // [m/s], [-]
-    int woken;
+    int activated;
   };
   // The last one moves like soil in a stress wave: it has not failed.
   for (const Case& c : {Case{0.01F, 1, 0}, Case{0.2F, 1, 6 * 6}, Case{0.2F, 0.01F, 0}}) {
     Site site({sand()});
     site.activate({10, 10, 14, 14}, -0.3);
     for (Particle& p : site.particles) p.v[0] = c.speed, p.shear = c.shear;
-    EXPECT_EQ(site.check().activated_columns, c.woken) << c.speed << " m/s, sheared by " << c.shear;
+    EXPECT_EQ(site.check().activated_columns, c.activated)
+        << c.speed << " m/s, sheared by " << c.shear;
     EXPECT_EQ(site.mass_errors(), site.closed());
   }
 }

@@ -45,7 +45,7 @@ TEST(ExchangeState, MassBalanceHoldsThroughRandomWork) {
   set_scene(site);
   const std::vector<std::int64_t> before = site.mass_errors();
   Random random(11);
-  int woken = 0, deposited = 0, slumped = 0;
+  int activated = 0, deposited = 0, slumped = 0;
   for (int n = 0; n < 120; ++n) {
     // Soil moves as if a solver ran, then rests again.
     for (Particle& p : site.particles) {
@@ -55,11 +55,11 @@ TEST(ExchangeState, MassBalanceHoldsThroughRandomWork) {
     const Exchange::Result result =
         site.check(n < 60 ? std::vector{tool_at(site, site.time)} : std::vector<ToolRegion>{});
     ASSERT_EQ(site.mass_errors(), before) << "check " << n;
-    woken += result.activated_columns;
+    activated += result.activated_columns;
     deposited += result.deposited_blocks;
     slumped += result.slumped_columns;
   }
-  EXPECT_GT(woken, 100);
+  EXPECT_GT(activated, 100);
   EXPECT_GT(deposited, 10);
   EXPECT_GT(slumped, 10);
 }

@@ -192,7 +192,7 @@ TEST(ExchangeSupportArea, ABankThatIsTooSteepStaysUnderAWheel) {
     if (wheel) support_areas.push_back(wheel_at(site, 0));
     EXPECT_GT(check(site, support_areas).activated_columns, 10);
     EXPECT_EQ(site.ground.height(24, 21) < -0.1, !wheel);
-    EXPECT_LT(site.ground.height(15, 21), -0.1) << "away from the wheel it wakes";
+    EXPECT_LT(site.ground.height(15, 21), -0.1) << "away from the wheel the soil is activated";
   }
 }
 
@@ -242,11 +242,11 @@ TEST(ExchangeSupportArea, TheOrderOfParticlesDoesNotMatterAndTwoSoilsKeepTheirMa
 TEST(ExchangeSupportArea, ATrackIsOneRunBetweenItsRollers) {
   Site site({sand()});
   site.add(layer(site));
-  SupportArea belt = wheel_at(site, kDepth);
-  belt.radius = 0.15;
-  belt.half_run = 1.2;
-  belt.p_W.z() = kDepth + belt.radius;
-  check(site, {belt});
+  SupportArea track = wheel_at(site, kDepth);
+  track.radius = 0.15;
+  track.half_run = 1.2;
+  track.p_W.z() = kDepth + track.radius;
+  check(site, {track});
   for (int ix = 13; ix <= 36; ++ix) EXPECT_NEAR(site.ground.height(ix, 20), kDepth, 0.01) << ix;
   EXPECT_NEAR(site.ground.height(40, 20), 0, 1e-9);
   EXPECT_EQ(site.mass_errors(), site.closed());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/math.h"
+#include "scene/friction.h"
 #include "soil/host_law/double_law.h"
 #include "soil/reference/law_soil.h"
 #include "soil/rig.h"
@@ -288,14 +289,47 @@ TEST(SoilLaw, TriaxialStatesMobiliseTheAngleOfMatsuokaAndNakai) {
     const double expected = std::atan(std::sqrt((kappa - 9) / 8)) * 180 / kPi;
     const Element compressed = sheared(plain_sand(phi), 20e3, Vec3(0.1, 0.1, -0.2));
     const Element extended = sheared(plain_sand(phi), 20e3, Vec3(-0.1, -0.1, 0.2));
-    const std::string gate = std::to_string(expected) + " +-0.2", source = "[Matsuoka 1974]";
+    const std::string tolerance = std::to_string(expected) + " +-0.2", source = "[Matsuoka 1974]";
     const std::string name =
         ", phi " + std::to_string(phi).substr(0, 2) + ", mobilised angle [deg]";
-    print_value("triaxial compression" + name, mobilised_degrees(compressed), gate, source);
-    print_value("triaxial extension" + name, mobilised_degrees(extended), gate, source);
+    print_value("triaxial compression" + name, mobilised_degrees(compressed), tolerance, source);
+    print_value("triaxial extension" + name, mobilised_degrees(extended), tolerance, source);
     EXPECT_NEAR(mobilised_degrees(compressed), expected, 0.2);
     EXPECT_NEAR(mobilised_degrees(extended), expected, 0.2);
     EXPECT_GT(compressed.q(), 1.3 * extended.q()) << "the cone is no circle";
+  }
+}
+
+TEST(SoilLaw, EachTestMobilisesTheAngleThatWasConvertedFromIt) {
+  using scene::FrictionTest;
+  for (const double psi : {0.0, 12.0}) {
+    const auto tested = [psi](FrictionTest test, double angle) {
+      scene::Soil soil = plain_sand(0);
+      // Far from loose, so that the dilatancy is that of the bank.
+      soil.swell = 2, soil.loosening_strain = 100;
+      soil.dilatancy_angle = radians(psi);
+      soil.friction_angle = scene::plane_strain_angle(test, radians(angle), soil.dilatancy_angle);
+      return soil;
+    };
+    const std::string name = ", psi " + std::to_string(psi).substr(0, 4) + " [deg]";
+    const std::string source = "[docs/soil.md, friction angles]";
+    // Confined soil that dilates stays on its yield surface as its pressure rises. Its density
+    // state of 1.002 at most takes some of psi.
+    Element compressed{law_soil(tested(FrictionTest::kTriaxial, 35), 0.1)};
+    compressed.soil.viscosity = 0;
+    compressed.j = 1 - 20e3 / compressed.soil.bulk;
+    for (const int axis : {0, 4, 8}) compressed.c[axis] = axis == 8 ? -0.2 : 0.1;
+    for (int i = 0; i < 500; ++i) compressed.step(1e-3);
+    EXPECT_NEAR(mobilised_degrees(compressed), 35, 0.2);
+    print_value("triaxial compression, given 35" + name, mobilised_degrees(compressed), "35 +-0.2",
+                source);
+    // A low stress: the elastic strain of 20 kPa turns the stress away from the strain rate and
+    // takes 0.7 deg.
+    ShearBox box(tested(FrictionTest::kDirectShear, 35), 2e3);
+    box.shear(0.1);
+    const double ratio = degrees(std::atan(box.e.sigma[3] / -box.e.sigma[1]));
+    EXPECT_NEAR(ratio, 35, 0.2);
+    print_value("direct shear, given 35" + name, ratio, "35 +-0.2", source);
   }
 }
 

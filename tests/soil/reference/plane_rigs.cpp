@@ -164,8 +164,8 @@ double wave_kept_by_transfer(double cells) {
     p.vz = 1e-6 * std::sin(wave * p.x);
     p.c[6] = 1e-6 * wave * std::cos(wave * p.x);
   }
-  // The first transfer brings velocity and gradient to the ratio that the method keeps; the second
-  // one is the figure.
+  // The first transfer brings velocity and gradient to the ratio that the method keeps; only
+  // the second one counts.
   for (int n = 0; n < 20; ++n) plane.step(1e-6);
   const double before = amplitude();
   for (int n = 0; n < 10; ++n) plane.step(1e-6);

@@ -168,12 +168,20 @@ double PlaneStrain::free_fraction_at(int i, int k) const {
 
 void PlaneStrain::meet_plate(Node& node, int i, int k, double dt) {
   const bool fraction = method_.contact == PlaneMethod::Contact::kFraction;
-  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0,
+  const Reach reach{kReach, kRamp, fraction ? kFractionEdge : kEdge, kEdgeRamp, 0, 0, 0, 0, 0, 0,
                     0,      0};
   const double clearance = i - plate.x, inset = k - plate.tip;
   if (clearance < -3) return;
-  ContactNode at{
-      Vec3(node.vx, 0, node.vz), Vec3::Zero(), Vec3::UnitX(), node.mass, 1, 0, plate.friction, 0};
+  ContactNode at{Vec3(node.vx, 0, node.vz),
+                 Vec3::Zero(),
+                 Vec3::UnitX(),
+                 node.mass,
+                 1,
+                 0,
+                 plate.friction,
+                 0,
+                 0,
+                 0};
   double weight = 1;
   if (fraction)
     weight = fraction_weight(clearance, inset, dt / longest_step(kReferenceCourant), &reach);

@@ -44,6 +44,7 @@ reference::Reach reach_of(double cell) {
           s.contact_opening * speed,
           s.contact_settling * speed,
           s.contact_falling * speed,
+          s.edge_slow * speed,
           0,
           0,
           -1};
@@ -73,7 +74,7 @@ TEST(Adhesion, KernelGivesTheImpulsesOfItsDoubleTwin) {
   Vec3 on_soil = Vec3::Zero();
   twin.contact = [&](const std::array<int, 3>& at, double mass, const Vec3& v) {
     const double clearance = at[2] - (plate_z - rig.ground().datum() + 0.015) / cell, inset = 10;
-    reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0, 0};
+    reference::ContactNode node{v, Vec3::Zero(), Vec3::UnitZ(), mass, 0, 0, 0, 0, 0, 0};
     node.mu = std::tan(soil.tool_friction_angle);
     node.share = reference::contact_share(clearance, inset, &reach);
     if (!(node.share > 0)) return Vec3(Vec3::Zero());

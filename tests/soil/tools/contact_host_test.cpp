@@ -28,6 +28,7 @@ Reach shipped() {
           s.contact_opening,
           s.contact_settling,
           s.contact_falling,
+          s.edge_slow,
           0,
           0,
           -1};
@@ -89,7 +90,7 @@ TEST(ContactLaw, ANodeThatHasAreaHasAShare) {
 
 TEST(ContactLaw, ShearIsAdhesionPlusCoulombUntilItSticks) {
   // A share changes nothing of it.
-  ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0, 0.4, 0.3};
+  ContactNode node{Vec3(1, 0, -0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.5, 0, 0.4, 0.3, 0, 0};
   double opening = 0;
   const Vec3 sliding = impulse_on(node, opening);
   EXPECT_NEAR(sliding.z(), 0.2, 1e-12);
@@ -112,7 +113,7 @@ TEST(ContactLaw, ACoveredPartOfANodeKeepsUpWithItsShareOfAnAdvancingPlate) {
   // Four tenths covered, 2 kg, the plate advances at 0.5 m/s: soil faster than 0.2 m/s is not
   // affected.
   const Vec3 advance(0, 0, 0.5);
-  ContactNode node{Vec3(0, 0, 0.2), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0, 0};
+  ContactNode node{Vec3(0, 0, 0.2), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0, 0, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0, advance).z(), 0, 1e-15);
   node.v.z() = 0.1;
   EXPECT_NEAR(impulse_on(node, 0, advance).z(), 2 * 0.1, 1e-12)
@@ -123,7 +124,7 @@ TEST(ContactLaw, ACoveredPartOfANodeKeepsUpWithItsShareOfAnAdvancingPlate) {
 }
 
 TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
-  ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.01, 0, 0, 0};
+  ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.01, 0, 0, 0, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.3, 1e-12);
   EXPECT_NEAR(impulse_on(node, 0, Vec3(0, 0, -0.2)).z(), 2 * 0.1, 1e-12);
   EXPECT_NEAR(impulse_on(node, 0, Vec3(0.7, 0, 0)).z(), 2 * 0.3, 1e-12) << "sideways is no advance";
@@ -131,7 +132,7 @@ TEST(ContactLaw, APlateThatStandsOrRecedesHoldsItsLoadWholeWhateverTheShare) {
 
 TEST(ContactLaw, SoilAtTheEndOfTheReachSettlesTowardsAStandingPlateThatCarriesItsWholeLoad) {
   // The node keeps 0.02 m/s; the excess is taken from its whole mass, however slow.
-  ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0.02, 0, 0};
+  ContactNode node{Vec3(0, 0, -0.3), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0.02, 0, 0, 0, 0};
   EXPECT_NEAR(impulse_on(node, 0).z(), 2 * 0.28, 1e-12);
   node.v.z() = -0.02;
   EXPECT_NEAR(impulse_on(node, 0).z(), 0, 1e-15);
@@ -166,7 +167,7 @@ TEST(ContactLaw, AlmostEmptyNodesUnderAPlateDoNotSupportIt) {
 
 TEST(ContactLaw, FrictionOfAPartlyCoveredNodeIsThatOfItsPush) {
   const Vec3 advance(0, 0, 0.5);
-  ContactNode node{Vec3(1, 0, 0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0.25, 0};
+  ContactNode node{Vec3(1, 0, 0.1), Vec3::Zero(), Vec3::UnitZ(), 2, 0.4, 0, 0.25, 0, 0, 0};
   const Vec3 impulse = impulse_on(node, 0, advance);
   EXPECT_NEAR(impulse.x(), -0.25 * impulse.z(), 1e-12);
   node.mu = 1e3;
@@ -181,7 +182,8 @@ TEST(ContactLaw, TheSlopeThatTheTwoWaySolveTakesIsThatOfTheImpulse) {
   for (const double share : {0.3, 1.0})
     for (const double speed : {0.4, -0.4})
       for (const double mu : {0.0, 1e3}) {
-        const ContactNode node{Vec3(0.2, 0, -0.6), Vec3::Zero(), Vec3::UnitZ(), 2, share, 0, mu, 0};
+        const ContactNode node{
+            Vec3(0.2, 0, -0.6), Vec3::Zero(), Vec3::UnitZ(), 2, share, 0, mu, 0, 0, 0};
         reference::ContactBranch branch;
         const auto at = [&](const Vec3& v) {
           return reference::contact_impulse(&node, Vec3::Zero(), v, 0, &branch);

@@ -119,7 +119,7 @@ TEST(RestingContact, StartsOnlyWhereTheFeetCarryTheLoad) {
   const scene::Shell box = lab::closed_box(0.6, 0.6, 0.3);
   ToolMotion motion;
   motion.inverse_mass = Mat6::Identity();
-  EXPECT_EQ(feet(box, motion.X_WT, 0.1, Vec3::UnitZ()).size(), 4u);
+  EXPECT_EQ(contact_vertices(box, motion.X_WT, 0.1, Vec3::UnitZ()).size(), 4u);
   const auto takes = [&](const Vec3& force, const Vec3& moment) {
     RestingContact contact;
     contact.start(box, motion, force, moment, 0.36, 0.1, Vec3::UnitZ());
@@ -128,7 +128,7 @@ TEST(RestingContact, StartsOnlyWhereTheFeetCarryTheLoad) {
   EXPECT_TRUE(takes(Vec3(0, 0, 1000), Vec3::Zero()));
   EXPECT_TRUE(takes(Vec3(300, 0, 1000), Vec3::Zero())) << "by friction";
   EXPECT_FALSE(takes(Vec3(500, 0, 1000), Vec3::Zero()));
-  EXPECT_FALSE(takes(Vec3(0, 0, 1000), Vec3(0, -400, 0))) << "0.4 m aside, where no foot is";
+  EXPECT_FALSE(takes(Vec3(0, 0, 1000), Vec3(0, -400, 0))) << "0.4 m aside, where no vertex is";
 }
 
 TEST(RestingContact, ABodyOnASlopeBelowItsFrictionAngleStandsOnColumns) {
@@ -159,7 +159,7 @@ TEST(RestingContact, ABodyOnASlopeBeyondItsFrictionAngleSlidesAndTakesNone) {
 TEST(RestingContact, FeetOfABodyOnASlopeAreItsCornersOnTheSlope) {
   const scene::Shell box = lab::closed_box(0.6, 0.6, 0.3);
   EXPECT_EQ(normal_under(Vec2(0.03, 0), 0.6, 0.1), Vec3::UnitZ())
-      << "18 mm under the box, feet may differ by 25";
+      << "18 mm under the box, vertices may differ by 25";
   for (const double degrees : {5.0, 12.0, 25.0}) {
     const double slope = radians(degrees);
     const Vec3 normal = normal_under(Vec2(std::tan(slope), 0), 0.6, 0.1);
@@ -167,7 +167,7 @@ TEST(RestingContact, FeetOfABodyOnASlopeAreItsCornersOnTheSlope) {
     ToolMotion motion;
     motion.X_WT = make_pose(0, 0, 0, 0, -slope);
     motion.inverse_mass = Mat6::Identity();
-    EXPECT_EQ(feet(box, motion.X_WT, 0.1, normal).size(), 4u);
+    EXPECT_EQ(contact_vertices(box, motion.X_WT, 0.1, normal).size(), 4u);
     const auto takes = [&](const Vec3& up) {
       RestingContact contact;
       // Its weight acts 0.15 m over its lower face.

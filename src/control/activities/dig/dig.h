@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "control/activity_step.h"
 
@@ -31,8 +32,17 @@ struct Dig final : ActivityStep {
   Vec2 dump_at = Vec2::Zero();
   /// Height of the bucket's tip above the ground at `dump_at` when the bucket opens [m].
   double dump_height = 1.5;
-  /// Maximum depth of soil that one pass removes [m].
-  double pass_depth = 0.25;
+  /// Name of the machine in whose bed the soil of each cycle must land; empty: the ground.
+  std::string into;
+  /// True if the scene file gives `into`.
+  bool has_into = false;
+  /// Maximum depth of soil that one pass removes [m]. Within it, the plan chooses the slices so
+  /// that buckets come out full.
+  double pass_depth = 0.5;
+  /// Bucket fill factor that a scoop aims at: loose volume over the heaped capacity [-]. Used if
+  /// `has_fill`; else the soil decides (usual_fill).
+  double fill = 1;
+  bool has_fill = false;
   /// Number of cycles after which the step is done. If empty, digging goes on until the trench is
   /// done, for 60 cycles at most.
   std::optional<int> max_cycles;
@@ -45,7 +55,13 @@ struct Dig final : ActivityStep {
     f("width_m", width, {0.05, 50}, "Width; by default that of the bucket's cut.");
     f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
-    f("pass_depth_m", pass_depth, {0.02, 5}, "Depth of one pass.");
+    f("into", into, "Machine in whose bed the soil must land; the step fails when it does not.",
+      scene::given(has_into));
+    f("pass_depth_m", pass_depth, {0.02, 5}, "Largest depth of one pass.");
+    f("fill", fill, {0.1, 1.5},
+      "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
+      "soil.",
+      scene::given(has_fill));
     f("max_cycles", max_cycles, {1, 100000},
       "Number of cycles; by default until the trench is done, at most 60.");
   }
@@ -63,6 +79,8 @@ struct Dig final : ActivityStep {
   void check_reach(ReachCheck& check) const override;
   /// Returns the point at which the step dumps the soil.
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
+  /// Returns `into`.
+  std::string receiver() const override { return into; }
 };
 
 }  // namespace navvy::control

@@ -7,21 +7,30 @@
 namespace navvy::control {
 namespace {
 
+constexpr double kOnFloor = 0.1;     // soil above a floor that counts as down [m]
 constexpr double kTolerance = 0.05;  // what counts as dug to level: half a soil cell [m]
 constexpr double kSample = 0.1;      // along the line [m]
 // Length given up before a scoop's start when it brings nothing [m].
 constexpr double kRefused = 0.4;
-// A scoop begins at least this far from the near end if the floor there is finished: the edge needs
-// distance to fill the bucket and to cut on while it curls. tuned: the trench takes 17 cycles at 0
-// and 12 at 1.0; at 1.5 the loads are no larger.
-constexpr double kLeastRun = 1.0;   // [m]
+// A scoop begins at least this far from the near end if the slice is dug there: the edge needs
+// distance to fill the bucket and to cut on while it curls [m].
+constexpr double kLeastRun = 1.6;
+// The ramp that the curl leaves at the near end, which a pass along the floor does not take [m].
+constexpr double kRamp = 0.4;
+// A pass along the floor keeps clear of the far wall by this [m].
+constexpr double kFarClear = 0.1;
 constexpr double kBeside = 0.5;     // how far beside the cut spilt soil is looked for [m]
 constexpr double kOverload = 0.15;  // a load may be larger than a full bucket by this share of it
 constexpr double kThinner = 0.7;    // a slice after one that held the bucket, of that one
 constexpr double kThinnest = 0.1;   // what the soil's cells still resolve [m]
 // The rest of a slice below this share of a bucket waits for the next slice.
 constexpr double kWorth = 0.5;
-constexpr double kWorthLast = 0.15;  // that of the last slice stays
+// The rest of the last slice below this share of a bucket stays, but no more than this share of the
+// trench.
+constexpr double kWorthLast = 0.15, kMostRest = 0.05;
+// A scoop starts where this share of its slice still stands over this length [m]; less is taken
+// along by a later scoop or by the clean-up.
+constexpr double kStands = 0.4, kStandsFor = 0.6;
 
 }  // namespace
 
@@ -112,6 +121,30 @@ int DigPlan::slices() const {
   return std::max(1, static_cast<int>(std::ceil(dig_.depth / dig_.pass_depth - 1e-9)));
 }
 
+int DigPlan::loads() const {
+  return std::max(slices(),
+                  static_cast<int>(std::ceil(design_volume() / scoop_volume_ - kOverload)));
+}
+
+double DigPlan::level_of(int k) const {
+  return dig_.depth * std::round(static_cast<double>(loads()) * k / slices()) / loads();
+}
+
+double DigPlan::least_rest() const {
+  return std::min(kWorthLast * scoop_volume_, kMostRest * design_volume());
+}
+
+Scoop DigPlan::clean_up(const SurfaceView& surface) const {
+  // From the farthest soil that a pass can take without wearing the far wall.
+  int i = samples() - 1;
+  while (i > 1 &&
+         (at(i) > length_ - kFarClear + 1e-9 || !stands(surface, i, dig_.depth, kTolerance)))
+    --i;
+  const double start = at(run_up(surface, i, dig_.depth, kTolerance));
+  const bool any = volume_on_floor(surface) > least_rest() || state(surface).is_rough();
+  return {start, 0, at(i), dig_.depth, any};
+}
+
 bool DigPlan::thin() {
   if (dig_.pass_depth <= kThinnest) return false;
   dig_.pass_depth = std::max(kThinnest, kThinner * dig_.pass_depth);
@@ -141,6 +174,7 @@ TrenchState DigPlan::state(const SurfaceView& surface) const {
   for (int i = 0; i < samples(); ++i) {
     const double before = start_[static_cast<std::size_t>(i)];
     depths.push_back(before - height(surface, at(i)));
+    if (depths.back() > dig_.depth - kOnFloor) out.floor += 1.0 / samples();
     for (int k = 0; i > 0 && k < kStripes; ++k) {
       const Vec2 p = point(at(i)) + ((k + 0.5) / kStripes - 0.5) * dig_.width * across;
       out.left +=
@@ -167,25 +201,48 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
   return 0;
 }
 
-int DigPlan::run_up(const SurfaceView& surface, int i, double level) const {
-  // Back over the finished floor; undiggable soil ends it.
+int DigPlan::run_up(const SurfaceView& surface, int i, double level, double least) const {
+  // Back over the floor of the slice and what lies thin on it; undiggable soil ends it.
   for (; i + 1 < samples() && at(i) < kLeastRun; ++i)
-    if (height(surface, at(i + 1)) > start_[static_cast<std::size_t>(i + 1)] - level + kTolerance)
-      break;
+    if (height(surface, at(i + 1)) > start_[static_cast<std::size_t>(i + 1)] - level + least) break;
   return i;
 }
 
+bool DigPlan::stands(const SurfaceView& surface, int i, double level, double least) const {
+  // Two neighbours must agree, as a single loose particle is not worth a cycle.
+  if (remaining(surface, i, level) <= least || remaining(surface, i - 1, level) <= least)
+    return false;
+  if (least <= kTolerance) return true;
+  // What a wall has shed covers a short length only.
+  double sum = 0;
+  int count = 0;
+  for (int k = i; k >= 0 && at(i) - at(k) < kStandsFor; --k, ++count)
+    sum += std::max(0.0, remaining(surface, k, level));
+  return sum > least * count;
+}
+
+double DigPlan::volume_on_floor(const SurfaceView& surface) const {
+  double sum = 0;
+  for (int i = 1; i < samples(); ++i)
+    if (at(i) > std::min(kRamp, 0.25 * length_)) sum += piece_above(surface, i, dig_.depth);
+  return sum;
+}
+
 Scoop DigPlan::next(const SurfaceView& surface) const {
-  // Slices of equal depth; the next one starts only when the one above holds no worthwhile load.
+  // The next slice starts only when the one above holds no worthwhile load.
+  double above = 0;
   for (int k = 1; k <= slices(); ++k) {
-    const double level = dig_.depth * k / slices();
-    if (volume_above(surface, level) < (k < slices() ? kWorth : kWorthLast) * scoop_volume_)
-      continue;
-    for (int i = samples() - 1; i >= 1; --i)
-      // Two neighbours must agree, as a single loose particle is not worth a cycle.
-      if (remaining(surface, i, level) > kTolerance &&
-          remaining(surface, i - 1, level) > kTolerance)
-        return {at(run_up(surface, i, level)), fill_end(surface, i, level), at(i), level, true};
+    const double level = level_of(k), thick = std::max(kTolerance, kStands * (level - above));
+    const double rest = volume_above(surface, level);
+    above = level;
+    // What is left of the last slice, if no more than a load, is the clean-up's.
+    if (rest < (k < slices() ? kWorth : 1 + kOverload) * scoop_volume_) continue;
+    // A scoop begins behind what lies thin on the floor, unless nothing else is left.
+    for (const double least : {thick, kTolerance})
+      for (int i = samples() - 1; i >= 1; --i)
+        if (stands(surface, i, level, least))
+          return {at(run_up(surface, i, level, least)), fill_end(surface, i, level), at(i), level,
+                  true};
   }
   return {};
 }

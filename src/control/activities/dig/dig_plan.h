@@ -52,6 +52,10 @@ struct TrenchState {
   /// Median depth below the original surface along the centre line [m]: half of the trench's length
   /// is at least this deep.
   double depth = 0;
+  /// Share of the centre line on which less than 0.1 m of soil is left above the floor [-].
+  double floor = 0;
+  /// Returns true if more than a fifth of the floor is not down yet.
+  bool is_rough() const { return floor < 0.8; }
 };
 
 /// Plan of a straight trench. It stores the original surface along the centre line and the depth
@@ -74,11 +78,12 @@ class DigPlan {
   /// Reduces the thickness of the following slices, for soil that holds the bucket. Returns false
   /// if the slices already have their minimum thickness.
   bool thin();
-  /// Returns the thickness of a slice [m]. All slices are equally thick, and none is thicker than
-  /// `Dig::pass_depth`.
+  /// Returns the mean thickness of a slice [m]. No slice is thicker than `Dig::pass_depth`, unless
+  /// by less than one load.
   double slice() const { return dig_.depth / slices(); }
-  /// Returns a scoop along the whole floor of the trench.
-  Scoop clean_up() const { return {length_, 0, length_, dig_.depth, true}; }
+  /// Returns a scoop along the floor of the trench, from the farthest soil on it, if it would bring
+  /// a load worth a cycle.
+  Scoop clean_up(const SurfaceView& surface) const;
   /// Returns the volume of soil [m3] that is inside the width of the trench and above a given
   /// depth. `level` is that depth below the original surface [m]. Soil that cannot be dug does not
   /// count.
@@ -112,15 +117,28 @@ class DigPlan {
   /// `level` [m]; negative if the ground is already lower.
   double remaining(const SurfaceView& surface, int i, double level) const;
   /// Returns the sample at which a scoop should start whose soil begins at sample `i`. Near the
-  /// machine this is farther out, over finished floor, so that the bucket has enough distance to
-  /// fill.
-  int run_up(const SurfaceView& surface, int i, double level) const;
+  /// machine this is farther out, over floor with less than `least` [m] of soil on it, so that the
+  /// bucket has enough distance to fill.
+  int run_up(const SurfaceView& surface, int i, double level, double least) const;
+  /// Returns true if more than `least` [m] of soil stands above the depth `level` [m] at sample `i`
+  /// and on average over the length that follows it.
+  bool stands(const SurfaceView& surface, int i, double level, double least) const;
+  /// Returns the volume above the floor of the trench that a pass along it can take [m3]: not the
+  /// ramp at the near end.
+  double volume_on_floor(const SurfaceView& surface) const;
   /// Returns the volume of soil above the depth `level` [m] between the samples i - 1 and i [m3].
   double piece_above(const SurfaceView& surface, int i, double level) const;
   /// Returns the distance of sample `i` from the near end [m].
   double at(int i) const { return length_ * i / (samples() - 1); }
   /// Returns the number of slices.
   int slices() const;
+  /// Returns the number of loads that the commanded trench is divided into, at least one a slice.
+  int loads() const;
+  /// Returns the depth of the bottom of slice `k`, counted from 1 [m]. A slice holds whole loads,
+  /// so slices differ in thickness if the loads cannot be shared out evenly.
+  double level_of(int k) const;
+  /// Returns the volume below which a rest of the trench is left [m3].
+  double least_rest() const;
   /// Returns the number of sample points along the centre line.
   int samples() const { return static_cast<int>(start_.size()); }
   /// Computes `along_` and `length_` from the ends of the line.

@@ -6,33 +6,35 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "control/activities/dig/fill.h"
 #include "control/dig_pose.h"
 #include "control/reach.h"
 
 namespace navvy::control {
 namespace {
 
-// Share of the heaped capacity at which the curl begins; the edge cuts on while it curls, which
-// adds a tenth. Fuller buckets carry more (0.55: loads of 520 kg instead of 400), but spill during
-// the swing, and higher heaps rub the trench's walls. tuned: on the trench, 0.45 / 0.50 lose 0.7 /
-// 0.9 % during the swing and over-dig 7.3 / 9.1 %; with half the patience for drips 0.45 / 0.50 /
-// 0.55 lose 1.1 / 1.2 / 3.1 % and over-dig 7.3 / 8.1 / 9.9 %.
-constexpr double kFill = 0.45;
-constexpr double kLiftClear = 0.6;  // lowest point over the ground before the machine swings [m]
+// The swing starts with the bucket's lowest point this far over the trench's edges [m]; it rises on
+// while the swing is still slow.
+constexpr double kOverEdge = 0.45;
+// The arm is up at the dump when this share of the swing is over, before a heap or a bed's side.
+constexpr double kUpBefore = 0.65;
+// The bucket opens when the swing is so near to its end [rad].
+constexpr double kOpenNear = 0.3;
+// The scoop starts from where the bucket has arrived if its start is this near [m].
+constexpr double kSameStart = 0.5;
 // Share of a slice: when the drag was raised by more on average, the next slice is thinner.
 constexpr double kHeldUp = 0.4;
-constexpr double kEmpty = 0.017;      // share of a full bucket: less counts as nothing
-constexpr double kWorthwhile = 0.07;  // less makes an empty scoop
+constexpr double kEmpty = 0.008;      // share of a full bucket: less counts as nothing
+constexpr double kWorthwhile = 0.03;  // less makes an empty scoop
 // On the last floor a scoop that brings less is not repeated: a high wall sheds as much again and
 // again.
-constexpr double kLooseParticles = 0.15;
+constexpr double kLooseParticles = 0.07;
 constexpr int kMostEmpty = 3;  // empty scoops in a row that end the dig
 // Soil that a heaped bucket loses by itself falls back into the trench: wait while it loses this
-// [share] within this time [s], for at most this long after the lift [s]. A bucket with a fair load
-// [share of a full one] then swings more gently [share of the usual rate].
-constexpr double kDrip = 0.001, kStill = 0.8, kDripPatience = 4;
-constexpr double kHeavy = 0.3, kGently = 0.5;
+// [share] within this time [s], for at most this long after it could swing [s].
+constexpr double kDrip = 0.003, kStill = 0.2, kDripPatience = 1.5;
 constexpr double kDumpPatience = 3.0;  // [s] of shaking the bucket
 constexpr double kEarly = 0.6;         // share of the opening after which an empty bucket may leave
 constexpr double kShake = radians(7), kShakeRate = 2 * kPi * 1.2;  // [rad], [rad/s]
@@ -43,11 +45,13 @@ constexpr int kMostCycles = 60;  // of a dig that was ordered no number of them
 // Share of the design volume: with more left, a trench is not done
 // [docs/validation.md, whole digs].
 constexpr double kUndone = 0.15;
-constexpr int kMostCleanUps = 2;
-constexpr double kCleanEnough = 0.02;  // share of the design volume that may stay on the floor
-constexpr double kHeapRadius = 0.6;    // around the dump point [m]
+// A pass along the floor that brings less than this share of a load is the last one: one of the
+// first two, a later one, and one along a floor that is not down yet.
+constexpr int kFewCleanUps = 2;
+constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.1;
+constexpr double kHeapRadius = 0.6;  // around the dump point [m]
 // During the return swing the arm comes down after this share of the swing.
-constexpr double kArmAfterSwing = 0.4;
+constexpr double kArmAfterSwing = 0.2;
 
 /// Returns the highest ground around a point [m].
 double heap_height(const SurfaceView& surface, const Vec2& p) {
@@ -80,7 +84,8 @@ void Digging::begin(const Observation& seen) {
   const std::size_t kind =
       ground.contains(cell.x(), cell.y()) ? ground.surface_soil(cell.x(), cell.y()) : 0;
   const scene::Soil soil = kind < soils.size() ? soils[kind] : scene::Soil{};
-  m.scoop_volume = kFill * arm_.bucket().capacity / soil.swell;
+  const double fill = dig_.has_fill ? dig_.fill : usual_fill(soil, arm_);
+  m.scoop_volume = fill * arm_.bucket().capacity / soil.swell;
   m.full_mass = m.scoop_volume * soil.bank_density;
   plan_ = with_surface(seen, [&](const SurfaceView& surface) {
     return DigPlan(dig_, trench_line(dig_, m.stance.swing_frame(arm_)), m.scoop_volume, surface);
@@ -98,13 +103,9 @@ bool Digging::plan_scoop(const Observation& seen) {
   m.cleaning = 0;
   // Soil that fell back is spread along the whole floor, too thin for a scoop of the plan; one or
   // two passes clean it up.
-  if (!scoop.any && m.clean_ups < kMostCleanUps) {
-    const double rest = with_surface(
-        seen, [&](const SurfaceView& surface) { return plan_.volume_above(surface, dig_.depth); });
-    if (rest > kCleanEnough * plan_.design_volume()) {
-      m.cleaning = 1;
-      scoop = plan_.clean_up();
-    }
+  if (!scoop.any && may_clean(seen)) {
+    scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.clean_up(surface); });
+    m.cleaning = scoop.any ? 1 : 0;
   }
   if (!scoop.any || beyond_reach(scoop)) return false;
   m.scoop_start = scoop.start;
@@ -112,6 +113,16 @@ bool Digging::plan_scoop(const Observation& seen) {
   m.scoop_end = scoop.end;
   m.scoop_level = scoop.level;
   return true;
+}
+
+bool Digging::may_clean(const Observation& seen) const {
+  const double least = m.clean_ups <= kFewCleanUps ? kLeastCleanUp : kLeastLateCleanUp;
+  if (m.clean_ups == 0 || m.cleaned >= least * m.full_mass) return true;
+  // Walls that go on shedding soil are cleaned up after until the trench is done.
+  const TrenchState now =
+      with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
+  return now.left > kUndone * plan_.design_volume() ||
+         (now.is_rough() && m.cleaned >= kLeastOnRoughFloor * m.full_mass);
 }
 
 bool Digging::beyond_reach(const Scoop& scoop) const {
@@ -131,51 +142,27 @@ bool Digging::beyond_reach(const Scoop& scoop) const {
 void Digging::go_to_scoop(Phase next, const Observation& seen) {
   m.s = m.scoop_start;
   const Vec2 p = plan_.point(m.s);
-  // During the return swing the bucket stays above the trench's edges and the soil spilt on them;
-  // then it goes down.
+  // During the return swing the bucket stays above the trench's edges and the soil spilt on them.
   const double ground = with_surface(seen, [&](const SurfaceView& surface) {
     return next == kReturn ? plan_.highest_beside(surface, m.s) : surface.height(p.x(), p.y());
   });
   const double z = std::max(ground, plan_.start_height(m.s) - m.scoop_level) + kClear;
-  m.held_since = 0;
-  m.move.start(place_, m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge)), seen,
-               {1.0, kArmAfterSwing});
+  const Axes to = m.tip.start(place_, m.stance, p, z, with_cut(arm_, kPlunge));
+  const double turn = std::min(swing_acceleration(place_, {to[1], to[2], to[3]}, 0, seen),
+                               swing_acceleration(place_, place_.arm_angles(), 0, seen));
+  m.move.start(place_, to, seen, {1.0, kArmAfterSwing, turn, false});
   enter(next);
 }
 
-void Digging::start_lift(const Observation& seen) {
-  const Vec2 p = plan_.point(m.s);
-  const double ground =
-      with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
-  // The lowest part of the level bucket clears the ground, not its tip.
-  const double z = std::max(ground, plan_.start_height(m.s)) + kLiftClear + arm_.below_tip(kCarry);
-  const SwingPoint tip = swing_point(m.stance.swing_frame(arm_), Vec3(p.x(), p.y(), z));
-  BucketPose carry{tip.reach, tip.height, tip.level(kCarry)};
-  ArmAngles q = place_.arm_angles();
-  arm_.inverse_nearest(carry, q);
-  m.move.start(place_, with_arm(place_.handover.q[0], q), seen, {1.2, 0});
-  enter(kLift);
-}
-
-bool Digging::drips(const Observation& seen) {
-  // Every loss restarts the clock; before the arm has lifted there is nothing to judge.
-  if (m.held_since < m.move.duration() || seen.payload < (1 - kDrip) * m.held) {
-    m.held = seen.payload;
-    m.held_since = phase_time();
-  }
-  return phase_time() < std::min(m.held_since + kStill, m.move.duration() + kDripPatience);
-}
-
-void Digging::start_swing(const Observation& seen) {
+void Digging::start_carry(const Observation& seen) {
   // The heap grows from cycle to cycle: the bucket opens over its present height.
   const double heap = with_surface(
       seen, [&](const SurfaceView& surface) { return heap_height(surface, dig_.dump_at); });
-  const SwingPoint over =
-      swing_point(m.stance.swing_frame(arm_), Vec3(dig_.dump_at.x(), dig_.dump_at.y(), heap));
+  const Pose X_WS = m.stance.swing_frame(arm_);
+  const SwingPoint over = swing_point(X_WS, Vec3(dig_.dump_at.x(), dig_.dump_at.y(), heap));
   ArmAngles q = place_.arm_angles();
   double clearance = 0;
-  if (!dump_pose(arm_, m.stance.swing_frame(arm_), dig_.dump_at, heap, dig_.dump_height, q,
-                 clearance)) {
+  if (!dump_pose(arm_, X_WS, dig_.dump_at, heap, dig_.dump_height, q, clearance)) {
     place_.warn("the heap is too high to dump on it, dumping from where the bucket is");
     q = place_.arm_angles();
   }
@@ -184,13 +171,54 @@ void Digging::start_swing(const Observation& seen) {
       arm_.swing_limited()
           ? over.swing
           : place_.handover.q[0] + std::remainder(over.swing - place_.handover.q[0], 2 * kPi);
-  m.move.start(place_, with_arm(swing, q), seen,
-               {seen.payload > kHeavy * m.full_mass ? kGently : 1.0, 0});
-  enter(kSwing);
+  const double turn = std::min(swing_acceleration(place_, q, seen.payload, seen),
+                               swing_acceleration(place_, place_.arm_angles(), seen.payload, seen));
+  m.move.start(place_, with_arm(swing, q), seen, {1.2, 0, turn, true});
+  m.edge = kOverEdge +
+           with_surface(seen, [&](const SurfaceView& s) { return plan_.highest_beside(s, m.s); });
+  m.held = seen.payload;
+  m.held_since = 0;
+  enter(kLift);
+}
+
+BucketPose Digging::bucket_pose(const Observation& seen) const {
+  ArmAngles q;
+  for (std::size_t i = 0; i < 3; ++i) q[i] = seen.joints[place_.joint(i + 1)].position;
+  return arm_.forward(q);
+}
+
+bool Digging::is_above(const Observation& seen, double z) const {
+  const BucketPose pose = bucket_pose(seen);
+  const double over_ring = pose.height - arm_.below_tip(pose.angle);
+  return m.stance.swing_frame(arm_).translation().z() + over_ring >= z;
+}
+
+bool Digging::lift(const Observation& seen) {
+  m.move.advance(place_, seen, phase_time(), phase());
+  const bool drip = drips(seen);
+  const double up = std::max(0.0, m.move.arm_time() - kUpBefore * m.move.swing_time());
+  const bool late = phase_time() > m.move.arm_time() + kDripPatience;
+  return late || (phase_time() >= up && is_above(seen, m.edge) && !drip);
+}
+
+bool Digging::drips(const Observation& seen) {
+  // Every loss restarts the clock.
+  if (seen.payload < (1 - kDrip) * m.held) {
+    m.held = seen.payload;
+    m.held_since = phase_time();
+  }
+  return phase_time() < m.held_since + kStill;
+}
+
+bool Digging::swing(const Observation& seen) {
+  if (m.move.advance(place_, seen, m.lifted + phase_time(), phase())) return true;
+  return std::abs(seen.joints[place_.joint(0)].position - m.move.target(0)) < kOpenNear;
 }
 
 void Digging::start_dump(const Observation& seen) {
-  m.move.open_bucket(place_, seen);
+  m.opened = m.lifted + phase_time();
+  m.move.open_on_the_way(place_, seen, m.opened);
+  landing_.start(seen);
   enter(kDump);
 }
 
@@ -203,17 +231,18 @@ void Digging::thin_slices() {
 
 bool Digging::dump(const Observation& seen) {
   // After the opening the shaking controls the bucket's joint: the move must not take it back.
-  const bool open = phase_time() > m.move.duration() || move(seen);
+  const double since = m.opened + phase_time();
+  const bool open = since > m.move.duration() || m.move.advance(place_, seen, since, phase());
   const bool empty = seen.payload < kEmpty * m.full_mass;
   shake(seen);
   // The bucket need not open fully when it is empty before.
-  if (empty && phase_time() > kEarly * m.move.duration()) return true;
-  return open && (empty || phase_time() > m.move.duration() + kDumpPatience);
+  if (empty && phase_time() > kEarly * m.move.open_time()) return true;
+  return open && (empty || since > m.move.duration() + kDumpPatience);
 }
 
 void Digging::shake(const Observation& seen) {
   // Sticky soil: a few strokes of the bucket cylinder, as every operator does.
-  const double since = phase_time() - m.move.duration();
+  const double since = m.opened + phase_time() - m.move.duration();
   if (since <= 0 || seen.payload < kEmpty * m.full_mass) return;
   const double stroke = kShake * std::sin(kShakeRate * since);
   place_.handover.q[3] =
@@ -236,14 +265,38 @@ void Digging::go_on(Phase next, const Observation& seen) {
     look_round(seen);
 }
 
+void Digging::arrive(const Observation& seen) {
+  const double here = m.s;
+  if (!plan_scoop(seen)) return look_round(seen);
+  if (std::abs(m.scoop_start - here) > kSameStart) return go_to_scoop(kApproach, seen);
+  start_scoop(seen);
+}
+
+void Digging::start_scoop(const Observation& seen) {
+  const Vec2 p = plan_.point(m.scoop_start);
+  m.ground =
+      with_surface(seen, [&](const SurfaceView& surface) { return surface.height(p.x(), p.y()); });
+  // What the ground under the wheels has done so far was not caused by the bucket.
+  m.stance.settle();
+  m.clean_ups += m.cleaning;
+  tell(CycleEvent::kScoopStart);
+  enter(kPenetrate);
+}
+
 bool Digging::end_cycle(const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there.
   if (!move(seen) || phase_time() < kRest) return false;
+  if (falls_short_of_receiver(seen)) return true;
   if (plan_scoop(seen)) {
     go_to_scoop(kReturn, seen);
     return false;
   }
   return conclude(seen);
+}
+
+bool Digging::falls_short_of_receiver(const Observation& seen) {
+  std::string shortfall = landing_.end(seen);
+  return !shortfall.empty() && fall_short(StepState::kStalled, std::move(shortfall));
 }
 
 bool Digging::conclude(const Observation& seen) {
@@ -282,11 +335,14 @@ bool Digging::conclude(const Observation& seen) {
 std::vector<Measurement> Digging::account(const Observation& seen) const {
   const TrenchState now =
       with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
-  return {{"cycles", static_cast<double>(cycles())},
-          {"design_volume_m3", plan_.design_volume()},
-          {"volume_left_m3", now.left},
-          {"depth_m", dig_.depth},
-          {"depth_reached_m", now.depth}};
+  std::vector<Measurement> out = {{"cycles", static_cast<double>(cycles())},
+                                  {"design_volume_m3", plan_.design_volume()},
+                                  {"volume_left_m3", now.left},
+                                  {"depth_m", dig_.depth},
+                                  {"depth_reached_m", now.depth}};
+  const std::vector<Measurement> landed = landing_.account();
+  out.insert(out.end(), landed.begin(), landed.end());
+  return out;
 }
 
 // In the order of Phase.
@@ -296,42 +352,42 @@ const char* Digging::phase() const {
   return names[phase_index()];
 }
 
-bool Digging::update(const Observation& seen, double dt, Command&) {
+bool Digging::update(const Observation& seen, double dt, Command& out) {
   // Filtered in all phases, or the pose would jump when it is used again.
   m.stance.follow(seen.X_WB, dt);
   switch (phase_index()) {
     case kReturn:
       // Soil that was loose when the bucket left has come to rest by now.
-      if (move(seen)) go_on(kApproach, seen);
+      if (!move(seen)) break;
+      if (falls_short_of_receiver(seen)) return true;
+      arrive(seen);
       break;
     case kApproach:
-      if (!move(seen)) break;
-      enter(kPenetrate);
-      // What the ground under the wheels has done so far was not caused by the bucket.
-      m.stance.settle();
-      m.clean_ups += m.cleaning;
-      tell(CycleEvent::kScoopStart);
+      if (move(seen)) start_scoop(seen);
       break;
     case kPenetrate:
       // Enters the drag itself: by depth, by stall, or by time.
-      penetrate(seen, dt);
+      penetrate(seen, dt, out);
       break;
     case kDrag:
-      if (!drag(seen, dt)) break;
+      if (!drag(seen, dt, out)) break;
       thin_slices();
       tell(CycleEvent::kCurlStart);
       enter(kCurl);
       break;
     case kCurl:
-      if (curl(seen, dt)) start_lift(seen);
+      if (curl(seen, dt, out)) start_carry(seen);
       break;
     case kLift:
-      if (!move(seen) || drips(seen)) break;
+      if (!lift(seen)) break;
+      m.lifted = phase_time();
+      m.move.release_swing(m.lifted);
       tell(CycleEvent::kLiftOut);
-      start_swing(seen);
+      enter(kSwing);
       break;
     case kSwing:
-      if (!move(seen)) break;
+      if (!swing(seen)) break;
+      if (m.cleaning != 0) m.cleaned = seen.payload;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
       // A pass along the whole floor may bring little; a scoop that does has met soil that cannot
       // be dug.
@@ -363,6 +419,7 @@ void DiggingMemory::visit(Archive& a) {
   a("empty_scoops", empty_scoops);
   a("clean_ups", clean_ups);
   a("cleaning", cleaning);
+  a("cleaned", cleaned);
   a("scoop_start", scoop_start);
   a("soil_start", soil_start);
   a("scoop_end", scoop_end);
@@ -375,8 +432,12 @@ void DiggingMemory::visit(Archive& a) {
   a("full_mass", full_mass);
   a("lift_before", lift_before);
   a("held_up", held_up);
+  a("ground", ground);
+  a("edge", edge);
   a("held", held);
   a("held_since", held_since);
+  a("lifted", lifted);
+  a("opened", opened);
 }
 
 void Digging::visit(Archive& a) {
@@ -384,6 +445,7 @@ void Digging::visit(Archive& a) {
   // The phase indexes a table of names.
   a.require(phase_index() >= kReturn && phase_index() <= kLook, "phase", "no phase of a dig");
   a("plan", plan_);
+  landing_.visit(a);
 }
 
 }  // namespace navvy::control

@@ -4,6 +4,7 @@
 
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_plan.h"
+#include "control/activities/dig/landing.h"
 #include "control/activity.h"
 #include "control/arm_move.h"
 #include "control/stance.h"
@@ -27,6 +28,8 @@ struct DiggingMemory {
   std::int64_t clean_ups = 0;
   /// 1 if the current scoop is a cleaning pass along the whole floor, else 0.
   std::int64_t cleaning = 0;
+  /// Load of the last cleaning pass [kg].
+  double cleaned = 0;
   /// Current scoop: Scoop::start, Scoop::end and Scoop::level [m].
   double scoop_start = 0, scoop_end = 0, scoop_level = 0;
   /// Current scoop: Scoop::soil [m].
@@ -45,9 +48,16 @@ struct DiggingMemory {
   double lift_before = 0;
   /// Integral of the additional lift since then over the distance dragged [m2].
   double held_up = 0;
-  /// `held` is the payload when it last decreased during the lift phase [kg], and `held_since` the
-  /// phase time at that moment [s]. They show whether soil still falls from the bucket.
+  /// Height in W of the ground under the start of the scoop [m].
+  double ground = 0;
+  /// Height in W that the bucket must have left below it before the machine swings [m].
+  double edge = 0;
+  /// `held` is the payload when it last decreased noticeably during the lift phase [kg], and
+  /// `held_since` the phase time at that moment [s]. They show whether soil still falls from the
+  /// bucket.
   double held = 0, held_since = 0;
+  /// Times after the start of the carry move at which the swing and the dump began [s].
+  double lifted = 0, opened = 0;
 
   /// Saves or loads all fields.
   void visit(Archive& a);
@@ -56,12 +66,15 @@ struct DiggingMemory {
 /// Activity that carries out a dig: return, approach, penetrate, drag, curl, lift, swing, dump, and
 /// again, until the plan has no further scoop; then a final look at the trench. digging.cpp
 /// implements the sequence of phases, and scoop.cpp the paths of the tip through the soil.
+///
+/// Lift, swing and dump are one move of the arm. It lifts from the ground on, the machine swings as
+/// soon as the bucket is clear of the edges, and the bucket opens shortly before it arrives.
 class Digging final : public ActivityWith<DiggingMemory> {
  public:
   /// Makes the activity of the step `dig`. The step and `place` must outlive it; `place` must have
   /// an arm.
   Digging(OperatorContext& place, const Dig& dig)
-      : ActivityWith(place), dig_(dig), arm_(*place.arm) {}
+      : ActivityWith(place), dig_(dig), arm_(*place.arm), landing_(dig.into) {}
 
   /// Records the machine's pose and the original surface, and starts the move to the first scoop.
   void begin(const Observation& seen) override;
@@ -93,23 +106,34 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Selects the next scoop. Returns false if there is none, or if a limit on cycles or empty
   /// scoops is reached.
   bool plan_scoop(const Observation& seen);
-  /// Starts the move of the open bucket to the start of the scoop, and enters the phase `next`.
-  /// This happens twice per cycle: in the phase kReturn the bucket stays high; in kApproach it
-  /// comes down after the swing has stopped.
+  /// Starts the move of the open bucket to the start of the scoop, and enters the phase `next`. In
+  /// the phase kReturn the bucket stays above the edges; in kApproach, after the swing, it moves to
+  /// a start that the ground seen from there has moved far along the trench.
   void go_to_scoop(Phase next, const Observation& seen);
+  /// Selects the next scoop on the ground as it is seen after the return, and starts it or moves to
+  /// it first; starts the final look if there is none.
+  void arrive(const Observation& seen);
   /// Selects the next scoop and moves to it in the phase `next`, or starts the final look if there
   /// is no further scoop.
   void go_on(Phase next, const Observation& seen);
   /// Makes the following slices thinner if the soil held the bucket during the last drag.
   void thin_slices();
-  /// Starts the move that levels the bucket and lifts it clear of the trench's edges.
-  void start_lift(const Observation& seen);
+  /// Starts the move from the ground to the dump point, with the swing held. The bucket is raised
+  /// enough to clear the heap there.
+  void start_carry(const Observation& seen);
+  /// Continues the carry move until the machine may swing. Returns true then: the bucket is clear
+  /// of the trench's edges, will be up before it gets to the heap, and loses no more soil.
+  bool lift(const Observation& seen);
   /// Returns true while soil still falls from the lifted bucket into the trench.
   bool drips(const Observation& seen);
-  /// Starts the swing to the dump point. The bucket is raised enough to clear the heap; a full
-  /// bucket swings more slowly.
-  void start_swing(const Observation& seen);
-  /// Starts to open the bucket.
+  /// Returns the measured pose of the bucket.
+  BucketPose bucket_pose(const Observation& seen) const;
+  /// Returns true if the bucket's lowest point is above the height `z` in W [m].
+  bool is_above(const Observation& seen, double z) const;
+  /// Continues the carry move. Returns true when the swing is so near to its end that the bucket
+  /// may open.
+  bool swing(const Observation& seen);
+  /// Starts to open the bucket while the swing ends.
   void start_dump(const Observation& seen);
   /// Continues the dump. Returns true when the bucket is empty, or when waiting longer is no use.
   bool dump(const Observation& seen);
@@ -121,8 +145,13 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Continues the final look. Returns false while it lasts or if there is a further scoop, and
   /// true if the dig is over.
   bool end_cycle(const Observation& seen);
+  /// Returns true if a further cleaning pass is allowed.
+  bool may_clean(const Observation& seen) const;
   /// Returns true if the start of the scoop is out of reach from the machine's current position.
   bool beyond_reach(const Scoop& scoop) const;
+  /// Ends the dump of the last cycle. Returns true, with the step failed, if its soil has not
+  /// landed in the receiver.
+  bool falls_short_of_receiver(const Observation& seen);
   /// Sets the final state of the step and the reason why there is no further scoop. Always returns
   /// true.
   bool conclude(const Observation& seen);
@@ -131,15 +160,18 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Continues the current move of the arm. Returns true when the move is over.
   bool move(const Observation& seen) { return m.move.advance(place_, seen, phase_time(), phase()); }
 
-  /// Moves the tip down into the soil, and enters the drag when it is deep enough.
-  void penetrate(const Observation& seen, double dt);
+  /// Enters the phase kPenetrate at the start of the scoop.
+  void start_scoop(const Observation& seen);
+  /// Moves the tip down into the soil, and enters the drag when it is deep enough. Small
+  /// corrections of the scoop's start happen in the air.
+  void penetrate(const Observation& seen, double dt, Command& out);
   /// Drags the bucket towards the machine. Returns true when the bucket is full or the scoop has
   /// ended.
-  bool drag(const Observation& seen, double dt);
+  bool drag(const Observation& seen, double dt, Command& out);
   /// Curls the bucket out of the ground. Returns true when the curl is over.
-  bool curl(const Observation& seen, double dt);
+  bool curl(const Observation& seen, double dt, Command& out);
   /// Commands the arm to follow the tip path, which the phase has updated before.
-  void follow_tip(const Observation& seen, double dt);
+  void follow_tip(const Observation& seen, double dt, Command& out);
   /// Returns the lowest allowed height of the tip in W [m], at which no part of the bucket is below
   /// the slice.
   double floor_height() const;
@@ -152,6 +184,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   const ArmKinematics& arm_;
   // Plan of the trench, made in `begin`.
   DigPlan plan_;
+  // Soil that lands in the receiver.
+  Landing landing_;
 };
 
 }  // namespace navvy::control

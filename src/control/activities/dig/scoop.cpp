@@ -11,27 +11,38 @@
 namespace navvy::control {
 namespace {
 
-constexpr double kDownAir = 0.9, kDownSoil = 0.45;  // [m/s]
-constexpr double kDragSpeed = 0.7;                  // [m/s]
-constexpr double kTurnIn = 0.9;                     // of the bucket while dragging [rad/s]
+// Speeds down through air and soil, and of the drag [m/s]; rate of the bucket while dragging
+// [rad/s]; time in which drag and turn begin [s].
+constexpr double kDownAir = 1.1, kDownSoil = 0.6, kDragSpeed = 0.9;
+constexpr double kTurnIn = 1.2, kStartTime = 0.4;
+// In the air, so far above the ground [m], the tip moves along the trench at this speed [m/s] to a
+// start this near [m].
+constexpr double kNearGround = 0.1, kAlong = 0.8, kAtStart = 0.03;
 // Difference from its digging angle at which a bucket may curl [rad].
 constexpr double kTurnedIn = radians(5);
-constexpr double kCurlTime = 2.2;  // [s]
+// Share of the wanted load at which the curl begins: the edge cuts on, and the heap in front of the
+// mouth falls off when the tip leaves the ground. tuned: on the trench, at 0.85 / 0.97 four scoops
+// bring 840 / 880 kg.
+constexpr double kCurlAt = 0.97;
+constexpr double kCurlTime = 1.7;  // [s]
 // The edge cuts on at this speed [m/s] in this first share of the curl, if the bucket has this
 // share of a load; with less it only scrapes. Held by rock it stands still (TipPath::slow). tuned:
 // on the trench, with kAboutPin, 0.5 m/s until 0.6 retains 361 kg, 0.7 m/s until 0.7 retains 397
 // kg.
-constexpr double kCurlSpeed = 0.7, kCutOn = 0.7, kFair = 0.5;
+constexpr double kCurlSpeed = 0.7, kCutOn = 0.7, kFair = 0.3;
+// Shares of the curl at which the bucket has turned, and at which it begins to leave the ground.
+constexpr double kTurned = 0.7, kRises = 0.4;
 // A curl on the spot pours out soil, so this much of the path to the near end is left to it,
 // whatever the load. tuned: on a trench 1.6 m deep, passes along the floor that dragged on to the
 // end lost 190 of 250 kg in the curl.
-constexpr double kCurlPath = 0.6;  // [m]
+// A pass that cleans up goes on nearer to the end, where the ramps of the scoops are.
+constexpr double kCurlPath = 0.6, kCleanCurlPath = 0.4;  // [m]
 // The bucket rotates by this share about its pin and by the rest about its edge. About the edge,
 // the heel presses on the floor that was just cut and the boom pushes it down. tuned: on the
-// trench's first scoop the soil pushes the bucket up by 40, 24, 1 and 1 kN at 0, 0.4, 0.6 and 1,
-// and the load is 415, 400, 361 and 344 kg.
-constexpr double kAboutPin = 0.6;
-constexpr double kOut = 0.25;      // lowest point over the surface after the curl [m]
+// trench's first scoop the soil pushes the bucket up by 42, 17 and 2 kN at 0.25, 0.5 and 0.6, and
+// the load is 1020, 910 and 940 kg.
+constexpr double kAboutPin = 0.65;
+constexpr double kOut = 0.15;      // lowest point over the surface after the curl [m]
 constexpr double kPastEnd = 0.03;  // the shell may pass the far end by this [m]
 // The drag continues by this beyond its planned end when the bucket is not full [m].
 constexpr double kMore = 0.5;
@@ -52,41 +63,49 @@ double Digging::floor_height() const {
   return plan_.start_height(m.s) - m.scoop_level + arm_.below_tip(m.tip.reached);
 }
 
-void Digging::follow_tip(const Observation& seen, double dt) {
-  m.tip.follow(place_, m.stance, plan_.point(m.s), seen, dt, phase_index() == kCurl);
+void Digging::follow_tip(const Observation& seen, double dt, Command& out) {
+  m.tip.follow(place_, m.stance, plan_.point(m.s), seen, dt, phase_index() == kCurl, out);
 }
 
-void Digging::penetrate(const Observation& seen, double dt) {
-  // Fast through air; the last ten centimetres count as soil.
-  const bool in_air = m.tip.z > plan_.start_height(m.s) + 0.1;
-  const double goal = floor_height();
+void Digging::penetrate(const Observation& seen, double dt, Command& out) {
+  // Fast through air; the last ten centimetres count as soil, and wait for the start of the scoop.
+  m.s += std::clamp(m.scoop_start - m.s, -kAlong * dt, kAlong * dt);
+  const bool there = std::abs(m.scoop_start - m.s) < kAtStart;
+  const double near = m.ground + kNearGround;
+  const bool in_air = m.tip.z > near;
+  const double goal = there ? floor_height() : std::max(near, floor_height());
   m.tip.z = std::max(goal, m.tip.z - (in_air ? kDownAir : kDownSoil) * m.tip.slow * dt);
-  follow_tip(seen, dt);
+  follow_tip(seen, dt, out);
   // Soil that holds the tip on the way down is dug at the depth it allows.
-  if (m.tip.z <= goal || m.tip.lift > kPenetrateLift || overdue(kPhaseLimit)) {
+  if ((there && m.tip.z <= goal) || m.tip.lift > kPenetrateLift || overdue(kPhaseLimit)) {
     m.lift_before = m.tip.lift;
     m.held_up = 0;
     enter(kDrag);
   }
 }
 
-bool Digging::drag(const Observation& seen, double dt) {
-  const double gone = m.s - std::max(0.0, m.s - kDragSpeed * m.tip.slow * dt);
+bool Digging::drag(const Observation& seen, double dt, Command& out) {
+  // The edge starts to move as fast as the valves open.
+  const double pace = m.tip.slow * smooth(phase_time() / kStartTime);
+  const double gone = m.s - std::max(0.0, m.s - kDragSpeed * pace * dt);
   m.s -= gone;
   m.held_up += std::max(0.0, m.tip.lift - m.lift_before) * gone;
   // The bucket rotates to its digging angle as soon as its back is clear of the far end.
   const double wish = with_cut(arm_, -kPi + kAttack),
-               turned = std::max(wish, m.tip.angle - kTurnIn * m.tip.slow * dt);
+               turned = std::max(wish, m.tip.angle - kTurnIn * pace * dt);
   const double depth = plan_.start_height(m.s) - m.tip.z - m.tip.lift;
   if (plan_.length() - m.s + kPastEnd >= arm_.beyond_tip(turned, depth)) m.tip.angle = turned;
   m.tip.z = std::max(floor_height(), m.tip.z - kDownSoil * m.tip.slow * dt);
-  follow_tip(seen, dt);
+  follow_tip(seen, dt, out);
+  const double behind = bucket_pose(seen).angle - arm_.forward(place_.arm_angles()).angle;
+  const bool turned_in = m.tip.angle + std::max(0.0, behind) <= wish + kTurnedIn;
   // Before it has rotated, its heel is at the far end, and the curl would press it into the wall.
-  const bool full = seen.payload >= m.full_mass && m.tip.angle <= wish + kTurnedIn;
+  const bool full = seen.payload >= kCurlAt * m.full_mass && turned_in;
   const bool planned =
       m.s <= m.scoop_end && (seen.payload > 0.8 * m.full_mass || m.s <= m.scoop_end - kMore);
-  if (!(full || planned || m.s <= std::min(kCurlPath, 0.5 * m.scoop_start) || overdue(kPhaseLimit)))
-    return false;
+  const double left_to_curl = m.cleaning != 0 ? kCleanCurlPath : kCurlPath;
+  const bool at_end = m.s <= std::min(left_to_curl, 0.5 * m.scoop_start);
+  if (!(full || planned || at_end || overdue(kPhaseLimit))) return false;
   // The curl begins where the arm is, not where it was commanded to be.
   m.curl_angle = m.tip.angle = m.tip.reached;
   m.curl_z = m.tip.z = m.tip.z + m.tip.lift;
@@ -95,19 +114,19 @@ bool Digging::drag(const Observation& seen, double dt) {
   return true;
 }
 
-bool Digging::curl(const Observation& seen, double dt) {
+bool Digging::curl(const Observation& seen, double dt, Command& out) {
   // A held bucket still curls, slowly; one that tips the machine waits.
-  const double least = m.stance.footing(seen.X_WB) < 1 ? 0 : 0.1;
+  const double least = m.stance.tilt_factor(seen.X_WB) < 1 ? 0 : 0.1;
   m.progress = std::min(1.0, m.progress + std::max(least, m.tip.slow) * dt / kCurlTime);
   if (m.progress < kCutOn && (seen.payload > kFair * m.full_mass || m.s <= kCurlPath))
     m.s = std::max(0.0, m.s - kCurlSpeed * m.tip.slow * dt);
-  m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / 0.8));
+  m.tip.angle = mix(m.curl_angle, kCarry, smooth(m.progress / kTurned));
   const double arc = arm_.bucket_length() * (std::sin(m.tip.reached) - std::sin(m.curl_angle));
   const double turned = std::max(m.curl_z + std::max(0.0, kAboutPin * arc), floor_height());
   // First the bucket rotates; then it leaves the ground straight up.
   const double top = plan_.start_height(m.s) + kOut + arm_.below_tip(m.tip.reached);
-  m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - 0.35) / 0.65));
-  follow_tip(seen, dt);
+  m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - kRises) / (1 - kRises)));
+  follow_tip(seen, dt, out);
   return m.progress >= 1 || overdue(kPhaseLimit);
 }
 

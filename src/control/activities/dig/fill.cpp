@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/activities/dig/fill.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvy::control {
+namespace {
+
+// Fill factors of handbooks, near the middle of their ranges: loam 1.0 to 1.1, hard clay 0.8 to 0.9
+// and moist clay 0.9 to 1.05, poorly blasted rock 0.6 to 0.75.
+constexpr double kLoam = 1.05, kClay = 0.9, kBrokenRock = 0.7;
+// Limits between the kinds of soil: swell [-], cohesion [Pa], friction angle [rad].
+constexpr double kRockSwell = 1.5, kLeastCohesion = 1500, kClayFriction = radians(24);
+
+}  // namespace
+
+double usual_fill(const scene::Soil& soil, const ArmKinematics& arm) {
+  if (soil.swell >= kRockSwell) return kBrokenRock;
+  if (soil.cohesion >= kLeastCohesion) return soil.friction_angle < kClayFriction ? kClay : kLoam;
+  const double repose = soil.has_repose_angle ? soil.repose_angle : soil.friction_angle;
+  const double struck = arm.struck_capacity() / arm.bucket().capacity;
+  if (!(struck > 0 && struck < 1)) return kClay;
+  return struck + (1 - struck) * std::min(1.0, std::tan(repose));
+}
+
+}  // namespace navvy::control

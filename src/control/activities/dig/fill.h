@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// How full a bucket is dug.
+#pragma once
+
+#include "control/arm_kinematics.h"
+#include "scene/soil.h"
+
+namespace navvy::control {
+
+/// Returns the bucket fill factor that a dig aims at in `soil` unless its scene sets one: loose
+/// volume over the heaped capacity [-].
+///
+/// The kind of soil follows from its values, in this order: broken rock swells by half or more
+/// (0.7); sand and gravel have hardly any cohesion and stand in a heap on the bucket's mouth at
+/// their angle of repose, where the heaped capacity has a slope of 1:1; clay is cohesive with
+/// little friction (0.9); all other soil counts as loam (1.05).
+double usual_fill(const scene::Soil& soil, const ArmKinematics& arm);
+
+}  // namespace navvy::control
