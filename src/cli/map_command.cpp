@@ -28,6 +28,8 @@
 #include "scene_io/loader.h"
 #include "scene_io/shipped.h"
 #include "session/session.h"
+#include "sim/occupied_areas.h"
+#include "sim/start_placing.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::cli {
@@ -36,7 +38,7 @@ namespace {
 /// Options of the command line.
 struct MapCommand {
   std::string from, layers, format, out, scene, device;
-  bool start = false, paths = false;
+  bool start = false, paths = false, without_machines = false;
   /// Limits of traversability; 0 means that the map uses its own.
   double slope_deg = 0, step = 0, roughness = 0, window = 0;
 };
@@ -139,6 +141,7 @@ map::MapOptions map_options(const MapCommand& options, std::vector<map::MapLayer
   // A picture of any layer is shaded by the surface.
   layers.push_back(map::MapLayer::kElevation);
   map::MapOptions out = map::options_for(scene, site, std::move(layers), design);
+  out.machines = !options.without_machines;
   // Zero stands for "not given".
   if (options.slope_deg > 0) out.limits.slope = radians(options.slope_deg);
   if (options.step > 0) out.limits.step_height = options.step;
@@ -168,6 +171,19 @@ map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat&
   return maker.map();
 }
 
+/// Returns the areas of all bodies at the start of a run.
+heightfield::OccupiedAreas at_start(const scene::Scene& scene, const heightfield::Ground& site) {
+  return std::make_shared<const std::vector<heightfield::OccupiedArea>>(
+      sim::occupied_areas(scene, sim::starting_poses(scene, site), sim::all_bodies(scene)));
+}
+
+/// Returns the areas of bodies that cannot have moved: a run's folder does not hold where the
+/// others are.
+heightfield::OccupiedAreas fixed(const scene::Scene& scene, const heightfield::Ground& site) {
+  return std::make_shared<const std::vector<heightfield::OccupiedArea>>(
+      sim::occupied_areas(scene, sim::starting_poses(scene, site), sim::fixed_bodies(scene)));
+}
+
 /// A map and its source.
 struct Made {
   map::TerrainMap map;
@@ -186,14 +202,15 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
     require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
     const heightfield::Ground site = heightfield::make_ground(scene);
     const map::MapOptions wanted = map_options(options, layers, scene, site);
-    if (options.start) return {map::map_of_site(site, wanted), From::kScene};
-    return {map::map_of_run(scene, site, end, wanted), From::kRun};
+    if (options.start) return {map::map_of_site(site, wanted, at_start(scene, site)), From::kScene};
+    return {map::map_of_run(scene, site, end, wanted, fixed(scene, site)), From::kRun};
   }
   if (is_sealed(options.from)) return {of_snapshot(options, format, layers), From::kSnapshot};
   const scene::Scene scene = load(scene_io::find_scene(options.from));
   require_apart(options, format, reads_of(scene, {}));
   const heightfield::Ground site = heightfield::make_ground(scene);
-  return {map::map_of_site(site, map_options(options, layers, scene, site)), From::kScene};
+  return {map::map_of_site(site, map_options(options, layers, scene, site), at_start(scene, site)),
+          From::kScene};
 }
 
 int map(const MapCommand& options) {
@@ -277,6 +294,8 @@ void add_map(CLI::App& app, Action& action) {
                    "the file or folder to write; replaced whole or not at all")
       ->required();
   command->add_flag("--start", options->start, "for a run: the ground at its start");
+  command->add_flag("--without-machines", options->without_machines,
+                    "leave machines out of occupied, traversability and occupancy");
   command->add_flag("--paths", options->paths,
                     "for a run with a go_to: draw its planned paths on a hillshade or relief");
   command->add_option("--scene", options->scene,

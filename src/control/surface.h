@@ -2,6 +2,8 @@
 // Access to the ground surface that an operator sees.
 #pragma once
 
+#include <utility>
+
 #include "heightfield/layered_ground.h"
 #include "heightfield/terrain_view.h"
 
@@ -36,6 +38,23 @@ class GroundSurfaceView final : public SurfaceView {
  private:
   // The ground that is shown.
   const heightfield::Ground& ground_;
+};
+
+/// Shows another surface with bodies on it, for checks before a run.
+class OccupiedSurfaceView final : public SurfaceView {
+ public:
+  /// Stores a reference to `surface`, which must outlive this view.
+  OccupiedSurfaceView(const SurfaceView& surface, heightfield::OccupiedAreas areas)
+      : surface_(surface), areas_(std::move(areas)) {}
+  /// Returns the terrain of the other surface.
+  const heightfield::Terrain& terrain() const override { return surface_.terrain(); }
+  /// Returns an immutable copy of the other surface, on which bodies occupy the areas.
+  heightfield::TerrainView mapped() const override { return surface_.mapped().with(areas_); }
+
+ private:
+  // The surface that is shown, and the areas of the bodies on it.
+  const SurfaceView& surface_;
+  heightfield::OccupiedAreas areas_;
 };
 
 }  // namespace navvy::control

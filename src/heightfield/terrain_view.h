@@ -2,7 +2,10 @@
 // The terrain at one instant, as an immutable copy.
 #pragma once
 
+#include <utility>
+
 #include "heightfield/loose_soil.h"
+#include "heightfield/occupied_area.h"
 #include "heightfield/terrain.h"
 
 namespace navvy::heightfield {
@@ -26,6 +29,15 @@ class TerrainView final : public Terrain {
   /// (TerrainView::surface); it does not filter `loose`. Copies each tile that has loose soil.
   TerrainView with(const LooseSoil& loose, SurfaceKind surface = SurfaceKind::kWithLooseSoil) const;
 
+  /// Returns a copy of this view on which bodies occupy `areas`. Heights do not change.
+  TerrainView with(OccupiedAreas areas) const {
+    TerrainView out = *this;
+    out.occupied_ = std::move(areas);
+    return out;
+  }
+  /// Returns the areas that bodies occupy; null if the view knows no bodies.
+  const OccupiedAreas& occupied() const { return occupied_; }
+
  private:
   friend class Ground;
   /// Copies the surface of `terrain` and labels it with simulated time `time` [s].
@@ -34,6 +46,8 @@ class TerrainView final : public Terrain {
   double time_;
   /// Surface that the heights describe: with or without loose soil.
   SurfaceKind surface_ = SurfaceKind::kColumns;
+  /// Areas that bodies occupy; may be null.
+  OccupiedAreas occupied_;
 };
 
 }  // namespace navvy::heightfield

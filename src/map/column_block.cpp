@@ -2,6 +2,7 @@
 #include "map/column_block.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,10 @@ namespace navvy::map {
 namespace {
 
 using heightfield::CellRect;
+
+// Heights of bodies are rounded to this [m]: a machine at rest trembles by micrometres, which is
+// no news for readers of maps.
+constexpr double kTopStep = 0.01;
 
 /// Computes tiles from the state of the site's columns.
 class ColumnsSource final : public LayerSource {
@@ -49,6 +54,10 @@ class ColumnsSource final : public LayerSource {
       for (int ix = patch.rect.x0; ix < patch.rect.x1; ++ix)
         patch.z.push_back(site.contains(ix, iy) ? static_cast<float>(view.height(ix, iy))
                                                 : kUnknown);
+    if (site_->occupied().empty()) return patch;
+    for (int iy = patch.rect.y0; iy < patch.rect.y1; ++iy)
+      for (int ix = patch.rect.x0; ix < patch.rect.x1; ++ix)
+        patch.occupied.push_back(site.contains(ix, iy) ? site_->occupied(ix, iy) : 0.0f);
     return patch;
   }
 
@@ -58,7 +67,46 @@ class ColumnsSource final : public LayerSource {
 }  // namespace
 
 SiteColumns::SiteColumns(heightfield::TerrainView view, std::shared_ptr<const MapOptions> options)
-    : view_(std::move(view)), options_(std::move(options)) {}
+    : view_(std::move(view)),
+      options_(std::move(options)),
+      occupied_(occupied_columns(view_, *options_)) {}
+
+// Walks the bounding rectangle of each area.
+OccupiedColumns occupied_columns(const heightfield::TerrainView& view, const MapOptions& options) {
+  OccupiedColumns out;
+  if (!view.occupied()) return out;
+  const double cell = view.cell();
+  for (const heightfield::OccupiedArea& area : *view.occupied()) {
+    if (area.outline.empty() || (area.machine && !options.machines)) continue;
+    Vec2 low = Vec2::Constant(INFINITY), high = -low;
+    for (const Vec2& p : area.outline) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const auto column = [&](double x, double from, int most) {
+      return static_cast<int>(std::clamp(std::floor((x - from) / cell), -1.0, most + 0.0));
+    };
+    const CellRect around = CellRect{column(low.x(), view.origin().x(), view.nx()),
+                                     column(low.y(), view.origin().y(), view.ny()),
+                                     column(high.x(), view.origin().x(), view.nx()) + 1,
+                                     column(high.y(), view.origin().y(), view.ny()) + 1}
+                                .cut(view.site_rect());
+    for (int iy = around.y0; iy < around.y1; ++iy)
+      for (int ix = around.x0; ix < around.x1; ++ix) {
+        const Vec2 corner = view.origin() + cell * Vec2(ix, iy);
+        const double z = view.height(ix, iy);
+        // A body in the ground, or high above it, is in nobody's way.
+        if (!(area.high > z) || area.low > z + kHeadroom) continue;
+        if (!heightfield::meets(area, corner, corner + Vec2(cell, cell))) continue;
+        float& top = out[static_cast<std::int64_t>(iy) * view.nx() + ix];
+        top = std::max(top, static_cast<float>(kTopStep * std::round((area.high - z) / kTopStep)));
+      }
+  }
+  return out;
+}
+
+float SiteColumns::occupied(int ix, int iy) const {
+  if (occupied_.empty()) return 0;
+  const auto found = occupied_.find(static_cast<std::int64_t>(iy) * view_.nx() + ix);
+  return found != occupied_.end() ? found->second : 0;
+}
 
 bool SiteColumns::knows(LayerNeeds needs) const {
   // A single view shows no history.

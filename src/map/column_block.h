@@ -2,7 +2,9 @@
 // Inputs from which map layers are computed: the state of every column of a site at one instant.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "heightfield/terrain_view.h"
@@ -21,7 +23,21 @@ struct MapOptions {
   /// World z of the design surface [m], one value per column of the site, x fastest; NaN for
   /// columns without a design height. Empty if the site has no design.
   std::vector<float> target;
+  /// False leaves machines out of the layers kOccupied and kTraversability, which then show only
+  /// bodies without joints, wheels and program.
+  bool machines = true;
 };
+
+/// Bodies that are higher above the surface than this do not occupy it [m]: the clearance of a
+/// bridge over a track for construction vehicles, typical but unverified (U).
+inline constexpr double kHeadroom = 4;
+
+/// Height of bodies above the surface [m], by the index of the column, y x width + x. Columns
+/// without a body have no entry.
+using OccupiedColumns = std::unordered_map<std::int64_t, float>;
+/// Returns the columns of `view` that its bodies occupy. A column counts if any part of it is under
+/// a body.
+OccupiedColumns occupied_columns(const heightfield::TerrainView& view, const MapOptions& options);
 
 /// State of all columns of a site at one instant, taken from a terrain view. Immutable, so any
 /// number of threads may read it. A derived class represents a site about which less is known, such
@@ -59,6 +75,11 @@ class SiteColumns {
   /// Returns volume divided by bank volume of the uppermost soil in site column (ix, iy) [-]. The
   /// indices are not checked.
   float specific_volume(int ix, int iy) const { return view_.specific_volume(ix, iy); }
+  /// Returns the height of a body's top above the surface in site column (ix, iy) [m]; 0 without a
+  /// body. The indices are not checked.
+  float occupied(int ix, int iy) const;
+  /// Returns all columns that bodies occupy.
+  const OccupiedColumns& occupied() const { return occupied_; }
   /// Returns the bulk density of the uppermost soil in site column (ix, iy) [kg/m3]. The indices
   /// are not checked.
   float density(int ix, int iy) const;
@@ -68,6 +89,8 @@ class SiteColumns {
   heightfield::TerrainView view_;
   /// Options of the map; never null.
   std::shared_ptr<const MapOptions> options_;
+  /// Columns that bodies occupy.
+  OccupiedColumns occupied_;
 };
 
 /// A rectangle of columns for which a layer is computed. The heights of the whole rectangle are

@@ -43,11 +43,15 @@ struct ElevationPatch {
   double cell = 0;
   /// Heights as world z [m], x fastest; NaN outside the site.
   std::vector<float> z;
+  /// Heights of bodies above the surface [m], in the order of `z`; empty if there are none.
+  std::vector<float> occupied = {};
   /// Returns the height of site column (ix, iy), as world z [m]; NaN if it is unknown. The column
   /// must lie in the patch.
-  float at(int ix, int iy) const {
-    return z[static_cast<std::size_t>(iy - rect.y0) * static_cast<std::size_t>(rect.x1 - rect.x0) +
-             static_cast<std::size_t>(ix - rect.x0)];
+  float at(int ix, int iy) const { return z[index(ix, iy)]; }
+  /// Returns the index of site column (ix, iy) in `z`. The column must lie in the patch.
+  std::size_t index(int ix, int iy) const {
+    return static_cast<std::size_t>(iy - rect.y0) * static_cast<std::size_t>(rect.x1 - rect.x0) +
+           static_cast<std::size_t>(ix - rect.x0);
   }
 };
 
@@ -94,6 +98,11 @@ class Surround {
   /// Returns the rms distance of the surface from its least-squares plane within the window around
   /// the column [m]; NaN if it is unknown.
   float roughness();
+  /// Returns true if a body higher than the limit of steps stands on the column.
+  bool blocked() const {
+    return !patch_.occupied.empty() &&
+           static_cast<double>(patch_.occupied[patch_.index(ix_, iy_)]) > limits_.step_height;
+  }
   /// Returns one component of the unit upward normal, in world axes: x, y or z for axis 0, 1 or 2.
   float normal(int axis) const;
 

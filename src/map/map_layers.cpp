@@ -84,10 +84,12 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .meaning = "0 bad .. 1 good",
        .type = LayerType::kShare,
        .needs = LayerNeeds::kHeights,
-       .from = {kSlope, kStepHeight, kRoughness, kElevation},
+       .from = {kSlope, kStepHeight, kRoughness, kElevation, kOccupied},
        .of_surround =
            [](Surround& s) {
-             return traversability(s.slope(), s.step_height(), s.roughness(), s.limits());
+             const float ground =
+                 traversability(s.slope(), s.step_height(), s.roughness(), s.limits());
+             return s.blocked() && ground > 0 ? 0.0f : ground;
            }},
       {.layer = kLooseDepth,
        .name = "loose_depth",
@@ -117,7 +119,7 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .type = LayerType::kTime,
        .needs = LayerNeeds::kHistory,
        // A change of any of these stamps the column.
-       .from = {kElevation, kSoil, kDensity, kLooseDepth}},
+       .from = {kElevation, kSoil, kDensity, kLooseDepth, kOccupied}},
       {.layer = kActive,
        .name = "active",
        .unit = "-",
@@ -171,6 +173,14 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .type = LayerType::kQuantity,
        .needs = LayerNeeds::kSoilState,
        .of_column = [](Block b, int ix, int iy) { return b.site().specific_volume(ix, iy); },
+       .by_default = false},
+      {.layer = kOccupied,
+       .name = "occupied",
+       .unit = "m",
+       .meaning = "height of a body's top above the surface, 0 without a body",
+       .type = LayerType::kQuantity,
+       .needs = LayerNeeds::kHeights,
+       .of_column = [](Block b, int ix, int iy) { return b.site().occupied(ix, iy); },
        .by_default = false},
   }};
   return table;

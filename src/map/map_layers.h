@@ -54,10 +54,12 @@ enum class MapLayer : std::uint8_t {
   /// z component of the unit upward normal, in world axes.
   kNormalZ,
   /// Volume divided by bank volume of the uppermost soil [-].
-  kSpecificVolume
+  kSpecificVolume,
+  /// Height of a body's top above the surface [m]; 0 where no body stands.
+  kOccupied
 };
 /// Number of map layers.
-inline constexpr std::size_t kMapLayers = static_cast<std::size_t>(MapLayer::kSpecificVolume) + 1;
+inline constexpr std::size_t kMapLayers = static_cast<std::size_t>(MapLayer::kOccupied) + 1;
 
 /// Meaning of a layer's values, which determines how pictures and exported files show them.
 enum class LayerType : std::uint8_t {

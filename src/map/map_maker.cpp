@@ -5,6 +5,7 @@
 #include "map/map_maker.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -73,10 +74,36 @@ void MapMaker::update_derived(const CellRect& rect) {
     // map reports.
     ElevationPatch patch{grown(block, options_->limits.reach(map_->cell())), map_->cell(), {}};
     patch.z = map_->copy(MapLayer::kElevation, patch.rect);
+    if (wants(MapLayer::kOccupied)) patch.occupied = map_->copy(MapLayer::kOccupied, patch.rect);
     for_each_surround(patch, block, options_->limits, [&](int ix, int iy, Surround& surround) {
       for (const LayerInfo* row : of_surround_) set(row->layer, ix, iy, row->of_surround(surround));
     });
   });
+}
+
+// Bodies are few, and those that move change whole outlines. The list unites runs that lie side by
+// side; its order does not matter, as it covers every change.
+void MapMaker::add_moved(const OccupiedColumns& now, std::vector<CellRect>& rects) {
+  std::vector<std::int64_t> moved;
+  for (const auto& [column, top] : now) {
+    const auto before = occupied_.find(column);
+    if (before == occupied_.end() || before->second != top) moved.push_back(column);
+  }
+  for (const auto& [column, top] : occupied_)
+    if (!now.contains(column)) moved.push_back(column);
+  occupied_ = now;
+  std::sort(moved.begin(), moved.end());
+  heightfield::RectList list;
+  const int nx = map_->nx();
+  for (std::size_t i = 0, end = 0; i < moved.size(); i = end) {
+    // One run along x.
+    const int iy = static_cast<int>(moved[i] / nx), x0 = static_cast<int>(moved[i] % nx);
+    for (end = i + 1; end < moved.size() && moved[end] == moved[end - 1] + 1 &&
+                      static_cast<int>(moved[end] / nx) == iy;)
+      ++end;
+    list.add({x0, iy, x0 + static_cast<int>(end - i), iy + 1});
+  }
+  for (const CellRect& rect : list.rects()) rects.push_back(rect);
 }
 
 // The first view only sets the source of the tiles. Later ones write what changed.
@@ -88,15 +115,17 @@ const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& vi
   }
   // Writes of this update go to copies of the tiles that a map holds.
   ++edition_;
-  const std::vector<CellRect> rects = follower_.take(view);
+  std::vector<CellRect> rects = follower_.take(view);
   // The source of the first map computes it from this view.
   if (first) {
     changed_ = rects;
+    if (wants(MapLayer::kOccupied)) occupied_ = occupied_columns(view, *options_);
     map_->time_ = view.time();
     map_->sequence_ = ++updates_;
     return changed_;
   }
   const SiteColumns site(view, options_);
+  if (wants(MapLayer::kOccupied)) add_moved(site.occupied(), rects);
   for (const CellRect& rect : rects) update_columns(site, rect);
   // A derived value depends on columns around it; the list unites rectangles that overlap much.
   heightfield::RectList around;
@@ -114,6 +143,7 @@ const std::vector<CellRect>& MapMaker::update(const heightfield::TerrainView& vi
 void MapMaker::forget() {
   follower_.forget();
   map_.reset();
+  occupied_.clear();
 }
 
 TerrainMap MapMaker::map() {

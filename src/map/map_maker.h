@@ -41,6 +41,9 @@ class MapMaker {
   void forget();
 
  private:
+  /// Adds rectangles around all columns that bodies began or ceased to occupy, or on which their
+  /// height changed, and stores `now` as the occupied columns.
+  void add_moved(const OccupiedColumns& now, std::vector<heightfield::CellRect>& rects);
   /// Returns true if the current map has the size and position of the site in `view`.
   bool is_of(const heightfield::TerrainView& view) const;
   /// Makes the map of the first view of a site.
@@ -66,6 +69,8 @@ class MapMaker {
   /// Edition number with which tiles are written. Increased before every update and whenever a map
   /// is returned, so that tiles of returned maps are copied instead of written.
   std::uint64_t edition_ = 0;
+  /// Columns that bodies occupied at the last update.
+  OccupiedColumns occupied_;
   /// Number of updates so far, which is the sequence number of the current map.
   std::uint64_t updates_ = 0;
   /// Layers of the map, by the function that computes them: from a single column (`of_column_` and

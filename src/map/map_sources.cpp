@@ -128,16 +128,18 @@ MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& si
   return out;
 }
 
-TerrainMap map_of_site(const Ground& site, const MapOptions& options) {
+TerrainMap map_of_site(const Ground& site, const MapOptions& options,
+                       heightfield::OccupiedAreas areas) {
   MapMaker maker(options);
-  maker.update(site.view());
+  maker.update(site.view().with(std::move(areas)));
   return maker.map();
 }
 
 // The file holds rounded heights. A column whose difference from the start is within the rounding
 // keeps the exact height of the start, so that untouched ground shows no cut and no fill.
 TerrainMap map_of_run(const scene::Scene& scene, const Ground& start,
-                      const std::string& terrain_end, const MapOptions& options) {
+                      const std::string& terrain_end, const MapOptions& options,
+                      heightfield::OccupiedAreas areas) {
   if (!std::filesystem::is_regular_file(terrain_end))
     throw FileError(
         "cannot read '" + terrain_end +
@@ -161,9 +163,9 @@ TerrainMap map_of_run(const scene::Scene& scene, const Ground& start,
   // No one has dug the ground of these heights: what a run changed is the heights themselves.
   const auto shared = std::make_shared<const MapOptions>(options);
   const bool loose = any_needs(options.layers, LayerNeeds::kLooseSoil);
-  return make_map(std::make_shared<const RunColumns>(Ground(setup).view(std::nan("")), shared,
-                                                     before, loose ? terrain_end : ""),
-                  1);
+  const heightfield::TerrainView view = Ground(setup).view(std::nan("")).with(std::move(areas));
+  return make_map(
+      std::make_shared<const RunColumns>(view, shared, before, loose ? terrain_end : ""), 1);
 }
 
 }  // namespace navvy::map

@@ -27,7 +27,9 @@ MapOptions options_for(const scene::Scene& scene, const heightfield::Terrain& si
 
 /// Returns the map of an untouched site. Needs no OpenCL device. Columns are computed when they are
 /// read.
-TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options);
+/// @param areas areas that bodies occupy on it; may be null
+TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& options,
+                       heightfield::OccupiedAreas areas = {});
 
 /// Returns the map of the ground at the end of a run of `scene`, from the file `terrain_end`
 /// (terrain_end.tif) that the run wrote. `start` is the untouched site of the scene.
@@ -37,8 +39,11 @@ TerrainMap map_of_site(const heightfield::Ground& site, const MapOptions& option
 /// to rest, because the file then has no such band. Soil, density and the time of changes are
 /// unknown. Columns that did not change have exactly their initial heights; others are rounded as
 /// in the file. The time of the map is NaN.
+/// @param areas areas that bodies occupy at the end of the run, as far as they are known; may be
+///   null
 /// @throws FileError if the file is missing, InputError if it belongs to another site.
 TerrainMap map_of_run(const scene::Scene& scene, const heightfield::Ground& start,
-                      const std::string& terrain_end, const MapOptions& options);
+                      const std::string& terrain_end, const MapOptions& options,
+                      heightfield::OccupiedAreas areas = {});
 
 }  // namespace navvy::map

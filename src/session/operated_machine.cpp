@@ -2,10 +2,13 @@
 #include "session/operated_machine.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/log.h"
 #include "session/uncontrolled_machine.h"
+#include "sim/occupied_areas.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::session {
@@ -33,6 +36,11 @@ heightfield::TerrainView SeenSurface::mapped() const {
   return sim::terrain_view(world_, heightfield::SurfaceKind::kMapped);
 }
 
+heightfield::TerrainView SurfaceAroundMachine::mapped() const {
+  return surface_.mapped().with(std::make_shared<const std::vector<heightfield::OccupiedArea>>(
+      sim::occupied_areas(world_, sim::bodies_around(world_, machine_))));
+}
+
 OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurface& surface,
                                  const Programs& programs, const control::MakePathPlanner& planners)
     : world_(world),
@@ -50,7 +58,8 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
   // Sized once, so that observing allocates no memory.
   seen_.joints.resize(joints_.size());
   seen_.ground = &world.ground();
-  seen_.surface = &surface;
+  around_ = std::make_unique<const SurfaceAroundMachine>(surface, world, machine);
+  seen_.surface = around_.get();
   seen_.programs = &programs;
   connect_gauges();
 }

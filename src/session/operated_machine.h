@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,27 @@ class SeenSurface final : public control::SurfaceView {
   mutable std::optional<heightfield::TerrainView> view_;
   // Step of the world for which `view_` was computed.
   mutable std::uint64_t seen_step_ = 0;
+};
+
+/// The terrain as the operator of one machine sees it: its maps show all bodies but this machine
+/// and what it pulls.
+class SurfaceAroundMachine final : public control::SurfaceView {
+ public:
+  /// Stores references to `surface` and `world`, which must outlive this object. `machine` is the
+  /// index of the machine in the scene.
+  SurfaceAroundMachine(const SeenSurface& surface, const sim::World& world, int machine)
+      : surface_(surface), world_(world), machine_(machine) {}
+  /// Returns the terrain in the current step.
+  const heightfield::Terrain& terrain() const override { return surface_.terrain(); }
+  /// Returns a new copy of the surface with the areas of all other bodies.
+  heightfield::TerrainView mapped() const override;
+
+ private:
+  // Surface that all operators share.
+  const SeenSurface& surface_;
+  // The observed world, and the index of the machine.
+  const sim::World& world_;
+  int machine_;
 };
 
 /// A machine and its operator. Also records the machine's digging cycle and bed tip while they are
@@ -103,6 +125,8 @@ class OperatedMachine {
   std::vector<sim::WheelHandle> wheels_;
   // Gauge of the machine's first bucket; empty if it has none.
   std::optional<BucketGauge> bucket_;
+  // The terrain around the machine. On the heap, because observations point to it.
+  std::unique_ptr<const SurfaceAroundMachine> around_;
   // The machine's first bed; empty if it has none.
   std::optional<sim::ToolHandle> bed_;
   // The operator, with the state of the program.

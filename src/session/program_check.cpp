@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "core/edit_distance.h"
 #include "heightfield/design_surface.h"
 #include "heightfield/make_ground.h"
+#include "sim/occupied_areas.h"
 #include "sim/start_placing.h"
 
 namespace navvy::session {
@@ -94,6 +96,20 @@ class BedCheck {
   const std::vector<Pose>& X_WB_;
 };
 
+/// Returns which bodies stay where they start, as far as is known before a run: all but the machine
+/// itself, those with a program, kinematic ones, and those that hitches couple.
+std::vector<char> staying_bodies(const scene::Scene& world, std::size_t machine) {
+  std::vector<char> out = sim::all_bodies(world);
+  for (std::size_t m = 0; m < world.machines.size(); ++m)
+    if (m == machine || !world.machines[m].program.steps.empty() ||
+        world.machines[m].machine.kinematic)
+      out[m] = 0;
+  for (const scene::Hitch& hitch : world.hitches)
+    out.at(static_cast<std::size_t>(hitch.parent)) = out.at(static_cast<std::size_t>(hitch.child)) =
+        0;
+  return out;
+}
+
 /// Returns an error for each step whose receiver is no other machine with a bed.
 std::vector<Fault> check_receivers(const scene::Scene& world, const scene::MachineInWorld& placed) {
   std::vector<std::string> known;
@@ -122,7 +138,10 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
   // Errors come first, warnings follow.
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::MachineInWorld& placed = world.machines[m];
-    for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), surface,
+    const control::OccupiedSurfaceView around(
+        surface, std::make_shared<const std::vector<heightfield::OccupiedArea>>(
+                     sim::occupied_areas(world, X_WB, staying_bodies(world, m))));
+    for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), around,
                                              world.file, placed.name, planners))
       faults.push_back(std::move(fault));
     for (Fault& fault : check_receivers(world, placed)) faults.push_back(std::move(fault));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world_terrain.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "sim/occupied_areas.h"
 #include "sim/world_parts.h"
 
 namespace navvy::sim {
@@ -51,7 +53,9 @@ heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKi
   heightfield::TerrainView columns = world.ground().view(world.time());
   if (surface == heightfield::SurfaceKind::kColumns) return columns;
   if (surface == heightfield::SurfaceKind::kMapped)
-    return columns.with(active_places(world).on_ground, surface);
+    return columns.with(active_places(world).on_ground, surface)
+        .with(std::make_shared<const std::vector<heightfield::OccupiedArea>>(
+            occupied_areas(world, all_bodies(world.description()))));
   std::vector<heightfield::LooseGrain> grains;
   for (const soil::Particle& p : parts(world).soil.particles())
     grains.push_back(grain_of(world, p));

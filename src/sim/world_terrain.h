@@ -14,6 +14,8 @@ namespace navvy::sim {
 /// selects the surface that heights refer to: the columns only, or the columns with loose soil on
 /// them.
 ///
+/// The surface for maps (SurfaceKind::kMapped) also holds the areas that all bodies occupy.
+///
 /// For the columns only, the cost depends on what has changed since the last view (microseconds). A
 /// surface with loose soil costs a pass over all particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);

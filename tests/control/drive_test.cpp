@@ -150,6 +150,34 @@ TEST(Drive, GetsEnoughTimeToCreep) {
   EXPECT_NEAR(stuck(0, Vec3::Zero(), 0.005).end, 40, 0.1);
 }
 
+/// Returns the report of a machine that turns at `rate` [rad/s] and moves at `speed` [m/s] along x,
+/// whatever its command.
+StepReport drifting(double rate, double speed) {
+  Operator op(ew180_like(), {{to(-4, 0, 0, 1)}, {}}, "digger");
+  Observation seen;
+  seen.joints.resize(ew180_like().joints.size());
+  double time = 0;
+  for (; time < 120 && !op.ended(); time += kStep) {
+    seen.X_WB = make_pose(-9 + speed * time, 0, 0, 0, 0, rate * time);
+    op.update(seen, time, kStep);
+  }
+  return op.present(seen, time);
+}
+
+TEST(Drive, IsStalledWhenItMovesWithoutAdvancing) {
+  const StepReport spun = drifting(0.5, 0);
+  EXPECT_EQ(spun.state, StepState::kStalled);
+  EXPECT_NE(spun.reason.find("without advancing on its path"), std::string::npos) << spun.reason;
+  // Its yaw is never nearer to that of the line than at the start.
+  EXPECT_NEAR(spun.end, 20, 0.1);
+}
+
+TEST(Drive, IsNotStalledWhenItCreeps) {
+  // Its time limit ends the drive: 30 s and three times the 5 s that 5 m take at 1 m/s.
+  const StepReport crept = drifting(0, 0.012);
+  EXPECT_EQ(crept.state, StepState::kOutOfTime) << crept.reason;
+}
+
 TEST(Pursuit, PredictsTheFinalPose) {
   const auto about = std::get<scene::AckermannDrive>(ew180_like().drive);
   const PlanePose start{Vec2(0, 0), 0};

@@ -81,8 +81,8 @@ class Driving final : public ActivityWith<Memory> {
       return stand(at, late);
     }
     std::string held;
-    const StepState progress =
-        m.progress.look(seen, place_.machine, step_.speed, miss(at), dt, held);
+    const StepState progress = m.progress.look(seen, place_.machine, step_.speed, miss(at),
+                                               remaining(pursuit, at), dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
     // Accelerate along the ramp, decelerate along the curve that stops at the target.
     m.speed = std::min(
@@ -99,6 +99,14 @@ class Driving final : public ActivityWith<Memory> {
 
   /// Returns the distance from the target [m].
   double miss(const PlanePose& at) const { return (step_.target - at.p).norm(); }
+
+  /// Returns a length that decreases while the machine turns to its line, approaches it and
+  /// advances along it [m].
+  double remaining(const Pursuit& pursuit, const PlanePose& at) const {
+    const Vec2 across(-std::sin(m.heading), std::cos(m.heading));
+    return std::max(0.0, pursuit.left(at)) + std::abs((at.p - pursuit.target).dot(across)) +
+           bicycle_.wheelbase * std::abs(std::remainder(at.yaw - m.heading, 2 * kPi));
+  }
 
   /// Returns the law of the present leg: to the target, or away from it along the same line.
   Pursuit leg(const PlanePose& at) const {

@@ -105,7 +105,8 @@ class Going final : public ActivityWith<Memory> {
     const double aside = (at.p - from.p).norm(),
                  turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
     if (!path_is_clear(0))
-      place_.note("the ground on its path has changed since its program began: planning again");
+      place_.note(
+          "the ground or a body on its path has changed since its program began: planning again");
     else if (aside > kElsewhere || turned > kElsewhereTurn)
       place_.note("it stands " + metres(aside) + " from where it was to begin: it plans anew");
     else
@@ -193,7 +194,7 @@ class Going final : public ActivityWith<Memory> {
   std::string no_path(const PlanePose& at) const {
     std::string out = "no path from " + place_text(at.p) + " to " + place_text(step_.target) +
                       " that keeps " + metres(step_.clearance) +
-                      " from ground it cannot drive on: ";
+                      " from ground it cannot drive on and from bodies: ";
     const double here = place_.planner->clearance(at, step_.clearance);
     const double there = place_.planner->clearance({step_.target, step_.heading}, step_.clearance);
     if (here < step_.clearance)
@@ -244,7 +245,7 @@ class Going final : public ActivityWith<Memory> {
     if (m.unseen >= kLook) {
       look(seen);
       if (!path_is_clear(m.s)) {
-        place_.note("the ground on its path has changed: planning again");
+        place_.note("the ground or a body on its path has changed: planning again");
         stop(Then::kPlanAnew);
         return false;
       }
@@ -255,8 +256,8 @@ class Going final : public ActivityWith<Memory> {
       return false;
     }
     std::string held;
-    const StepState progress =
-        m.progress.look(seen, place_.machine, step_.speed, goal_distance(at), dt, held);
+    const StepState progress = m.progress.look(seen, place_.machine, step_.speed, goal_distance(at),
+                                               m.path.length() - m.s, dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
     if (phase_time() > 30 + 3 * (leg().end - leg().begin) / step_.speed)
       return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) +
@@ -332,13 +333,13 @@ void GoTo::check_reach(ReachCheck& check) const {
   }
   const double there = check.planner->clearance({target, heading}, clearance);
   if (there >= clearance) return;
-  const std::string rule =
-      "the machine would stand " + metres(there) +
-      " from ground that it cannot drive on, as it lies at the start; needed are " +
-      metres(clearance);
+  const std::string rule = "the machine would stand " + metres(there) +
+                           " from ground that it cannot drive on, or from a body, as they are at "
+                           "the start; needed are " +
+                           metres(clearance);
   const std::string remedy =
       "choose another goal or a smaller <clearance_m>; navvy map --layers traversability shows "
-      "the ground";
+      "them";
   if (check.after_digging())
     check.warn("go_to/target", place_text(target), rule, remedy);
   else

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/occupied_areas.h"
+
+#include <cstddef>
+#include <functional>
+
+#include "geometry/oriented_box.h"
+#include "vehicle/collision_box.h"
+
+namespace navvy::sim {
+namespace {
+
+using heightfield::OccupiedArea;
+
+/// Returns true for a machine; false for a body that only stands, moves as one piece, or falls.
+bool is_machine(const scene::MachineInWorld& placed) {
+  return placed.machine.has_drive || !placed.machine.joints.empty() ||
+         !placed.program.steps.empty();
+}
+
+OccupiedArea area_of(const Pose& X_WL, const geometry::OrientedBox& box, bool machine) {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(X_WL * box.X_WO *
+                      box.half.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
+                                                 (i & 4) != 0 ? 1 : -1)));
+  return heightfield::area_around(corners, machine);
+}
+
+/// Adds the areas of one machine. `pose` returns X_WL for the index of a link.
+void add_areas(const scene::MachineInWorld& placed, const std::function<Pose(std::size_t)>& pose,
+               std::vector<OccupiedArea>& out) {
+  const scene::Machine& machine = placed.machine;
+  const bool driven = is_machine(placed);
+  for (std::size_t l = 0; l < machine.links.size(); ++l)
+    for (const scene::Collision& collision : machine.links[l].collisions)
+      if (const auto box = vehicle::box_of(collision))
+        out.push_back(area_of(pose(l), *box, driven));
+  for (const scene::Wheel& wheel : machine.wheels) {
+    const int joint = machine.joint_index(wheel.joint);
+    if (joint < 0) continue;
+    const auto link =
+        static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
+    const double width = wheel.width + wheel.twin_spacing;
+    // The axle of a wheel is y.
+    out.push_back(area_of(pose(link),
+                          {Pose::Identity(), Vec3(wheel.radius, width / 2, wheel.radius)}, driven));
+  }
+  for (const scene::Shell& shell : machine.shells) {
+    const int link = machine.link_index(shell.link);
+    if (link < 0 || shell.vertices.empty()) continue;
+    std::vector<Vec3> points;
+    for (const Vec3& v : shell.vertices) points.push_back(pose(static_cast<std::size_t>(link)) * v);
+    out.push_back(heightfield::area_around(points, driven));
+  }
+}
+
+}  // namespace
+
+std::vector<OccupiedArea> occupied_areas(const scene::Scene& scene, const std::vector<Pose>& X_WB,
+                                         const std::vector<char>& included) {
+  std::vector<OccupiedArea> out;
+  for (std::size_t m = 0; m < scene.machines.size(); ++m) {
+    const scene::Machine& machine = scene.machines[m].machine;
+    if (included.at(m) == 0 || machine.links.empty()) continue;
+    const Pose X_WM = X_WB.at(m) * machine.links[0].X_ML.inverse();
+    add_areas(
+        scene.machines[m], [&](std::size_t l) { return X_WM * machine.links[l].X_ML; }, out);
+  }
+  return out;
+}
+
+std::vector<OccupiedArea> occupied_areas(const World& world, const std::vector<char>& included) {
+  std::vector<OccupiedArea> out;
+  const scene::Scene& scene = world.description();
+  for (std::size_t m = 0; m < scene.machines.size(); ++m) {
+    if (included.at(m) == 0) continue;
+    const MachineHandle machine = world.machines().at(static_cast<int>(m));
+    add_areas(
+        scene.machines[m], [&](std::size_t l) { return machine.link(static_cast<int>(l)).pose(); },
+        out);
+  }
+  return out;
+}
+
+std::vector<char> all_bodies(const scene::Scene& scene) {
+  return std::vector<char>(scene.machines.size(), 1);
+}
+
+std::vector<char> fixed_bodies(const scene::Scene& scene) {
+  std::vector<char> out;
+  for (const scene::MachineInWorld& placed : scene.machines)
+    out.push_back(placed.machine.fixed_base && !placed.machine.kinematic && !is_machine(placed));
+  return out;
+}
+
+// A train of several trailers moves as one.
+std::vector<char> bodies_around(const World& world, int machine) {
+  const std::vector<scene::Hitch>& hitches = world.description().hitches;
+  std::vector<char> out = all_bodies(world.description());
+  out.at(static_cast<std::size_t>(machine)) = 0;
+  for (std::size_t again = 0; again < hitches.size(); ++again)
+    for (std::size_t h = 0; h < hitches.size(); ++h) {
+      if (!world.machines().hitch(static_cast<int>(h)).closed) continue;
+      char& parent = out.at(static_cast<std::size_t>(hitches[h].parent));
+      char& child = out.at(static_cast<std::size_t>(hitches[h].child));
+      parent = child = static_cast<char>(parent & child);
+    }
+  return out;
+}
+
+}  // namespace navvy::sim
