@@ -7,17 +7,12 @@
 #include "soil/contact_node.h"
 #include "soil/edge_law.h"
 
-// Returns the weight of a particle in the mean strength of the soil around edges, 1 at an edge.
-// distance2: squared distance from the nearest point of an edge [cells^2].
-#define EDGE_WEIGHT(distance2) \
-  fmax(1.0f - (distance2) * (1.0f / (SCHEME(edge_around) * SCHEME(edge_around))), 0.0f)
-
 // Kernel arguments for the near nodes and what is above and around their blocks.
 //
 // first, above: active blocks above each near block, from below, in compressed rows. slot: index of
-// each active block in the near arrays, or -1. around: 8 indices into `strength` per near block, for
-// itself and its lower neighbours, x fastest; -1 where no soil is near an edge. strength: from the
-// kernel edge_strength. weight: downward gravity / area of a column [m/s2 / m2].
+// each active block in the near arrays, or -1. around: 8 indices into `strength` per near block,
+// for itself and its lower neighbours, x fastest; -1 where no soil is near an edge. strength: from
+// the kernel edge_strength. weight: downward gravity / area of a column [m/s2 / m2].
 #define EDGE_ARGS                                                                               \
   global const float4 *restrict before0, global const float4 *restrict before1,                 \
       global const float4 *restrict velocity,                                                   \
@@ -71,7 +66,8 @@ static inline float2 factors_of(global const EdgeProfile* profile, float sin_phi
   const float row = fmin(fmax(sin_phi / EDGE_STEP, 0.0f), EDGE_ANGLES - 1.001f);
   const int k = (int)row;
   const float t = row - (float)k;
-  const float4 low = vload4(k, &profile->at[0].flat_c), high = vload4(k + 1, &profile->at[0].flat_c);
+  global const float* rows = &profile->at[0].flat_c;
+  const float4 low = vload4(k, rows), high = vload4(k + 1, rows);
   const float4 f = low + t * (high - low);
   const float rise = friction * profile->cot;
   return (float2)(edge_factor(f.x, f.z, rise), edge_factor(f.y, f.w, rise));

@@ -124,9 +124,9 @@
 //
 // - edge_ahead: the nodes that carry the resistance are those around a point at this distance ahead
 //   of the edge; nodes behind the edge belong to the plate's faces.
-// - edge_spread: tuned with `navvy lab tip`. Nodes give no more than the soil around them bears; the
-//   end of a plate of 60 mm in sand has 0.76 of Prandtl's value with 0 in cells of 0.05 m, 0.87 with
-//   1 and 0.94 with 2.
+// - edge_spread: tuned with `navvy lab tip`. Nodes give no more than the soil around them carries;
+//   in sand and cells of 0.05 m, the end of a plate of 60 mm has 0.76 of Prandtl's value with 0,
+//   0.87 with 1 and 0.94 with 2.
 // - edge_bond: tuned with `navvy lab tip`. An edge remoulds the soil that it displaces, from intact
 //   soil ahead to remoulded soil at the plate. With 1, edges of 60 mm in loam resist by 9.4 kN per
 //   0.6 m in cells of 0.1 m, where nothing of that is resolved, and by 7.5 kN in cells of 0.05 m.

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "control/path_planner.h"
 #include "control/surface.h"
@@ -67,6 +68,8 @@ class ActivityStep : public scene::Step {
   /// Returns the point at which the step empties the bucket. Empty if the step does not dump at a
   /// given point. The XML element of a step with a dump point has a child <dump_height_m>.
   virtual std::optional<DumpPoint> dump_point() const { return std::nullopt; }
+  /// Returns the name of the machine in whose bed the soil must land; empty if the step names none.
+  virtual std::string receiver() const { return ""; }
 };
 
 /// Returns the ActivityStep stored in a step of a program. @throws InputError if the stored step

@@ -2,6 +2,7 @@
 // Inputs and outputs of an operator in one control step.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,6 +45,17 @@ struct Observation {
   Vec3 tyre_force = Vec3::Zero();
   /// Fraction of the wheels whose tops are below the resting ground [-].
   double wheels_under = 0;
+  /// Functions that return the present mass of the soil in the first bucket and in the first bed
+  /// [kg]; empty if it is unknown. A call costs a pass over the particles.
+  std::function<double()> bucket_load, bed_load;
+  /// Function that returns the mass of the soil in the beds of the machine of this name [kg]; empty
+  /// if it is unknown. A call costs a pass over the particles.
+  std::function<double(const std::string&)> load_of;
+  /// Function that returns true if the hitch of this name is closed; empty if that is unknown.
+  std::function<bool(const std::string&)> is_hitched;
+  /// Function that returns true if another machine is coupled to this one; empty if that is
+  /// unknown.
+  std::function<bool()> is_coupled;
   /// Progress of the programs in the world, keyed by machine name; null if it is unknown.
   const std::map<std::string, ProgramProgress>* programs = nullptr;
 };

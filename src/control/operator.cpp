@@ -7,6 +7,7 @@
 
 #include "control/activity.h"
 #include "control/activity_step.h"
+#include "control/reach.h"
 #include "control/watch.h"
 
 namespace navvy::control {
@@ -25,6 +26,7 @@ struct Operator::State {
   std::int64_t step = 0;
   Watch watch;
   double started = 0;                   // the running step [s]
+  Vec3 stood = Vec3::Zero();            // place of the base when the running step began [m]
   std::vector<StepReport> reports;      // of the steps that are over
   std::vector<std::uint8_t> commanded;  // by joint: the program has
   double steer = 0;                     // of the last command to the drive
@@ -36,6 +38,7 @@ struct Operator::State {
   const ActivityStep& present() const { return *steps[static_cast<std::size_t>(step)]; }
   void make_activity();
   void plan_ahead(const Observation& seen);
+  StepState look(const Observation& seen, double dt, std::string& reason);
   void watch_over(const Observation& seen, double time, double dt);
   void finish(StepState state, const std::string& reason, const Observation& seen, double time);
   StepReport report(StepState state, const std::string& reason, const Observation& seen,
@@ -115,10 +118,44 @@ void Operator::State::finish(StepState state, const std::string& reason, const O
   if (!fell_short(state)) ++step;
 }
 
+namespace {
+
+/// Distance that a machine may settle, roll out or be shaken during a step in which it stands [m].
+constexpr double kMostMoved = 0.5;
+
+/// Returns true for steps in which the machine keeps its place. A dig moves its machine and has
+/// limits of its own, and a trajectory may turn wheels.
+bool stands_still(const ActivityStep& step) {
+  const std::string element = step.element();
+  return element == "wait" || element == "wait_for" || element == "swing" || element == "dump" ||
+         element == "tip" || element == "unhitch";
+}
+
+}  // namespace
+
+/// Returns the state in which the machine must stop, with its reason, or kRunning.
+StepState Operator::State::look(const Observation& seen, double dt, std::string& reason) {
+  if (const StepState state = watch.look(seen, dt, reason); fell_short(state)) return state;
+  const Vec3 p = seen.X_WB.translation();
+  if (seen.ground != nullptr) {
+    const Vec2i at = seen.ground->column_at(p.x(), p.y());
+    if (!seen.ground->contains(at.x(), at.y())) {
+      reason = "its base is beyond the border of the site";
+      return StepState::kOffSite;
+    }
+  }
+  const double moved = (p - stood).head<2>().norm();
+  const bool towed = seen.is_coupled && seen.is_coupled();
+  if (!active || !stands_still(present()) || !(moved > kMostMoved) || towed)
+    return StepState::kRunning;
+  reason = "it slid or was pushed " + metres(moved) + " while it was to keep its place";
+  return StepState::kMoved;
+}
+
 /// A machine can tip over long after its program is done: a second report of the last step says so.
 void Operator::State::watch_over(const Observation& seen, double time, double dt) {
   std::string reason;
-  const StepState state = watch.look(seen, dt, reason);
+  const StepState state = look(seen, dt, reason);
   if (!fell_short(state) || reports.empty()) return;
   reports.push_back({static_cast<std::int64_t>(steps.size()),
                      reports.back().element,
@@ -204,10 +241,11 @@ Command Operator::update(const Observation& seen, double time, double dt) {
       if (s.step == 0) s.plan_ahead(seen);
       s.make_activity();
       s.started = time;
+      s.stood = seen.X_WB.translation();
       s.active->begin(seen);
     }
     std::string reason;
-    if (const StepState state = s.watch.look(seen, dt, reason); fell_short(state)) {
+    if (const StepState state = s.look(seen, dt, reason); fell_short(state)) {
       s.finish(state, reason, seen, time);
     } else {
       const bool over = s.active->advance(seen, dt, out);
@@ -230,14 +268,16 @@ Command Operator::update(const Observation& seen, double time, double dt) {
 void Operator::visit(Archive& a) {
   State& s = *state_;
   // Version 5: reports of the steps, commands; 6: the machine's stability; 7: events after the last
-  // step; 8: a scoop begins before its soil.
-  a.section("operator", 8, [&] {
+  // step; 8: a scoop begins before its soil; 9: the place where a step began.
+  a.section("operator", 9, [&] {
     a("step", s.step);
     a.require(s.step >= 0 && s.step <= static_cast<std::int64_t>(s.steps.size()), "step",
               "the program has no such step; use the scene it was made with");
     a("handover", s.place.handover);
     a("watch", s.watch);
     a("started", s.started);
+    a.unhashed("follows from the states before; states of equal runs keep their hashes",
+               [&] { a("stood", s.stood); });
     a("reports", s.reports);
     // One per completed step; one more for the step that fell short, or for an event after the last
     // step.

@@ -33,6 +33,10 @@ enum class StepState : std::uint8_t {
   kBuried,
   /// The planner found no path to the target.
   kNoPath,
+  /// The machine slid or was pushed away during a step in which it stands.
+  kMoved,
+  /// The machine's base has left the site.
+  kOffSite,
 };
 
 /// Returns the name of a state as used in files and messages, such as "out_of_reach".

@@ -82,6 +82,24 @@ json tip_list(const session::Session& session) {
   return tips;
 }
 
+/// Returns an entry for each collision of two links.
+json collision_list(const session::Session& session) {
+  json list = json::array();
+  for (const session::Collision& one : session.collisions().collisions()) {
+    const sim::MachineHandle machine = session.world().machines().at(one.machine),
+                             other = session.world().machines().at(one.other_machine);
+    list.push_back({{"machine", machine.name()},
+                    {"link", machine.link(one.link).name()},
+                    {"other_machine", other.name()},
+                    {"other_link", other.link(one.other_link).name()},
+                    {"start_s", one.start},
+                    {"end_s", one.end},
+                    {"force_peak_n", one.force_peak},
+                    {"depth_m", one.depth_peak}});
+  }
+  return list;
+}
+
 /// Returns the present payload of buckets and beds [kg], by "machine/shell".
 json carried(const session::Session& session) {
   json out = json::object();
@@ -168,6 +186,8 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
     out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
+  out["collisions"] = collision_list(session);
+  out["collision_count"] = session.collisions().count();
   // Results on the ground.
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;

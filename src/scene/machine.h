@@ -17,7 +17,7 @@
 #include "scene/drive.h"
 #include "scene/fields.h"
 #include "scene/material.h"
-#include "scene/shell.h"
+#include "scene/tool_shell.h"
 
 namespace navvy::scene {
 

@@ -56,6 +56,9 @@ scene::Program read_program(Element& element, const scene::StepKinds& kinds,
                  "remove it");
   if (const auto* at = element.FirstAttribute())
     faults.error(element, at->Name(), "unknown attribute", "remove it");
+  if (element.FirstChildElement() == nullptr)
+    faults.warning(element, "", "the program has no steps: nothing operates the machine",
+                   "add steps, or remove the program");
   return program;
 }
 

@@ -52,6 +52,35 @@ OperatedMachine::OperatedMachine(sim::World& world, int machine, const SeenSurfa
   seen_.ground = &world.ground();
   seen_.surface = &surface;
   seen_.programs = &programs;
+  connect_gauges();
+}
+
+/// Gives the operator what a cab shows on demand. Handles are copied, as this object may move.
+void OperatedMachine::connect_gauges() {
+  if (bucket_) seen_.bucket_load = [bucket = bucket_->tool()] { return bucket.payload(); };
+  if (bed_) seen_.bed_load = [bed = *bed_] { return bed.payload(); };
+  const sim::World& world = world_;
+  seen_.load_of = [&world](const std::string& name) {
+    double sum = 0;
+    for (const sim::ToolHandle& tool : world.machines().tools())
+      if (tool.is_bed() && world.machines().at(tool.machine()).name() == name)
+        sum += tool.payload();
+    return sum;
+  };
+  seen_.is_hitched = [&world](const std::string& name) {
+    const std::vector<scene::Hitch>& hitches = world.description().hitches;
+    for (std::size_t h = 0; h < hitches.size(); ++h)
+      if (hitches[h].name == name) return world.machines().hitch(static_cast<int>(h)).closed;
+    return false;
+  };
+  seen_.is_coupled = [&world, machine = index()] {
+    const std::vector<scene::Hitch>& hitches = world.description().hitches;
+    for (std::size_t h = 0; h < hitches.size(); ++h)
+      if ((hitches[h].parent == machine || hitches[h].child == machine) &&
+          world.machines().hitch(static_cast<int>(h)).closed)
+        return true;
+    return false;
+  };
 }
 
 void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips) {

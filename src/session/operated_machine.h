@@ -83,6 +83,8 @@ class OperatedMachine {
   /// Fills in what an operator observes: joint states, pose and stability, and the force on the
   /// bucket and its payload.
   void observe(control::Observation& seen) const;
+  /// Connects the functions of the observation that return loads and the state of hitches.
+  void connect_gauges();
   /// Passes the new commands to the world. Joints and a drive without a new command keep their last
   /// one.
   void send(const control::Command& command);

@@ -10,6 +10,7 @@
 
 #include "control/activity_step.h"
 #include "control/reach.h"
+#include "core/edit_distance.h"
 #include "heightfield/design_surface.h"
 #include "heightfield/make_ground.h"
 #include "sim/start_placing.h"
@@ -93,6 +94,25 @@ class BedCheck {
   const std::vector<Pose>& X_WB_;
 };
 
+/// Returns an error for each step whose receiver is no other machine with a bed.
+std::vector<Fault> check_receivers(const scene::Scene& world, const scene::MachineInWorld& placed) {
+  std::vector<std::string> known;
+  for (const scene::MachineInWorld& other : world.machines)
+    if (&other != &placed && !other.machine.beds.empty()) known.push_back(other.name);
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < placed.program.steps.size(); ++i) {
+    const std::string into = control::step_of(placed.program.steps[i]).receiver();
+    if (into.empty() || std::find(known.begin(), known.end(), into) != known.end()) continue;
+    const int line = i < placed.program.lines.size() ? placed.program.lines[i] : 0;
+    faults.push_back({Fault::Severity::kError, world.file, line,
+                      placed.name + "/navvy:program/step " + std::to_string(i + 1) + "/" +
+                          placed.program.steps[i]->element() + "/into",
+                      into, "must be the name of another machine with a bed in this world",
+                      suggestion(into, known)});
+  }
+  return faults;
+}
+
 }  // namespace
 
 std::vector<Fault> check_programs(const scene::Scene& world, const control::SurfaceView& surface,
@@ -105,6 +125,7 @@ std::vector<Fault> check_programs(const scene::Scene& world, const control::Surf
     for (Fault& fault : control::check_reach(placed.machine, placed.program, X_WB.at(m), surface,
                                              world.file, placed.name, planners))
       faults.push_back(std::move(fault));
+    for (Fault& fault : check_receivers(world, placed)) faults.push_back(std::move(fault));
   }
   BedCheck beds(world, surface, X_WB);
   for (std::size_t m = 0; m < world.machines.size(); ++m) beds.look(m);

@@ -69,6 +69,7 @@ struct Session::State {
   /// State of all programs at the start of the step, as operators see them.
   OperatedMachine::Programs programs;
   ForceStatistics force;
+  CollisionWatch collisions;
   /// Simulated time since every program ended [s].
   double idle = 0;
   /// Wall time that operators took [s].
@@ -79,6 +80,7 @@ struct Session::State {
   void watch_uncontrolled_machines();
   void watch_border();
   void take_over(int machine);
+  bool has_link(int machine, int link) const;
   void note_forces();
   void visit(Archive& a);
 };
@@ -150,6 +152,11 @@ void Session::State::watch_border() {
   }
 }
 
+bool Session::State::has_link(int machine, int link) const {
+  const auto& links = world.machines().at(machine).description().links;
+  return link >= 0 && static_cast<std::size_t>(link) < links.size();
+}
+
 void Session::State::take_over(int machine) {
   for (OperatedMachine& one : operated)
     if (one.index() == machine && one.take())
@@ -160,8 +167,8 @@ void Session::State::take_over(int machine) {
 /// Visits all state beside the world: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
   // Version 3 added machines taken by inputs; 4 operators; 5 their reports; 6 peaks of draft and
-  // uplift; 7 the watch over machines that no program drives.
-  a.section("session", 7, [&] {
+  // uplift; 7 the watch over machines that no program drives; 8 loads of tip and dump, collisions.
+  a.section("session", 8, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -173,6 +180,16 @@ void Session::State::visit(Archive& a) {
     a.require(std::all_of(tips.begin(), tips.end(), known), "tips",
               "refers to a machine that the scene does not have");
     a("force", force);
+    a.unhashed("only reports: a collision changes the states of its machines",
+               [&] { a("collisions", collisions); });
+    const auto both_known = [&](const Collision& one) {
+      return one.machine >= 0 && one.machine < one.other_machine &&
+             one.other_machine < world.machines().count() && has_link(one.machine, one.link) &&
+             has_link(one.other_machine, one.other_link);
+    };
+    a.require(
+        std::all_of(collisions.collisions().begin(), collisions.collisions().end(), both_known),
+        "collisions", "refers to a machine or link that the scene does not have");
     a("idle", idle);
     // Programs may have been added to the scene since.
     a.constant("programs", operated.size(),
@@ -243,6 +260,7 @@ void Session::step() {
   // The world steps with the commands given above. Forces are those of this step.
   s.world.step();
   s.note_forces();
+  s.collisions.look(s.world);
 }
 
 void Session::watch(const std::string& link) { state_->world.watch(link); }
@@ -363,6 +381,7 @@ std::vector<ProgramReport> Session::programs() const {
 
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
 const std::vector<BedTip>& Session::tips() const { return state_->tips; }
+const CollisionWatch& Session::collisions() const { return state_->collisions; }
 const std::vector<std::optional<sim::SoilEnergy>>& Session::energy_at_ends() const {
   return state_->energy_at_ends;
 }

@@ -11,6 +11,7 @@
 
 #include "control/path_planner.h"
 #include "core/archive.h"
+#include "session/collision.h"
 #include "session/reports.h"
 #include "sim/world.h"
 
@@ -97,6 +98,8 @@ class Session {
   std::vector<ProgramReport> programs() const;
   /// Returns all completed digging cycles, in the order in which they ended.
   const std::vector<Cycle>& cycles() const;
+  /// Returns the collisions of machines so far, with their number.
+  const CollisionWatch& collisions() const;
   /// Returns all completed bed tips, in the order in which they ended.
   const std::vector<BedTip>& tips() const;
   /// Returns the force statistics over all steps so far.

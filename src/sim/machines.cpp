@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/machines.h"
 
+#include <utility>
+
 #include "core/error.h"
 #include "sim/names.h"
 #include "sim/world_parts.h"
+#include "vehicle/body_contact.h"
 
 namespace navvy::sim {
 
@@ -36,6 +39,32 @@ std::vector<ToolHandle> Machines::tools() const {
 vehicle::HitchState Machines::hitch(int index) const {
   require_hitch(parts_->description, index);
   return parts_->dynamic->hitches()->hitch(index);
+}
+
+std::vector<MachineContact> Machines::contacts() const {
+  std::vector<MachineContact> out;
+  const auto* capability = dynamic_cast<const vehicle::ContactCapability*>(parts_->dynamic.get());
+  if (capability == nullptr) return out;
+  const auto& machines = parts_->description.machines;
+  // Obstacles are the kinematic machines, in the scene's order, as are those of the other engine.
+  const auto index_of_body = [&](const vehicle::ContactBody& body) {
+    int before = 0;
+    for (std::size_t m = 0; m < machines.size(); ++m)
+      if (machines[m].machine.kinematic == body.obstacle && before++ == body.machine)
+        return static_cast<int>(m);
+    return -1;
+  };
+  for (const vehicle::BodyContact& contact : capability->body_contacts()) {
+    MachineContact one{index_of_body(contact.one), contact.one.link, index_of_body(contact.other),
+                       contact.other.link,         contact.force,    contact.depth};
+    if (one.machine < 0 || one.other_machine < 0 || one.machine == one.other_machine) continue;
+    if (one.machine > one.other_machine) {
+      std::swap(one.machine, one.other_machine);
+      std::swap(one.link, one.other_link);
+    }
+    out.push_back(one);
+  }
+  return out;
 }
 
 }  // namespace navvy::sim

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/handles.h"
+#include "sim/machine_contact.h"
 #include "vehicle/machine_state.h"
 
 namespace navvy::sim {
@@ -34,6 +35,9 @@ class Machines {
   /// Returns the current state of a hitch. `index` is an index into scene::Scene::hitches.
   /// @throws InputError for a hitch that does not exist.
   vehicle::HitchState hitch(int index) const;
+  /// Returns the contacts between machines in the last step. Empty if the physics engine does not
+  /// report any.
+  std::vector<MachineContact> contacts() const;
 
  private:
   const WorldParts* parts_;

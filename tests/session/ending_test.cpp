@@ -189,5 +189,38 @@ TEST(SessionEnd, WithoutSettlingIsRightAfterTheProgram) {
   EXPECT_NEAR(session.world().time(), 0.5, 0.05);
 }
 
+const char* const kSteep = "<size_m>30 10</size_m><slope><angle_deg>-35</angle_deg></slope>";
+
+TEST(SessionEnd, OfAMachineThatSlidesWhileItWaitsIsMoved) {
+  device::Device device;
+  Session session(load(kSteep, machine("robot", "robot", "-3 0 0 0 0 0",
+                                       "<wait><duration_s>2</duration_s></wait>")),
+                  device);
+  while (!session.done()) session.step();
+  EXPECT_TRUE(session.fell_short());
+  const ProgramReport report = session.programs().at(0);
+  EXPECT_EQ(report.last().state, StepState::kMoved) << report.last().reason;
+  EXPECT_NE(report.last().reason.find("it slid or was pushed 0.5"), std::string::npos)
+      << report.last().reason;
+  EXPECT_EQ(session.phase(0), "moved");
+}
+
+TEST(SessionEnd, OfAMachineThatLeavesTheSiteIsOffSite) {
+  device::Device device;
+  // It cannot stop on this slope: the border is that of 152 columns of 0.2 m.
+  Session session(load(kSteep, machine("robot", "robot", "8 0 0 0 0 0",
+                                       "<drive_to><target_m>14 0</target_m>"
+                                       "<speed_m_per_s>3</speed_m_per_s></drive_to>"
+                                       "<drive_to><target_m>15 0</target_m></drive_to>")),
+                  device);
+  while (!session.done()) session.step();
+  EXPECT_TRUE(session.fell_short());
+  const ProgramReport report = session.programs().at(0);
+  EXPECT_EQ(report.last().state, StepState::kOffSite) << report.last().reason;
+  EXPECT_NE(report.last().reason.find("beyond the border of the site"), std::string::npos);
+  EXPECT_GT(report.last().place.x(), 15.2);
+  EXPECT_LT(report.last().place.x(), 15.4);
+}
+
 }  // namespace
 }  // namespace navvy::session

@@ -2,8 +2,12 @@
 #include "control/activities/dump.h"
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "control/arm_move.h"
+#include "control/load_change.h"
 #include "control/reach.h"
 
 namespace navvy::control {
@@ -18,14 +22,16 @@ enum Phase : std::int64_t { kOpening, kClosing };
 struct Memory {
   ArmMove move;
   double bucket_before = 0;  // commanded angle of the bucket at the start [rad]
+  LoadChange load;
 
   void visit(Archive& a) {
     a("move", move);
     a("bucket_before", bucket_before);
+    a("load", load);
   }
 };
 
-// Open, hold, close; the remaining load is not observed.
+// Open, hold, close; then something must have left the bucket.
 class Dumping final : public ActivityWith<Memory> {
  public:
   Dumping(OperatorContext& place, const Dump& step) : ActivityWith(place), step_(step) {}
@@ -35,15 +41,20 @@ class Dumping final : public ActivityWith<Memory> {
     // It curls back to the commanded angle, not to where a load had bent it.
     m.bucket_before = place_.handover.q[3];
     m.move.open_bucket(place_, seen);
+    m.load.start(seen.bucket_load);
     enter(kOpening);
+  }
+  std::vector<Measurement> account(const Observation& seen) const override {
+    return m.load.account(seen.bucket_load, "dumped_kg");
   }
 
  private:
   bool update(const Observation& seen, double, Command&) override {
     if (phase_index() == kClosing) {
       if (!m.move.advance(place_, seen, phase_time(), phase())) return false;
-      held(seen, "closed");
-      return true;
+      if (held(seen, "closed")) return true;
+      std::string shortfall = m.load.shortfall(seen.bucket_load, "bucket");
+      return shortfall.empty() || fall_short(StepState::kStalled, std::move(shortfall));
     }
     // Soil leaves whether or not the bucket is fully open, so time alone decides.
     if (phase_time() <= m.move.duration()) m.move.advance(place_, seen, phase_time(), phase());

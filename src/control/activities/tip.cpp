@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "control/activity.h"
+#include "control/load_change.h"
 #include "control/reach.h"
 #include "core/error.h"
 
@@ -20,10 +22,14 @@ struct Memory {
   double standing = 0;  // [s] since the bed has arrived; 0 before
   /// Rotation to perform, at the start [rad].
   double start_rotation = 0;
+  LoadChange load;
+  bool raises = false;  // the step tips the bed further; otherwise it lowers the bed
 
   void visit(Archive& a) {
     a("standing", standing);
     a("start_rotation", start_rotation);
+    a("load", load);
+    a("raises", raises);
   }
 };
 
@@ -39,7 +45,12 @@ class Tipping final : public ActivityWith<Memory> {
   void begin(const Observation& seen) override {
     // The time limit grows with the angle: a ram is slow, and slower under load.
     m.start_rotation = std::abs(step_.angle - seen.joints[joint_].position);
+    m.raises = std::abs(step_.angle) > std::abs(seen.joints[joint_].position) + kArrived;
+    m.load.start(seen.bed_load);
     tell(CycleEvent::kTipStart);
+  }
+  std::vector<Measurement> account(const Observation& seen) const override {
+    return m.load.account(seen.bed_load, "tipped_kg");
   }
 
  private:
@@ -60,7 +71,11 @@ class Tipping final : public ActivityWith<Memory> {
     }
     if (m.standing == 0 || m.standing < step_.hold) return false;
     tell(CycleEvent::kTipEnd);
-    return true;
+    // A bed that is lowered keeps what is left in it.
+    const std::string shortfall = m.raises ? m.load.shortfall(seen.bed_load, "bed") : "";
+    if (shortfall.empty()) return true;
+    return fall_short(StepState::kStalled,
+                      shortfall + " at " + number_text(degrees(step_.angle), "deg"));
   }
 
   const Tip& step_;

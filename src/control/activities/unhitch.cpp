@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/activities/unhitch.h"
 
+#include <string>
+
 #include "control/activity.h"
 
 namespace navvy::control {
@@ -13,7 +15,12 @@ class LettingGo final : public Activity {
   void begin(const Observation&) override {}
 
  private:
-  bool update(const Observation&, double, Command& out) override {
+  bool update(const Observation& seen, double, Command& out) override {
+    if (seen.is_hitched && !seen.is_hitched(step_.hitch)) {
+      const std::string text = "the hitch '" + step_.hitch + "' was open already";
+      place_.warn(text);
+      remark(text);
+    }
     out.unhitch = step_.hitch;
     return true;
   }

@@ -90,7 +90,7 @@ Report run(const Setup& setup) {
   report.note("bearing capacity, intact", high / 1000, "kN", "whole cohesion");
   if (hold > 0) {
     driver.set_twist(Vec3::Zero());
-    driver.run(std::max(0.0, hold - kLast));
+    if (hold > kLast) driver.run(hold - kLast);
     from = driver.trace().force.size();
     driver.run(std::min(hold, kLast));
     report.add("force held over force in motion",

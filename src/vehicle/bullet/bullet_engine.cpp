@@ -13,8 +13,10 @@
 #include <utility>
 
 #include "core/error.h"
+#include "vehicle/body_contact.h"
 #include "vehicle/bullet/broad_phase.h"
 #include "vehicle/bullet/bullet_machine.h"
+#include "vehicle/bullet/contact_list.h"
 #include "vehicle/bullet/contact_materials.h"
 #include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/ground_shape.h"
@@ -74,6 +76,7 @@ class OverlapFilter final : public btOverlapFilterCallback {
 };
 
 class BulletEngine final : public PhysicsEngine,
+                           public ContactCapability,
                            private ObstacleCapability,
                            private HitchCapability,
                            private RockCapability,
@@ -217,7 +220,11 @@ class BulletEngine final : public PhysicsEngine,
             std::to_string(p.x()) + " m, y " + std::to_string(p.y()) +
             " m; it needs wheels or collision shapes that start above the ground");
     }
+    contact_list_.collect(world_, machines_, movers_, dt);
     forget_contacts();
+  }
+  const std::vector<BodyContact>& body_contacts() const override {
+    return contact_list_.contacts();
   }
 
   void set_rock(double height) override {
@@ -405,6 +412,7 @@ class BulletEngine final : public PhysicsEngine,
   GroundShape ground_shape_;
   btCollisionObject ground_;
   TyreBodies tyre_bodies_;
+  ContactList contact_list_;
   std::vector<std::unique_ptr<BulletMachine>> machines_;
   std::vector<Mover> movers_;
   std::vector<Coupled> hitches_;

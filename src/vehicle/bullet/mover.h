@@ -21,6 +21,8 @@ class Mover {
 
   /// Returns the fixed bodies, one per link with collision shapes or a shell.
   const std::vector<std::unique_ptr<BulletMachine>>& bodies() const { return bodies_; }
+  /// Returns the index of the link that the fixed body with the index `body` represents.
+  int link(std::size_t body) const { return static_cast<int>(link_.at(body)); }
   /// Moves the bodies to the poses and velocities in `links`, which has one entry per link of the
   /// obstacle. A body with zero velocity wakes no other body.
   void move(const std::vector<LinkState>& links);

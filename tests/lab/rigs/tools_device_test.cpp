@@ -17,6 +17,13 @@ TEST(LabBlade, SmoothWideBladeMeetsThePassivePressure) {
   EXPECT_EQ(report.ledger_error, 0);
 }
 
+TEST(LabTip, PlateFeelsTheBearingCapacityAndKeepsItWhenItStops) {
+  const Report report = run_rig("tip", {{"hold", 2}});
+  EXPECT_EQ(outside_tolerance(report), "");
+  EXPECT_EQ(measured(report, "particles through the plate"), 0);
+  EXPECT_LT(measured(report, "momentum residual"), 1e-5);
+}
+
 TEST(LabBlade, ForceDoesNotDependOnTheStep) {
   // Transfers last a fixed time [docs/soil.md, transfer]; with one in every step it is 7.7 %.
   const auto force = [](double courant) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "control/activity_step.h"
 
@@ -31,6 +32,10 @@ struct Dig final : ActivityStep {
   Vec2 dump_at = Vec2::Zero();
   /// Height of the bucket's tip above the ground at `dump_at` when the bucket opens [m].
   double dump_height = 1.5;
+  /// Name of the machine in whose bed the soil of each cycle must land; empty: the ground.
+  std::string into;
+  /// True if the scene file gives `into`.
+  bool has_into = false;
   /// Maximum depth of soil that one pass removes [m]. Within it, the plan chooses the slices so
   /// that buckets come out full.
   double pass_depth = 0.5;
@@ -50,6 +55,8 @@ struct Dig final : ActivityStep {
     f("width_m", width, {0.05, 50}, "Width; by default that of the bucket's cut.");
     f("dump_at_m", dump_at, {-1e6, 1e6}, "Place of the spoil in W.", scene::kNeeded);
     f("dump_height_m", dump_height, {0.1, 10}, "Height of the tip over the ground there.");
+    f("into", into, "Machine in whose bed the soil must land; the step fails when it does not.",
+      scene::given(has_into));
     f("pass_depth_m", pass_depth, {0.02, 5}, "Largest depth of one pass.");
     f("fill", fill, {0.1, 1.5},
       "Loose volume to fill the bucket with, over its heaped capacity; by default that of the "
@@ -72,6 +79,8 @@ struct Dig final : ActivityStep {
   void check_reach(ReachCheck& check) const override;
   /// Returns the point at which the step dumps the soil.
   std::optional<DumpPoint> dump_point() const override { return DumpPoint{dump_at, dump_height}; }
+  /// Returns `into`.
+  std::string receiver() const override { return into; }
 };
 
 }  // namespace navvy::control

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "control/activities/dig/fill.h"
 #include "control/dig_pose.h"
@@ -217,6 +218,7 @@ bool Digging::swing(const Observation& seen) {
 void Digging::start_dump(const Observation& seen) {
   m.opened = m.lifted + phase_time();
   m.move.open_on_the_way(place_, seen, m.opened);
+  landing_.start(seen);
   enter(kDump);
 }
 
@@ -284,11 +286,17 @@ void Digging::start_scoop(const Observation& seen) {
 bool Digging::end_cycle(const Observation& seen) {
   // After a pause, look again: soil may have slid into the trench, or come to rest there.
   if (!move(seen) || phase_time() < kRest) return false;
+  if (falls_short_of_receiver(seen)) return true;
   if (plan_scoop(seen)) {
     go_to_scoop(kReturn, seen);
     return false;
   }
   return conclude(seen);
+}
+
+bool Digging::falls_short_of_receiver(const Observation& seen) {
+  std::string shortfall = landing_.end(seen);
+  return !shortfall.empty() && fall_short(StepState::kStalled, std::move(shortfall));
 }
 
 bool Digging::conclude(const Observation& seen) {
@@ -327,11 +335,14 @@ bool Digging::conclude(const Observation& seen) {
 std::vector<Measurement> Digging::account(const Observation& seen) const {
   const TrenchState now =
       with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
-  return {{"cycles", static_cast<double>(cycles())},
-          {"design_volume_m3", plan_.design_volume()},
-          {"volume_left_m3", now.left},
-          {"depth_m", dig_.depth},
-          {"depth_reached_m", now.depth}};
+  std::vector<Measurement> out = {{"cycles", static_cast<double>(cycles())},
+                                  {"design_volume_m3", plan_.design_volume()},
+                                  {"volume_left_m3", now.left},
+                                  {"depth_m", dig_.depth},
+                                  {"depth_reached_m", now.depth}};
+  const std::vector<Measurement> landed = landing_.account();
+  out.insert(out.end(), landed.begin(), landed.end());
+  return out;
 }
 
 // In the order of Phase.
@@ -347,7 +358,9 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
   switch (phase_index()) {
     case kReturn:
       // Soil that was loose when the bucket left has come to rest by now.
-      if (move(seen)) arrive(seen);
+      if (!move(seen)) break;
+      if (falls_short_of_receiver(seen)) return true;
+      arrive(seen);
       break;
     case kApproach:
       if (move(seen)) start_scoop(seen);
@@ -432,6 +445,7 @@ void Digging::visit(Archive& a) {
   // The phase indexes a table of names.
   a.require(phase_index() >= kReturn && phase_index() <= kLook, "phase", "no phase of a dig");
   a("plan", plan_);
+  landing_.visit(a);
 }
 
 }  // namespace navvy::control

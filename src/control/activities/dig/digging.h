@@ -4,6 +4,7 @@
 
 #include "control/activities/dig/dig.h"
 #include "control/activities/dig/dig_plan.h"
+#include "control/activities/dig/landing.h"
 #include "control/activity.h"
 #include "control/arm_move.h"
 #include "control/stance.h"
@@ -73,7 +74,7 @@ class Digging final : public ActivityWith<DiggingMemory> {
   /// Makes the activity of the step `dig`. The step and `place` must outlive it; `place` must have
   /// an arm.
   Digging(OperatorContext& place, const Dig& dig)
-      : ActivityWith(place), dig_(dig), arm_(*place.arm) {}
+      : ActivityWith(place), dig_(dig), arm_(*place.arm), landing_(dig.into) {}
 
   /// Records the machine's pose and the original surface, and starts the move to the first scoop.
   void begin(const Observation& seen) override;
@@ -148,6 +149,9 @@ class Digging final : public ActivityWith<DiggingMemory> {
   bool may_clean(const Observation& seen) const;
   /// Returns true if the start of the scoop is out of reach from the machine's current position.
   bool beyond_reach(const Scoop& scoop) const;
+  /// Ends the dump of the last cycle. Returns true, with the step failed, if its soil has not
+  /// landed in the receiver.
+  bool falls_short_of_receiver(const Observation& seen);
   /// Sets the final state of the step and the reason why there is no further scoop. Always returns
   /// true.
   bool conclude(const Observation& seen);
@@ -180,6 +184,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   const ArmKinematics& arm_;
   // Plan of the trench, made in `begin`.
   DigPlan plan_;
+  // Soil that lands in the receiver.
+  Landing landing_;
 };
 
 }  // namespace navvy::control

@@ -22,7 +22,7 @@ struct Teeth {
   double length = 0.2;  ///< length of the teeth ahead of the cutting edge [m]
   double bevel = kPi;   ///< angle between the faces of a tooth at its tip [rad]; pi: blunt
 
-  /// Passes the fields of a <navvy:teeth> to the visitor `f`.
+  /// Passes the fields of the <teeth> of a <navvy:bucket> to the visitor `f`.
   void describe(Fields& f) {
     f("number", number, {1, 100}, "Number of teeth.");
     f("width_m", width, {1e-3, 5},

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session/collision.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "core/log.h"
+
+namespace navvy::session {
+namespace {
+
+/// Break after which a contact is a collision of its own [s]: bodies that strike bounce.
+constexpr double kBreak = 0.1;
+
+/// Returns true for a body of one link that forces move.
+bool is_loose(const scene::Machine& machine) {
+  return !machine.fixed_base && !machine.kinematic && machine.joints.empty();
+}
+
+std::string name_of_link(const sim::World& world, int machine, int link) {
+  const sim::MachineHandle one = world.machines().at(machine);
+  return "'" + one.name() + "' (" + one.description().links[static_cast<std::size_t>(link)].name +
+         ")";
+}
+
+}  // namespace
+
+void Collision::visit(Archive& a) {
+  a("machine", machine);
+  a("link", link);
+  a("other_machine", other_machine);
+  a("other_link", other_link);
+  a("start", start);
+  a("end", end);
+  a("force_peak", force_peak);
+  a("depth_peak", depth_peak);
+}
+
+void CollisionWatch::look(const sim::World& world) {
+  for (const sim::MachineContact& contact : world.machines().contacts()) {
+    const auto& machines = world.description().machines;
+    if (is_loose(machines[static_cast<std::size_t>(contact.machine)].machine) ||
+        is_loose(machines[static_cast<std::size_t>(contact.other_machine)].machine))
+      continue;
+    const double now = world.time();
+    // The newest collisions are at the end.
+    const auto known = std::find_if(list_.rbegin(), list_.rend(), [&](const Collision& one) {
+      return one.machine == contact.machine && one.link == contact.link &&
+             one.other_machine == contact.other_machine && one.other_link == contact.other_link &&
+             now - one.end <= kBreak;
+    });
+    if (known != list_.rend()) {
+      known->end = now;
+      known->force_peak = std::max(known->force_peak, contact.force);
+      known->depth_peak = std::max(known->depth_peak, contact.depth);
+      continue;
+    }
+    ++count_;
+    if (list_.size() < kMost)
+      list_.push_back({contact.machine, contact.link, contact.other_machine, contact.other_link,
+                       now, now, contact.force, contact.depth});
+    if (!logged_.insert({contact.machine, contact.other_machine}).second) continue;
+    std::array<char, 32> when{};
+    std::snprintf(when.data(), when.size(), "%.2f s", now);
+    log_warning("collision: " + name_of_link(world, contact.machine, contact.link) + " touches " +
+                name_of_link(world, contact.other_machine, contact.other_link) + " at " +
+                when.data() + "; the summary lists all of them (logged once per pair of machines)");
+  }
+}
+
+void CollisionWatch::visit(Archive& a) {
+  a("collisions", list_);
+  a("count", count_);
+  a("logged", logged_);
+}
+
+}  // namespace navvy::session

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/bullet/contact_list.h"
+
+#include <algorithm>
+
+namespace navvy::vehicle {
+namespace {
+
+bool is_same(const ContactBody& a, const ContactBody& b) {
+  return a.machine == b.machine && a.obstacle == b.obstacle && a.link == b.link;
+}
+
+/// Collects the depth of the contact of two objects outside the solver.
+class DeepestPoint final : public btCollisionWorld::ContactResultCallback {
+ public:
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
+    touches = touches || point.getDistance() <= 0;
+    depth = std::max(depth, -static_cast<double>(point.getDistance()));
+    return 0;
+  }
+  bool needsCollision(btBroadphaseProxy*) const override { return true; }
+
+  bool touches = false;
+  double depth = 0;
+};
+
+bool boxes_overlap(const btCollisionObject& a, const btCollisionObject& b) {
+  btVector3 low_a, high_a, low_b, high_b;
+  a.getCollisionShape()->getAabb(a.getWorldTransform(), low_a, high_a);
+  b.getCollisionShape()->getAabb(b.getWorldTransform(), low_b, high_b);
+  for (int i = 0; i < 3; ++i)
+    if (low_a[i] > high_b[i] || low_b[i] > high_a[i]) return false;
+  return true;
+}
+
+}  // namespace
+
+bool ContactList::find(const btCollisionObject* object, ContactBody& body) const {
+  const void* owner = object->getUserPointer();
+  if (owner == nullptr) return false;
+  for (std::size_t m = 0; m < machines_->size(); ++m)
+    if ((*machines_)[m].get() == owner) {
+      body = {static_cast<int>(m), false, object->getUserIndex()};
+      return true;
+    }
+  for (std::size_t m = 0; m < movers_->size(); ++m)
+    for (std::size_t b = 0; b < (*movers_)[m].bodies().size(); ++b)
+      if ((*movers_)[m].bodies()[b].get() == owner) {
+        body = {static_cast<int>(m), true, (*movers_)[m].link(b)};
+        return true;
+      }
+  return false;
+}
+
+void ContactList::add(const btCollisionObject* one, const btCollisionObject* other, double force,
+                      double depth) {
+  BodyContact contact;
+  if (!find(one, contact.one) || !find(other, contact.other)) return;
+  // A link and its shells are one body.
+  for (BodyContact& known : contacts_) {
+    const bool as_is = is_same(known.one, contact.one) && is_same(known.other, contact.other);
+    const bool swapped = is_same(known.one, contact.other) && is_same(known.other, contact.one);
+    if (!as_is && !swapped) continue;
+    known.force += force;
+    known.depth = std::max(known.depth, depth);
+    return;
+  }
+  contact.force = force;
+  contact.depth = depth;
+  contacts_.push_back(contact);
+}
+
+void ContactList::collect(btCollisionWorld& world,
+                          const std::vector<std::unique_ptr<BulletMachine>>& machines,
+                          const std::vector<Mover>& movers, double dt) {
+  contacts_.clear();
+  machines_ = &machines;
+  movers_ = &movers;
+  btDispatcher& dispatcher = *world.getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    double impulse = 0, depth = 0;
+    bool touches = false;
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold.getContactPoint(p);
+      impulse += static_cast<double>(point.m_appliedImpulse);
+      depth = std::max(depth, -static_cast<double>(point.getDistance()));
+      touches = touches || point.getDistance() <= 0 || point.m_appliedImpulse > 0;
+    }
+    if (touches) add(manifold.getBody0(), manifold.getBody1(), impulse / dt, depth);
+  }
+  if (!movers.empty()) collect_of_obstacles(world);
+}
+
+void ContactList::collect_of_obstacles(btCollisionWorld& world) {
+  const auto test = [&](btCollisionObject* a, btCollisionObject* b) {
+    if (!boxes_overlap(*a, *b)) return;
+    DeepestPoint found;
+    world.contactPairTest(a, b, found);
+    if (found.touches) add(a, b, 0, found.depth);
+  };
+  for (std::size_t m = 0; m < movers_->size(); ++m)
+    for (const auto& body : (*movers_)[m].bodies())
+      for (btMultiBodyLinkCollider* collider : body->all_colliders()) {
+        for (const auto& machine : *machines_)
+          if (machine->tree().fixed_base())
+            for (btMultiBodyLinkCollider* fixed : machine->all_colliders())
+              if (machine->link_of(*fixed) == 0) test(collider, fixed);
+        for (std::size_t other = m + 1; other < movers_->size(); ++other)
+          for (const auto& further : (*movers_)[other].bodies())
+            for (btMultiBodyLinkCollider* second : further->all_colliders()) test(collider, second);
+      }
+}
+
+}  // namespace navvy::vehicle

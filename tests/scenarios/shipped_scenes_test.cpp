@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every scene of scenarios/ runs to its stated end: exit status 0, all programs done, no mass lost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "folder.h"
+#include "paths.h"
+#include "process.h"
+#include "text_of.h"
+
+namespace navvy {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the files of all shipped scenes, relative to scenarios/, in alphabetical order.
+std::vector<std::string> shipped_scenes() {
+  const fs::path root = fs::path(source_dir()) / "scenarios";
+  std::vector<std::string> out;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
+    if (entry.path().extension() == ".sdf")
+      out.push_back(fs::relative(entry.path(), root).generic_string());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+class ShippedScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, RunsToItsStatedEnd) {
+  const test::Folder folder;
+  test::Command command{NAVVY_PROGRAM,
+                        {"run", source_dir() + "/scenarios/" + GetParam(), "--no-render", "--quiet",
+                         "--out", folder / "out"},
+                        {}};
+  command.err = folder / "err";
+  EXPECT_EQ(test::wait_for(test::start(command)), 0) << test::text_of(command.err);
+  const auto summary = nlohmann::json::parse(test::text_of(folder / "out/summary.json"));
+  EXPECT_EQ(summary.at("status"), "finished");
+  for (const auto& program : summary.at("programs"))
+    EXPECT_EQ(program.at("state"), "done") << program.dump(1);
+  EXPECT_EQ(summary.at("mass_ledger").at("error_units"), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
+                         [](const testing::TestParamInfo<std::string>& info) {
+                           std::string name = fs::path(info.param).replace_extension().string();
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace navvy
