@@ -26,6 +26,7 @@
 #include "control/arm_move.h"
 #include "control/ew180_like.h"
 #include "control/operator.h"
+#include "control/profile.h"
 #include "control/stance.h"
 #include "control/step_kinds.h"
 #include "control/tip_path.h"
@@ -393,6 +394,44 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
   EXPECT_LT(tip.slow, 0.3);
   follow(0, 1);
   EXPECT_NEAR(tip.lift, 0.15, 0.01);  // back at 0.1 m/s
+}
+
+TEST(Profile, RampAcceleratesAndBrakesEvenly) {
+  const double share = 0.2, h = 1e-4;
+  EXPECT_EQ(ramp(-1, share), 0);
+  EXPECT_EQ(ramp(2, share), 1);
+  for (const double t : {0.05, 0.15, 0.3, 0.5, 0.8, 0.9}) {
+    EXPECT_NEAR(ramp(t, share) + ramp(1 - t, share), 1, 1e-12);
+    // In the middle 1 / (1 - share) of the mean rate, before that in proportion to the time.
+    const double rate = (ramp(t + h, share) - ramp(t - h, share)) / (2 * h);
+    EXPECT_NEAR(rate, std::min({t, 1 - t, share}) / share / (1 - share), 1e-3) << t;
+  }
+}
+
+TEST(TipPath, CommandsTargetsAheadOfAMovingPathByTheServosLag) {
+  Alone alone(Swing(0));
+  Stance stance;
+  stance.begin(Pose::Identity());
+  TipPath tip;
+  Command out;
+  out.joints.resize(alone.seen.joints.size());
+  const Vec2 p(6.5, 0);
+  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+  Axes before{};
+  for (int i = 0; i < 200; ++i) {
+    for (std::size_t k = 0; k < 4; ++k)
+      alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
+    before = alone.place.handover.q;
+    tip.z -= 0.2 * kStep;
+    tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
+  }
+  for (std::size_t k = 1; k < 4; ++k) {
+    const double q = alone.place.handover.q[k], rate = (q - before[k]) / kStep;
+    // 1 / 20 s ahead; rates change slowly along the path, and are smoothed over 0.1 s.
+    EXPECT_NEAR(out.joints[alone.place.joint(k)]->target - q, 0.05 * rate,
+                0.004 + 0.1 * 0.05 * std::abs(rate));
+    EXPECT_GT(std::abs(rate), 0.01);
+  }
 }
 
 TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {

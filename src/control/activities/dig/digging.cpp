@@ -51,7 +51,7 @@ constexpr int kFewCleanUps = 2;
 constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.1;
 constexpr double kHeapRadius = 0.6;  // around the dump point [m]
 // During the return swing the arm comes down after this share of the swing.
-constexpr double kArmAfterSwing = 0.2;
+constexpr double kArmAfterSwing = 0.4;
 
 /// Returns the highest ground around a point [m].
 double heap_height(const SurfaceView& surface, const Vec2& p) {
