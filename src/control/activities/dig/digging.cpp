@@ -48,7 +48,7 @@ constexpr double kUndone = 0.15;
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
-constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.1;
+constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.05;
 constexpr double kHeapRadius = 0.6;  // around the dump point [m]
 // During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.4;

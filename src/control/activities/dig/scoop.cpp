@@ -101,8 +101,9 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   const bool turned_in = m.tip.angle + std::max(0.0, behind) <= wish + kTurnedIn;
   // Before it has rotated, its heel is at the far end, and the curl would press it into the wall.
   const bool full = seen.payload >= kCurlAt * m.full_mass && turned_in;
-  const bool planned =
-      m.s <= m.scoop_end && (seen.payload > 0.8 * m.full_mass || m.s <= m.scoop_end - kMore);
+  // Equal loads leave no small rest of a slice; a dig of a number of cycles fills each.
+  const bool fair = !dig_.max_cycles && seen.payload > 0.8 * m.full_mass;
+  const bool planned = m.s <= m.scoop_end && (fair || m.s <= m.scoop_end - kMore);
   const double left_to_curl = m.cleaning != 0 ? kCleanCurlPath : kCurlPath;
   const bool at_end = m.s <= std::min(left_to_curl, 0.5 * m.scoop_start);
   if (!(full || planned || at_end || overdue(kPhaseLimit))) return false;
