@@ -44,7 +44,7 @@ OccupiedArea area_around(const std::vector<Vec3>& points, bool machine) {
   return out;
 }
 
-// Two convex figures are apart when a line along an edge of one separates them.
+// Two convex shapes are apart when a line along an edge of one separates them.
 bool meets(const OccupiedArea& area, const Vec2& low, const Vec2& high) {
   Vec2 least = Vec2::Constant(INFINITY), most = -least;
   for (const Vec2& p : area.outline) {
