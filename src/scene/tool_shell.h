@@ -53,7 +53,7 @@ struct Shell : geometry::TriangleMesh {
   double friction_share = 1, adhesion_share = 1;
   /// Thickness of the plate at its free edges / thickness of the plate; 0: sharp, without
   /// resistance.
-  double edge_share = 1;
+  double edge_share = 0;
   double edge_bevel = kPi;  ///< angle between the faces at a free edge [rad]; pi: blunt
   /// Teeth of the bucket that the shell belongs to; not a field of the file's <navvy:shell>.
   std::optional<ToothedEdge> toothed;

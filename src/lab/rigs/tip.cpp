@@ -68,6 +68,7 @@ Report run(const Setup& setup) {
   site.solver().insert(soil);
   scene::Shell shell = blade(width, deep + 0.3);
   shell.half_thickness = setup["thickness"] / 2;
+  shell.edge_share = 1;
   shell.edge_bevel = radians(setup["bevel-deg"]);
   const double above = 0.5 * cell;
   ToolDriver driver(site, shell, make_pose(setup["offset"] * cell, 0.07 * cell, above));

@@ -28,6 +28,7 @@ constexpr double kWidth = 0.6, kDepth = 0.25;
 scene::Shell upright() {
   scene::Shell shell = lab::blade(kWidth, 0.6);
   shell.half_thickness = 0.015;
+  shell.edge_share = 1;
   return shell;
 }
 
