@@ -48,8 +48,8 @@ TEST_P(ShippedScene, RunsToItsStatedEnd) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                           std::string name = fs::path(info.param).replace_extension().string();
+                         [](const testing::TestParamInfo<std::string>& test) {
+                           std::string name = fs::path(test.param).replace_extension().string();
                            std::replace_if(
                                name.begin(), name.end(),
                                [](unsigned char c) { return !std::isalnum(c); }, '_');

@@ -9,6 +9,7 @@
 #include "record/summary.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
+#include "values.h"
 
 namespace navvy::validation {
 namespace {
