@@ -89,15 +89,9 @@ Footprint footprint_of(const scene::Machine& machine) {
     const Pose X_BM = machine.links[0].X_ML.inverse();
     for (const scene::Collision& collision : machine.links[0].collisions)
       if (const auto box = vehicle::box_of(collision)) extend(box->X_WO, box->half);
-    for (const scene::Wheel& wheel : machine.wheels) {
-      const int joint = machine.joint_index(wheel.joint);
-      if (joint < 0) continue;
-      // The axle of a wheel is y.
-      const auto link =
-          static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
-      const double width = wheel.width + wheel.twin_spacing;
-      extend(X_BM * machine.links[link].X_ML, Vec3(wheel.radius, width / 2, wheel.radius));
-    }
+    for (const scene::Wheel& wheel : machine.wheels)
+      if (const auto around = vehicle::box_of(machine, wheel))
+        extend(X_BM * machine.links[around->link].X_ML, around->box.half);
   }
   if (!(low.x() <= high.x()))
     throw InputError(

@@ -36,16 +36,9 @@ void add_areas(const scene::MachineInWorld& placed, const std::function<Pose(std
     for (const scene::Collision& collision : machine.links[l].collisions)
       if (const auto box = vehicle::box_of(collision))
         out.push_back(area_of(pose(l), *box, driven));
-  for (const scene::Wheel& wheel : machine.wheels) {
-    const int joint = machine.joint_index(wheel.joint);
-    if (joint < 0) continue;
-    const auto link =
-        static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child);
-    const double width = wheel.width + wheel.twin_spacing;
-    // The axle of a wheel is y.
-    out.push_back(area_of(pose(link),
-                          {Pose::Identity(), Vec3(wheel.radius, width / 2, wheel.radius)}, driven));
-  }
+  for (const scene::Wheel& wheel : machine.wheels)
+    if (const auto around = vehicle::box_of(machine, wheel))
+      out.push_back(area_of(pose(around->link), around->box, driven));
   for (const scene::Shell& shell : machine.shells) {
     const int link = machine.link_index(shell.link);
     if (link < 0 || shell.vertices.empty()) continue;

@@ -41,4 +41,12 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
   }
 }
 
+std::optional<WheelBox> box_of(const scene::Machine& machine, const scene::Wheel& wheel) {
+  const int joint = machine.joint_index(wheel.joint);
+  if (joint < 0) return std::nullopt;
+  const double width = wheel.width + wheel.twin_spacing;
+  return WheelBox{static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child),
+                  {Pose::Identity(), Vec3(wheel.radius, width / 2, wheel.radius)}};
+}
+
 }  // namespace navvy::vehicle

@@ -109,6 +109,14 @@ void Edges::add_tool(const ShellGeometry& geometry) {
 }
 
 void Edges::set_near(const BlockTable& table, const std::vector<std::int32_t>& near_list) {
+  const std::size_t nodes = near_list.size() * BLOCK_NODES;
+  if (profile_rows_.empty()) {
+    // No tool has an edge with a thickness: the contact only needs zeros to read.
+    if (force_.size() >= 4 * nodes) return;
+    ensure(device_, force_, 4 * nodes);
+    force_.write(std::vector<float>(force_.size(), 0.0f));
+    return;
+  }
   table_ = &table;
   near_list_ = near_list;
   near_slot_.assign(table.active.size(), -1);
@@ -126,7 +134,6 @@ void Edges::set_near(const BlockTable& table, const std::vector<std::int32_t>& n
   first.push_back(static_cast<std::int32_t>(above.size()));
   upload(device_, above_first_, first);
   upload(device_, above_, above);
-  const std::size_t nodes = near_list.size() * BLOCK_NODES;
   ensure(device_, nodes_, nodes);
   ensure(device_, force_, 4 * nodes);
   clear_ = false;
