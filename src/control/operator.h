@@ -45,7 +45,7 @@ class Operator {
   /// command.
   Command stop() const;
   /// Returns true if every step is done and the machine has not tipped over or been buried since.
-  /// From then on `update` only holds the arm.
+  /// Once it returns true, `update` only holds the arm.
   bool done() const;
   /// Returns true if the program will not run any further step, either because it is done or
   /// because a step failed. From then on `update` issues no new commands.

@@ -15,7 +15,7 @@ namespace navvy::heightfield {
 /// A height map of any size. It gives bit-identical column heights to a HeightRaster with the same
 /// cells. Any number of threads may query it.
 ///
-/// At most kMostWindows windows of kSide x kSide cells are in memory (128 MiB): those loaded last.
+/// The windows loaded last are in memory: at most kMostWindows of kSide x kSide cells (128 MiB).
 /// The heights of filled gaps are in memory too. A height takes 20 ns longer than from a
 /// HeightRaster if its window is in memory, and a read from the file otherwise.
 class WindowedRaster {

@@ -15,7 +15,7 @@ namespace navvy::link {
 
 /// Runs a simulation in lock step with a controller that is connected to standard input and output.
 ///
-/// At each control step, the simulation prints one line {"time": ..., "outputs": {name: value}} and
+/// The simulation prints one line {"time": ..., "outputs": {name: value}} at each control step and
 /// reads one line {"inputs": {name: value}}. The controller sends only inputs that change. Once an
 /// input of a machine is set, the machine no longer follows its program. The line {"end": true}
 /// ends the run.

@@ -39,7 +39,7 @@ class PublishedMap {
   /// replaced. @throws FileError as `observe`.
   void restart();
   /// Publishes the final state and waits until the readers have received it (MapPublisher::finish).
-  /// Nothing is published afterwards. @throws FileError as `observe`.
+  /// Publishes nothing afterwards. @throws FileError as `observe`.
   void finish();
 
  private:

@@ -8,7 +8,7 @@
 namespace navvy::heightfield {
 
 /// Collects the error messages that GDAL reports in this thread, as long as the session exists.
-/// Nothing is printed to stderr. The first session registers GDAL's file format drivers.
+/// GDAL prints nothing to stderr meanwhile. The first session registers GDAL's file format drivers.
 class GdalSession {
  public:
   /// Installs the error handler of this thread.
