@@ -16,8 +16,8 @@ namespace navvy::sim {
 ///
 /// The surface for maps (SurfaceKind::kMapped) also holds the areas that all bodies occupy.
 ///
-/// A view of the columns only costs microseconds, depending on what has changed since the last view.
-/// A view with loose soil costs a pass over all particles.
+/// A view of the columns only costs microseconds, depending on what has changed since the last
+/// view. A view with loose soil costs a pass over all particles.
 heightfield::TerrainView terrain_view(const World& world, heightfield::SurfaceKind surface);
 
 /// Distribution of the active soil between ground, tools and air [docs/exchange.md, maps]. Each
