@@ -30,6 +30,7 @@ bool is_of_whole(const Element& element) {
 }
 
 /// Returns true if the text of the element is the name of a link, joint, frame or shell.
+/// <parent> and <child> belong to SDF; the schema knows the extension elements.
 bool holds_name(const Element& element) {
   return is_called(element, "parent") || is_called(element, "child") ||
          schema().refers_to_part(element.Name());
@@ -46,8 +47,12 @@ class Part {
 
   /// Returns a copy of `from`, a child of the part's model, for a place below a <model>.
   Element& copied(const Element& from) const {
+    // Line and file of the original stay with the copy (Document::create), for messages of later
+    // checks.
     Element& to = copy(from);
     if (const char* own = from.Attribute("name")) to.SetAttribute("name", under(own).c_str());
+    // By default a joint is in the frame of its child link and a frame with attached_to in that
+    // one, so only these two kinds need the frame of the part.
     const bool hangs_on_model =
         is_called(from, "link") || (is_called(from, "frame") && !from.Attribute("attached_to"));
     if (!hangs_on_model) return to;
@@ -66,6 +71,8 @@ class Part {
   std::string under(const std::string& own) const { return name_ + "::" + own; }
   /// Returns the name in the whole of what the part calls `own`.
   std::string renamed(const std::string& own) const {
+    // `__model__` is SDF's name for the frame of the model; here it is the frame NAME that `put`
+    // adds. Names of others, such as world, stay.
     if (own == "__model__") return name_;
     return names_.count(own) > 0 ? under(own) : own;
   }
@@ -73,6 +80,7 @@ class Part {
     Element& to = *whole_.create(from.Name(), from);
     for (const auto* at = from.FirstAttribute(); at; at = at->Next()) {
       bool names_another = false;
+      // These are the attributes of SDF that hold the name of a frame.
       for (const char* key : {"relative_to", "attached_to", "expressed_in"})
         names_another |= std::strcmp(at->Name(), key) == 0;
       to.SetAttribute(at->Name(), names_another ? renamed(at->Value()).c_str() : at->Value());
@@ -100,6 +108,7 @@ bool name_meshes(Element& element, Faults& faults) {
     const bool of_geometry = is_called(*child, "uri") && is_called(element, "mesh");
     const bool of_shell = is_called(*child, "mesh") && is_called(element, "navvy:shell");
     std::string path;
+    // The inner element holds the path; all others are searched for such elements.
     if (!of_geometry && !of_shell) {
       sound = name_meshes(*child, faults) && sound;
     } else if (resolve_mesh(*child, path, faults)) {
@@ -111,6 +120,8 @@ bool name_meshes(Element& element, Faults& faults) {
   return sound;
 }
 
+/// Merges the parts of one document's models. Each file that is included has an assembler of its
+/// own, whose `files_` begins with those of its includers.
 class Assembler {
  public:
   Assembler(Document& document, std::vector<std::string> files, Faults& faults)
@@ -137,6 +148,7 @@ class Assembler {
   bool include(Element& model, Element& element) {
     bool sound = true;
     for (const Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+      // In a <model>, other elements of an <include> would have no meaning.
       if (is_called(*e, "uri") || is_called(*e, "name") || is_called(*e, "pose") ||
           is_called(*e, "navvy:joint"))
         continue;
@@ -157,6 +169,7 @@ class Assembler {
 
   bool open(Element& model, Element& element, const Element& uri, const std::string& path) {
     std::error_code ignored;
+    // Canonical names find a loop that goes through links or "..".
     const std::string file = std::filesystem::weakly_canonical(path, ignored).string();
     for (const std::string& above : files_)
       if (above == file) {
@@ -172,6 +185,8 @@ class Assembler {
                     "include the innermost one from further out");
       return false;
     }
+    // Files and elements of a part count at each use, so that parts of parts cannot multiply
+    // without bound.
     if (faults_.work.elements > limits::kSceneElements ||
         faults_.work.files > limits::kSceneFiles) {
       faults_.error(uri, text_of(uri),
@@ -189,6 +204,7 @@ class Assembler {
       faults_.error(*part->root(), "", "a machine file needs a <model>");
       return false;
     }
+    // All parts become one text, which libsdformat reads by one version.
     const std::string ours = attribute(*document_.root(), "version"),
                       theirs = attribute(*part->root(), "version");
     if (ours != theirs) {
@@ -198,9 +214,12 @@ class Assembler {
     }
     std::vector<std::string> files = files_;
     files.push_back(file);
+    // From the inside outwards: parts of the part are merged first, still with their file's name.
     Assembler parts(*part, files, faults_);
     if (parts.assemble(*root) && parts.found_any()) check_tree(*part->root(), faults_);
+    // Rules are checked before copying, while each element is in its own file.
     check_sdf(*part->root(), faults_);
+    // In the merged document a relative path would count from the including file.
     if (!name_meshes(*root, faults_) || faults_.error_count() > before) return false;
     const Element* name = element.FirstChildElement("name");
     // As in a world, the file's own pose does not count.
@@ -231,6 +250,7 @@ class Assembler {
     const auto insert = [&](Element& element) {
       last = last ? model.InsertAfterChild(last, &element) : model.InsertFirstChild(&element);
     };
+    // The frame stands for the part's model frame; its links and frames have poses relative to it.
     Element& frame = *document_.create("frame", place);
     frame.SetAttribute("name", name.c_str());
     if (pose != nullptr) {
@@ -243,6 +263,8 @@ class Assembler {
     insert(frame);
     for (const Element* e = part.FirstChildElement(); e; e = e->NextSiblingElement())
       if (!is_of_whole(*e)) insert(names.copied(*e));
+    // An inner <model> has its navvy:joint among the children copied above; those of an <include>
+    // are in the including file.
     if (&place == &part) return;
     for (const Element* e = place.FirstChildElement("navvy:joint"); e;
          e = e->NextSiblingElement("navvy:joint"))

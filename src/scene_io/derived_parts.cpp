@@ -14,8 +14,11 @@ namespace {
 
 using Kind = scene::Geometry::Kind;
 
+// link_rules.cpp asks for the same element before the model is read.
 constexpr const char* kDensity = "navvy:density_kg_per_m3";
 
+/// Returns a word for messages. There is no default label, so that the compiler names a kind that
+/// is missing here.
 const char* word_for(Kind kind) {
   switch (kind) {
     case Kind::kBox:
@@ -37,6 +40,7 @@ const char* word_for(Kind kind) {
 }
 
 /// Returns true for links with a shell or tyre.
+/// These touch by a law of their own; with a shape as well they would meet bodies twice.
 bool touches_otherwise(const scene::Machine& machine, std::size_t link) {
   const std::string& name = machine.links[link].name;
   const auto spins_it = [&](const scene::Wheel& wheel) {
@@ -53,6 +57,7 @@ bool touches_otherwise(const scene::Machine& machine, std::size_t link) {
 bool may_collide(const Element& visual, const scene::Geometry& shape, bool moves, Faults& faults) {
   if (shape.kind == Kind::kPlane) return false;
   if (shape.kind != Kind::kMesh) return true;
+  // read_shapes leaves out visuals without <geometry>, so it is there.
   const Element* mesh = visual.FirstChildElement("geometry")->FirstChildElement("mesh");
   const Element* uri = mesh != nullptr ? mesh->FirstChildElement("uri") : nullptr;
   return uri != nullptr && check_mesh(*uri, shape.mesh_file, moves, faults);
@@ -63,6 +68,7 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
     scene::Link& link = machine.links[l];
     const Element* element = named_child(model, "link", link.name);
     if (element == nullptr || touches_otherwise(machine, l)) continue;
+    // Only moving meshes collide by their hulls, to which the limits of hulls apply.
     const bool moves = l > 0 || !machine.fixed_base;
     std::string shapes;
     for (const scene::Visual& visual : link.visuals) {
@@ -72,6 +78,7 @@ void derive_collisions(const Element& model, scene::Machine& machine, Faults& fa
       shape.name = visual.name;
       shape.geometry = visual.geometry;
       shape.X_LC = visual.X_LV;
+      // `weigh` reports faults of this shape at its <visual>, which it finds by this flag.
       shape.derived = true;
       shape.density = visual.density;
       link.collisions.push_back(shape);
@@ -123,6 +130,8 @@ bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
   return true;
 }
 
+/// Sets mass, centre of mass and inertia of a link from its shapes, if it or one of them has a
+/// density.
 void weigh(const Element& element, scene::Link& link, scene::Machine& machine, Faults& faults) {
   bool any = link.density > 0;
   geometry::SolidProperties sum;
@@ -135,6 +144,7 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
     if (density > 0 && solid_of(of ? *of : element, shape.geometry, X_LS, solid, faults))
       sum = geometry::joined(sum, geometry::weighed(solid, density));
   };
+  // A shape that cannot be weighed has been reported; a sum without it would be wrong in silence.
   const std::size_t before = faults.error_count();
   if (link.collisions.empty())
     for (const scene::Visual& visual : link.visuals) add("visual", visual, visual.X_LV);
@@ -151,6 +161,7 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
                  "give the link a <collision> or a <visual>, or <inertial>");
     return;
   }
+  // `sum` was joined from solids times their densities, so its volume is a mass [kg].
   link.mass = sum.volume;
   link.p_LCom = sum.p_BCom;
   link.inertia = sum.inertia;
@@ -162,9 +173,11 @@ void weigh(const Element& element, scene::Link& link, scene::Machine& machine, F
 }  // namespace
 
 void derive_parts(const Element& model, scene::Machine& machine, Faults& faults) {
+  // One <collision> anywhere shows that the author has chosen the shapes of all links.
   const bool given = std::any_of(machine.links.begin(), machine.links.end(),
                                  [](const scene::Link& link) { return !link.collisions.empty(); });
   if (machine.derive_collisions && !given) derive_collisions(model, machine, faults);
+  // Weighing comes second, since derived shapes have masses too.
   for (scene::Link& link : machine.links)
     if (const Element* element = named_child(model, "link", link.name))
       weigh(*element, link, machine, faults);

@@ -18,6 +18,7 @@ double side(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 /// Returns true if two edges without a common corner meet.
+/// The boxes of the edges decide where all four points are on one line, which the signs cannot.
 bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0 &&
          std::max(a.x(), b.x()) >= std::min(c.x(), d.x()) &&
@@ -31,11 +32,13 @@ void check_polygon(const Element& at, const std::vector<Vec2>& polygon, Faults& 
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 &a = polygon[i], &b = polygon[(i + 1) % n];
+    // The sides of the area rise from its edges; one shorter than 1 mm has no reliable direction.
     if ((b - a).norm() < 1e-3) {
       faults.error(at, std::to_string(i + 1), "this corner and the next are the same place",
                    "remove one; the polygon closes by itself");
       return;
     }
+    // Neighbouring edges share a corner and are left out, the first and the last one too.
     for (std::size_t k = i + 2; k < n && !(i == 0 && k == n - 1); ++k)
       if (cross(a, b, polygon[k], polygon[(k + 1) % n])) {
         faults.error(at, std::to_string(i + 1) + " and " + std::to_string(k + 1),

@@ -12,6 +12,8 @@ namespace navvy::scene_io {
 
 namespace {
 
+/// Checks that the values of a differential fit its kind. With both values 0, one of limited slip
+/// would be an open one.
 void check_differential(const Element* element, const scene::Differential& read, Faults& faults) {
   using Kind = scene::Differential::Kind;
   if (element == nullptr) return;
@@ -19,12 +21,15 @@ void check_differential(const Element* element, const scene::Differential& read,
   if (read.kind == Kind::kLimitedSlip && read.preload == 0 && read.bias == 0)
     faults.error(*element, "limited_slip", "slips without limit: preload_nm and bias are both 0",
                  "give one of them, or <kind>open</kind>");
+  // A missing <kind> has been reported; the default kind must not be held against the other values.
   if (const Element* kind = element->FirstChildElement("kind");
       kind != nullptr && read.kind != Kind::kLimitedSlip && values)
     faults.error(*kind, text_of(*kind), "has neither preload_nm nor bias",
                  "remove them, or write limited_slip");
 }
 
+/// Checks the order of the points. Torque is interpolated over speed, so that two points at one
+/// speed would divide by zero, and their order is that of the file.
 void check_curve(Element& element, const scene::CombustionEngine& engine, Faults& faults) {
   const std::vector<Element*> points = children_of(element, {"point"});
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -43,6 +48,7 @@ void check_curve(Element& element, const scene::CombustionEngine& engine, Faults
 void check_engine_kind(const Element& element, const scene::CombustionEngine& engine,
                        Faults& faults) {
   const bool source = engine.kind == scene::CombustionEngine::Kind::kSpeedSource;
+  // Which elements are needed depends on <kind>, so that marks of single fields cannot express it.
   for (const char* name : {"point", "braking_torque_nm", "shared_with_pump"})
     if (source && has(element, name))
       faults.error(element, name, "a speed_source has no such element",
@@ -69,14 +75,17 @@ void check_gears(const Element& element, const std::vector<double>& gears, Fault
   if (gears.empty())
     faults.error(at, text_of(at), "needs one gear or more",
                  "e.g. <gear_ratios>4 2 1</gear_ratios>");
+  // `less_equal` also finds equal neighbours, which would be one gear written twice.
   if (std::adjacent_find(gears.begin(), gears.end(), std::less_equal<>()) != gears.end())
     faults.error(at, text_of(at), "the ratios must fall from the first gear to the last",
                  "order them by size");
 }
 
+/// Checks the engine of a drive and sets the power that it shares with the pump, if it does.
 void finish_engine(Element& drive_element, scene::AckermannDrive& drive, Faults& faults) {
   Element* element = drive_element.FirstChildElement("engine");
   if (element == nullptr) return;
+  // These describe the governed motor, which the engine replaces.
   for (const char* name : {"tractive_force_n", "power_w", "engine_power_w"})
     if (const Element* child = drive_element.FirstChildElement(name))
       faults.error(*child, text_of(*child), "follows from the drive's engine and gears",
@@ -88,6 +97,7 @@ void finish_engine(Element& drive_element, scene::AckermannDrive& drive, Faults&
   check_engine_kind(*element, engine, faults);
   check_gears(*element, engine.gears, faults);
   if (faults.has_fault(*element) || !engine.shared_with_pump) return;
+  // The pump may take the maximum of speed times torque: the rated power of the curve.
   const scene::CombustionEngine::Point rated = scene::rated_point(engine);
   drive.engine_power = rated.speed * rated.torque;
 }
@@ -98,9 +108,11 @@ void finish_kind(Element& element, scene::AckermannDrive& drive, Faults& faults)
   finish_engine(element, drive, faults);
 }
 
+// The linkage steers an Ackermann drive, so the rules of both apply.
 void finish_kind(Element& element, scene::LinkageDrive& drive, Faults& faults) {
   finish_kind(element, static_cast<scene::AckermannDrive&>(drive), faults);
   if (scene::turns_freely(drive)) return;
+  // The arm is NaN where the tie rod cannot reach from arm to arm: the other of the two faults.
   const bool reaches = scene::steering_arm(drive).allFinite();
   faults.error(element, "tie_rod_m " + std::to_string(drive.tie_rod),
                reaches ? "the linkage locks before a wheel is at max_steer_deg"
@@ -116,6 +128,8 @@ void finish_kind(Element&, Kind&, Faults&) {}
 template <class Kind>
 void check_kind(const Element&, const Kind&, const scene::Machine&, Faults&) {}
 
+/// Skid steering turns a machine by the difference between its sides. The sides are those of the
+/// links in the frame M of the machine, y to the left.
 void check_kind(const Element& element, const scene::DifferentialDrive&,
                 const scene::Machine& machine, Faults& faults) {
   bool left = false, right = false;
@@ -124,6 +138,7 @@ void check_kind(const Element& element, const scene::DifferentialDrive&,
       faults.error(element, wheel.steer_joint, "a differential drive steers no wheels",
                    "remove <steer_joint> from the wheel; a caster swivels by itself");
     const int joint = machine.joint_index(wheel.joint);
+    // An unknown joint has been reported at its wheel.
     if (joint < 0 || !wheel.driven) continue;
     const int link = machine.joints[static_cast<std::size_t>(joint)].child;
     const double y = machine.links[static_cast<std::size_t>(link)].X_ML.translation().y();
@@ -136,6 +151,7 @@ void check_kind(const Element& element, const scene::DifferentialDrive&,
                  "set <driven>true</driven> in wheels of both sides");
 }
 
+/// The tie rod joins exactly two wheels; both ends have a king pin.
 void check_kind(const Element& element, const scene::LinkageDrive&, const scene::Machine& machine,
                 Faults& faults) {
   const auto steered =
@@ -161,7 +177,8 @@ void check_shared_power(const Element& element, const scene::Machine& machine, F
         "give the pump at most the power_w of the engine");
 }
 
-/// Checks the running gear of a track whose sprocket is at `p_sprocket` in the carrier.
+/// Checks the running gear of a track whose sprocket is at `p_sprocket` in the carrier: the link
+/// that the sprocket's joint hangs on, in whose frame the points of a track are given.
 void check_track(const Element& element, const scene::Wheel& wheel, const Vec3& p_sprocket,
                  Faults& faults) {
   const scene::Track& track = *wheel.track;
@@ -171,20 +188,24 @@ void check_track(const Element& element, const scene::Wheel& wheel, const Vec3& 
     return std::string("the sprocket is at ") + axis + " " + std::to_string(value) +
            " m of the link that carries the track";
   };
+  // The rules below take a first and a last roller, which `lower_run` needs as well.
   if (n < 2) {
     faults.error(element, std::to_string(n), "a track needs two rollers or more",
                  "add <roller_m>x y z</roller_m>");
     return;
   }
   for (std::size_t i = 1; i < n; ++i) {
+    // The rollers are sorted, so a difference below 1 mm, of either sign, is one place given twice.
     if (track.rollers[i - 1].x() - track.rollers[i].x() < 1e-3)
       faults.error(rollers, std::to_string(track.rollers[i].x()),
                    "two rollers of a track have the same x", "give each roller its own x");
+    // The lower run is taken as straight from the first to the last roller.
     if (std::abs(track.rollers[i].z() - track.rollers[0].z()) > track.roller_radius)
       faults.error(rollers, std::to_string(track.rollers[i].z()),
                    "the rollers of a track must be within their radius of one height",
                    "change its z");
   }
+  // Half the width of the track: a wheel further out would run beside it.
   const auto beside = [&](const Vec3& p) {
     return std::abs(p.y() - p_sprocket.y()) > 0.5 * wheel.width;
   };
@@ -201,6 +222,7 @@ void check_track(const Element& element, const scene::Wheel& wheel, const Vec3& 
   if (first >= front || last <= rear)
     faults.error(rollers, std::to_string(first) + " to " + std::to_string(last) + " m",
                  "the rollers must be between idler and sprocket", place("x", p_sprocket.x()));
+  // 1e-6 m allows for rounding: idler and sprocket may touch the line of the lower run.
   const double run = track.lower_run()[0].z();
   const std::pair<const char*, double> ends[] = {
       {"idler_m", track.p_idler.z() - track.idler_radius - track.thickness},
@@ -220,11 +242,13 @@ void finish_drive(Element& element, scene::Drive& drive, Faults& faults) {
 }
 
 void finish_tracks(Element& model, scene::Machine& machine, Faults& faults) {
+  // Both kinds of elements fill one list of wheels, in the order of the file.
   const std::vector<Element*> elements = children_of(model, {"navvy:wheel", "navvy:track"});
   for (std::size_t i = 0; i < machine.wheels.size(); ++i) {
     scene::Wheel& wheel = machine.wheels[i];
     const Element& element = *elements.at(i);
     if (!wheel.track) continue;
+    // A file may list the rollers in any order; all that use them expect front to rear.
     std::stable_sort(wheel.track->rollers.begin(), wheel.track->rollers.end(),
                      [](const Vec3& a, const Vec3& b) { return a.x() > b.x(); });
     const int joint = machine.joint_index(wheel.joint);
@@ -236,9 +260,12 @@ void finish_tracks(Element& model, scene::Machine& machine, Faults& faults) {
                    "name the continuous joint between the track's frame and its sprocket");
       continue;
     }
+    // C is the carrier. X_ML are the poses of the file, with all joints at zero.
     const Pose X_CM = machine.links[static_cast<std::size_t>(spin.parent)].X_ML.inverse();
     const Pose X_ML = machine.links[static_cast<std::size_t>(spin.child)].X_ML;
     const Vec3 axis = (X_CM * X_ML * spin.X_LcJ).linear() * spin.axis;
+    // 0.999 allows 2.6 deg, more than angles in a file are rounded by, and refuses an axis that
+    // points to the right, whose sprocket would drive backwards.
     if (axis.y() < 0.999)
       faults.error(at_joint, wheel.joint,
                    "a sprocket turns about y of the link that carries its track",

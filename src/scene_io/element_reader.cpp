@@ -16,6 +16,8 @@ using scene::Refers;
 
 namespace {
 
+/// Returns the rule that a number must follow, for messages. Six digits are enough for bounds,
+/// which people have written; values are compared with the exact ones.
 std::string range_text(const Range& range) {
   const double huge = std::numeric_limits<double>::max();
   // A range without bounds still excludes infinity and NaN.
@@ -25,11 +27,14 @@ std::string range_text(const Range& range) {
          scene::short_text(range.max, 6);
 }
 
+// The search is linear: a list holds the few tens of names that one element allows.
 bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 /// Warns of a value in degrees that is a common angle in radians to four digits, such as 0.7854.
+/// Multiples of 15 deg up to a whole turn cover the angles that people write. At least three digits
+/// behind the point are required, as 0.5 or 1.6 may well be degrees.
 void warn_of_radians(const Element& element, double value, Faults& faults) {
   constexpr double kStep = kPi / 12;  // 15 deg
   const double steps = std::round(std::abs(value) / kStep);
@@ -57,6 +62,8 @@ struct ValueReader {
   }
   void operator()(bool* out) const { read_flag(at, *out, faults); }
   void operator()(std::uint64_t* out) const { read_seed(at, *out, faults); }
+  // A whole number passes through a double, so that one check of the range and one message serve
+  // all numbers. Every int is exact in a double.
   void operator()(int* out) const {
     std::vector<double> v;
     if (!numbers(1, v)) return;
@@ -66,6 +73,7 @@ struct ValueReader {
     else
       faults.error(at, text_of(at), "must be a whole number");
   }
+  // A faulty text leaves the member empty, as if the element were missing.
   void operator()(std::optional<int>* out) const {
     const std::size_t before = faults.error_count();
     int value = 0;
@@ -75,6 +83,7 @@ struct ValueReader {
   void operator()(double* out) const {
     std::vector<double> v;
     if (!numbers(1, v)) return;
+    // The range has been checked in the unit of the file; from here on the value is in SI units.
     *out = v[0] * factor;
     if (factor == kDegree) warn_of_radians(at, v[0], faults);
   }
@@ -82,6 +91,7 @@ struct ValueReader {
     *out = text_of(at);
     if (out->empty()) faults.error(at, "", "must not be empty");
   }
+  // Vectors have no factor: every vector of a scene is in metres or without a unit.
   void operator()(Vec2* out) const {
     std::vector<double> v;
     if (numbers(2, v)) *out = Vec2(v[0], v[1]);
@@ -90,12 +100,15 @@ struct ValueReader {
     std::vector<double> v;
     if (numbers(3, v)) *out = Vec3(v[0], v[1], v[2]);
   }
+  // An empty text is an empty list. Where a rule needs entries, as for gears, it reports that
+  // itself.
   void operator()(std::vector<double>* out) const {
     std::vector<double> v;
     if (!numbers(0, v)) return;
     for (double& value : v) value *= factor;
     *out = std::move(v);
   }
+  // Each element appends one point; `field` visits all elements of the name.
   void operator()(std::vector<Vec3>* out) const {
     std::vector<double> v;
     if (numbers(3, v)) out->emplace_back(v[0], v[1], v[2]);
@@ -109,6 +122,7 @@ struct ValueReader {
     else
       faults.error(at, text_of(at), "a direction must not be zero");
   }
+  // The words are counted here, so that the message names the order of the components.
   void operator()(const scene::Rgb& out) const {
     std::vector<double> v;
     if (words_of(text_of(at)).size() != 3)
@@ -116,6 +130,7 @@ struct ValueReader {
     else if (numbers(3, v))
       for (std::size_t i = 0; i < 3; ++i) out.value[i] = static_cast<float>(v[i]);
   }
+  // The rule lists all names, so no nearest one is searched.
   void operator()(const scene::NamedChoice& out) const {
     const std::string value = text_of(at);
     std::string rule = "must be one of";
@@ -133,6 +148,8 @@ struct ValueReader {
 
 }  // namespace
 
+// The names come from the XML and not from the machine: after any fault of the model, libsdformat
+// makes no links, and references are checked all the same.
 Names Names::of_model(const Element& model) {
   Names names;
   for (const Element* e = model.FirstChildElement(); e; e = e->NextSiblingElement()) {
@@ -149,6 +166,7 @@ Names Names::of_model(const Element& model) {
 }
 
 Element* ElementReader::take(const Mark& mark, const char* name) {
+  // SDF elements of a model have been checked by `check_sdf` and read by libsdformat.
   if (mixed_ && std::string_view(name).rfind("navvy:", 0) != 0) return nullptr;
   // A name counts as known even if it is absent: `finish` suggests it.
   known_.push_back(name);
@@ -161,6 +179,7 @@ Element* ElementReader::take(const Mark& mark, const char* name) {
 
 void ElementReader::read_attribute(const Field& field) {
   attributes_.push_back(field.name);
+  // Attributes of an SDF element, such as its name, come from libsdformat.
   if (mixed_) return;
   std::string& out = *std::get<std::string*>(field.value);
   if (element_.Attribute(field.name) != nullptr) out = scene_io::attribute(element_, field.name);
@@ -174,6 +193,7 @@ void ElementReader::read_value_attribute(const Element& child,
   attributed_.push_back(child.Name());
   const std::vector<std::string> names(attribute.choice.names.begin(),
                                        attribute.choice.names.end());
+  // Without the attribute, and after a fault in it, the first choice holds: it is the default.
   std::size_t index = 0;
   for (const auto* at = child.FirstAttribute(); at; at = at->Next()) {
     if (std::string_view(at->Name()) != attribute.name) {
@@ -197,16 +217,21 @@ void ElementReader::field(const Field& field) {
   if (field.mark.has(Mark::kAttribute)) return read_attribute(field);
   Element* child = take(field.mark, field.name);
   if (child == nullptr) return;
+  // `finish` is not called for mixed elements, so what it would report of this child is reported
+  // here.
   if (mixed_ && child->FirstChildElement() != nullptr) {
     faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements",
                   field.text);
     return;
   }
   const double factor = scene::unit_of(field.name).factor;
+  // Only points may repeat: a track has one <roller_m> for each roller.
   const bool repeats = std::holds_alternative<std::vector<Vec3>*>(field.value);
   if (repeats) repeatable_.push_back(field.name);
   for (; child != nullptr; child = repeats ? child->NextSiblingElement(field.name) : nullptr)
     std::visit(ValueReader{field, *child, faults_, factor}, field.value);
+  // The loop has left `child` at null. A value with an attribute or a reference does not repeat, so
+  // the first element is the one that was read.
   if (field.attribute)
     read_value_attribute(*element_.FirstChildElement(field.name), *field.attribute);
   if (field.refers != Refers::kNothing)
@@ -215,6 +240,7 @@ void ElementReader::field(const Field& field) {
 }
 
 void ElementReader::check_reference(const Element& child, const std::string& name, Refers refers) {
+  // An empty name has been reported by the reader of the text.
   if (names_ == nullptr || name.empty()) return;
   switch (refers) {
     case Refers::kLink:
@@ -227,12 +253,14 @@ void ElementReader::check_reference(const Element& child, const std::string& nam
       require_name(child, name, "navvy:shell of this name in the model", names_->shells, faults_);
       break;
     case Refers::kSoil:
+      // A suggestion needs candidates, and a world without soils has none.
       if (names_->soils.empty())
         faults_.error(child, name, "no soil of this name in the world",
                       "add <navvy:soil ref=\"" + name + "\"/>");
       else
         require_name(child, name, "soil of this name in the world", names_->soils, faults_);
       break;
+    // Hitches are read after the machines; program_order.cpp checks their names.
     default:
       break;
   }
@@ -240,6 +268,7 @@ void ElementReader::check_reference(const Element& child, const std::string& nam
 
 void ElementReader::read_inside(Element& child,
                                 const std::function<void(scene::Fields&)>& describe) {
+  // Known names and attributes belong to one element, so each has a reader of its own.
   ElementReader inner(child, names_, faults_);
   describe(inner);
   inner.finish();
@@ -249,6 +278,7 @@ void ElementReader::group(const scene::Group& group,
                           const std::function<void(scene::Fields&)>& describe) {
   nested_.push_back(group.name);
   Element* child = take(group.mark, group.name);
+  // `take` has noted the name, so that `finish` accepts an element whose own reader comes later.
   if (child == nullptr || group.mark.has(Mark::kOwnReader)) return;
   if (group.make) group.make();
   read_inside(*child, describe);
@@ -267,6 +297,7 @@ void ElementReader::list(const scene::List& list) {
     return;
   }
   bool any = false;
+  // A needed list is missing only if no kind of item is there, so no kind is needed by itself.
   for (const scene::List::Kind& kind : list.kinds) {
     repeatable_.emplace_back(kind.name);
     any = take({}, kind.name) != nullptr || any;
@@ -283,6 +314,7 @@ void ElementReader::list(const scene::List& list) {
 void ElementReader::types(const scene::Types& types) {
   attributes_.emplace_back(types.attribute);
   const std::string type = scene_io::attribute(element_, types.attribute);
+  // A missing attribute stands for the first type.
   std::size_t index = 0;
   while (index < types.names.size() && !type.empty() && types.names[index] != type) ++index;
   if (index == types.names.size()) {
@@ -295,6 +327,7 @@ void ElementReader::types(const scene::Types& types) {
     }
     return;
   }
+  // The object is replaced before its fields are read, as fields belong to the type.
   types.choose(index);
   types.describe(index, *this);
 }
@@ -312,6 +345,7 @@ void ElementReader::finish() {
     // The first one was read, so the second one is reported.
     if (!repeats && !seen.insert(name).second)
       faults_.error(*child, text_of(*child), "must occur only once", "remove one of them");
+    // Children with fields and items of lists have readers of their own.
     if (repeats || contains(nested_, name)) continue;
     if (child->FirstChildElement())
       faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements");
@@ -332,6 +366,8 @@ const Element& child_or_self(const Element& element, const char* name) {
   return child != nullptr ? *child : element;
 }
 
+// The order is that of the file: rules take the i-th element as that of the i-th item of a list,
+// which `ElementReader::list` fills in the same order.
 std::vector<Element*> children_of(Element& parent, std::initializer_list<const char*> names) {
   std::vector<Element*> out;
   for (Element* e = parent.FirstChildElement(); e; e = e->NextSiblingElement())
@@ -396,8 +432,10 @@ bool read_seed(const Element& element, std::uint64_t& out, Faults& faults) {
 bool read_pose(const Element& element, Pose& out, Faults& faults) {
   const bool quaternion = attribute(element, "rotation_format") == "quat_xyzw";
   std::vector<double> v;
+  // 1e7 m is beyond any site; snapshots have the same bound (limits::kFarthest).
   if (!read_numbers(element, quaternion ? 7 : 6, {-1e7, 1e7}, v, faults)) return false;
   if (quaternion) {
+    // SDF writes w last, Eigen takes it first.
     Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
     // A norm far from one is a mistake, not rounding.
     if (std::abs(q.norm() - 1) > 1e-3) {

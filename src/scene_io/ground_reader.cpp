@@ -26,12 +26,14 @@ void check_layers(Element& parent, const std::vector<scene::GroundLayer>& layers
   }
 }
 
+/// Checks that a rectangle has an area; its corners are in the world [m].
 void check_rectangle(const Element& element, const Vec2& low, const Vec2& high, Faults& faults) {
   if (low.x() >= high.x() || low.y() >= high.y())
     faults.error(element, "", "min_m must be less than max_m in x and y");
 }
 
 void check_rectangles(Element& element, const scene::StartGround& ground, Faults& faults) {
+  // `ElementReader::list` fills each vector in the order of its elements.
   std::size_t i = 0;
   for (Element* patch : children_of(element, {"patch"})) {
     check_rectangle(*patch, ground.patches[i].min, ground.patches[i].max, faults);
@@ -44,6 +46,7 @@ void check_rectangles(Element& element, const scene::StartGround& ground, Faults
   }
 }
 
+/// Checks elements that exclude each other: those of a map and those of a procedural ground.
 void check_map(const Element& element, const scene::StartGround& ground, Faults& faults) {
   if (has(element, "at_m") && ground.at_is_local)
     faults.error(*element.FirstChildElement("at_local_m"), "", "give either at_m or at_local_m",
@@ -64,6 +67,7 @@ void check_map(const Element& element, const scene::StartGround& ground, Faults&
 
 void resolve_raster(const Element& element, std::string& path, Faults& faults) {
   if (path.empty()) return;
+  // An element from the command line has line 0, and its author thinks of the working directory.
   const bool from_scene = element.GetLineNum() > 0;
   std::filesystem::path full = path;
   if (from_scene && full.is_relative())
@@ -82,9 +86,12 @@ scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>&
   Names names;
   names.soils = names_in_list(soils);
   read_element(element, ground, &names, faults);
+  // at_local_m is read into the same point and differs in its frame only.
   ground.has_at = ground.has_at || ground.at_is_local;
   ground.scale.take_heights();
+  // By default the middle of the site is the world's origin.
   if (!ground.has_origin) ground.origin = -0.5 * ground.size;
+  // A seed of its own keeps hills as they are when the seed of the scene changes.
   for (scene::GroundFeature& shape : ground.features)
     if (!shape.has_seed) shape.seed = seed;
   if (const Element* file = element.FirstChildElement("file"))
@@ -92,6 +99,7 @@ scene::StartGround read_ground(Element& element, const std::vector<scene::Soil>&
   check_layers(element, ground.layers, faults);
   check_rectangles(element, ground, faults);
   check_map(element, ground, faults);
+  // With one soil there is no choice. With several, no order of theirs could be meant by default.
   if (ground.layers.empty() && soils.size() == 1)
     ground.layers.push_back({soils[0].name, ground.depth});
   if (ground.layers.empty() && soils.size() > 1)

@@ -46,6 +46,7 @@ void finish_hitch(const Element& element, scene::Hitch& hitch, const scene::Scen
   if (hitch.parent_name.empty() || hitch.child_name.empty()) return;
   const Element& at_parent = child_or_self(element, "parent");
   const Element& at_child = child_or_self(element, "child");
+  // Both ends are looked up before returning, so that both faults are reported.
   const bool known = find_end(at_parent, world, hitch.parent, hitch.parent_link, faults);
   if (!find_end(at_child, world, hitch.child, hitch.child_link, faults) || !known) return;
   if (hitch.parent == hitch.child)

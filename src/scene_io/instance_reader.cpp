@@ -56,6 +56,7 @@ void read_place(const Element& pose, scene::MachineInWorld& instance, const scen
                  "give the pose in the world");
   const Vec2 place = instance.X_WM.translation().head<2>();
   const Vec2 low = world.ground.origin, high = low + world.ground.size;
+  // Places are compared only with ground that was read without faults.
   if (known.ground && ((place.array() < low.array()).any() || (place.array() > high.array()).any()))
     faults.error(pose, text_of(pose), "the machine must stand on the site",
                  "move it, or enlarge size_m of the ground");
@@ -98,6 +99,7 @@ scene::MachineInWorld read_instance(Element& element, const scene::Scene& world,
     instance.machine = read_machine(element, known.sdf_sound, faults);
     instance.name = instance.machine.name;
   }
+  // Links and joints of the file were checked with it, so only soils are looked up here.
   names.soils = names_in_list(world.soils);
   if (!names.soils.empty()) instance.load.soil = names.soils[0];
   const bool kinematic_file = is_include && instance.machine.kinematic;

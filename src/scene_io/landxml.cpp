@@ -39,12 +39,15 @@ const Element* child(const Element* of, const char* name) {
 
 /// Returns the length of the file's unit in metres; 0 after a fault.
 double read_unit(const Element& root, const Reading& reading) {
+  // Names of the enumerations metLinear and impLinear of LandXML 1.2. The US survey foot is
+  // 1200/3937 m; taken for the international foot, it would move a northing of 500 km by one metre.
   static const std::vector<std::pair<std::string, double>> kUnits = {
       {"millimeter", 1e-3}, {"centimeter", 1e-2},
       {"meter", 1},         {"kilometer", 1e3},
       {"foot", 0.3048},     {"inch", 0.0254},
       {"mile", 1609.344},   {"USSurveyFoot", 1200.0 / 3937.0}};
   const Element* units = child(&root, "Units");
+  // The child is <Metric> or <Imperial>; both hold the attribute.
   const Element* kind = units != nullptr ? units->FirstChildElement() : nullptr;
   const char* name = kind != nullptr ? kind->Attribute("linearUnit") : nullptr;
   if (name == nullptr) {
@@ -68,6 +71,7 @@ double read_unit(const Element& root, const Reading& reading) {
 const Element* find_definition(const Element& root, const std::string& wanted,
                                const Reading& reading) {
   std::vector<std::string> names;
+  // With several surfaces and no name wanted, `found` is the last one, but the count reports that.
   const Element* found = nullptr;
   for (const Element* s = child(child(&root, "Surfaces"), "Surface"); s != nullptr;
        s = s->NextSiblingElement("Surface")) {
@@ -95,6 +99,7 @@ const Element* find_definition(const Element& root, const std::string& wanted,
 }
 
 /// Finds the first three words of a text. Returns the number of words, at most four.
+/// Nothing is allocated here: a file has up to 1.5 million points and faces.
 int split(const char* text, std::string_view words[3]) {
   int count = 0;
   for (const char* p = text; p != nullptr && *p != 0 && count <= 3;) {
@@ -114,6 +119,8 @@ struct Ids {
   bool complete = true;  ///< no point is without one
 };
 
+/// Reads <P> elements, "northing easting elevation". A point that refers to another one (pntRef)
+/// has no text, and a point of two numbers has no elevation; both are faults.
 void read_points(const Element& definition, double metres, const Reading& reading, scene::Tin& tin,
                  Ids& ids) {
   for (const Element* p = child(child(&definition, "Pnts"), "P"); p != nullptr;
@@ -126,6 +133,7 @@ void read_points(const Element& definition, double metres, const Reading& readin
     std::string_view words[3];
     Vec3 at = Vec3::Zero();
     bool sound = split(text, words) == 3;
+    // 1e9 m is beyond every coordinate reference system, and sums of such numbers stay finite.
     for (int i = 0; i < 3 && sound; ++i)
       sound = to_number(std::string(words[i]), at[i]) && std::abs(at[i] * metres) <= 1e9;
     if (!sound) {
@@ -135,11 +143,14 @@ void read_points(const Element& definition, double metres, const Reading& readin
     } else if (!own_id) {
       reading.error(*p, id, "every point needs an id of its own", "give it another one");
     }
+    // A faulty point is stored too: faces count the points by their places in this list.
     // The file has northing first, we have easting.
     tin.points.push_back(metres * Vec3(at.y(), at.x(), at.z()));
   }
 }
 
+/// Reads <F> elements, the ids of three points. Four ids would be a face of a grid surface, which
+/// is no TIN.
 void read_faces(const Element& definition, const Reading& reading, scene::Tin& tin,
                 const Ids& ids) {
   for (const Element* f = child(child(&definition, "Faces"), "F"); f != nullptr;
@@ -156,6 +167,7 @@ void read_faces(const Element& definition, const Reading& reading, scene::Tin& t
     std::array<int, 3> face = {};
     bool sound = true;
     for (std::size_t i = 0; i < 3; ++i) {
+      // An unknown id may be that of a point without one, whose fault has been reported.
       const auto found = ids.index.find(std::string(words[i]));
       if (found != ids.index.end())
         face[i] = found->second;
@@ -177,9 +189,12 @@ std::vector<char> read_text(const Reading& reading) {
     reading.error(0, "LandXML", "", failure.what(), "export one surface alone, or a coarser one");
     return {};
   }
+  // Each element has at most two tags, so the count of '<' bounds the work of the parser before it
+  // starts.
   const auto elements = static_cast<std::size_t>(std::count(text.begin(), text.end(), '<'));
   const std::size_t tag = overloaded_tag({text.data(), text.size()});
   if (tag != std::string_view::npos) {
+    // The position is only turned into a line for the message.
     const auto line =
         std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(tag), '\n');
     reading.error(
@@ -198,6 +213,7 @@ std::vector<char> read_text(const Reading& reading) {
 }  // namespace
 
 bool is_landxml(const std::string& file) {
+  // The file is not parsed here, as it may be a raster of some gigabytes.
   // The root may follow a declaration and long comments.
   std::string head(65536, '\0');
   std::ifstream stream(file, std::ios::binary);
@@ -214,6 +230,7 @@ std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const st
     if (!reading.failed()) reading.error(0, "LandXML", "", "is empty", "export it again");
     return nullptr;
   }
+  // Document::parse is for scenes: its limits are smaller, and it replaces old names of elements.
   tinyxml2::XMLDocument xml;
   if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS ||
       xml.RootElement() == nullptr) {
@@ -233,6 +250,7 @@ std::shared_ptr<const scene::Tin> read_landxml(const std::string& file, const st
   const Element* definition = find_definition(root, surface, reading);
   if (definition == nullptr || metres == 0) return nullptr;
   tin->name = attribute(*definition->Parent()->ToElement(), "name");
+  // 0 stands for no code; design_surface.cpp compares it with the code of the ground's map.
   if (const Element* crs = child(&root, "CoordinateSystem"))
     tin->epsg = crs->IntAttribute("epsgCode", 0);
   Ids ids;

@@ -21,13 +21,17 @@ void check_inertia(const Element& inertial, Faults& faults) {
     to_number(child_text(*inertia, name), number);
     return number;
   };
+  // These are SDF's defaults: a unit tensor.
   const double xx = value("ixx", 1), yy = value("iyy", 1), zz = value("izz", 1);
   const double xy = value("ixy", 0), xz = value("ixz", 0), yz = value("iyz", 0);
   Mat3 tensor;
   tensor << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  // check_sdf has reported numbers that are not finite; such a tensor has no eigenvalues.
   if (!tensor.allFinite()) return;
   const Vec3 moments =
       Eigen::SelfAdjointEigenSolver<Mat3>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+  // Eigenvalues come in ascending order. The second condition holds for every distribution of mass:
+  // the moment about one axis is the sum of integrals that the other two contain.
   if (moments[0] > 0 && moments[2] <= moments[0] + moments[1]) return;
   auto text = [](double number) {
     std::ostringstream stream;
@@ -42,6 +46,7 @@ void check_inertia(const Element& inertial, Faults& faults) {
 
 /// Returns true for a density of the link or of one of its shapes.
 bool has_density(const Element& link) {
+  // derived_parts.cpp takes the value of the same element once the shapes are known.
   constexpr const char* kName = "navvy:density_kg_per_m3";
   if (link.FirstChildElement(kName)) return true;
   for (const char* kind : {"visual", "collision"})
@@ -55,6 +60,7 @@ bool has_density(const Element& link) {
 void check_joints(const Element& model, const Names& names, Faults& faults) {
   static const std::set<std::string> types = {"fixed", "revolute", "continuous", "prismatic",
                                               "ball"};
+  // A joint may be attached to a frame, which libsdformat resolves to its link.
   std::vector<std::string> ends = names.links;
   ends.insert(ends.end(), names.frames.begin(), names.frames.end());
   for (const Element* joint = model.FirstChildElement("joint"); joint;
@@ -69,6 +75,7 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
         faults.error(*joint, "", std::string("needs an element <") + end + ">");
         continue;
       }
+      // The world may only be a parent, as nothing moves it.
       const bool world = std::string(end) == "parent" && text_of(*at) == "world";
       if (!world && !text_of(*at).empty())
         require_name(*at, text_of(*at), "link or frame of this name in the model", ends, faults);
@@ -82,6 +89,7 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
         faults.error(*joint, "", "needs an element <axis> with <xyz>");
       continue;
     }
+    // check_sdf has reported what is no number; ones keep the length above zero in that case.
     std::vector<double> xyz(3, 1.0);
     if (const Element* e = axis->FirstChildElement("xyz")) {
       const auto words = words_of(text_of(*e));
@@ -105,6 +113,7 @@ void check_links(const Element& model, bool needs_mass, Faults& faults) {
   for (const Element* link = model.FirstChildElement("link"); link;
        link = link->NextSiblingElement("link")) {
     const Element* inertial = link->FirstChildElement("inertial");
+    // Masses of kinematic and static links are never used, so files may leave them out.
     if (needs_mass && !has_density(*link) && (!inertial || !inertial->FirstChildElement("mass")))
       faults.error(*link, "", "a moving link needs <inertial> with <mass> and <inertia>",
                    "or <navvy:density_kg_per_m3>, by which they follow from its shapes");

@@ -10,11 +10,13 @@ namespace {
 using JointType = scene::Joint::Type;
 
 /// Returns the SDF type of a joint by its name; empty for an unknown joint.
+/// The XML still distinguishes continuous from revolute joints, which scene::Joint does not.
 std::string type_of(const Names& names, const std::string& joint) {
   const auto type = names.joint_type.find(joint);
   return type == names.joint_type.end() ? "" : type->second;
 }
 
+/// Checks a cylinder. A rod as thick as the bore would leave the oil no area to retract it.
 void check_cylinder(const Element& element, const scene::Cylinder& cylinder, Faults& faults) {
   if (has(element, "rod_pin_m") == has(element, "linkage"))
     faults.error(element, "",
@@ -34,6 +36,7 @@ void check_encoder(const Element& element, std::size_t index, const Names& names
   if (type != "revolute" && type != "continuous")
     faults.error(at, type, "an encoder counts the turns of a joint that turns",
                  "name a revolute or continuous joint");
+  // Only earlier ones are compared, so that a pair is reported once, at the second encoder.
   for (std::size_t i = 0; i < index; ++i)
     if (machine.encoders[i].joint == name)
       faults.error(at, name, "this joint has an encoder already", "remove one of them");
@@ -47,6 +50,7 @@ void check_levers(const Element& element, const scene::Machine& machine, Faults&
   // A lever commands a share of the top speed.
   for (const std::string& name : {arm.swing, arm.boom, arm.stick, arm.bucket}) {
     const int joint = machine.joint_index(name);
+    // 1e8 is far below the default of `velocity`, 1e9, which stands for no limit.
     if (joint < 0 || machine.joints[static_cast<std::size_t>(joint)].velocity < 1e8) continue;
     if (std::none_of(machine.cylinders.begin(), machine.cylinders.end(),
                      [&](const scene::Cylinder& c) { return c.joint == name; }))
@@ -66,6 +70,7 @@ void check_bed(const Element& element, std::size_t index, const Names& names,
                  "name the joint of its hinge");
   if (index > 0)
     faults.error(element, "", "a machine has one bed", "make the second one a machine of its own");
+  // The shell is looked up in the list, as the reader has checked its name only.
   for (const scene::Shell& shell : machine.shells)
     if (shell.name == bed.shell && shell.link != bed.link)
       faults.error(element, bed.link,
@@ -85,6 +90,7 @@ void check_teeth(const Element& element, const scene::Bucket& bucket, Faults& fa
   const Element* teeth = element.FirstChildElement("teeth");
   if (teeth == nullptr || !bucket.teeth) return;
   const double width = bucket.teeth->number * bucket.teeth->width;
+  // The factor allows for rounding where the teeth fill the width exactly.
   if (width > bucket.width * (1 + 1e-9))
     faults.error(child_or_self(*teeth, "width_m"),
                  std::to_string(bucket.teeth->number) + " teeth of " +
@@ -107,6 +113,8 @@ void check_planes(const Element& model, const scene::Machine& machine, Faults& f
     }
 }
 
+/// Ball joints have no <axis>, and SDF has no limits for them, so the cone and twist are
+/// extensions.
 void check_ball(const Element& joint, const Element& element, Faults& faults) {
   if (attribute(joint, "type") != "ball")
     faults.error(element, attribute(joint, "type"), "only a ball joint has a cone and a twist",
@@ -147,6 +155,7 @@ void check_joint_extensions(Element& model, const scene::Machine& machine, Fault
   }
 }
 
+/// A material of two words would be split where a table of pairs names it.
 void check_materials_of_links(const Element& model, const scene::Machine& machine, Faults& faults) {
   for (const scene::Link& link : machine.links) {
     const Element* element = named_child(model, "link", link.name);
@@ -160,6 +169,8 @@ void check_materials_of_links(const Element& model, const scene::Machine& machin
 
 void check_extensions(Element& model, const Names& names, const scene::Machine& machine,
                       Faults& faults) {
+  // The reader has appended an item for every element, faulty ones too, so the i-th item belongs to
+  // the i-th element.
   std::size_t i = 0;
   for (const Element* e : children_of(model, {"navvy:cylinder"}))
     check_cylinder(*e, machine.cylinders.at(i++), faults);
@@ -177,6 +188,7 @@ void check_extensions(Element& model, const Names& names, const scene::Machine& 
     if (machine.cylinders.empty())
       faults.error(*e, "", "a pump needs cylinders to feed",
                    "add <navvy:cylinder>, or remove the pump");
+    // This is a warning, as a scene may switch one machine between both kinds of physics.
     if (machine.kinematic)
       faults.warning(*e, "", "a kinematic machine moves as commanded and does not use a pump",
                      "remove it");
@@ -192,6 +204,7 @@ void check_extensions(Element& model, const Names& names, const scene::Machine& 
 void set_initial_positions(Element& parent, const std::vector<scene::InitialPosition>& positions,
                            scene::Machine& machine, Faults& faults) {
   if (machine.links.empty()) return;
+  // `positions` has one entry for each of these elements, in their order.
   const std::vector<Element*> elements = children_of(parent, {"navvy:joint"});
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const scene::InitialPosition& start = positions[i];
@@ -213,6 +226,7 @@ void set_initial_positions(Element& parent, const std::vector<scene::InitialPosi
           element, start.joint,
           turns ? "a revolute joint needs <initial_deg>" : "a prismatic joint needs <initial_m>");
     joint.initial = turns ? start.angle : start.length;
+    // 1e-9 allows for rounding: limits are written in radians, positions often in degrees.
     if (joint.has_limits &&
         (joint.initial < joint.lower - 1e-9 || joint.initial > joint.upper + 1e-9))
       faults.error(element, text_of(*element.FirstChildElement()),

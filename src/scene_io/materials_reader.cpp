@@ -29,11 +29,13 @@ void take_pairs(Element& table, std::vector<scene::MaterialPair> pairs, scene::M
     }
     pair.materials = {words[0], words[1]};
     const Element* kinetic = element.FirstChildElement("kinetic_friction");
+    // Without a value of its own, sliding friction equals friction at rest.
     if (kinetic == nullptr) pair.kinetic_friction = pair.static_friction;
     if (kinetic != nullptr && pair.kinetic_friction > pair.static_friction)
       faults.error(*kinetic, text_of(*kinetic),
                    "must not exceed static_friction: friction at rest is the greater one",
                    "exchange the two, or remove kinetic_friction if both are the same");
+    // `pair` finds both orders of the names.
     if (into.pair(words[0], words[1]) != nullptr)
       faults.error(element, pair.names, "this pair is in the table already",
                    "remove one of them; the order of names is free");
@@ -57,6 +59,7 @@ struct Use {
   bool stands;  ///< never moves, so it meets neither the ground nor others that stand
 };
 
+// Documents of machine files are closed by now, so file and line come from the structs.
 Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
              const std::string& remedy) {
   const scene::MachineInWorld& placed = world.machines[use.machine];
@@ -73,6 +76,7 @@ Fault at_use(const scene::Scene& world, const Use& use, const std::string& rule,
 
 std::string materials_file(const Element& file) {
   std::error_code ignored;
+  // A file beside the scene wins over a shipped table of the same name.
   const std::filesystem::path path =
       std::filesystem::path(Document::of(file).directory()) / text_of(file);
   if (std::filesystem::is_regular_file(path, ignored)) return path.string();
@@ -123,6 +127,7 @@ scene::Materials read_materials(Element& element, Faults& faults) {
 
 void check_materials(const scene::Scene& world, Faults& faults) {
   const std::vector<std::string> known = known_in(world.materials);
+  // Links of one machine never meet each other, so one use per machine and material is enough.
   std::vector<Use> uses;  // one per machine and material
   for (std::size_t m = 0; m < world.machines.size(); ++m) {
     const scene::Machine& machine = world.machines[m].machine;
@@ -135,6 +140,8 @@ void check_materials(const scene::Scene& world, Faults& faults) {
         uses.push_back({m, &material, stands});
     }
   }
+  // A set makes the order of a pair irrelevant. A set of one name is an unknown material or the
+  // pair of a material with itself; one name is never both.
   std::set<std::set<std::string>> reported;
   for (const Use& use : uses) {
     const std::string& name = use.material->name;
@@ -145,6 +152,7 @@ void check_materials(const scene::Scene& world, Faults& faults) {
       continue;
     }
     const auto look = [&](const std::string& other) {
+      // An unknown other name is reported at its own use.
       const bool both_known = std::find(known.begin(), known.end(), other) != known.end();
       if (!both_known || world.materials.pair(name, other) != nullptr ||
           !reported.insert({name, other}).second)

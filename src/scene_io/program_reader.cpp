@@ -22,6 +22,7 @@ class XmlStep final : public scene::StepSource {
   std::string written(const char* name) const override { return child_text(element_, name); }
   void error(const char* name, const std::string& value, const std::string& rule,
              const std::string& remedy, int item) const override {
+    // The empty name stands for the step itself; `item` counts repeated children.
     const Element* child = *name != '\0' ? element_.FirstChildElement(name) : nullptr;
     for (; child != nullptr && item > 0; --item) child = child->NextSiblingElement(name);
     faults_.error(child ? *child : element_, value, rule, remedy);
@@ -49,6 +50,7 @@ scene::Program read_program(Element& element, const scene::StepKinds& kinds,
     }
     program.steps.push_back(
         kinds[static_cast<std::size_t>(kind)].read(XmlStep(*child, machine, ground, faults)));
+    // Kept for messages that come when the run starts, as the document is closed by then.
     program.lines.push_back(child->GetLineNum());
   }
   if (!text_of(element).empty())

@@ -16,6 +16,8 @@ namespace {
 using scene::Field;
 using scene::Mark;
 
+// Names of the types, in the order of the alternatives of `scene::Value`. The assertion compares
+// the numbers only; a new alternative needs its name at its own place.
 constexpr const char* kTypes[] = {"flag",      "whole", "whole",  "number",  "text",   "vector",
                                   "vector",    "pose",  "matrix", "numbers", "vector", "whole",
                                   "direction", "color", "choice", "computed"};
@@ -31,17 +33,20 @@ class Builder final : public scene::Fields {
   explicit Builder(SchemaNode& node) : node_(node) { node_.type = "element"; }
 
   void field(const Field& f) override {
+    // A derived value follows from other elements, so a file cannot give it.
     if (f.mark.has(Mark::kDerived)) return;
     SchemaNode& out = add(f.name, f.text, f.mark);
     out.type = kTypes[f.value.index()];
     out.attribute = f.mark.has(Mark::kAttribute);
     out.refers = f.refers;
+    // The suffix of the name is the only place where a field states its unit.
     const scene::Unit unit = scene::unit_of(f.name);
     if (out.type == "number" || unit.symbol != std::string_view("-")) out.unit = unit.symbol;
     // A pose has its units in its sentence.
     const bool number = out.type == "number" || out.type == "whole" || out.type == "vector" ||
                         out.type == "numbers";
     if (number) out.range = f.range;
+    // check_tree holds repeated points against the same limit.
     out.repeats = std::holds_alternative<std::vector<Vec3>*>(f.value);
     if (out.repeats) out.most = limits::kLinks;
     if (const auto* choice = std::get_if<scene::NamedChoice>(&f.value))
@@ -50,6 +55,7 @@ class Builder final : public scene::Fields {
     double* const* value = std::get_if<double*>(&f.value);
     const bool none = value != nullptr &&
                       (**value < f.range.min * unit.factor || **value > f.range.max * unit.factor);
+    // A field with a flag has no value, and so no default, until its element is given.
     if (!out.needed && !f.mark.given && !none && out.type != "pose")
       out.initial = scene::value_text(f.value, unit.factor);
     if (f.attribute) add_attribute(out, *f.attribute);
@@ -64,6 +70,7 @@ class Builder final : public scene::Fields {
       // Machines are <include> or <model> in a file; to a user they are machines.
       if (std::string_view(list.name) == "machine") out.key = list.name;
       out.repeats = true;
+      // An empty list has no item, so a fresh one shows the fields and their defaults.
       out.most = list.most;
       Builder inner(out);
       list.fresh(kind, inner);
@@ -76,6 +83,8 @@ class Builder final : public scene::Fields {
     out.choices.assign(types.names.begin(), types.names.end());
     out.initial = types.names[0];
     std::vector<std::set<std::string>> owners;
+    // Each type is described on a node of its own, and equal names are merged: a field that several
+    // types share appears once, and `only` names its types unless all of them have it.
     const std::size_t first = node_.children.size();
     for (std::size_t type = 0; type < types.names.size(); ++type) {
       SchemaNode part;
@@ -108,6 +117,7 @@ class Builder final : public scene::Fields {
     out.choices.assign(attribute.choice.names.begin(), attribute.choice.names.end());
     out.initial = out.choices.front();
   }
+  // Adds a node to `node_`. The reference is valid until the next node is added.
   SchemaNode& add(const char* name, const char* text, const Mark& mark) {
     SchemaNode& out = node_.children.emplace_back();
     out.name = name;
@@ -127,6 +137,8 @@ bool walk(const SchemaNode& node, const std::function<bool(const SchemaNode&)>& 
                      [&](const SchemaNode& child) { return walk(child, visit); });
 }
 
+/// Adds the steps to every <navvy:program>. Only `control` knows the kinds of steps, so they come
+/// as a table.
 void add_steps(SchemaNode& node, const scene::StepKinds& kinds) {
   for (SchemaNode& child : node.children) add_steps(child, kinds);
   if (node.name != "navvy:program") return;
@@ -141,6 +153,8 @@ void add_steps(SchemaNode& node, const scene::StepKinds& kinds) {
   }
 }
 
+/// Adds an element that a file may have directly below <sdf>. The object with the defaults is
+/// temporary: nodes hold texts and no pointers to members.
 template <class T>
 void add_root(SchemaNode& root, const char* name, const char* text, std::size_t most = 1) {
   SchemaNode& node = root.children.emplace_back();
@@ -171,6 +185,8 @@ Schema::Schema(const scene::StepKinds& kinds) {
   add_root<scene::Materials>(root_, "navvy:materials", "A table of pairs in a file of its own.");
   add_steps(root_, kinds);
   // Readers ask for the children of an element by its name alone.
+  // A name at several places of the tree has the children of all of them. The pointers stay valid,
+  // as the tree is complete here and the class cannot be copied.
   walk(root_, [&](const SchemaNode& node) {
     std::vector<const SchemaNode*>& known = children_[node.name];
     for (const SchemaNode& child : node.children)
@@ -182,6 +198,8 @@ Schema::Schema(const scene::StepKinds& kinds) {
 }
 
 const SchemaNode* Schema::find(const std::string& name_or_key) const {
+  // The walk is depth first in the order of the tree, so that an element of a world wins over the
+  // same one in a file of its own.
   const SchemaNode* found = nullptr;
   walk(root_, [&](const SchemaNode& node) {
     if (node.type != "element" || (node.name != name_or_key && node.key != name_or_key))
@@ -221,6 +239,7 @@ bool Schema::repeats(const std::string& parent, const std::string& name) const {
 
 std::vector<std::string> Schema::extensions(const std::string& parent) const {
   std::vector<std::string> out;
+  // A run's scene.sdf has this element, by which a later run knows the files that it used.
   if (parent == "world") out.emplace_back("navvy:resolved");
   for (const SchemaNode* child : children(parent))
     if (child->name.rfind("navvy:", 0) == 0) out.push_back(child->name);
@@ -228,6 +247,8 @@ std::vector<std::string> Schema::extensions(const std::string& parent) const {
 }
 
 bool Schema::refers_to_part(const std::string& name) const {
+  // Soils and hitches are left out: they belong to the world, and a part's name does not change
+  // them.
   using scene::Refers;
   return walk(root_, [&](const SchemaNode& node) {
     return node.name == name && (node.refers == Refers::kLink || node.refers == Refers::kJoint ||
@@ -236,6 +257,7 @@ bool Schema::refers_to_part(const std::string& name) const {
 }
 
 const Schema& schema() {
+  // The loader asks this one. It has no steps, as scene_io must not depend on control.
   static const Schema once{scene::StepKinds()};
   return once;
 }

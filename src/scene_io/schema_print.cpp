@@ -12,10 +12,12 @@ namespace navvy::scene_io {
 
 namespace {
 
+/// Returns false for a bound that stands for none. Ranges have both bounds or neither.
 bool bounded(double bound) { return std::abs(bound) < std::numeric_limits<double>::max(); }
 
 std::string range_of(const SchemaNode& node) {
   std::string out;
+  // Choices take the place of a range: no value has both.
   for (const std::string& choice : node.choices) out += (out.empty() ? "" : ", ") + choice;
   if (!out.empty() || !bounded(node.range.min)) return out;
   return scene::short_text(node.range.min, 6) + ".." + scene::short_text(node.range.max, 6);
@@ -33,6 +35,8 @@ std::string unit_or_type(const SchemaNode& node) {
 std::string rounded(const std::string& word) {
   double value = 0;
   if (!to_number(word, value)) return word;
+  // 1e-5 is coarser than the rounding of a float (6e-8) and finer than a reader of the page
+  // needs.
   for (int digits = 4; digits < 9; ++digits) {
     double back = 0;
     const std::string text = scene::short_text(value, digits);
@@ -53,16 +57,20 @@ std::string sentence(const SchemaNode& node) {
   return node.text + (node.only.empty() ? "" : " Only of type " + node.only + ".");
 }
 
+/// Appends a row for a node and for each below it, indented by its depth.
 void print_text(const SchemaNode& node, int depth, std::string& out) {
   const std::string name = (node.attribute ? "attribute " : "") + node.name;
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
   char columns[200];
+  // The widths align usual rows; a longer text shifts the rest of its own row.
   std::snprintf(columns, sizeof columns, "%-38s %-14s %-12s %-16s ", (indent + name).c_str(),
                 unit_or_type(node).c_str(), initial_of(node).c_str(), range_of(node).c_str());
   out += columns + sentence(node) + "\n";
   for (const SchemaNode& child : node.children) print_text(child, depth + 1, out);
 }
 
+/// Returns a JSON string. Names and sentences are texts of this code base and hold no control
+/// characters, so quotes and backslashes are all that needs an escape.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -80,6 +88,7 @@ void print_json(const SchemaNode& node, const std::string& indent, std::string& 
   if (node.key != node.name) add("set", node.key);
   add("unit", node.unit);
   if (!node.needed) add("default", initial_of(node));
+  // Bounds are exact, as programs compare values with them; defaults are for people.
   if (bounded(node.range.min))
     out += ", \"min\": " + scene::exact_text(node.range.min) +
            ", \"max\": " + scene::exact_text(node.range.max);
@@ -116,6 +125,7 @@ void print_markdown(const SchemaNode& node, const std::string& path, std::string
            " | " + unit_or_type(child) + " | " + initial_of(child) + " | " + range_of(child) +
            " | " + sentence(child) + " |\n";
   };
+  // All rows come before the sections of the children, or the table would end in the middle.
   for (const SchemaNode& child : node.children) {
     row(child, "");
     if (child.type == "element") continue;

@@ -28,6 +28,7 @@ Pose to_pose(const ignition::math::Pose3d& p) {
 
 // libsdformat reserves :: for nested models, which are parts of one model here. Two characters that
 // no file uses stand for it.
+// The two are U+E000 and U+E001 of Unicode's private use area.
 constexpr const char kScope[] = "::", kVeiled[] = "\xEE\x80\x80\xEE\x80\x81";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -58,6 +59,7 @@ void copy_used(const Element& from, Element& to) {
   if (!has_elements) to.SetText(veiled(text_of(from)).c_str());
 }
 
+/// Returns the model as the text of a file of its own, which is all that libsdformat is given.
 std::string as_sdf_text(const Element& model) {
   tinyxml2::XMLDocument copy;
   Element* root = copy.NewElement("sdf");
@@ -92,6 +94,7 @@ void report(const Element& model, const sdf::Errors& errors, Faults& faults) {
   }
 }
 
+/// Reads one shape. `xml` is its <geometry>; `solid` states that a mesh must be fit for a hull.
 bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, scene::Geometry& to,
                    Faults& faults) {
   using Kind = scene::Geometry::Kind;
@@ -111,6 +114,8 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
     to.radius = sphere->Radius();
   } else if (const auto* plane = from.PlaneShape()) {
     to.kind = Kind::kPlane;
+    // The size is that of the drawn rectangle; as a collision shape, a plane becomes the rock under
+    // the whole site.
     to.size = Vec3(plane->Size().X(), plane->Size().Y(), 0);
     // A pose turns a plane for physics and pictures alike.
     if (to_vec3(plane->Normal()).cross(Vec3::UnitZ()).norm() > 1e-9 || plane->Normal().Z() < 0)
@@ -118,6 +123,7 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
   } else if (const auto* mesh = from.MeshShape()) {
     to.kind = Kind::kMesh;
     to.scale = to_vec3(mesh->Scale());
+    // libsdformat has found the mesh in the same element, so <mesh> exists.
     const Element* uri = xml.FirstChildElement("mesh")->FirstChildElement("uri");
     return uri && resolve_mesh(*uri, to.mesh_file, faults) &&
            check_mesh(*uri, to.mesh_file, solid, faults);
@@ -138,6 +144,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
     scene::Visual out;
     out.name = unveiled(visual.Name());
     ignition::math::Pose3d pose;
+    // Resolve returns the pose in the frame of the link, whatever `relative_to` names.
     report(*element, visual.SemanticPose().Resolve(pose), faults);
     out.X_LV = to_pose(pose);
     if (const sdf::Material* material = visual.Material()) {
@@ -170,6 +177,7 @@ void read_shapes(const sdf::Link& from, const Element& xml, bool moves, scene::L
   }
 }
 
+/// Reads a link. Its elements serve for messages and for values without accessors.
 scene::Link read_link(const sdf::Link& from, const Element& xml, bool moves, Faults& faults) {
   scene::Link link;
   link.name = unveiled(from.Name());
@@ -230,6 +238,7 @@ NamedJoint read_joint(const sdf::Joint& from, const Element& xml, Faults& faults
     case sdf::JointType::BALL:
       out.joint.type = Type::kBall;
       break;
+    // check_joints has refused all types but these and fixed.
     default:
       out.joint.type = Type::kFixed;
   }
@@ -257,6 +266,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
   // All faults of the tree are reported before reading ends.
   std::vector<std::string> moved;
   for (const NamedJoint& joint : joints) {
+    // A joint to the world moves no link in the tree; it only fixes the base.
     if (joint.parent == "world") continue;
     if (std::find(moved.begin(), moved.end(), joint.child) != moved.end())
       faults.error(element_of("joint", joint.joint.name), joint.child,
@@ -278,6 +288,7 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
   machine.links.push_back(links[bases[0]]);
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
     for (NamedJoint& joint : joints) {
+      // Taken anew for each joint, as the push_back below may move the links.
       const scene::Link& parent = machine.links[i];
       if (joint.parent != parent.name) continue;
       const auto child = std::find_if(links.begin(), links.end(), [&](const scene::Link& link) {
@@ -336,9 +347,11 @@ bool read_sdf_model(const Element& model, scene::Machine& machine, Faults& fault
       order_tree(model, std::move(links), std::move(joints), machine, faults);
   } catch (const std::exception& failure) {
     faults.error(model, "", std::string("libsdformat failed: ") + failure.what());
+    // sdf::Exception is not a std::exception.
   } catch (const sdf::Exception& failure) {
     faults.error(model, "", std::string("libsdformat failed: ") + failure.GetErrorStr());
   }
+  // Warnings do not count; a model with an error is not used.
   return faults.error_count() == before;
 }
 

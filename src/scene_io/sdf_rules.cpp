@@ -30,6 +30,7 @@ struct Rule {
   Support support = kUsed;
   Type type = kElements;
   const char* why = "";  ///< remedy for an element that is not supported
+  // SDF writes a missing limit of a joint as 1e16, so this value must pass.
   Range range = {-1e16, 1e16};
 };
 
@@ -157,6 +158,7 @@ const Rule kRules[] = {
 };
 
 /// Rules by the names of parent and element.
+/// Two maps, one in the other, so that suggestions have the names that one parent may have.
 const std::map<std::string, std::map<std::string, const Rule*>, std::less<>>& rules() {
   static const auto table = [] {
     std::map<std::string, std::map<std::string, const Rule*>, std::less<>> out;
@@ -187,6 +189,7 @@ std::vector<std::string> names_in(const std::string& parent) {
 
 /// Warns of a pose whose angles exceed a turn in radians: they are likely degrees.
 void warn_of_degrees(const Element& element, Faults& faults) {
+  // 0.01 rad beyond a turn allows for 6.2832 and similar rounding.
   constexpr double kTurn = 2 * kPi + 0.01;
   if (is_true(attribute(element, "degrees"))) return;
   if (attribute(element, "rotation_format") == "quat_xyzw") return;
@@ -212,6 +215,7 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
       read_numbers(element, 1, rule.range, numbers, faults);
       break;
     case kNumbers3:
+      // The range holds for each component.
       read_numbers(element, 3, rule.range, numbers, faults);
       break;
     case kColor:  // alpha may be left out
@@ -235,6 +239,7 @@ void check_value(const Element& element, const Rule& rule, Faults& faults) {
     case kAny:
       break;
   }
+  // Elements inside a value would be ignored, for instance a <size> written into the wrong place.
   if (rule.type != kElements && rule.type != kAny && element.FirstChildElement())
     faults.error(element, element.FirstChildElement()->Name(), "must hold a value, not elements");
 }
@@ -284,6 +289,7 @@ void check_children(const Element& element, Faults& faults) {
 }  // namespace
 
 void check_sdf(const Element& element, Faults& faults) {
+  // The root has no parent: check_root has looked at it, and its children are checked below.
   const auto* parent_node = element.Parent() ? element.Parent()->ToElement() : nullptr;
   const std::string parent = parent_node ? parent_node->Name() : "";
   const std::string name = element.Name();
@@ -306,6 +312,7 @@ void check_sdf(const Element& element, Faults& faults) {
     if (rule->support == kWarn) faults.warning(element, text_of(element), "is ignored", rule->why);
     // A faulty value of an ignored element points to a misunderstanding.
     check_value(element, *rule, faults);
+    // An unsupported element has been reported as a whole, and a value has no children.
     if (rule->support != kUsed || rule->type != kElements) return;
   }
   check_names(element, faults);

@@ -16,6 +16,8 @@ std::string corners_text(const std::array<int, 3>& t) {
   return std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]);
 }
 
+/// Turns the flat lists of an element into vertices [m] and triangles. Numbers beyond the last
+/// whole triple have been reported and are left out.
 void read_triangles(Element& element, const std::vector<double>& vertices,
                     const std::vector<double>& corners, scene::Shell& shell, Faults& faults) {
   if (vertices.size() % 3 != 0)
@@ -33,6 +35,7 @@ void read_triangles(Element& element, const std::vector<double>& vertices,
 /// in opposite directions.
 void check_surface(const Element& element, const scene::Shell& shell, Faults& faults) {
   for (std::size_t n = 0; n < shell.triangles.size(); ++n)
+    // 1e-10 m2 is a square of 10 micrometres; the comparison is also false for NaN.
     if (!(shell.area_vector(n).norm() > 1e-10))
       faults.error(element, corners_text(shell.triangles[n]),
                    "triangle " + std::to_string(n) + " has no area",
@@ -53,6 +56,7 @@ void finish_shell(Element& element, scene::Shell& shell, Faults& faults) {
     faults.error(element, "", "needs either <mesh> or <vertices_m> with <triangles>");
   if (inline_given)
     read_triangles(element, shell.vertex_numbers, shell.corner_numbers, shell, faults);
+  // The numbers were only needed for reading; shells are copied with every machine.
   shell.vertex_numbers.clear();
   shell.corner_numbers.clear();
   std::string path;
@@ -67,6 +71,7 @@ void finish_shell(Element& element, scene::Shell& shell, Faults& faults) {
     shell.triangles.clear();
     return;
   }
+  // Indices from the file are checked before any triangle is used to address a vertex.
   const int count = static_cast<int>(shell.vertices.size());
   for (const auto& t : shell.triangles) {
     const bool inside =
@@ -78,6 +83,7 @@ void finish_shell(Element& element, scene::Shell& shell, Faults& faults) {
     shell.triangles.clear();
     return;
   }
+  // An empty shell with neither form has been reported above.
   if (shell.triangles.empty() && (inline_given || !path.empty()))
     faults.error(element, "", "holds no triangle");
   check_surface(element, shell, faults);

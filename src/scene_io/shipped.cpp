@@ -18,8 +18,10 @@ std::map<std::string, std::string> shipped_machines() {
   std::map<std::string, std::string> files;
   std::error_code ignored;
   for (const std::string& directory : data_directories())
+    // A directory that does not exist yields an empty range, as errors are ignored.
     for (const auto& entry : fs::directory_iterator(directory + "/vehicles", ignored)) {
       const std::string model = (entry.path() / "model.sdf").string();
+      // `emplace` keeps the first path of a name, which is that of the first data directory.
       if (fs::exists(model, ignored)) files.emplace(entry.path().filename().string(), model);
     }
   return files;
@@ -44,6 +46,7 @@ std::string find_scene(const std::string& name) {
   // A loop of links, or a folder that may not be entered, is reported by the reader of the file.
   std::error_code unreadable;
   if (fs::exists(name, unreadable) || unreadable) return name;
+  // The longer forms let a user write names as `navvy scenes` prints them.
   for (const std::string& candidate : {name, "scenarios/" + name, "scenarios/" + name + ".sdf"})
     if (const std::string found = find_data(candidate); !found.empty()) return found;
   if (name.find('/') != std::string::npos) return name;
@@ -76,6 +79,7 @@ scene::Soil shipped_soil(const std::string& name, const std::string& where) {
 
 std::string description_of(const std::string& file) {
   std::ifstream in(file);
+  // The description is near the top by convention; whole files would be read for every listing.
   std::string text(4096, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));

@@ -17,6 +17,7 @@ namespace {
 void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
   for (const Fault& fault : scene::check_relations(soil)) {
     const Element* child =
+        // The fault names the value by its path; the last part is the element.
         element.FirstChildElement(fault.element.substr(fault.element.rfind('/') + 1).c_str());
     faults.error(child != nullptr ? *child : element, fault.value, fault.rule, fault.remedy);
   }
@@ -24,6 +25,7 @@ void check_values(Element& element, const scene::Soil& soil, Faults& faults) {
 
 /// Computes phi from the angle that the element gives, or that it inherits beside a new dilatancy.
 void read_friction(const Element& element, scene::Soil& soil, Faults& faults) {
+  // Each of the two gives phi, so only one may stand.
   const Element* angle = element.FirstChildElement("friction_angle_deg");
   const Element* repose = element.FirstChildElement("repose_angle_deg");
   if (angle != nullptr && repose != nullptr) {
@@ -94,6 +96,7 @@ scene::Soil read_soil(Element& element, Faults& faults) {
   if (ref.empty() && name.empty())
     faults.error(element, "",
                  "needs an attribute name=\"...\" (own values) or ref=\"...\" (a shipped soil)");
+  // Needed below: values that are defaults of these follow the new ones.
   const double cohesion = soil.cohesion, residual = soil.residual_cohesion;
   read_element(element, soil, nullptr, faults);
   read_friction(element, soil, faults);

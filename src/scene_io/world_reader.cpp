@@ -34,6 +34,7 @@ void read_section(Element& world, const char* name, T& into, Faults& faults) {
 /// shells. check_name refuses other characters that no name may hold.
 void require_file_name(const Element& element, const std::string& name, Faults& faults) {
   const bool plain =
+      // A leading dot would hide the folder, a trailing blank cannot be seen.
       name.empty() || (name.front() != '.' && name.back() != ' ' &&
                        name.find_first_of("/\\~$`'(){}[]<>|&;*?!#%") == std::string::npos);
   if (!plain)
@@ -90,6 +91,7 @@ void read_cameras(Element& world_element, scene::Scene& world, Faults& faults) {
     if (!camera.machine.empty()) camera.kind = camera.link.empty() ? Kind::kChase : Kind::kOnLink;
     if (camera.machine.empty() && !camera.link.empty())
       faults.error(*e, camera.link, "a camera on a link needs <machine>, too");
+    // A camera needs a direction to look in.
     if ((camera.position - camera.target).norm() < 1e-3)
       faults.error(*e, "", "position_m and target_m must not be the same place");
     check_camera_names(*e, camera, world, faults);
@@ -117,6 +119,7 @@ void read_light(Element& element, std::vector<scene::Light>& lights, Faults& fau
   }
   if (Element* e = element.FirstChildElement("diffuse")) {
     // Alpha may be left out; check_sdf has reported what is no number.
+    // Such a component stays 1.
     const auto words = words_of(text_of(*e));
     double c[4] = {1, 1, 1, 1};
     for (std::size_t i = 0; i < 4 && i < words.size(); ++i) to_number(words[i], c[i]);
@@ -156,11 +159,13 @@ void check_cell(const Element& world_element, const scene::Scene& world, Faults&
   const Element& at = solver ? *solver : world_element;
   const double cell = world.solver.cell;
   for (const scene::Soil& soil : world.soils)
+    // A particle holds its mass as a 32-bit count of kMassQuantum: 2^31 * 2^-24 kg = 128 kg.
     if (scene::heaviest_particle(soil, cell) / kMassQuantum >
         std::numeric_limits<std::int32_t>::max())
       faults.error(at, std::to_string(cell),
                    "a particle of soil '" + soil.name + "' would weigh more than 128 kg",
                    "use a smaller cell_m");
+  // The limit is for all shells together; `count_pieces` stops as soon as it exceeds what is left.
   std::size_t left = limits::kShellPieces;
   for (const scene::MachineInWorld& placed : world.machines)
     for (const scene::Shell& shell : placed.machine.shells) {
@@ -192,6 +197,8 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
   const Pose X = instance.X_WM * link.X_ML * plane->X_LC;
   const double height = X.translation().z();
   const Element* ground = world_element.FirstChildElement("navvy:ground");
+  // 1 - 1e-12 is the cosine of 1.4e-6 rad: more than the rounding of a pose and less than any
+  // slope.
   if (X.linear().col(2).z() < 1 - 1e-12) {
     faults.error(
         at, plane->name, "a plane is the rock under the ground, and that is level",
@@ -204,6 +211,7 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
                  "the rock's height is given twice: by this plane and by depth_m of the ground",
                  "remove depth_m from <navvy:ground>, or the plane");
   } else if (world.ground.has_rock && world.ground.rock != height) {
+    // Two planes of one height are one rock, as when a scene includes a ground plane twice.
     faults.error(at, plane->name, "another plane is the rock already", "remove one of them");
   } else if (ground != nullptr && world.ground.file.empty() &&
              height > world.ground.surface - 0.01) {
@@ -213,6 +221,7 @@ void take_planes(const Element& world_element, const Element& at, scene::Machine
                  "set surface_m of <navvy:ground> above it, or remove the plane: the ground "
                  "carries by itself");
   }
+  // The plane counts in spite of a fault, so that later rules do not miss the rock as well.
   world.ground.has_rock = true;
   world.ground.rock = height;
   instance.machine.derived.push_back("its plane is the rock under the ground");
@@ -267,6 +276,7 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   require_file_name(*element, world.name, faults);
   std::vector<double> v;
   Faults seen;  // check_sdf has reported these
+  // 100 m/s2 is four times the gravity of Jupiter.
   if (Element* e = element->FirstChildElement("gravity");
       e && read_numbers(*e, 3, {-100, 100}, v, seen))
     world.gravity = Vec3(v[0], v[1], v[2]);
@@ -277,6 +287,8 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   if (Element* e = element->FirstChildElement("navvy:design"))
     world.design = read_design(*e, faults);
   std::map<std::string, MachineFile> files;
+  // After a fault in SDF elements, models of this file are not given to libsdformat, whose messages
+  // have no lines.
   read_machines(*element, world, {kinds, ground_known, sdf_sound, files}, faults);
   read_hitches(*element, world, faults);
   check_cell(*element, world, faults);

@@ -49,6 +49,7 @@ void Faults::add_at(Fault::Severity severity, const Element& at, const std::stri
 
 void Faults::error(const Element& at, const std::string& value, const std::string& rule,
                    const std::string& remedy) {
+  // Ancestors count as faulty too, so that a rule for a whole element can ask about that element.
   for (const tinyxml2::XMLNode* up = &at; up != nullptr && up->ToElement(); up = up->Parent())
     faulty_.insert(up->ToElement());
   add_at(Fault::Severity::kError, at, value, rule, remedy);
@@ -61,6 +62,7 @@ void Faults::warning(const Element& at, const std::string& value, const std::str
 
 std::string Faults::nearest(const std::string& word,
                             const std::vector<std::string>& candidates) const {
+  // The candidates of a fault that is not shown need not be compared.
   if (errors_.all >= limits::kFaultsShown) return "";
   std::string out = suggestion(word, candidates);
   // A list of all candidates is shown once.
@@ -80,6 +82,7 @@ bool Faults::count(Fault::Severity severity) {
     counts.rest_at = list_.size();
     list_.push_back({severity, "", 0, "", "", "", "correct those above first"});
   }
+  // The one entry for the rest is rewritten at each further fault, so the list never grows again.
   list_[counts.rest_at].rule =
       "and " + std::to_string(counts.all - limits::kFaultsShown) + " more that are not shown";
   return false;
@@ -94,6 +97,7 @@ void Faults::finish() const {
 std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults) {
   Fault fault;
   fault.file = file;
+  // A file that cannot be read counts as well: each attempt costs a call to the system.
   ++faults.work.files;
   try {
     const std::vector<char> bytes = read_file(file, limits::kXmlBytes);
@@ -108,6 +112,7 @@ std::unique_ptr<Document> Document::open(const std::string& file, Faults& faults
     return parse(std::string(bytes.begin(), bytes.end()), file, faults);
     // A file that another one names may be missing.
   } catch (const FileError& failure) {
+    // Any failure to read has this type; the size shows whether it was the limit.
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > limits::kXmlBytes) {
@@ -145,8 +150,10 @@ std::unique_ptr<Document> Document::parse(const std::string& text, const std::st
     faults.add(fault);
     return nullptr;
   }
+  // Before check_tree, which looks up limits by the current names.
   rename_old(*document->root());
   if (!check_tree(*document->root(), faults)) return nullptr;
+  // Counted in the text like the limit; tags in comments are included.
   document->elements_ = count_elements(text);
   faults.work.elements += document->elements_;
   return document;
@@ -172,6 +179,7 @@ void Document::rename_old(Element& element, int depth) {
 }
 
 Place place_of(const Element& element) {
+  // A copied element knows where its original was written.
   if (const void* known = element.GetUserData()) return *static_cast<const Place*>(known);
   // tinyxml2 counts parsed lines from 1; elements of overrides have line 0.
   if (element.GetLineNum() > 0) return {&Document::of(element).file(), element.GetLineNum()};
@@ -182,6 +190,7 @@ Element* Document::create(const char* name, const Element& from) {
   Element* element = xml_.NewElement(name);
   Place place = place_of(from);
   // The name of the file must outlive its document.
+  // The document of a part is closed before later checks report its elements.
   if (place.file != nullptr) place.file = &*other_files_.insert(*place.file).first;
   element->SetUserData(&places_.emplace_back(place));
   return element;
@@ -275,6 +284,8 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 bool to_number(const std::string& text, double& value) {
+  // std::stod would follow the locale of the process. from_chars takes no plus sign, which files
+  // may have.
   const char* first = text.data();
   const char* last = first + text.size();
   if (first != last && *first == '+') ++first;

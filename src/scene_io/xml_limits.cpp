@@ -13,6 +13,7 @@ namespace navvy::scene_io {
 
 namespace {
 
+// Every byte of a character beyond ASCII counts, although XML excludes some: the count is a bound.
 bool starts_name(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' ||
@@ -21,6 +22,7 @@ bool starts_name(char c) {
 
 /// XML allows tabs and line breaks as blanks.
 bool is_control(char c) {
+  // XML 1.0 allows DEL (0x7F); here it is refused, as terminals do not show it.
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F;
 }
@@ -48,6 +50,7 @@ bool check_count(const Element& element, const char* child, std::size_t most, Fa
   return false;
 }
 
+/// Checks how often elements occur. The limits are those that `describe` of each struct states.
 bool check_counts(const Element& element, Faults& faults) {
   bool good = true;
   for (const SchemaNode* child : schema().children(element.Name()))
@@ -59,6 +62,7 @@ bool check_counts(const Element& element, Faults& faults) {
   if (std::strcmp(element.Name(), "trajectory") == 0)
     good = check_count(element, "joint", limits::kLinks, faults) && good;
   std::size_t steps = 0;
+  // Steps are not in the schema of the loader, so all children of a program count together.
   if (std::strcmp(element.Name(), "navvy:program") == 0)
     for (const Element* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) ++steps;
   if (steps > limits::kSteps) {
@@ -78,6 +82,7 @@ bool check_element(const Element& element, std::size_t depth, Faults& faults) {
                  "docs/reference/limits.md lists the limits of files");
     return false;
   };
+  // Reading ends here: names go into messages, and the depth of elements onto the stack.
   if (std::strlen(element.Name()) > limits::kNameBytes)
     return most("bytes in the name of an element", limits::kNameBytes);
   if (depth > limits::kXmlNesting) return most("elements inside each other", limits::kXmlNesting);
@@ -100,6 +105,8 @@ bool check_element(const Element& element, std::size_t depth, Faults& faults) {
 }  // namespace
 
 std::size_t count_elements(const std::string& text) {
+  // The text is counted before it is parsed, as the memory of the parser is what the limit bounds.
+  // Tags in comments and CDATA count as well.
   std::size_t count = 0;
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1))
     count += at + 1 < text.size() && starts_name(text[at + 1]) ? 1 : 0;
@@ -112,10 +119,12 @@ std::size_t overloaded_tag(std::string_view text) {
   for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
     const std::size_t tag = at++;
     for (const auto& [open, close] : kLeftOut)
+      // Without an end the search yields npos, which ends the loop; the parser reports the fault.
       if (text.substr(tag, open.size()) == open) at = text.find(close, tag + open.size());
     if (at != tag + 1) continue;
     std::size_t attributes = 0;
     char quote = 0;
+    // '>' and '=' inside quotes are text. Outside of them, each '=' belongs to one attribute.
     for (; at < text.size() && (quote != 0 || text[at] != '>'); ++at) {
       const char c = text[at];
       if (quote != 0)
@@ -140,6 +149,7 @@ Fault too_large(const std::string& file, std::size_t bytes) {
 }
 
 bool check_text(const std::string& text, const std::string& file, Faults& faults) {
+  // The cheap checks come first; each is linear in the size of the text.
   Fault fault;
   fault.file = file;
   if (text.size() > limits::kXmlBytes) {
@@ -169,6 +179,7 @@ bool check_text(const std::string& text, const std::string& file, Faults& faults
 bool check_tree(const Element& root, Faults& faults) { return check_element(root, 1, faults); }
 
 bool check_name(const Element& at, const std::string& name, Faults& faults) {
+  // Text that is not UTF-8 is left to check_value, which reports it.
   std::string rule;
   if (name.size() > limits::kNameBytes)
     rule = "a name may have at most " + std::to_string(limits::kNameBytes) + " bytes";
