@@ -55,6 +55,8 @@ class Ignoring : public Fields {
   void types(const Types&) override {}
 };
 
+/// Collects the numbers of a struct, without those of child elements, which have lists of their
+/// own.
 class NumberFinder final : public Ignoring {
  public:
   void field(const Field& f) override {
@@ -65,6 +67,7 @@ class NumberFinder final : public Ignoring {
   std::vector<NamedNumber> found;
 };
 
+/// Finds the name of an item: its own, or as a second choice the first name that it refers to.
 class NameFinder final : public Ignoring {
  public:
   void field(const Field& f) override {
@@ -95,6 +98,7 @@ std::string exact_text(double in_si, double factor) {
   char text[40];
   // Adding zero turns -0 into 0, which is equivalent in every run.
   const double value = (in_si + 0.0) / factor;
+  // Few digits are tried first, so that 30 deg is not written with the rounding of its conversion.
   for (const int digits : {12, 15, 16, 17}) {
     const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, digits);
     double back = 0;
@@ -124,6 +128,8 @@ std::string value_text(const Value& value, double factor) {
                  [&](const Mat3* v) { return numbers(v->data(), 9); },
                  [&](const std::vector<double>* v) { return numbers(v->data(), v->size()); },
                  [&](const std::vector<Vec3>* v) {
+                   // A vector of three doubles has no padding, so the points are one run of
+                   // numbers.
                    return numbers(reinterpret_cast<const double*>(v->data()), 3 * v->size());
                  },
                  [](const std::optional<int>* v) { return *v ? std::to_string(**v) : "none"; },

@@ -12,6 +12,7 @@ namespace {
 
 /// Appends text that is formatted as by printf, at most 400 characters.
 __attribute__((format(printf, 2, 3))) void add(std::string& out, const char* format, ...) {
+  // Longer text is cut: a name alone may have 200 bytes (limits::kNameBytes).
   char text[400];
   va_list values;
   va_start(values, format);
@@ -53,6 +54,7 @@ void add_drive(std::string& out, const Drive& drive) {
     const CombustionEngine::Point rated = rated_point(*engine);
     if (engine->kind == CombustionEngine::Kind::kSpeedSource)
       add(out, "  engine: speed source, %.3g N m, %.0f rpm at most; gears", engine->max_torque,
+          // 30 / pi converts rad/s to rpm; 60000 below converts m3/s to l/min.
           engine->max_speed * 30 / kPi);
     else
       add(out, "  engine: torque curve, %.1f kW at %.0f rpm; gears",

@@ -15,6 +15,8 @@ class Writer final : public Fields {
 
   void field(const Field& f) override {
     if (f.mark.has(Mark::kShown) || (f.mark.given != nullptr && !*f.mark.given)) return;
+    // value_text has no text for a pose. The matrix restores the rotation exactly; angles would
+    // not.
     if (Pose* const* pose = std::get_if<Pose*>(&f.value)) {
       Vec3 place = (*pose)->translation();
       Mat3 turn = (*pose)->linear();
@@ -25,6 +27,7 @@ class Writer final : public Fields {
     }
   }
   void group(const Group& g, const std::function<void(Fields&)>& describe) override {
+    // An element that is not given has no parameters: its members are defaults without a meaning.
     if (g.mark.has(Mark::kShown) || !g.present || (g.mark.given != nullptr && !*g.mark.given))
       return;
     Writer inner(out_, path_ + plain(g.name) + "/");
@@ -36,6 +39,7 @@ class Writer final : public Fields {
     for (std::size_t i = 0; i < list.size; ++i) {
       // Items with a name go by it, so that a message names the soil or machine that differs.
       std::string key = name_of([&](Fields& f) { list.item(i, f); });
+      // Items may share a name, such as two layers of one soil; the number keeps their paths apart.
       if (key.empty() || !keys.insert(key).second) key = std::to_string(i + 1);
       Writer inner(out_, path_ + plain(list.name) + "[" + key + "]/");
       list.item(i, inner);
@@ -77,6 +81,7 @@ std::string differences(const Parameters& before, const Parameters& now, int mos
     if (++found <= most) out += (out.empty() ? "" : "; ") + path + ": " + was + ", here " + is;
   };
   const auto quoted = [](const std::string& text) {
+    // Long texts, such as polygons, are cut: the message is to name the place.
     return "'" + (text.size() <= 60 ? text : text.substr(0, 60) + "...") + "'";
   };
   for (const auto& [path, value] : before) {
