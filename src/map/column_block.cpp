@@ -46,6 +46,7 @@ class ColumnsSource final : public LayerSource {
  private:
   ElevationPatch patch_around(const CellRect& block) const {
     const heightfield::TerrainView& view = site_->view();
+    // The margin is what slope, steps and roughness of the outermost columns look at.
     ElevationPatch patch{grown(block, site_->options().limits.reach(view.cell())), view.cell(), {}};
     // Column by column: blocks share their margins, and a copy would compute whole tiles for them.
     const CellRect site = view.site_rect();
@@ -54,6 +55,7 @@ class ColumnsSource final : public LayerSource {
       for (int ix = patch.rect.x0; ix < patch.rect.x1; ++ix)
         patch.z.push_back(site.contains(ix, iy) ? static_cast<float>(view.height(ix, iy))
                                                 : kUnknown);
+    // An empty list stands for a site without bodies, which most maps are of.
     if (site_->occupied().empty()) return patch;
     for (int iy = patch.rect.y0; iy < patch.rect.y1; ++iy)
       for (int ix = patch.rect.x0; ix < patch.rect.x1; ++ix)
@@ -81,8 +83,10 @@ OccupiedColumns occupied_columns(const heightfield::TerrainView& view, const Map
     Vec2 low = Vec2::Constant(INFINITY), high = -low;
     for (const Vec2& p : area.outline) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const auto column = [&](double x, double from, int most) {
+      // Clamped before the cast, as a body far outside the site may exceed the range of an int.
       return static_cast<int>(std::clamp(std::floor((x - from) / cell), -1.0, most + 0.0));
     };
+    // Upper bounds of a rectangle are exclusive.
     const CellRect around = CellRect{column(low.x(), view.origin().x(), view.nx()),
                                      column(low.y(), view.origin().y(), view.ny()),
                                      column(high.x(), view.origin().x(), view.nx()) + 1,
@@ -155,6 +159,7 @@ TerrainMap make_map(const std::shared_ptr<const SiteColumns>& site, std::uint64_
         LayerTiles(view.nx(), view.ny(), layer, site->knows(info(layer).needs) ? source : nullptr);
   };
   for (const MapLayer asked : options.layers) {
+    // One source serves all layers; each tile is computed when it is first read.
     want(asked);
     for (const MapLayer base : info(asked).from) want(base);
   }

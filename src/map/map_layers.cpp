@@ -51,6 +51,8 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .meaning = "elevation minus target",
        .type = LayerType::kDifference,
        .needs = LayerNeeds::kDesign,
+       // Both are single floats, as in the layers of a map: a reader who subtracts those gets this
+       // value.
        .from = {kElevation, kTarget},
        .of_column = [](Block b, int ix,
                        int iy) { return b.elevation(ix, iy) - b.site().target(ix, iy); }},
@@ -84,11 +86,14 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .meaning = "0 bad .. 1 good",
        .type = LayerType::kShare,
        .needs = LayerNeeds::kHeights,
+       // A body counts through `occupied`, so a map with this layer shows why ground is blocked.
        .from = {kSlope, kStepHeight, kRoughness, kElevation, kOccupied},
        .of_surround =
            [](Surround& s) {
              const float ground =
                  traversability(s.slope(), s.step_height(), s.roughness(), s.limits());
+             // The comparison is false for NaN, so a body does not turn unknown ground into known
+             // ground.
              return s.blocked() && ground > 0 ? 0.0f : ground;
            }},
       {.layer = kLooseDepth,
@@ -134,11 +139,13 @@ const std::array<LayerInfo, kMapLayers>& layers() {
        .meaning = "elevation minus elevation_start",
        .type = LayerType::kDifference,
        .needs = LayerNeeds::kHeights,
+       // Subtracted in doubles: single floats at a height of 500 m are 0.03 mm apart.
        .of_column =
            [](Block b, int ix, int iy) {
              return static_cast<float>(b.site().height(ix, iy) - b.site().start_height(ix, iy));
            },
        .by_default = false},
+      // A layer has one number per column, so the normal takes three layers.
       {.layer = kNormalX,
        .name = "normal_x",
        .unit = "-",

@@ -19,6 +19,7 @@ using heightfield::CellRect;
 class TileComparison {
  public:
   TileComparison(const TerrainMap& a, const TerrainMap& b) : a_(a), b_(b) {
+    // Layers that only the earlier map has are not compared: a reader of `b` cannot see them.
     for (const LayerInfo& each : layers())
       if (b.has(each.layer)) layers_.push_back(each.layer);
   }
@@ -32,6 +33,7 @@ class TileComparison {
       const LayerTiles& now = b_.tiles(layer);
       // One tile for both: nothing of it was written to.
       if (had && a_.tiles(layer).shares(now, tx, ty)) continue;
+      // `passing` stores nothing, so that a comparison does not fill the memory with tiles.
       const float* p = had ? a_.tiles(layer).passing(tx, ty, old_) : nullptr;
       const float* q = now.passing(tx, ty, new_);
       if (p == q) continue;
@@ -41,6 +43,7 @@ class TileComparison {
         for (int ix = 0; ix < tile.x1 - tile.x0; ++ix) {
           const auto i = static_cast<std::size_t>(iy * kSide + ix);
           const float u = p != nullptr ? p[i] : kUnknown, v = q != nullptr ? q[i] : kUnknown;
+          // Bits are compared, as NaN differs from itself. Unknown values are one NaN (kUnknown).
           if (std::bit_cast<std::uint32_t>(u) != std::bit_cast<std::uint32_t>(v))
             differs_[i] = true;
         }
@@ -67,6 +70,7 @@ std::int64_t area_of(const std::vector<CellRect>& rects) {
 std::int64_t count_changed(const TerrainMap& before, const TerrainMap& after) {
   std::int64_t count = 0;
   constexpr int kSide = LayerTiles::kSide;
+  // On the heap: the comparison holds two tiles of values (32 KiB) and a flag per column.
   const auto comparison = std::make_unique<TileComparison>(before, after);
   for (int ty = 0; ty * kSide < after.ny(); ++ty)
     for (int tx = 0; tx * kSide < after.nx(); ++tx) count += comparison->changed(tx, ty);
@@ -87,6 +91,7 @@ UpdateFeed::Update UpdateFeed::publish(const heightfield::TerrainView& view) {
                          before->map.ny() == update.map.ny();
   update.since = same_site ? before->sequence : 0;
   update.changed = same_site ? count_changed(before->map, update.map) : update.map.rect().area();
+  // The number of a map that equals the one before is used by the next map.
   if (same_site && update.changed == 0) return before;
   update.merged = area_of(update.rects) > 2 * update.changed;
   auto now = std::make_shared<const MapUpdate>(std::move(update));
@@ -124,6 +129,7 @@ UpdateFeed::Update UpdateFeed::since_locked(std::uint64_t seen) const {
   if (latest_->since == seen && seen != 0) return latest_;
   MapUpdate out = *latest_;
   // What it missed must be in the list from its first step on.
+  // Steps are numbered without gaps, so having the first one means having them all.
   const bool known = seen > 0 && seen < latest_->sequence && !steps_.empty() &&
                      steps_.front().sequence <= seen + 1;
   out.since = known ? seen : 0;
@@ -148,6 +154,8 @@ UpdateFeed::Update UpdateFeed::since(std::uint64_t seen) const {
 UpdateFeed::Update UpdateFeed::wait(std::uint64_t seen, double seconds) const {
   std::unique_lock<std::mutex> lock(mutex_);
   Update out;
+  // `wait_for` evaluates the condition before it waits, so a result that is there is returned at
+  // once.
   news_.wait_for(lock, std::chrono::duration<double>(seconds), [&] {
     out = since_locked(seen);
     return closed_ || out != nullptr;
