@@ -22,6 +22,7 @@ constexpr const char* kImage = "img_1.npy";
 void lower_envelope(const std::vector<double>& f, std::vector<double>& out) {
   const int n = static_cast<int>(f.size());
   std::vector<int> at(f.size());
+  // `at` holds the parabolas of the envelope, `from` the place where each begins to be the lowest.
   std::vector<double> from(f.size() + 1);
   int count = 0;
   for (int q = 0; q < n; ++q) {
@@ -106,7 +107,9 @@ void write_terra(const map::TerrainMap& map, const std::vector<map::MapLayer>& l
                                             : std::int8_t{0};
     target.push_back(aim);
     dig.push_back(aim < 0 ? 1 : 0);
+    // Unknown traversability counts as occupied, since the comparison is false.
     occupied.push_back(good[k] > 0 ? 0 : 1);
+    // Nothing is dumped where soil is still to be dug.
     dumpable.push_back(aim >= 0 && good[k] > 0 ? 1 : 0);
   }
   const std::vector<float> distance = distances(dig, map.nx(), map.ny(), map.cell());

@@ -41,6 +41,7 @@ class BagFolder final : public Bag {
     std::error_code failed;
     fs::create_directories(folder_, failed);
     if (failed) throw FileError("cannot make '" + path + "': " + failed.message());
+    // A folder with other files was not made here; nothing is written into it or removed from it.
     for (const auto& entry : fs::directory_iterator(folder_))
       if (entry.path().filename() != storage_ && entry.path().filename() != "metadata.yaml")
         throw InputError(Fault{Fault::Severity::kError, path, 0, "bag",
@@ -67,6 +68,7 @@ class BagFolder final : public Bag {
     if (sqlite3_get_autocommit(data_) != 0) run("BEGIN");
     now_ = time_ns;
     Topic& to = topics_[topic];
+    // A new topic has id 0; ids in the table count from 1.
     if (to.id == 0) {
       to.id = static_cast<int>(topics_.size());
       to.kind = kind;
@@ -82,6 +84,7 @@ class BagFolder final : public Bag {
       insert_ = prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)");
     sqlite3_bind_int(insert_, 1, to.id);
     sqlite3_bind_int64(insert_, 2, time_ns);
+    // SQLITE_STATIC avoids a copy: the message outlives the step below.
     sqlite3_bind_blob64(insert_, 3, message.data(), message.size(), SQLITE_STATIC);
     const bool done = sqlite3_step(insert_) == SQLITE_DONE;
     sqlite3_reset(insert_);
@@ -113,6 +116,7 @@ class BagFolder final : public Bag {
   };
 
   [[noreturn]] void fail() const {
+    // Copied first, as the rollback replaces the message.
     const std::string cause = sqlite3_errmsg(data_);
     // Earlier messages stay readable.
     if (sqlite3_get_autocommit(data_) == 0)
@@ -133,6 +137,7 @@ class BagFolder final : public Bag {
   }
 
   std::string metadata() const {
+    // Version 5 of the metadata is Humble's, like the tables.
     const std::string start = std::to_string(first_), duration = std::to_string(last_ - first_);
     std::string out =
         "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  duration:\n  "

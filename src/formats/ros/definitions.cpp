@@ -26,6 +26,7 @@ const Row kTypes[] = {
     {"std_msgs/Float32MultiArray", "std_msgs/MultiArrayLayout layout\nfloat32[] data\n"},
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"},
     {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"},
+    // Numbers behind the names are the defaults of ROS's definition.
     {"geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n"},
     {"geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"},
     {"geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose pose\nfloat64[36] covariance\n"},
@@ -70,6 +71,7 @@ const char* fields_of(const std::string& name) {
 /// whole walk.
 void parts_of(const std::string& fields, std::vector<std::string>& out) {
   for (std::size_t at = 0; at < fields.size(); at = fields.find('\n', at) + 1) {
+    // A field is its type, with brackets for a sequence, a blank and its name.
     const std::string type = fields.substr(at, fields.find_first_of(" [", at) - at);
     const char* own = fields_of(type);
     bool seen = own == nullptr;

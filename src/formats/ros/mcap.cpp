@@ -16,6 +16,8 @@ namespace {
 
 constexpr char kMagic[] = "\x89MCAP0\r\n";
 constexpr std::size_t kMagicBytes = 8;
+// Opcodes of the MCAP specification, version 0. No chunks are written: each message is in the file
+// as soon as it is flushed, so that a killed run leaves all of them.
 enum Opcode : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -44,6 +46,7 @@ class Mcap final : public Bag {
     if (file_ == nullptr) fail();
     append(std::string(kMagic, kMagicBytes));
     std::string body;
+    // Profile and library; the profile "ros2" states how channels and schemas are to be read.
     put_text(body, "ros2");
     put_text(body, "navvy");
     record(kHeader, body);
@@ -59,11 +62,13 @@ class Mcap final : public Bag {
     Topic& channel = channel_of(topic, kind);
     std::string body;
     put(body, channel.id);
+    // Sequence number, log time and publish time. Both times are the simulated time.
     put(body, static_cast<std::uint32_t>(channel.messages++));
     put(body, static_cast<std::uint64_t>(time_ns));
     put(body, static_cast<std::uint64_t>(time_ns));
     body.append(message.data(), message.size());
     record(kMessage, body);
+    // Flushed, so that a reader may follow the file during the run.
     if (std::fflush(file_) != 0) fail();
     first_ = messages_ == 0 ? time_ns : std::min(first_, time_ns);
     last_ = messages_++ == 0 ? time_ns : std::max(last_, time_ns);
@@ -89,6 +94,7 @@ class Mcap final : public Bag {
     for (int i = 0; i < 3; ++i) put(statistics, std::uint32_t{0});
     put(statistics, static_cast<std::uint64_t>(first_));
     put(statistics, static_cast<std::uint64_t>(last_));
+    // The map of message counts has entries of 2 + 8 bytes; its length is in bytes.
     put(statistics, static_cast<std::uint32_t>(10 * topics_.size()));
     // Sorted by id, the order of creation.
     std::map<std::uint16_t, std::uint64_t> counts;
@@ -99,6 +105,7 @@ class Mcap final : public Bag {
     }
     record(kStatistics, statistics);
     std::string footer;
+    // Start of the summary, no summary offsets, no checksum.
     put(footer, summary);
     put(footer, std::uint64_t{0});
     put(footer, std::uint32_t{0});
@@ -137,6 +144,8 @@ class Mcap final : public Bag {
         schemas_.try_emplace(kind, static_cast<std::uint16_t>(schemas_.size() + 1));
     std::string body;
     if (is_new) {
+      // Schema id, name, encoding and text of the definition, as rosbag2's plugin for MCAP writes
+      // them.
       put(body, schema->second);
       put_text(body, type_name(kind));
       put_text(body, "ros2msg");
@@ -144,6 +153,7 @@ class Mcap final : public Bag {
       record(kSchema, body);
     }
     Topic& channel = topics_[topic];
+    // Ids of channels count from 0, which is a valid id, unlike 0 of a schema.
     channel.id = static_cast<std::uint16_t>(topics_.size() - 1);
     body.clear();
     put(body, channel.id);

@@ -43,6 +43,7 @@ class Writer {
     return *this;
   }
   Writer& time(std::int64_t ns) {
+    // builtin_interfaces/Time: seconds and nanoseconds, here of simulated time.
     return *this << static_cast<std::int32_t>(ns / 1'000'000'000)
                  << static_cast<std::uint32_t>(ns % 1'000'000'000);
   }
@@ -53,6 +54,7 @@ class Writer {
     return vector(X.translation()) << q.x() << q.y() << q.z() << q.w();
   }
   Writer& covariance() {
+    // Zeros, as the state is exact.
     for (int i = 0; i < 36; ++i) *this << 0.0;
     return *this;
   }
@@ -117,12 +119,14 @@ Bytes grid_map(const map::TerrainMap& map, const std::vector<map::MapLayer>& lay
     // here too, but both axes run downwards.
     const std::vector<float> ours = map.copy(layer);
     std::reverse_copy(ours.begin(), ours.end(), values.begin());
+    // std_msgs/Float32MultiArray with two dimensions; strides count elements.
     out << std::uint32_t{2};
     out << std::string("column_index") << columns << rows * columns;
     out << std::string("row_index") << rows << rows;
     out << std::uint32_t{0};
     out.sequence(values);
   }
+  // Both start indices are 0, as the map does not scroll.
   out << std::uint16_t{0} << std::uint16_t{0};
   return out.bytes();
 }
@@ -136,6 +140,7 @@ Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns) {
         t == t ? static_cast<std::int8_t>(std::lround(100 * (1 - std::clamp(t, 0.0f, 1.0f))))
                : std::int8_t{-1});
   Writer out(cells.size());
+  // nav_msgs/MapMetaData: time of the map, resolution, width, height and, below, the origin.
   out.header(time_ns).time(time_ns)
       << static_cast<float>(map.cell()) << static_cast<std::uint32_t>(map.nx())
       << static_cast<std::uint32_t>(map.ny());
@@ -162,6 +167,7 @@ Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& 
   };
   std::uint32_t points = 0;
   for (std::size_t k = 0; k < z.size(); ++k) {
+    // A column of unknown height has no point.
     if (z[k] != z[k]) continue;
     const auto nx = static_cast<std::size_t>(map.nx());
     const std::size_t ix = k % nx, iy = k / nx;
@@ -173,6 +179,7 @@ Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& 
   }
   const auto step = static_cast<std::uint32_t>(4 * (3 + more.size()));
   Writer out(data.size());
+  // Height 1 and width `points`: the cloud has no order in rows.
   out.header(time_ns) << std::uint32_t{1} << points << static_cast<std::uint32_t>(3 + more.size());
   std::uint32_t offset = 0;
   const auto field = [&](const std::string& name) {
