@@ -61,6 +61,7 @@ float& value(DesignSurface& design, int ix, int iy) {
 
 /// Place of W in survey coordinates, in metres.
 Vec3 to_survey(const GroundSetup& setup) {
+  // easting and northing are the coordinates of `origin`, the site's corner, in the map's unit.
   return {setup.easting * setup.file_unit - setup.origin.x(),
           setup.northing * setup.file_unit - setup.origin.y(), setup.height_offset};
 }
@@ -75,6 +76,7 @@ int code_of(const std::string& wkt, std::size_t open) {
     // Quotes in names are doubled.
     if (c == '"') quoted = !quoted;
     if (quoted) continue;
+    // The character before must not belong to a longer word, such as BASEID.
     if (depth == 1 && std::isalnum(static_cast<unsigned char>(wkt[i - 1])) == 0 &&
         wkt.compare(i, 10, "ID[\"EPSG\",") == 0)
       return std::atoi(wkt.c_str() + i + 10);
@@ -128,6 +130,7 @@ void require_same_crs(const scene::Tin& tin, const GroundSetup& setup) {
 /// millions.
 void warn_of_feet(const scene::Tin& tin, const GroundSetup& setup) {
   const double off = std::abs(tin.metres / setup.file_unit - 1);
+  // The bounds enclose the two parts in a million between the two feet, and no other two units.
   if (!(off > 1e-7) || off > 1e-5) return;
   char units[80], apart[32];
   std::snprintf(units, sizeof units, "counts in %.10g m, the site's map in %.10g m", tin.metres,
@@ -184,6 +187,7 @@ DesignSurface of_tin(const scene::Tin& tin, const Terrain& site) {
   const auto meets_site = [&](const Vec2& from, const Vec2& to) {
     return (from.array() < (corner + size).array()).all() && (to.array() > corner.array()).all();
   };
+  // These two answers only serve the remedy.
   const bool there = meets_site(low.head<2>(), high.head<2>());
   const bool swapped = meets_site({low.y(), low.x()}, {high.y(), high.x()});
   fail(tin.file, 0, span_text(low.head<2>(), high.head<2>()),
@@ -227,13 +231,16 @@ Nearest nearest(const std::vector<Vec2>& polygon, const Vec2& p) {
 DesignSurface of_area(const scene::DesignArea& area, const Terrain& site, const CellRect& rect,
                       double floor, DesignSurface& floors) {
   DesignSurface sides = nowhere(rect);
+  // `down` is the fall of the floor per metre along x and y.
   const Vec2 down = std::tan(area.fall) * Vec2(std::cos(area.fall_yaw), std::sin(area.fall_yaw));
+  // From 89.99 deg on a side is vertical and covers no column.
   const bool upright = area.batter > radians(89.99), pit = area.depth > 0;
   const double rise = upright ? 0 : std::tan(area.batter);
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const Vec2 p = centre(site, ix, iy);
       const Nearest at = nearest(area.polygon, p);
+      // Outside, the side rises from the floor's height at the nearest point of the edge.
       const double base = floor - down.dot((at.inside ? p : at.place) - area.polygon[0]);
       if (at.inside) {
         value(floors, ix, iy) = static_cast<float>(base);
@@ -272,6 +279,7 @@ void add_area(const scene::DesignArea& area, const std::string& file, const Terr
          "begin the polygon with a corner on the site");
   const double floor = site.start_height(first.x(), first.y()) - area.depth;
   // The reach of sides depends on the ground there, so the search widens until they end.
+  // Sides over level ground end at depth / tan(batter); two cells are for rounding.
   double reach = std::abs(area.depth) / std::tan(area.batter) + 2 * site.cell();
   for (;; reach *= 2) {
     const Vec2 margin = Vec2::Constant(reach);

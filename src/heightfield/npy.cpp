@@ -16,6 +16,8 @@
 namespace navvy::heightfield {
 namespace {
 
+// From the format's description in numpy.lib.format: magic, version of two bytes, length of the
+// header (2 bytes in version 1, 4 in versions 2 and 3), header, numbers.
 constexpr char kMagic[] = "\x93NUMPY";
 constexpr std::size_t kMagicBytes = 6;
 /// NumPy itself writes 128 bytes; a table of fields, which no map is, may be longer.
@@ -47,6 +49,7 @@ struct Header {
   }
   /// Returns the text after 'key', without blanks, up to the end of the header.
   std::string after(const std::string& key) const {
+    // NumPy sorts the keys, but the format leaves their order free.
     const std::size_t found = text.find("'" + key + "'");
     std::size_t from =
         found == std::string::npos ? found : text.find_first_not_of(' ', found + key.size() + 2);
@@ -79,6 +82,7 @@ void read_shape(const Header& header, NpyGrid& grid) {
   const char* end = p + value.size();
   bool sound = p != end && *p++ == '(';
   for (int i = 0; i < 2 && sound; ++i) {
+    // The comma of "(7,)" is followed by no number, so an array of one axis is refused here.
     while (p != end && (*p == ' ' || (i == 1 && *p == ','))) ++p;
     const auto [next, failed] = std::from_chars(p, end, sides[static_cast<std::size_t>(i)]);
     sound = failed == std::errc() && sides[static_cast<std::size_t>(i)] > 0 &&
@@ -106,6 +110,7 @@ Header take_header(const std::string& path, std::vector<char>& bytes) {
       (!long_length && bytes[kMagicBytes] != 1))
     header.fail("byte 0", "", "is not an NPY file of version 1 to 3",
                 "write the file with numpy.save");
+  // Both lengths are little-endian.
   std::size_t length = byte(8) + 256 * byte(9);
   if (long_length) length += (byte(10) << 16) + (byte(11) << 24);
   if (length > kMostHeader || header.at + length > bytes.size())
@@ -122,6 +127,7 @@ Header take_header(const std::string& path, std::vector<char>& bytes) {
 // Decides by content and not by the ending of the name.
 bool is_npy_file(const std::string& path) {
   char head[kMagicBytes] = {};
+  // A file that cannot be read leaves `head` empty; whoever opens it next reports the cause.
   std::ifstream(path, std::ios::binary).read(head, sizeof head);
   return std::memcmp(head, kMagic, kMagicBytes) == 0;
 }

@@ -39,6 +39,7 @@ class HashInParts {
     }
   }
   StateHash& end() {
+    // An odd number of floats leaves four bytes, which StateHash::bytes adds one by one.
     for (int byte = 0; waits_ && byte < 4; ++byte)
       hash_.value(static_cast<std::uint8_t>(first_ >> (8 * byte)));
     waits_ = false;
@@ -118,12 +119,14 @@ const WindowedRaster::Window& WindowedRaster::window(int ix, int iy) const {
     std::int64_t key = 0;
     std::shared_ptr<const Window> window;
   };
+  // Four are enough for a mean around the corner of a window, which takes samples from four.
   thread_local std::array<Recent, 4> recent;
   thread_local std::size_t next = 0;
   const int wx = ix / side_, wy = iy / side_;
   const std::int64_t key = static_cast<std::int64_t>(wy) * across_ + wx;
   for (const Recent& each : recent)
     if (each.number == cache_->number && each.key == key) return *each.window;
+  // The lock is held while the file is read, because a source serves one thread at a time.
   const std::lock_guard lock(cache_->mutex);
   std::shared_ptr<const Window>& found = cache_->windows[key];
   if (!found) {
@@ -179,6 +182,7 @@ GapFill WindowedRaster::fill_gaps(std::vector<std::int64_t> gaps) {
   for (std::int64_t gap = 0; gap < result.gaps; ++gap)
     if (!std::isnan(value(gap))) queued[static_cast<std::size_t>(gap)] = 1, ring.push_back(gap);
   std::vector<float> values;
+  // All values of a ring are computed before any is stored, so that their order does not matter.
   while (!ring.empty()) {
     values.clear();
     for (const std::int64_t gap : ring) values.push_back(value(gap));
@@ -219,6 +223,7 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
   for (int y0 = 0; y0 < frame_.ny; y0 += kPassRows) {
     const int count = std::min(kPassRows, frame_.ny - y0);
     float* strip = rows.data() + nx;
+    // `read` uses the source, which the lock guards.
     {
       const std::lock_guard lock(cache_->mutex);
       read({0, y0, frame_.nx, y0 + count}, strip);
@@ -228,6 +233,7 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
         std::minmax_element(strip, strip + nx * static_cast<std::size_t>(count));
     out.least = std::min(out.least, *low);
     out.most = std::max(out.most, *high);
+    // A tangent needs four cells, so the first row of the map has none.
     for (int y = y0 == 0 ? 1 : 0; y < count; ++y) {
       const float *below = strip + nx * static_cast<std::size_t>(y) - nx, *here = below + nx;
       for (std::size_t x = 0; x + 1 < nx; ++x) {
@@ -247,12 +253,14 @@ WindowedRaster::Summary WindowedRaster::summary(double limit) const {
   }
   StateHash& all = hash.end();
   for (const double one : {frame_.cell_x, frame_.cell_y, frame_.x0, frame_.y0}) all.value(one);
+  // The number of rows follows from the size that the hash began with.
   all.value(frame_.nx);
   out.hash = all.digest();
   if (tangents == 0) return out;
   std::uint64_t before = 0;
   std::size_t bucket = 0;
   while (before + counts[bucket] <= tangents / 2) before += counts[bucket++];
+  // The middle of the class that holds the median is off by half a class at most, 1 in 65 000.
   const auto middle =
       static_cast<std::uint32_t>(bucket << kLeftOut | std::size_t{1} << (kLeftOut - 1));
   out.slope.median = std::atan(std::bit_cast<float>(middle));

@@ -26,6 +26,7 @@ constexpr const char* kPlaceIt =
 /// GDAL has no driver for NPY: the numbers are in memory, and a dataset refers to them.
 void open_npy(MapFile& map) {
   NpyGrid grid = read_npy(map.file);
+  // In the order of NpyType.
   static constexpr GDALDataType kTypes[] = {GDT_Float32, GDT_Float64, GDT_Int16,
                                             GDT_Int32,   GDT_UInt16,  GDT_Byte};
   const GDALDataType type = kTypes[static_cast<int>(grid.type)];
@@ -34,6 +35,8 @@ void open_npy(MapFile& map) {
   if (driver == nullptr)
     map.fail("", "", "GDAL was built without its memory driver", "install Debian's libgdal");
   map.data.reset(driver->Create("", grid.columns, grid.rows, 0, type, nullptr));
+  // GDAL's driver MEM takes the address as text. `numbers` belongs to the map and outlives the
+  // dataset.
   char pointer[64] = {};
   CPLPrintPointer(pointer, map.numbers.data(), sizeof pointer - 1);
   const std::string at = std::string("DATAPOINTER=") + pointer;
@@ -83,6 +86,7 @@ void check_scale(MapFile& map) {
                "remove them: this file gives its own cells and heights");
     return;
   }
+  // Two bands are gray and alpha.
   if (png && (map.data->GetRasterCount() > 2 || map.band->GetColorTable() != nullptr))
     map.fail("", std::to_string(map.data->GetRasterCount()) + " bands",
              "heights are gray, this picture has colours", "save it as 16-bit gray");
@@ -135,6 +139,7 @@ void open(MapFile& map) {
       interleave != nullptr && std::string(interleave) == "PIXEL" ? map.data->GetRasterCount() : 1;
   map.block_x = block_x;
   map.block_y = block_y;
+  // 8 bytes are those of the largest type, as complex numbers have been refused.
   map.block_bytes = static_cast<double>(block_x) * block_y * 8 * bands_in_block;
   if (map.block_bytes > limits::kMapBlockBytes)
     // A damaged header may contain any number.
@@ -151,6 +156,7 @@ void read_transform(MapFile& map) {
   if (!map.georeferenced) {
     const double cell = scale.cell > 0 ? scale.cell : 1;
     const bool north_first = !is_npy(map) || scale.north_first;
+    // GDAL's six numbers: x = g0 + g1 column + g2 row, y = g3 + g4 column + g5 row.
     g[0] = scale.corner.x(), g[2] = g[4] = 0, g[1] = cell;
     g[3] = scale.corner.y() + (north_first ? map.report.rows * cell : 0),
     g[5] = north_first ? -cell : cell;
@@ -185,6 +191,8 @@ void read_transform(MapFile& map) {
 // Degrees are not lengths: the message describes how to get metres.
 void refuse_degrees(MapFile& map) {
   const Vec2 middle = 0.5 * (map.report.file_min + map.report.file_max);
+  // Zones of UTM are 6 degrees wide from 180 W on; EPSG numbers them 326xx in the north and 327xx
+  // in the south (WGS 84).
   const int zone = std::clamp(static_cast<int>(std::floor((middle.x() + 180) / 6)) + 1, 1, 60);
   const int epsg = (middle.y() < 0 ? 32700 : 32600) + zone;
   map.fail("CRS", map.report.crs, "coordinates are degrees, a site needs lengths",
@@ -207,6 +215,8 @@ void read_crs(MapFile& map) {
       // Coordinates of hundreds of kilometres under a CRS of degrees are a wrong label, not a wrong
       // map.
       const Vec2 &low = report.file_min, &high = report.file_max;
+      // Both -180 to 180 and 0 to 360 are in use; one degree is left for cells that reach over the
+      // border.
       if (low.x() >= -361 && high.x() <= 361 && low.y() >= -91 && high.y() <= 91)
         refuse_degrees(map);
       report.notes.push_back("declares degrees (" + report.crs +
@@ -258,6 +268,7 @@ void read_height_unit(MapFile& map) {
                                     {"Foot_US", kSurveyFoot},
                                     {"ftUS", kSurveyFoot},
                                     {"us-ft", kSurveyFoot}};
+  // EQUAL ignores case, as files write FT, Foot and foot.
   const auto* const known =
       std::find_if(std::begin(kUnits), std::end(kUnits),
                    [&](const Unit& each) { return EQUAL(each.name, unit.c_str()); });
