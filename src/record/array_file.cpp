@@ -40,6 +40,7 @@ const char* descr_of(sim::ElementType type) {
 
 /// Returns the type of a record: stamp, pose, values.
 std::string record_descr(const sim::ArrayChannel& channel) {
+  // NumPy writes a tuple of one as (3,), so every extent is followed by a comma.
   std::string shape;
   for (const int extent : channel.shape) shape += std::to_string(extent) + ",";
   return std::string("[('sequence', '<u8'), ('time_s', '<f8'), ('position_m', '<f8', (3,)), ") +
@@ -49,6 +50,8 @@ std::string record_descr(const sim::ArrayChannel& channel) {
 
 /// Returns the header of format 1.0. Its length does not depend on `records`.
 std::string header_of(const std::string& descr, std::uint64_t records) {
+  // 20 digits hold every 64-bit count, so the header can be rewritten in place as records are
+  // added.
   char count[24];
   std::snprintf(count, sizeof count, "%20llu", static_cast<unsigned long long>(records));
   std::string dict =
@@ -73,6 +76,7 @@ int write_at(int file, const std::string& text, std::uint64_t offset) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n =
         ::pwrite(file, text.data() + done, text.size() - done, static_cast<off_t>(offset + done));
+    // A signal may interrupt a write before any byte.
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return n < 0 ? errno : ENOSPC;
     done += static_cast<std::size_t>(n);
@@ -85,6 +89,7 @@ int write_at(int file, const std::string& text, std::uint64_t offset) {
 ArrayFile::ArrayFile(std::string path, const sim::ArrayChannel& channel)
     : path_(std::move(path)),
       descr_(record_descr(channel)),
+      // 8 bytes each for sequence, time, three of position and four of the quaternion.
       record_bytes_(8 * 9 + channel.count() * sim::size_of(channel.type)) {}
 
 ArrayFile::~ArrayFile() {

@@ -33,6 +33,7 @@ bool is_bag(const formats::MapFormat& format) { return format.open_bag != nullpt
 formats::ros::BodyState body_of(const sim::MachineHandle& machine, int link) {
   const sim::LinkHandle handle = machine.link(link);
   const vehicle::LinkState state = handle.state();
+  // The name is that of the frame in tf. It has the machine in it, as two machines may be equal.
   return {machine.name() + "/" + handle.name(), state.X_WL, state.v_WL, state.w_WL};
 }
 
@@ -56,6 +57,7 @@ std::vector<formats::ros::MachineState> machine_states(const sim::World& world) 
   return out;
 }
 
+/// `formats` must not include `sim`, so each has an enumeration of its own.
 formats::ros::ArrayElement element_of(sim::ElementType type) {
   switch (type) {
     case sim::ElementType::kUint8:
@@ -94,6 +96,7 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
     } catch (const InputError& error) {
       add(error.faults().front(), "format");
     }
+    // An unknown format has been reported; a rate for machines is refused there as well.
     if (record.machine_rate > 0 && (format == nullptr || !is_bag(*format)))
       add({Fault::Severity::kError, "", 0, "", record.format, "only mcap and bag hold machines",
            "remove it"},
@@ -134,6 +137,7 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
   const scene::Scene& scene = session.world().description();
   std::vector<Fault> faults = check_records(scene);
   if (!faults.empty()) throw InputError(std::move(faults));
+  // All names are taken first, so that no record's second file has the name of another record.
   for (const scene::MapRecord& record : scene.records) taken_.insert(record.name);
   for (const scene::MapRecord& record : scene.records) {
     // Pictures and points need the elevation.
@@ -161,6 +165,7 @@ void MapRecorder::write_arrays(Stream& stream) {
   stream.arrays.resize(arrays.channels().size());
   for (std::size_t i = 0; i < stream.arrays.size(); ++i) {
     const sim::ArrayView view = arrays.view(static_cast<int>(i));
+    // Number 0 is an array without a sample, which is not written.
     if (view.sequence() == stream.arrays[i]) continue;
     stream.arrays[i] = view.sequence();
     const sim::ArrayChannel& channel = view.channel();
@@ -173,6 +178,7 @@ void MapRecorder::write_arrays(Stream& stream) {
 void MapRecorder::restart() {
   for (const auto& stream : streams_) {
     if (stream->bag) stream->bag->close();
+    // The first label is taken by the record itself, so the first restart yields number 2.
     for (int number = 2; !taken_.insert(stream->label).second; ++number)
       stream->label = stream->record.name + "_" + std::to_string(number);
     stream->maker.forget();
@@ -194,6 +200,7 @@ void MapRecorder::observe() {
     const std::int64_t now = formats::ros::stamp(world.time());
     if (stream->bag && (map_due || machines_due)) formats::ros::write_clock(*stream->bag, now);
     if (machines_due) formats::ros::write_machines(*stream->bag, machine_states(world), now);
+    // Arrays have rates of their own, so they are looked at in every step.
     if (stream->bag) write_arrays(*stream);
     if (!map_due) continue;
     // All records share one view, because it costs a pass over the particles.
@@ -205,6 +212,7 @@ void MapRecorder::observe() {
       continue;
     }
     const formats::MapFormat& format = stream->format;
+    // Up to number 99999, sorting by name gives the order in time.
     char number[24];
     std::snprintf(number, sizeof number, "_%05llu",
                   static_cast<unsigned long long>(
