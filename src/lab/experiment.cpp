@@ -24,6 +24,7 @@ InputError refused(const std::string& where, const std::string& value, const std
 }
 
 /// Options that give a friction angle, with the test that measured it.
+/// The same tests as scene::kFrictionTests, under names for a command line.
 constexpr std::pair<const char*, scene::FrictionTest> kAngleOptions[] = {
     {"phi-deg", scene::FrictionTest::kPlaneStrain},
     {"direct-shear-deg", scene::FrictionTest::kDirectShear},
@@ -60,6 +61,7 @@ void set_angle(scene::Soil& soil, const std::string& name, const std::string& te
 
 /// Sets a number of the soil by its name in scene files, in that file's unit.
 void set_value(scene::Soil& soil, const std::string& name, const std::string& text) {
+  // A bare angle is the law's own, as in scene files, whatever the soil's angle was measured by.
   if (name == kAngleName) soil.friction_test = scene::FrictionTest::kPlaneStrain;
   if (name.rfind(kAngleName + ".", 0) == 0) return set_angle(soil, name, text);
   std::vector<std::string> names;
@@ -86,6 +88,7 @@ double given(const Experiment& experiment, const std::string& name) {
 /// Takes the friction angle from the options, of which at most one may give it.
 void take_friction(const Experiment& experiment, scene::Soil& soil) {
   std::string first;
+  // At most one angle is accepted, as converting two could give contradictory strengths.
   for (const auto& [name, test] : kAngleOptions) {
     const double angle = given(experiment, name);
     if (std::isnan(angle)) continue;
@@ -98,6 +101,7 @@ void take_friction(const Experiment& experiment, scene::Soil& soil) {
 }
 
 /// Returns the shortest text that reads back as the same number.
+/// A rounded text would run another value than the one that the table of the sweep shows.
 std::string exact_text(double value) {
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
@@ -117,6 +121,7 @@ void add_geometry(std::vector<Axis>& axes, const Experiment& experiment, const R
     if (written == experiment.geometry.end()) continue;
     const std::string where = "lab " + rig.name + " --" + name;
     const std::vector<std::string> parts = listed(where, written->second);
+    // A single value is set by set_written and makes no axis.
     if (parts.size() < 2) continue;
     SweepAxis axis{name, parameter.unit, {}};
     for (const std::string& part : parts) {
@@ -138,6 +143,7 @@ std::vector<Axis> axes_of(const Experiment& experiment, const Rig& rig) {
   for (const SoilOption& option : soil_options()) {
     const auto values = experiment.soil_values.find(option.name);
     if (values == experiment.soil_values.end() || values->second.size() < 2) continue;
+    // The unit is part of the name of these options, as in phi-deg.
     axes.push_back({{option.name, "", values->second},
                     [name = std::string(option.name)](Experiment& one, double value) {
                       one.soil_values[name] = {value};
@@ -155,6 +161,7 @@ Setup setup_of(const Experiment& experiment, const Rig& rig, device::Device& dev
       soil::set_scheme_constant(setup.scheme, name.substr(kSchemePrefix.size()),
                                 number_of(name, text));
   if (!experiment.cells.empty()) setup.cell = experiment.cells.front();
+  // Ranges are not checked here: some depend on the cell, and `check` sees the whole setup.
   set_written(setup, experiment.geometry);
   setup.energy = experiment.energy;
   setup.progress = experiment.progress;
@@ -196,6 +203,7 @@ scene::Soil soil_of(const Experiment& experiment, scene::Soil soil) {
   take_friction(experiment, soil);
   const double cohesion = given(experiment, "cohesion-pa");
   if (!std::isnan(cohesion)) {
+    // The old value is needed below: other values follow the cohesion only where they equalled it.
     const double before = std::exchange(soil.cohesion, cohesion);
     // A residual cohesion that equalled the cohesion follows it, and it never exceeds it.
     if (cohesion != before &&
@@ -213,6 +221,7 @@ scene::Soil soil_of(const Experiment& experiment, scene::Soil soil) {
     refused->element = std::string("lab friction angle, ") + scene::name_of(soil.friction_test);
     throw InputError(*refused);
   }
+  // A value that is given is not adapted, even if it equals the one that it would follow.
   const auto is_set = [&](const std::string& name) {
     return std::any_of(experiment.settings.begin(), experiment.settings.end(),
                        [&](const auto& setting) { return setting.first == name; });
@@ -231,6 +240,7 @@ ExperimentPlan plan_of(const Rig& rig, const Experiment& experiment, device::Dev
     Experiment one = experiment;
     for (std::size_t i = 0; i < at.size(); ++i) axes[i].put(one, at[i]);
     plan.runs.push_back({at, setup_of(one, rig, device)});
+    // All setups are checked before the first run, which may take minutes.
     check(rig, plan.runs.back().setup);
   }
   return plan;

@@ -17,6 +17,8 @@ namespace {
 constexpr double kWidth = 760, kHeight = 480, kLeft = 80, kRight = 540, kTop = 46, kBottom = 420;
 
 /// Colours that remain distinct with red-green deficiency.
+/// These are colours of the palette of Okabe and Ito, without its yellow, which is faint on white,
+/// and with a grey.
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#000000", "#7f7f7f"};
 
@@ -33,6 +35,7 @@ struct Axis {
 
 std::string escaped(const std::string& text) {
   std::string out;
+  // Texts are only put between tags, where quotes need no escape.
   for (const char c : text)
     out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
   return out;
@@ -70,6 +73,7 @@ std::set<double> abscissae(const Plot& plot) {
 }
 
 Axis x_axis(const std::set<double>& values) {
+  // Markers of the outermost values stay 20 pixels inside the frame.
   Axis out{0, 1, kLeft + 20, kRight - 20, false};
   if (values.empty()) return out;
   out.low = *values.begin(), out.high = *values.rbegin();
@@ -91,6 +95,7 @@ Axis y_axis(const Plot& plot) {
   if (!(low <= high)) low = 0, high = 1;
   // The axis starts at zero unless the values are far from it.
   if (low > 0 && low < 0.4 * high) low = 0;
+  // 8 % of the range above and below; for a single value a tenth of it.
   const double margin = high > low ? 0.08 * (high - low) : std::max(1e-9, 0.1 * std::abs(high));
   return {low == 0 ? 0 : low - margin, high + margin, kBottom, kTop, false};
 }
@@ -150,6 +155,7 @@ std::string svg_of(const Plot& plot) {
                     "\" height=\"" + at(kHeight) +
                     "\" viewBox=\"0 0 760 480\" font-family=\"sans-serif\" font-size=\"13\">\n" +
                     "<rect width=\"760\" height=\"480\" fill=\"white\"/>\n";
+  // SVG draws in order: bands first, then the frame with its grid, and lines above both.
   for (const auto& [low, high] : plot.tolerances)
     out += "<rect x=\"" + at(kLeft) + "\" y=\"" + at(y.at(high)) + "\" width=\"" +
            at(kRight - kLeft) + "\" height=\"" + at(y.at(low) - y.at(high)) +

@@ -39,6 +39,7 @@ bool same(const std::vector<double>& values) {
 }  // namespace
 
 std::vector<std::string> listed(const std::string& option, const std::string& written) {
+  // The list begins with one part, so that an empty text is an empty part and refused.
   std::vector<std::string> out{""};
   for (const char c : written) {
     if (c == ',')
@@ -55,6 +56,7 @@ std::vector<std::string> listed(const std::string& option, const std::string& wr
 }
 
 std::vector<std::vector<double>> combinations(const std::vector<SweepAxis>& axes) {
+  // One empty combination makes the one run of an experiment without axes.
   std::vector<std::vector<double>> out{{}};
   for (const SweepAxis& axis : axes) {
     std::vector<std::vector<double>> longer;
@@ -81,6 +83,8 @@ std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& swee
   std::vector<std::vector<std::string>> out(1);
   if (sweep.runs.empty()) return out;
   for (const SweepAxis& axis : sweep.axes) out[0].push_back(heading(axis.name, axis.unit));
+  // All runs are of one rig, so the first report decides the columns; a result that another report
+  // lacks is shown as nan.
   const std::vector<std::string> shown = shown_results(rig, sweep.runs.front().report);
   for (const std::string& name : shown)
     out[0].push_back(heading(name, sweep.runs.front().report.find(name)->unit));
@@ -93,6 +97,7 @@ std::vector<std::vector<std::string>> table_of(const Rig& rig, const Sweep& swee
       row.push_back(q == nullptr || std::isnan(q->measured) ? "nan" : short_text(q->measured));
     }
     row.push_back(std::to_string(run.report.steps));
+    // Tenths of a second: wall times vary by more from run to run.
     row.push_back(short_text(std::round(10 * run.report.wall_time) / 10));
     row.emplace_back(run.report.outside_tolerance() ? "outside" : "");
     out.push_back(std::move(row));
@@ -137,6 +142,7 @@ Plot plot_of(const Rig& rig, const Sweep& sweep) {
     expected.push_back(q->expected), low.push_back(q->low), high.push_back(q->high);
   }
   // NaN is not equal to itself: a value that no run has is not drawn.
+  // The result was found in the first report, so none of the lists is empty.
   if (same(expected)) out.expected.push_back(expected.front());
   if (same(low) && same(high)) out.tolerances.emplace_back(low.front(), high.front());
   return out;
