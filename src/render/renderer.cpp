@@ -148,6 +148,7 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
   // are rotated, never smaller.
   Vec3f low = Vec3f::Constant(1e30f), high = -low;
   for (const Placed& p : placed_)
+    // Stretched bodies are transformed as well, so the corners follow scale and pose.
     for (int k = 0; k < 8; ++k) {
       const Vec3f corner((k & 1) ? p.shape->high.x() : p.shape->low.x(),
                          (k & 2) ? p.shape->high.y() : p.shape->low.y(),
@@ -164,6 +165,8 @@ void Renderer::Impl::cast_shadows(const scene::Frame& frame, const Lighting& lig
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
     const Vec3f p = origin + Vec3f(xyz[i], xyz[i + 1], xyz[i + 2]);
     float height = 0, sun = 1;
+    // 0.3 m above the ground counts as falling. Beyond the site there is no ground to cast a shadow
+    // on.
     if (!p.allFinite() || !terrain_.surface().sample(p.x(), p.y(), height, sun) ||
         p.z() < height + 0.3f)
       continue;

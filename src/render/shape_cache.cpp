@@ -36,7 +36,8 @@ struct Body {
   std::vector<Part> parts;
 };
 
-// Edges flatter than this are drawn round [rad].
+// Edges flatter than this are drawn round [rad]. 36 deg are more than between the 18 to 28 sides of
+// a cylinder (20 deg at most) and less than at its rims.
 constexpr float kCrease = 0.62f;
 
 void add_face(Body& body, std::initializer_list<std::int32_t> face) {
@@ -186,6 +187,8 @@ Body make_body(const scene::Visual& visual) {
 
 SoNode* make_node(const Body& body, const std::vector<bool>& solid) {
   auto* root = new SoSeparator;
+  // Nodes of Coin begin with a count of 0 and delete themselves when it returns there; the cache
+  // gives this reference back.
   root->ref();
   auto* coordinates = new SoCoordinate3;
   coordinates->point.setNum(static_cast<int>(body.points.size()));
@@ -248,6 +251,7 @@ Shape make_shape(const Body& body) {
 std::string name_of(const scene::Visual& visual) {
   // Appearance as a text key: numbers to the last digit of a float, colours to four digits.
   const scene::Geometry& g = visual.geometry;
+  // 400 bytes hold 13 numbers of at most 17 characters.
   char text[400];
   std::snprintf(text, sizeof text,
                 "%d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.4g %.4g %.4g %.4g ",
@@ -278,6 +282,7 @@ const Shape& ShapeCache::cylinder_along_x(bool rod) {
   Look look{{0.20f, 0.20f, 0.21f, 1}, Vec3f::Constant(0.2f), 0.3f};
   if (rod) look = {{0.72f, 0.74f, 0.77f, 1}, Vec3f::Constant(0.7f), 0.6f};
   Body body = cylinder(1, 1, look, 18);
+  // Exchanging the axes in a cycle is a rotation, so the faces still point outwards.
   for (Vec3f& p : body.points) p = Vec3f(p.z() + 0.5f, p.x(), p.y());
   return shapes_.emplace(name, make_shape(body)).first->second;
 }
