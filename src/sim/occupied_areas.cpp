@@ -18,6 +18,7 @@ bool is_machine(const scene::MachineInWorld& placed) {
          !placed.program.steps.empty();
 }
 
+// Eight corners in W; the outline is their convex hull as seen from above.
 OccupiedArea area_of(const Pose& X_WL, const geometry::OrientedBox& box, bool machine) {
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i)
@@ -54,6 +55,7 @@ std::vector<OccupiedArea> occupied_areas(const scene::Scene& scene, const std::v
                                          const std::vector<char>& included) {
   std::vector<OccupiedArea> out;
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
+    // X_WB holds poses of base links; shapes need those of all links, here with all joints at zero.
     const scene::Machine& machine = scene.machines[m].machine;
     if (included.at(m) == 0 || machine.links.empty()) continue;
     const Pose X_WM = X_WB.at(m) * machine.links[0].X_ML.inverse();
@@ -92,11 +94,13 @@ std::vector<char> bodies_around(const World& world, int machine) {
   const std::vector<scene::Hitch>& hitches = world.description().hitches;
   std::vector<char> out = all_bodies(world.description());
   out.at(static_cast<std::size_t>(machine)) = 0;
+  // Exclusion spreads by one hitch in each pass at least, so as many passes as hitches are enough.
   for (std::size_t again = 0; again < hitches.size(); ++again)
     for (std::size_t h = 0; h < hitches.size(); ++h) {
       if (!world.machines().hitch(static_cast<int>(h)).closed) continue;
       char& parent = out.at(static_cast<std::size_t>(hitches[h].parent));
       char& child = out.at(static_cast<std::size_t>(hitches[h].child));
+      // A body is left out if the one at the other end of a closed hitch is.
       parent = child = static_cast<char>(parent & child);
     }
   return out;

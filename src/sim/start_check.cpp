@@ -151,6 +151,8 @@ namespace {
 std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
   const std::optional<heightfield::DesignSurface> design = heightfield::make_design(scene, ground);
   if (!design) return "";
+  // The design is compared with the ground as it starts, so cut and fill are those of the whole
+  // job.
   const heightfield::DesignComparison comparison = heightfield::against_design(ground, *design);
   double least = INFINITY, most = -INFINITY;
   for (const float z : design->z) {
@@ -191,6 +193,7 @@ StartCheck check_start(const scene::Scene& scene) {
       out.standing.push_back(one.stability);
       out.falling.push_back(one.fall_speed > kFalling);
     }
+    // settle() returns one entry per machine of the scene, empty ones for kinematic machines.
     for (std::size_t m = 0; m < out.standing.size(); ++m) {
       const vehicle::Stability& stands = out.standing[m];
       // A machine in the air has no ground to tip on yet.

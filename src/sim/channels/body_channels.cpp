@@ -9,6 +9,8 @@ namespace navvy::sim {
 
 void add_base_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
+  // Only kinematic machines with a free base can be placed; the others move by forces or not at
+  // all.
   if (!built.kinematic || built.fixed_base) return;
   // Each input changes one value of the target and leaves the others.
   const auto change = [&](const std::string& name, const char* unit, const std::string& meaning,
@@ -16,6 +18,7 @@ void add_base_channels(const MachineChannels& out) {
     out.inputs.add({out.prefix + "pose/" + name, unit, meaning, out.machine.index()},
                    [&world = out.world, machine = out.machine, part](double value) {
                      vehicle::BaseInput command = machine.base();
+                     // Snapshots accept goals up to limits::kFarthest, ten times as far.
                      part(command) =
                          std::clamp(value, -MachineCommands::kFarthest, MachineCommands::kFarthest);
                      command.duration = std::max(0.0, command.duration);
@@ -70,6 +73,7 @@ void add_wheel_channels(const MachineChannels& out) {
 // Machines that cannot tip have no such channels.
 void add_stability_channels(const MachineChannels& out) {
   const MachineHandle machine = out.machine;
+  // A fixed base cannot tip.
   if (!machine.stability().free) return;
   const std::string base = out.prefix + "stability/";
   out.outputs.add({base + "tilt", "rad", "angle of the base link's z axis from the vertical"},
@@ -78,6 +82,7 @@ void add_stability_channels(const MachineChannels& out) {
                    "distance of the centre of mass, without soil, inside the nearest edge of its "
                    "support polygon; negative outside"},
                   [machine] { return machine.stability().margin; });
+  // Without a bucket no pin can be loaded.
   if (machine.description().joint_index(machine.description().arm.bucket) < 0) return;
   out.outputs.add({base + "tipping_load", "kg",
                    "load on the bucket's pin that tips it over its weakest edge; 1e6 if none can"},

@@ -15,6 +15,7 @@ namespace {
 
 /// @throws InputError for a number that is not a gear's.
 int whole_gear(const std::string& name, double value) {
+  // The bound keeps the cast defined; MachineCommands checks which gears there are.
   if (value == std::floor(value) && std::abs(value) < 1000) return static_cast<int>(value);
   throw InputError(Fault{Fault::Severity::kError, "", 0, "input " + name, std::to_string(value),
                          "a gear is a whole number",
@@ -58,6 +59,8 @@ void add_gear(const MachineChannels& out, const scene::CombustionEngine& engine)
                  [change, radius = driven_radius(out.machine.description()), ratios = engine.gears,
                   last = engine.final_ratio](double v) {
                    change([&](vehicle::DriveInput& command) {
+                     // The gear of this moment converts the speed; a later change of gear leaves
+                     // the speed of the machine. Gear 0 is the first.
                      const auto gear = static_cast<std::size_t>(std::max(command.gear, 1) - 1);
                      command.speed = v * radius / (last * ratios[gear]);
                      command.brake = false;
@@ -88,6 +91,8 @@ void add_engine(const MachineChannels& out) {
 }
 
 /// Declares speed and torque of a differential's carrier, from the wheels behind it.
+/// The carrier turns with half the sum of the speeds on both sides (vehicle::Coupled), and its
+/// torque is the sum of theirs.
 void add_differential(const MachineChannels& out, const vehicle::Coupled& one) {
   std::vector<std::pair<WheelHandle, double>> behind;
   for (std::size_t w = 0; w < one.weight.size(); ++w)
@@ -141,6 +146,7 @@ void add_steering_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.has_drive) return;
   const std::shared_ptr<const vehicle::DriveLine> line = vehicle::make_drive_line(built);
+  // A drive without a common centre of turning has no such error.
   if (!line->steering_error(0, 0)) return;
   std::optional<WheelHandle> left, right;
   const std::vector<vehicle::DriveWheel> about = vehicle::drive_wheels(built);
@@ -160,6 +166,7 @@ void add_steering_channels(const MachineChannels& out) {
 void add_shaft_channels(const MachineChannels& out) {
   const scene::Machine& built = out.machine.description();
   if (!built.has_drive || built.kinematic) return;
+  // The line only answers which shafts there are; it is not the one that the engine steps.
   const std::unique_ptr<vehicle::DriveLine> line = vehicle::make_drive_line(built);
   // Motors in the wheels have no shafts; the efforts of the wheels' joints report them.
   if (!line->has_shafts()) return;

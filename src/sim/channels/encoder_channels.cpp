@@ -10,6 +10,7 @@ void add_encoder_channels(const MachineChannels& out) {
   vehicle::Encoders& encoders =
       parts(out.world).encoders[static_cast<std::size_t>(out.machine.index())];
   for (std::size_t i = 0; i < encoders.size(); ++i) {
+    // The encoders of a machine never change in number, so the pointers stay valid.
     vehicle::JointEncoder* encoder = &encoders[i];
     const std::string base = out.prefix + encoder->about().joint + "/";
     const std::string bits = std::to_string(encoder->about().bits);

@@ -12,6 +12,7 @@ void add_hitch_channels(const ChannelLists& out) {
   const std::vector<scene::Hitch>& hitches = world.description().hitches;
   for (std::size_t i = 0; i < hitches.size(); ++i) {
     const int hitch = static_cast<int>(i);
+    // A hitch is named after the machine that is towed: it has one, its tractor may have several.
     const std::string base =
         world.machines().at(hitches[i].child).name() + "/" + hitches[i].name + "/";
     out.inputs.add(

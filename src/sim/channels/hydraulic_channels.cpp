@@ -24,8 +24,10 @@ void add_lever_channels(const MachineChannels& out) {
   if (!built.levers.given) return;
   const vehicle::LeverFunctions functions = vehicle::lever_functions(built);
   for (std::size_t i = 0; i < functions.size(); ++i) {
+    // The machine has no joint for this function, for instance no swing.
     if (functions[i].joint < 0) continue;
     const JointHandle joint = out.machine.joint(functions[i].joint);
+    // The axes alternate: left x, left y, right x, right y.
     const std::string direction = i % 2 == 0 ? "to the right" : "away";
     const double sign = functions[i].sign, band = built.levers.dead_band;
     out.inputs.add({out.prefix + "levers/" + vehicle::kLeverNames[i], "1",

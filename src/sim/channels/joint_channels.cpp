@@ -34,6 +34,7 @@ std::function<void(double)> joint_input(World& world, const JointHandle& handle,
   constexpr double kSlack = 1e-6;
   return [&world, handle, mode = about.mode, range = about.range, name,
           unit = std::string(about.unit), logged = false](double target) mutable {
+    // The target is passed on as it is, since the physics engine clamps it.
     world.commands().set(handle, {mode, target});
     if (logged || (target >= range.lower - kSlack && target <= range.upper + kSlack)) return;
     logged = true;
@@ -49,6 +50,7 @@ std::function<void(double)> joint_input(World& world, const JointHandle& handle,
 void add_motion(const MachineChannels& out, const Joint& joint, const JointHandle& handle) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const bool linear = joint.type == Joint::Type::kPrismatic;
+  // Without limits nothing is out of range, so nothing is logged.
   const InputRange position =
       joint.has_limits ? InputRange{joint.lower, joint.upper} : InputRange{-kFar, kFar};
   const JointChannel channels[] = {
