@@ -40,6 +40,7 @@ void MachineCollision::visit(Archive& a) {
 
 void CollisionWatch::look(const sim::World& world) {
   for (const sim::MachineContact& contact : world.machines().contacts()) {
+    // Loose bodies, such as rocks in a bucket, touch machines in normal work.
     const auto& machines = world.description().machines;
     if (is_loose(machines[static_cast<std::size_t>(contact.machine)].machine) ||
         is_loose(machines[static_cast<std::size_t>(contact.other_machine)].machine))
@@ -58,6 +59,7 @@ void CollisionWatch::look(const sim::World& world) {
       continue;
     }
     ++count_;
+    // The list is bounded, the count is not.
     if (list_.size() < kMost)
       list_.push_back({contact.machine, contact.link, contact.other_machine, contact.other_link,
                        now, now, contact.force, contact.depth});

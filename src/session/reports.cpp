@@ -43,6 +43,7 @@ std::string report_line(const ProgramReport& report, const std::string& name,
   std::array<char, 96> where{};
   std::snprintf(where.data(), where.size(), " (%.2f s, at %.2f, %.2f m)", last.end, last.place.x(),
                 last.place.y());
+  // Only a step that was still running is cut; one that had ended keeps its own state.
   const bool is_cut = !cut.empty() && last.state == control::StepState::kRunning;
   const std::string state = report.by_inputs() ? "inputs"
                             : is_cut           ? "interrupted"
@@ -50,6 +51,7 @@ std::string report_line(const ProgramReport& report, const std::string& name,
   const std::string& reason = is_cut ? cut : last.reason;
   const std::string step =
       ", step " + std::to_string(last.step) + " of " + std::to_string(report.steps);
+  // A machine that fell did so in no particular step.
   return "'" + name + "'" + (report.fell() ? "" : step) + " (" + last.element + "): " + state +
          (reason.empty() ? "" : ": " + reason) + where.data();
 }
