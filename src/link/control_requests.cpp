@@ -97,6 +97,7 @@ json value_of(const sim::ArrayView& view) {
 
 }  // namespace
 
+// A cut inside a character is repaired where the text becomes JSON, which replaces bad UTF-8.
 std::string shown(const std::string& text) {
   std::string out = text.size() <= 80 ? text : text.substr(0, 80) + "...";
   // A NUL would end the message that contains it.
@@ -145,6 +146,7 @@ json ControlRequests::dispatch(const std::string& key, const json& what) {
   if (key == "info" || key == "reset") must_be_true(key, what);
   if (key == "info") return info();
   if (key == "reset") return replaced([&] { simulation_.reset(); });
+  // Only save and load are left; both take a path.
   if (!services_.files) refuse(key, what, "this program reads and writes no states", "use reset");
   if (key == "save") return save(what);
   const std::string path = text_in(key, what);
@@ -190,6 +192,7 @@ json ControlRequests::heights(const json& what) {
            R"({"min_m": [0, 0], "max_m": [2, 1], "cell_m": 0.2})");
   const map::UpdateFeed::Update newest = now();
   const map::TerrainMap& terrain = newest->map;
+  // Without corners and cell, the answer is the whole site in its own columns.
   Vec2 low = terrain.origin(), high = low + terrain.cell() * Vec2(terrain.nx(), terrain.ny());
   double cell = terrain.cell();
   map::MapLayer layer = map::MapLayer::kElevation;
@@ -219,6 +222,7 @@ json ControlRequests::heights(const json& what) {
   json values = json::array();
   for (int iy = 0; iy < ny; ++iy)
     for (int ix = 0; ix < nx; ++ix) {
+      // Values belong to the middle of a cell.
       const Vec2 p = low + cell * Vec2(ix + 0.5, iy + 0.5);
       const double v = layer == map::MapLayer::kElevation
                            ? map::height(terrain, p.x(), p.y())
@@ -243,6 +247,7 @@ json ControlRequests::heights(const json& what) {
 json ControlRequests::changed(const json& what) {
   if (!what.is_number_unsigned())
     refuse("changed", what, "must be a whole number", "send 0, or the sequence of the last answer");
+  // The map is renewed before the look-up, so that changes up to this moment are included.
   const map::UpdateFeed::Update newest = now();
   const map::UpdateFeed::Update update = feed_.since(what.get<std::uint64_t>());
   json out = {{"since", what},
@@ -252,8 +257,11 @@ json ControlRequests::changed(const json& what) {
               {"columns", 0},
               {"merged", false},
               {"rects_m", json::array()}};
+  // No update: the controller has the newest map.
   if (update == nullptr) return out;
   const map::TerrainMap& terrain = update->map;
+  // Rectangles of columns become rectangles in W; their upper bounds are exclusive, so they are
+  // edges.
   for (const heightfield::CellRect& r : update->rects) {
     const Vec2 low = terrain.origin() + terrain.cell() * Vec2(r.x0, r.y0),
                high = terrain.origin() + terrain.cell() * Vec2(r.x1, r.y1);
