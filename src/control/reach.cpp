@@ -39,6 +39,7 @@ ReachCheck::ReachCheck(const scene::Machine& machine_in, const scene::Program& p
       file_(std::move(file)),
       name_(name.empty() ? machine_in.name : name) {
   const auto asks = [](const scene::ProgramStep& step) { return step_of(step).needs_planner(); };
+  // A planner looks at the whole site, so it is made only if a step asks for it.
   if (!planners || std::none_of(program.steps.begin(), program.steps.end(), asks)) return;
   std::unique_ptr<PathPlanner> made = planners(machine);
   made->look(surface);
@@ -68,6 +69,7 @@ void ReachCheck::warn(const std::string& element, const std::string& value, cons
 
 bool ReachCheck::after_digging() const {
   const auto end = program_.steps.begin() + static_cast<std::ptrdiff_t>(index_);
+  // A step with a dump point moves soil, so the ground after it differs from that of the start.
   return std::any_of(program_.steps.begin(), end, [](const scene::ProgramStep& step) {
     return step_of(step).dump_point().has_value();
   });

@@ -102,6 +102,7 @@ class Going final : public ActivityWith<Memory> {
       if (ahead.step == place_.step) m.path = ahead.path, m.plans = 1;
     if (m.plans == 0 || arrived(at)) return;
     const PlanePose& from = m.path.start();
+    // `remainder` leaves a turn in -pi to pi, so that whole turns do not count.
     const double aside = (at.p - from.p).norm(),
                  turned = std::abs(std::remainder(at.yaw - from.yaw, 2 * kPi));
     if (!path_is_clear(0))
@@ -132,6 +133,7 @@ class Going final : public ActivityWith<Memory> {
     m.standing = seen.v_WB.head<2>().norm() < kStandSpeed ? m.standing + dt : 0;
     switch (phase_index()) {
       case kPlan:
+        // A step that begins at its goal ends without driving.
         return arrived(at) ? true : plan(seen, at);
       case kTurn:
         if (phase_time() >= m.turn) drive_leg(at);
@@ -162,6 +164,7 @@ class Going final : public ActivityWith<Memory> {
     m.clearance = std::min(m.clearance, place_.planner->clearance(plane_pose(seen.X_WB), kRange));
   }
   bool path_is_clear(double s) const {
+    // A greater clearance than the wanted one need not be known, so both bounds are the same.
     return clearance_along(*place_.planner, m.path, s, step_.clearance, step_.clearance) >=
            step_.clearance;
   }
@@ -174,6 +177,7 @@ class Going final : public ActivityWith<Memory> {
                                                    " plans, " + metres(goal_distance(at)) +
                                                    " from the target");
     const std::optional<Path> path =
+        // Each search has another seed: where one has found nothing, the next may.
         place_.planner->plan(step_.query(at, static_cast<int>(m.plans + m.failed)));
     if (path) {
       ++m.plans;
@@ -184,6 +188,7 @@ class Going final : public ActivityWith<Memory> {
       return false;
     }
     ++m.failed;
+    // The planner cannot say why; the clearances at both ends show the usual causes.
     const std::string why = no_path(at);
     if (m.failed >= step_.tries) return fall_short(StepState::kNoPath, why);
     place_.warn(why + "; it tries again in " + number_text(step_.retry, "s"));
@@ -259,6 +264,7 @@ class Going final : public ActivityWith<Memory> {
     const StepState progress = m.progress.look(seen, place_.machine, step_.speed, goal_distance(at),
                                                m.path.length() - m.s, dt, held);
     if (progress != StepState::kRunning) return fall_short(progress, held);
+    // 30 s of allowance for short legs, and three times the duration at full speed.
     if (phase_time() > 30 + 3 * (leg().end - leg().begin) / step_.speed)
       return fall_short(StepState::kOutOfTime, "a leg of " + metres(leg().end - leg().begin) +
                                                    " took longer than " +
@@ -282,12 +288,14 @@ class Going final : public ActivityWith<Memory> {
   /// Handles a machine that has come to a stop; returns true when the step is over.
   bool stand(const PlanePose& at) {
     const bool anew = m.then == Then::kPlanAnew;
+    // A leg that was broken off has not been driven.
     if (!anew) ++m.leg;
     if (!anew && !past_last()) {
       ++m.cusps;
       begin_leg(at);
       return false;
     }
+    // The distance on this path is added before another path begins at 0.
     m.driven += std::exchange(m.s, 0);
     enter(kPlan);
     if (anew || arrived(at)) return !anew;
