@@ -132,10 +132,12 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     motions[i].inverse_mass = engine(tool.machine).inverse_mass(index(tool.machine), tool.link);
   }
   solver_.step(dt, motions, impulses, support_areas(dt));
+  // A first-order low-pass, exact at any dt for a force that is constant over the step.
   const double blend = 1 - std::exp(-2 * kPi * kForceCutoff * dt);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     ToolLoad& tool = tools_[i];
     const soil::ToolImpulse& impulse = impulses[i];
+    // Forces are means over the last completed transfer; impulses are those of this step.
     tool.impulse = impulse;
     tool.force_W = impulse.force_W;
     tool.moment_W = impulse.moment_W;
@@ -143,6 +145,7 @@ void Coupling::exchange_with_soil(double dt, const std::vector<Pose>& poses_befo
     tool.smooth_W += blend * (tool.force_W - tool.smooth_W);
     Vec3 rock_W = Vec3::Zero();
     if (const vehicle::RockCapability* rock = engine(tool.machine).rock())
+      // The rock acts inside the engine's step, so its force is the impulse over that step.
       rock_W = rock->rock_impulse(index(tool.machine), tool.shell) / dt;
     tool.rock_W += blend * (rock_W - tool.rock_W);
     if (impulse.J_W.squaredNorm() + impulse.L_W.squaredNorm() > 0)
@@ -160,6 +163,7 @@ std::vector<soil::SupportArea> Coupling::support_areas(double dt) const {
   for (std::size_t m = 0; m < placed_.size(); ++m) {
     const scene::Machine& machine = world_.machines[m].machine;
     for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
+      // Counted for kinematic machines as well: press_ruts passes the tyres of all machines.
       const double load = machine.wheels[w].track ? 0 : ruts_.load(tyre++);
       // Kinematic machines have no weight on the ground.
       if (machine.kinematic) continue;

@@ -21,12 +21,14 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   std::vector<std::size_t> of;  // machine of the scene, by index in the engine
   for (std::size_t m = 0; m < scene.machines.size(); ++m) {
     const scene::MachineInWorld& placed = scene.machines[m];
+    // Kinematic machines stand where they are placed, so they have nothing to settle.
     if (placed.machine.kinematic) continue;
     engine->add_machine(placed.machine, place(placed, ground));
     of.push_back(m);
   }
   if (of.empty()) return out;
   if (vehicle::RockCapability* rock = engine->rock()) rock->set_rock(ground.datum());
+  // Hitches name machines of the scene; kinematic ones are refused when a scene is read.
   add_hitches(scene, *engine, [&of](int machine) {
     return static_cast<int>(std::find(of.begin(), of.end(), static_cast<std::size_t>(machine)) -
                             of.begin());
@@ -34,6 +36,7 @@ std::vector<Settled> settle(const scene::Scene& scene, heightfield::Ground& grou
   Ruts ruts(ground);
   TrackRuts track_ruts(ground, ruts);
   const GroundView view(ground, ground.setup().soils, &ruts);
+  // The longest step that a run may take; without soil no shorter one is needed.
   const double dt = scene.solver.max_step;
   const int steps = static_cast<int>(std::ceil(time / dt));
   for (int step = 0; step < steps; ++step) {
