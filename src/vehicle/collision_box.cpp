@@ -25,6 +25,7 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
     case scene::Geometry::Kind::kSphere:
       box.half = Vec3::Constant(g.radius);
       return box;
+    // A plane is the rock under the ground and has no box.
     case scene::Geometry::Kind::kPlane:
       return std::nullopt;
     case scene::Geometry::Kind::kMesh:
@@ -32,11 +33,14 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
   }
   try {
     const geometry::Box round = geometry::bounds(geometry::read_obj(g.mesh_file));
+    // The middle of the bounds is scaled with the mesh; the half edges need the size of the scale
+    // only.
     box.X_WO =
         collision.X_LC * Eigen::Translation3d(0.5 * (round.low + round.high).cwiseProduct(g.scale));
     box.half = 0.5 * (round.high - round.low).cwiseProduct(g.scale.cwiseAbs());
     return box;
   } catch (const Error&) {
+    // The reader of the scene reports a mesh that cannot be read; here it has no box.
     return std::nullopt;
   }
 }
@@ -44,6 +48,7 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
 std::optional<WheelBox> box_of(const scene::Machine& machine, const scene::Wheel& wheel) {
   const int joint = machine.joint_index(wheel.joint);
   if (joint < 0) return std::nullopt;
+  // Twin tyres are one body from outer side to outer side.
   const double width = wheel.width + wheel.twin_spacing;
   return WheelBox{static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].child),
                   {Pose::Identity(), Vec3(wheel.radius, width / 2, wheel.radius)}};

@@ -43,6 +43,8 @@ struct Meeting final : btCollisionWorld::ContactResultCallback {
 double inverse_mass(const TreeBody& tree, int link, const Vec3& n, const Vec3& p) {
   if (tree.fixed_base() && link == 0) return 0;
   Vec6 work;
+  // A unit impulse along n at p causes the twist inverse_mass * work. Its component along n at p is
+  // the inverse mass.
   work << (p - tree.link(link).X_WL.translation()).cross(n), n;
   return std::max(0.0, work.dot(tree.inverse_mass(link) * work));
 }
@@ -50,6 +52,7 @@ double inverse_mass(const TreeBody& tree, int link, const Vec3& n, const Vec3& p
 }  // namespace
 
 void MetBody::push(const Vec3& f_W, const Vec3& p_W) const {
+  // A body that sleeps would ignore the force.
   machine->disturb();
   machine->tree().add_force(link, f_W, Vec3::Zero(), p_W);
 }
@@ -57,6 +60,7 @@ void MetBody::push(const Vec3& f_W, const Vec3& p_W) const {
 Disc::Disc(double radius, double half)
     : shape(std::make_unique<btCylinderShape>(btVector3(radius, half, radius))),
       object(std::make_unique<btCollisionObject>()) {
+  // The margin rounds the rim of the disc, so that it rolls over edges.
   shape->setMargin(half);
   object->setCollisionShape(shape.get());
 }

@@ -64,6 +64,7 @@ void ContactList::add(const btCollisionObject* one, const btCollisionObject* oth
   if (!find(one, contact.one) || !find(other, contact.other)) return;
   // A link and its shells are one body.
   for (BodyContact& known : contacts_) {
+    // The order of the two bodies in a contact of Bullet is arbitrary.
     const bool as_is = is_same(known.one, contact.one) && is_same(known.other, contact.other);
     const bool swapped = is_same(known.one, contact.other) && is_same(known.other, contact.one);
     if (!as_is && !swapped) continue;
@@ -103,10 +104,12 @@ void ContactList::collect(btCollisionWorld& world,
 }
 
 void ContactList::collect_of_obstacles(btCollisionWorld& world) {
+  // The test of the shapes is slow, so boxes that are apart are left out first.
   const auto test = [&](btCollisionObject* a, btCollisionObject* b) {
     if (!boxes_overlap(*a, *b)) return;
     DeepestPoint found;
     world.contactPairTest(a, b, found);
+    // Neither body is moved by forces, so no solver has worked out a force between them.
     if (found.touches) add(a, b, 0, found.depth);
   };
   for (std::size_t m = 0; m < movers_->size(); ++m)
@@ -115,6 +118,7 @@ void ContactList::collect_of_obstacles(btCollisionWorld& world) {
         for (const auto& machine : *machines_)
           if (machine->tree().fixed_base())
             for (btMultiBodyLinkCollider* fixed : machine->all_colliders())
+              // Link 0 is fixed; the links that move on it meet obstacles in the solver.
               if (machine->link_of(*fixed) == 0) test(collider, fixed);
         for (std::size_t other = m + 1; other < movers_->size(); ++other)
           for (const auto& further : (*movers_)[other].bodies())

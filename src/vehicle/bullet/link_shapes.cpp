@@ -34,6 +34,7 @@ std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   const scene::Geometry& g = collision.geometry;
   auto hull = std::make_unique<btConvexHullShape>();
   for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices)
+    // false: the box around the shape is computed once, after the last point.
     hull->addPoint(to_bt(Vec3(g.scale.cwiseProduct(v))), false);
   if (hull->getNumPoints() < 4)
     refuse(collision, g.mesh_file, "the mesh needs at least four vertices");
@@ -48,6 +49,7 @@ std::unique_ptr<btCollisionShape> make_triangles(
     std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
   const scene::Geometry& g = collision.geometry;
   const geometry::TriangleMesh mesh = geometry::read_obj(g.mesh_file);
+  // 32-bit indices, vertices of three components.
   auto triangles = std::make_unique<btTriangleMesh>(true, false);
   const auto corner = [&](std::size_t t, std::size_t i) {
     return to_bt(Vec3(g.scale.cwiseProduct(mesh.corner(t, i))));
@@ -72,6 +74,7 @@ std::unique_ptr<btCollisionShape> make_shape(
     case Kind::kSphere:
       return std::make_unique<btSphereShape>(g.radius);
     case Kind::kCone:
+      // Bullet's cone is centred at half its height, like SDF's.
       return std::make_unique<btConeShapeZ>(g.radius, g.length);
     case Kind::kCapsule:
       return std::make_unique<btCapsuleShapeZ>(g.radius, g.length);
@@ -98,6 +101,7 @@ LinkShape make_steel(const scene::Shell& shell) {
   for (std::size_t t = 0; t < shell.triangles.size(); ++t) {
     auto plate = std::make_unique<btConvexHullShape>();
     for (std::size_t i = 0; i < 3; ++i) plate->addPoint(to_bt(shell.corner(t, i)), false);
+    // The margin is the plate's half thickness, so the hull of the middle plane becomes the plate.
     plate->setMargin(shell.half_thickness);
     plate->recalcLocalAabb();
     out.compound->addChildShape(btTransform::getIdentity(), plate.get());
@@ -114,6 +118,7 @@ LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands
   out.friction = 0;
   for (const scene::Collision& collision : link.collisions) {
     out.parts.push_back(make_shape(collision, stands, out.meshes));
+    // Bullet's default margin, 4 cm, is too coarse for small parts.
     out.parts.back()->setMargin(std::min(0.02, out.parts.back()->getMargin()));
     out.compound->addChildShape(to_bt(Pose(X_IL * collision.X_LC)), out.parts.back().get());
     out.friction = std::max(out.friction, collision.friction);

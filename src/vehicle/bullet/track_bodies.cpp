@@ -13,12 +13,15 @@ TrackBodies::Track& TrackBodies::running_track(std::size_t machine, std::size_t 
                                                const scene::Wheel& about, const Vec3& p_sprocket) {
   if (tracks_.size() <= machine) tracks_.resize(machine + 1);
   if (tracks_[machine].size() <= wheel) tracks_[machine].resize(wheel + 1);
+  // The stations follow from the running gear, which does not change, so they are made once.
   Track& out = tracks_[machine][wheel];
   if (!out.stations.empty()) return out;
   out.width = about.width;
   out.stations = terramechanics::track_stations(about, p_sprocket);
   for (const terramechanics::TrackStation& station : out.stations)
     for (std::size_t line = 0; line < terramechanics::kTrackLines; ++line)
+      // Half the width of a disc is a quarter of the track's, so that two lines cover it. The other
+      // bound keeps small discs flat.
       out.discs.emplace_back(station.radius, std::min(0.25 * about.width, 0.45 * station.radius));
   return out;
 }
@@ -31,6 +34,7 @@ void TrackBodies::look_round(const BulletMachine& own, const Track& running_trac
   for (std::size_t s = 0; s < running_track.stations.size(); ++s) {
     const btVector3 p = to_bt(Vec3(X_WC * running_track.stations[s].p_C));
     const btVector3 far =
+        // The corner of a disc is at most its radius and half the width from the station.
         btVector3(1, 1, 1) * (running_track.stations[s].radius + 0.5 * running_track.width);
     low.setMin(p - far);
     high.setMax(p + far);
@@ -70,6 +74,7 @@ void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t whee
   if (!near_.empty()) touch(path, motion.X_WC, about, world);
   at.body_p_C.setZero();
   if (touches_.empty()) {
+    // Shear belongs to a contact; without one it must not act on the next.
     for (auto& station : at.body_shear) station.fill(Vec2::Zero());
     return;
   }
@@ -83,6 +88,7 @@ void TrackBodies::push(BulletMachine& own, std::size_t machine, std::size_t whee
     near_[touches_[t].body]->push(-force.f_W[t], p_W);
     at.body_W += force.f_W[t];
     pressed += force.f_W[t].norm();
+    // body_p_C becomes the mean of the points, weighted by the magnitudes of their forces.
     at.body_p_C += force.f_W[t].norm() * (motion.X_WC.inverse() * p_W);
   }
   if (pressed > 0) at.body_p_C /= pressed;

@@ -10,6 +10,7 @@ namespace navvy::vehicle {
 namespace {
 
 bool meets_nobody(const TyreBodies::Machines& machines, const std::vector<Mover>& movers) {
+  // A machine does not touch itself, so a single one has nobody to meet.
   return machines.size() + movers.size() < 2;
 }
 

@@ -61,6 +61,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     body.braked.assign(machine.joints.size(), 0);
     for (std::size_t j = 0; j < machine.joints.size(); ++j) {
       body.q[j] = machine.joints[j].initial;
+      // Until a command comes, every joint holds its position at the start.
       body.input.push_back({JointMode::kPosition, body.q[j]});
     }
     bodies_.push_back(std::move(body));
@@ -82,6 +83,8 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     for (const scene::Wheel& wheel : body.machine.wheels)
       for (const int joint :
            {body.machine.joint_index(wheel.joint), body.machine.joint_index(wheel.steer_joint)})
+        // A machine without a drive keeps the commands of its wheels, as nothing else would move
+        // them.
         if (body.machine.has_drive && joint >= 0 && body.taken[index(joint)] != 0) {
           body.taken[index(joint)] = 0;
           body.input[index(joint)] = {JointMode::kFree, 0};
@@ -101,6 +104,8 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
   BaseInput base(int machine) const override {
     const Body& body = at(machine);
     if (body.placed) return body.goal;
+    // Without a goal the pose of this moment is the command, so that changing one value of it
+    // leaves the others.
     BaseInput out;
     out.p_W = body.links[0].X_WL.translation();
     out.angles = fixed_angles(body.links[0].X_WL.linear());
@@ -215,6 +220,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     for (const scene::Cylinder& cylinder : body.machine.cylinders) {
       if (cylinder.joint != joint.name) continue;
       const CylinderLimits limits = cylinder_limits(body.machine, cylinder, body.q[j]);
+      // With several cylinders, the slowest one decides.
       most = std::min(most, opening > 0 ? limits.speed_positive : limits.speed_negative);
     }
     return std::clamp(opening, -1.0, 1.0) * most;
@@ -229,6 +235,8 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
       if (body.input[j].mode == JointMode::kVelocity) wanted += dt * body.input[j].target;
       if (body.input[j].mode == JointMode::kOpening)
         wanted += dt * opened_speed(body, j, body.input[j].target);
+      // The brake comes after all modes and before the limits, so that it holds against each of
+      // them.
       if (body.braked[j] != 0) wanted = body.q[j];
       if (joint.has_limits) wanted = std::clamp(wanted, joint.lower, joint.upper);
       // The joint reaches its largest rate at once: it has no inertia and no valve.
@@ -283,6 +291,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
   static void move_base(Body& body, const GroundQuery& ground, double dt) {
     const Roll roll = move_wheels(body, dt);
     const double speed = roll.speed, rate = roll.yaw_rate;
+    // Only the heading of the base is kept; it is set upright below.
     const double yaw = std::atan2(body.X_WB.linear()(1, 0), body.X_WB.linear()(0, 0));
     // Heading at the midpoint: the arc's chord up to third order in the step.
     const double mean = yaw + 0.5 * rate * dt;
@@ -298,6 +307,8 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
   /// Moves the base by its share of the remaining distance, so that it arrives on time. It turns
   /// through the smaller angle.
   static void move_to_goal(Body& body, double dt) {
+    // dt / time left, of what remains, is a constant velocity; the last step takes all that is
+    // left.
     const double share = body.left > dt ? dt / body.left : 1;
     body.left = std::max(0.0, body.left - dt);
     const Vec3& to = body.goal.angles;
@@ -323,6 +334,7 @@ class KinematicEngine final : public PhysicsEngine, private PlacementCapability 
     std::vector<char> known(poses.size(), 0);
     known[0] = 1;
     body.links[0] = {body.X_WB, body.v_W, body.w_W};
+    // Joints may be in any order, so passes go on until no further link is reached.
     for (bool grown = true; grown;) {
       grown = false;
       for (std::size_t j = 0; j < body.machine.joints.size(); ++j) {
