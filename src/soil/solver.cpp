@@ -106,6 +106,8 @@ const EnergyAccount* Solver::energy() const {
 }
 
 double Solver::step_limit(double tool_speed) const {
+  // Courant's condition; the speed of the fastest tool adds to that of sound
+  // [docs/soil.md, time step].
   const scene::SolverSettings& settings = state_->world.solver;
   return std::min(settings.max_step,
                   settings.courant * state_->frame.cell / (state_->fastest_sound + tool_speed));
@@ -128,6 +130,7 @@ void Solver::step(double dt, std::span<const ToolMotion> motions, std::span<Tool
     fastest = std::max(fastest, state_->tool_speed(motion));
   }
   // A step well above the limit is split; the tools move and yield in between.
+  // All parts are of equal length, so that no short last part wastes a step.
   const int parts =
       std::max(1, static_cast<int>(std::ceil(dt / (kMostStep * step_limit(fastest)))));
   for (std::size_t m = 0; m < motions.size(); ++m) {
@@ -165,8 +168,10 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
                             std::span<ToolImpulse> impulses) {
   double tools = 0;
   for (const ToolMotion& motion : motions) tools = std::max(tools, tool_speed(motion));
+  // Held: the step continues the current transfer with its nodes and lists.
   const bool hold = particles.count() > 0 && contact.moves_same(motions) &&
                     current.holds(dt, frame.cell, tools, world.gravity.norm());
+  // Only between two transfers are positions current, which the exchange needs.
   if (!hold) {
     end_transfer();
     exchange_if_due(dt, tools, motions);
@@ -190,6 +195,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
   } else {
     if (standing.apply(dt, motions, impulses)) exchange_clock.hurry();
     for (ToolImpulse& impulse : impulses) {
+      // Without particles there is no transfer to average over, so the mean is that of the step.
       impulse.force_W = impulse.J_W / dt;
       impulse.moment_W = impulse.L_W / dt;
     }
@@ -263,6 +269,7 @@ ToolRegion Solver::State::region_of(const ToolMotion& motion) const {
     region.max = first ? p : region.max.cwiseMax(p);
     first = false;
   }
+  // The velocity of the box is that of its middle, as the exchange knows no rotation.
   const Vec3 centre = 0.5 * (region.min + region.max) - motion.X_WT.translation();
   region.velocity = motion.v_WT + motion.w_WT.cross(centre);
   region.tool = motion.tool;
@@ -306,6 +313,7 @@ void Solver::State::replace(const std::vector<Particle>& all,
   for (std::size_t i = 0; i < all.size(); ++i)
     if (!any_removed || removed[i] == 0) stay.push_back(all[i]);
   for (Particle& p : born) {
+    // Ids are never reused, so that a particle can be followed through snapshots.
     p.id = masses.new_id();
     stay.push_back(p);
   }

@@ -239,6 +239,7 @@ void ParticleStore::place(const std::vector<Particle>& sorted) {
   fit(device_, particle_blocks_buffer_, keys.size());
   fit(device_, block_keys_, keys.size());
   fit(device_, block_surface_, keys.size());
+  // A half more than needed, so that soil that becomes active rarely needs new memory.
   reserve(now_, slots, slots + slots / 2);
   // Sorted particles of one block are contiguous, so the keys are sorted and unique, too.
   table_.build(std::move(keys));

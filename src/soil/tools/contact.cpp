@@ -125,6 +125,8 @@ void add_record(const ContactRecord& record, const Vec3& r, bool edge, ToolImpul
   out.scale += J.norm();
   out.scale_moment += L.norm();
   out.normal += push;
+  // Friction is what remains of the impulse beside its normal part; rounding may make that
+  // negative.
   out.friction += std::sqrt(std::max(0.0, J.squaredNorm() - push * push));
   sum.before += mass * before;
   sum.after += mass * after;
@@ -165,6 +167,7 @@ void Contact::sum_impulses(std::span<ToolImpulse> impulses) {
       const std::size_t i = near * BLOCK_NODES + n;
       for (std::size_t s = 0; s < 2; ++s) {
         const ContactRecord& record = records[2 * i + s];
+        // A node with equal velocities before and after was touched by no tool.
         if (std::equal(std::begin(record.before), std::end(record.before),
                        std::begin(record.after)))
           continue;

@@ -48,6 +48,8 @@ int floor_div(double cells) {
 /// the given box.
 void offer(const Vec3& box_low, const Vec3& box_high, double low, double high, int triangle,
            const BlockIndex& index, Marks& marks) {
+  // A block is listed if its range [low, high) of cells can meet the box: the first such block is
+  // the one after floor(box_low - high).
   const BlockKey from = {floor_div(box_low.x() - high) + 1, floor_div(box_low.y() - high) + 1,
                          floor_div(box_low.z() - high) + 1};
   const BlockKey to = {floor_div(box_high.x() - low), floor_div(box_high.y() - low),
@@ -139,6 +141,7 @@ bool Contact::set_motions(std::span<const ToolMotion> motions, const BlockTable&
 
 void Contact::find_candidates(const BlockTable& table, Marks& nodes, Marks& particle_blocks) const {
   // Boxes of the pieces, extended by the band. Pieces are short, so boxes waste little.
+  // The margin keeps the lists valid while tools move by less than it (moved_far).
   const double far = scheme_.contact_band + scheme_.contact_margin;
   for (const Registered& tool : tools_) {
     if (!tool.listed) continue;

@@ -26,6 +26,7 @@ using Vec3i = Eigen::Vector3i;
 Vec3i whole(const Eigen::Array3d& v) { return v.matrix().cast<int>(); }
 
 int floor_div(int cells) {
+  // Division of integers rounds towards 0; blocks below 0 need the floor.
   return cells >= 0 ? cells / kBlockCells : -((-cells + kBlockCells - 1) / kBlockCells);
 }
 
@@ -71,6 +72,7 @@ int Edges::profile_of(double bevel) {
   if (known != bevels_.end()) return static_cast<int>(known - bevels_.begin());
   EdgeProfile row{};
   for (int i = 0; i < EDGE_ANGLES; ++i)
+    // Row i is for sin phi = i EDGE_STEP: the kernel has the sine of a particle's soil at hand.
     row.at[i] = edge_factors(std::asin(i * static_cast<double>(EDGE_STEP)), bevel);
   row.cot = bevel < kPi ? static_cast<float>(1 / std::tan(bevel / 2)) : 0.0f;
   bevels_.push_back(bevel);
@@ -88,6 +90,8 @@ void Edges::add_tool(const ShellGeometry& geometry) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (!t.edge_free[i]) continue;
       const Vec3 a = t.corner[i], ab = t.corner[(i + 1) % 3] - a, u = ab.normalized();
+      // The part of `inward` along the edge is removed, so that `outward` is in the plane of the
+      // triangle and at right angles to the edge.
       const Vec3 inward = t.corner[(i + 2) % 3] - a, outward = -(inward - inward.dot(u) * u);
       // Teeth stand for the cutting edge: less area, farther ahead, with their own bevel.
       const bool teeth = shell.toothed && on_cutting_edge(*shell.toothed, a, ab, outward);
@@ -101,6 +105,8 @@ void Edges::add_tool(const ShellGeometry& geometry) {
                 across = std::max(1, static_cast<int>(std::ceil(spread / (kSpacing * cell_))));
       for (int k = 0; k < along; ++k)
         for (int row = 0; row < across; ++row)
+          // The area of the plate's end is shared among the points: length / along times thickness
+          // / across.
           points.push_back({a + ahead + (k + 0.5) / along * ab +
                                 ((row + 0.5) / across - 0.5) * spread * t.normal,
                             outward.normalized(), share * ab.norm() / along * thickness / across,
@@ -150,6 +156,7 @@ bool Edges::distribute(int tool, const Point& point, const Vec3& p, const Vec3& 
     sum += weight[n];
   }
   if (!(sum > 0)) return false;
+  // The low 16 bits hold tool + 1, so that 0 is no tool; the high bits hold the profile.
   const int tag = 1 + tool + (point.profile << 16);
   bool any = false;
   for (int n = 0; n < 8; ++n) {
@@ -165,6 +172,8 @@ bool Edges::distribute(int tool, const Point& point, const Vec3& p, const Vec3& 
     // A node has one tool, the closest; where two touch, the first is as good.
     if (edge.tag != 0 && ((edge.tag ^ tag) & 0xffff) != 0) continue;
     if (edge.tag == 0) edge.tag = tag;
+    // In units of a cell's face. The share of a node that is not listed or has another tool is
+    // lost.
     const double area = point.area / (cell_ * cell_) * weight[n] / sum;
     for (int a = 0; a < 3; ++a) edge.outward[a] += static_cast<float>(area * outward[a]);
     any = true;
@@ -238,6 +247,7 @@ void Edges::send() {
     upload(device_, point_buffer_, point_list_);
     ensure(device_, strength_, 4 * block_list_.size());
   } else if (!clear_) {
+    // Zeros are written once and stay until an edge is near soil or the list of blocks changes.
     force_.write(std::vector<float>(4 * node_edges_.size(), 0.0f));
   }
   clear_ = !any_;
