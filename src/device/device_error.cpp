@@ -13,6 +13,7 @@ struct Name {
 // The macro writes symbol and text, so that the two cannot differ.
 #define NAVVY_NAME(symbol) \
   Name { symbol, #symbol }
+// The codes of OpenCL 1.2, the version that Navvy is written for (opencl_private.h).
 constexpr Name kNames[] = {
     NAVVY_NAME(CL_SUCCESS),
     NAVVY_NAME(CL_DEVICE_NOT_FOUND),
