@@ -34,6 +34,7 @@ void check_resume(const std::string& path) {
   } catch (const FileError& error) {
     refuse("--resume", path, error.what(), "name the file of a snapshot");
   }
+  // Opened as well, since permissions are only known by trying.
   if (std::ifstream(path).is_open()) return;
   refuse(
       "--resume", path, "no such snapshot, or it cannot be read",
@@ -44,6 +45,7 @@ void check_resume(const std::string& path) {
 void check_snapshot(const std::string& path, const std::string& folder) {
   if (path.empty()) return;
   std::error_code code;
+  // An empty file holds nothing that could be lost.
   if (!is_sealed(path) && std::filesystem::is_regular_file(path, code) &&
       std::filesystem::file_size(path, code) > 0)
     refuse("--snapshot", path, "exists and is no snapshot, so it is not replaced",
