@@ -68,6 +68,7 @@ bool unknown_everywhere(const map::TerrainMap& map, map::MapLayer layer) {
   if (!map.has(layer)) return true;
   constexpr int kSide = map::LayerTiles::kSide;
   const map::LayerTiles& tiles = map.tiles(layer);
+  // 16 KiB, which would be much for a stack.
   const auto buffer = std::make_unique<map::LayerTiles::Values>();
   for (int ty = 0; ty * kSide < map.ny(); ++ty)
     for (int tx = 0; tx * kSide < map.nx(); ++tx) {
@@ -202,6 +203,7 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
     require_apart(options, format, reads_of(scene, {end, (from / "paths.csv").string()}));
     const heightfield::Ground site = heightfield::make_ground(scene);
     const map::MapOptions wanted = map_options(options, layers, scene, site);
+    // At the start nothing has moved, so all bodies are known, not only fixed ones.
     if (options.start) return {map::map_of_site(site, wanted, at_start(scene, site)), From::kScene};
     return {map::map_of_run(scene, site, end, wanted, fixed(scene, site)), From::kRun};
   }
