@@ -11,6 +11,7 @@ struct RawBuffer::Memory {
   std::shared_ptr<Device::State> device;
   cl_mem memory = nullptr;
   std::size_t size = 0;
+  std::uint64_t number = 0;
 
   Memory(std::shared_ptr<Device::State> owner, std::size_t bytes) : device(std::move(owner)) {
     // Memory that host and device share is allocated where both reach it, so that mapping copies
@@ -29,6 +30,7 @@ struct RawBuffer::Memory {
           code);
     }
     size = bytes;
+    number = ++device->buffers_made;
     device->memory_used += bytes;
   }
   Memory(const Memory&) = delete;
@@ -126,5 +128,7 @@ void RawBuffer::unmap(void* at) const noexcept {
 }
 
 void* RawBuffer::handle() const { return memory_ ? memory_->memory : nullptr; }
+
+std::uint64_t RawBuffer::number() const { return memory_ ? memory_->number : 0; }
 
 }  // namespace navvy::device

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -48,6 +49,9 @@ class RawBuffer {
   std::size_t capacity() const { return capacity_; }
   /// Returns the OpenCL handle, a cl_mem.
   void* handle() const;
+  /// Returns the number of the allocated memory on its device, counted from 1; 0 without memory.
+  /// Unlike handles, numbers are never used twice.
+  std::uint64_t number() const;
 
  private:
   // Shared, so that a kernel's argument or a copy keeps the memory, and with it the device, alive.

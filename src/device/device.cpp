@@ -23,6 +23,8 @@ struct Found {
   cl_platform_id platform = nullptr;
   cl_device_id device = nullptr;
   DeviceInfo info;
+  /// Device of the same processor whose kernels run in the caller's thread; null without one.
+  cl_device_id caller = nullptr;
 };
 
 std::string lower(std::string text) {
@@ -80,6 +82,40 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   return info;
 }
 
+/// Value of POCL_DEVICES that asks PoCL for its driver without worker threads beside the usual one.
+constexpr const char* kBothDrivers = "pthread basic";
+
+/// Asks PoCL for its driver without worker threads, which it offers on request only. Returns true
+/// if it was asked, by this process or by the one that started it. Call it before the platform
+/// shows its devices: PoCL then reads which drivers are wanted, and starts no other. So another
+/// choice of the user is kept; builds with drivers for GPUs are left alone, as are versions from 4
+/// on, whose drivers have other names.
+bool ask_for_caller_driver(cl_platform_id platform) {
+  const std::string version = platform_text(platform, CL_PLATFORM_VERSION);
+  const std::size_t at = version.find("PoCL ");
+  if (at == std::string::npos || version.find("CUDA") != std::string::npos) return false;
+  int major = 0;
+  std::from_chars(version.data() + at + 5, version.data() + version.size(), major);
+  if (major < 1 || major > 3) return false;
+  ::setenv("POCL_DEVICES", kBothDrivers, 0);
+  const char* wanted = std::getenv("POCL_DEVICES");
+  return wanted != nullptr && std::string_view(wanted) == kBothDrivers;
+}
+
+/// Hides the driver without worker threads from the list of devices: it becomes the `caller` of the
+/// device with threads, and is no choice of its own.
+void pair_drivers(std::vector<Found>& of_platform) {
+  const auto named = [&](const char* prefix) {
+    return std::find_if(of_platform.begin(), of_platform.end(),
+                        [&](const Found& f) { return f.info.name.rfind(prefix, 0) == 0; });
+  };
+  const auto basic = named("basic-");
+  const auto threads = named("pthread-");
+  if (basic == of_platform.end() || threads == of_platform.end()) return;
+  threads->caller = basic->device;
+  of_platform.erase(basic);
+}
+
 /// Returns the devices of all platforms.
 std::vector<Found> find_devices() {
   // Before the first OpenCL call: PoCL reads its cache folder from the environment when its
@@ -95,6 +131,7 @@ std::vector<Found> find_devices() {
   std::vector<cl_platform_id> platforms(platform_count);
   if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
   for (cl_platform_id platform : platforms) {
+    const bool asked = ask_for_caller_driver(platform);
     // OpenCL wants two calls, the first for the number. A platform without devices reports an
     // error, so errors do not end the search.
     cl_uint count = 0;
@@ -104,8 +141,11 @@ std::vector<Found> find_devices() {
     std::vector<cl_device_id> devices(count);
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr) != CL_SUCCESS)
       continue;
-    for (cl_device_id device : devices) {
-      Found entry{platform, device, describe(platform, device)};
+    std::vector<Found> of_platform;
+    for (cl_device_id device : devices)
+      of_platform.push_back({platform, device, describe(platform, device), nullptr});
+    if (asked) pair_drivers(of_platform);
+    for (Found& entry : of_platform) {
       // The index counts over all platforms in the loader's order; it is what a user types.
       entry.info.index = static_cast<int>(found.size());
       found.push_back(std::move(entry));
@@ -205,19 +245,26 @@ Device::State::~State() {
   // waited for, since releasing a queue does not wait.
   if (queue != nullptr) clFinish(queue);
   for (auto& [name, event] : events) clReleaseEvent(event);
-  if (queue != nullptr) clReleaseCommandQueue(queue);
+  for (cl_command_queue one : queues)
+    if (one != nullptr) clReleaseCommandQueue(one);
   if (context != nullptr) clReleaseContext(context);
   // Seals now, in case the process is killed later: compiled kernels are then not compiled again.
   seal_kernel_cache();
 }
 
-void Device::State::open_queue() {
-  // Profiling cannot be switched on an existing queue, so a new one is created. The caller has
-  // waited for the old one.
-  if (queue != nullptr) clReleaseCommandQueue(queue);
-  cl_int code = CL_SUCCESS;
-  queue = clCreateCommandQueue(context, device, profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
-  check(code, "clCreateCommandQueue", *this);
+void Device::State::open_queues() {
+  // Profiling cannot be switched on an existing queue, so new ones are created. The caller has
+  // waited for the old ones.
+  for (std::size_t i = 0; i < kDrivers; ++i) {
+    if (queues[i] != nullptr) clReleaseCommandQueue(queues[i]);
+    queues[i] = nullptr;
+    if (drivers[i] == nullptr) continue;
+    cl_int code = CL_SUCCESS;
+    queues[i] =
+        clCreateCommandQueue(context, drivers[i], profiling ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
+    check(code, "clCreateCommandQueue", *this);
+  }
+  queue = queues[driver];
 }
 
 void Device::State::finish() {
@@ -275,14 +322,16 @@ Device::Device(const std::string& choice) : state_(std::make_shared<State>()) {
   const Found& pick = found[static_cast<std::size_t>(index)];
   state_->info = pick.info;
   state_->info.memory = allowed_memory(pick.info.memory);
-  state_->device = pick.device;
+  state_->drivers[0] = pick.device;
+  state_->drivers[1] = pick.caller;
   // Without a named platform, the meaning of a context is up to the driver.
   const cl_context_properties properties[] = {
       CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(pick.platform), 0};
   cl_int code = CL_SUCCESS;
-  state_->context = clCreateContext(properties, 1, &pick.device, nullptr, nullptr, &code);
+  state_->context = clCreateContext(properties, pick.caller != nullptr ? 2 : 1, state_->drivers,
+                                    nullptr, nullptr, &code);
   check(code, "clCreateContext", *state_);
-  state_->open_queue();
+  state_->open_queues();
 }
 
 Device::~Device() = default;
@@ -293,12 +342,23 @@ const DeviceInfo& Device::info() const { return state_->info; }
 std::uint64_t Device::memory_used() const { return state_->memory_used; }
 void Device::finish() { state_->finish(); }
 
+bool Device::has_caller_driver() const { return state_->drivers[1] != nullptr; }
+
+void Device::run_in_caller(bool on) {
+  const std::size_t wanted = on && has_caller_driver() ? 1 : 0;
+  if (wanted == state_->driver) return;
+  // Two queues have no common order, so the old one is emptied first.
+  state_->finish();
+  state_->driver = wanted;
+  state_->queue = state_->queues[wanted];
+}
+
 void Device::set_profile(bool on) {
   if (on == state_->profiling) return;
   // The events of the old queue are collected before it is released.
   state_->finish();
   state_->profiling = on;
-  state_->open_queue();
+  state_->open_queues();
 }
 
 std::vector<KernelTime> Device::profile() {

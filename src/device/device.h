@@ -56,6 +56,9 @@ struct KernelTime {
 /// only reads, maps and `finish` wait for it. As there is only one queue, the order of operations
 /// does not depend on the driver, so that results on one device are repeatable. Not thread-safe.
 /// Moving is cheap and leaves the source without a device.
+///
+/// With PoCL a device has a second driver without worker threads. Small launches are faster there,
+/// as no thread is woken [docs/soil.md, threads]; the bits of the results are the same.
 class Device {
  public:
   /// Selects a device: "cpu", "gpu", an index in `list_devices`, or a part of a device or platform
@@ -80,6 +83,15 @@ class Device {
   /// Waits until all queued work is done.
   /// @throws DeviceError if any of it failed
   void finish();
+
+  /// Runs all kernels from now on in the caller's thread (true), or in the driver's worker threads
+  /// (false, the default). Waits for queued work when that changes something; kernels are compiled
+  /// anew at their first launch after the first change. Without a driver for the caller's thread
+  /// (has_caller_driver) this does nothing.
+  void run_in_caller(bool on);
+  /// Returns true if the device has a driver that runs kernels in the caller's thread: PoCL before
+  /// version 4, unless the environment variable POCL_DEVICES excludes it (POCL_DEVICES=pthread).
+  bool has_caller_driver() const;
 
   /// Switches the recording of kernel times on or off. It is off by default, as it slows a run down
   /// slightly. Waits for queued work.

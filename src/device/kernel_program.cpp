@@ -2,7 +2,9 @@
 #include "device/kernel_program.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 
 #include "core/long_work.h"
 #include "device/kernel_cache.h"
@@ -14,33 +16,54 @@ namespace navvy::device {
 struct KernelProgram::State {
   std::shared_ptr<Device::State> device;
   std::string name;
-  cl_program program = nullptr;
+  // Expanded source and compiler options, kept for the driver that has not been used yet.
+  std::string source, flags;
+  // One per driver, built when it is first needed: most runs use one driver only.
+  cl_program programs[kDrivers] = {};
 
   State() = default;
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (program != nullptr && !device->lost) clReleaseProgram(program);
+    for (cl_program program : programs)
+      if (program != nullptr && !device->lost) clReleaseProgram(program);
   }
+  /// Returns the program for the driver in use, and builds it if necessary.
+  /// @throws DeviceError with options and build log
+  cl_program built();
 };
 
 struct Kernel::State {
+  /// Value of an argument, as last set.
+  struct Argument {
+    std::vector<unsigned char> value;
+    std::size_t bytes = 0;      // size, also of local memory, which has no value
+    std::uint64_t buffer = 0;   // number of the buffer; 0 for plain values
+    bool known[kDrivers] = {};  // true for drivers whose kernel has this value
+  };
   std::shared_ptr<KernelProgram::State> program;
   std::string name;
-  cl_kernel kernel = nullptr;
+  // One per driver, created when it is first needed.
+  cl_kernel kernels[kDrivers] = {};
   // Properties of the kernel, queried once so that a launch queries nothing.
-  cl_uint arguments = 0;
+  cl_uint count = 0;
   // Work-group size that the kernel requires.
   std::size_t group[3] = {1, 1, 1};
-  // True after the first launch.
-  bool launched = false;
+  std::vector<Argument> arguments;
+  // True after the first launch on a driver.
+  bool launched[kDrivers] = {};
 
   State() = default;
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (kernel != nullptr && !program->device->lost) clReleaseKernel(kernel);
+    for (cl_kernel kernel : kernels)
+      if (kernel != nullptr && !program->device->lost) clReleaseKernel(kernel);
   }
+  /// Returns the kernel for the driver in use, and creates it if necessary.
+  cl_kernel made();
+  /// Passes an argument to the kernel of the driver in use, unless that has it already.
+  void pass(unsigned index);
 };
 
 namespace {
@@ -57,29 +80,32 @@ std::unique_ptr<SlowCall> log_if_slow(const Device::State& device, const std::st
 
 /// Returns the build log without trailing zeros and empty lines, which would split an error's text.
 std::string build_log(cl_program program, const Device::State& device) {
+  const cl_device_id driver = device.drivers[device.driver];
   std::size_t size = 0;
-  if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) !=
-      CL_SUCCESS)
+  if (clGetProgramBuildInfo(program, driver, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size) != CL_SUCCESS)
     return "";
   std::string log(size, '\0');
-  if (clGetProgramBuildInfo(program, device.device, CL_PROGRAM_BUILD_LOG, size, log.data(),
-                            nullptr) != CL_SUCCESS) {
+  if (clGetProgramBuildInfo(program, driver, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr) !=
+      CL_SUCCESS) {
     return "";
   }
   while (!log.empty() && (log.back() == '\0' || log.back() == '\n')) log.pop_back();
   return log;
 }
 
-/// Builds a program. Compilers are written in C++ and allocate with `new`: when out of memory they
-/// throw through the driver's C code, which then keeps its locks for ever. All objects of the
-/// driver are then given up, since releasing any program would wait for a lock.
-cl_int build_or_give_up(KernelProgram::State& state, const std::string& flags) {
+/// Builds a program for the driver in use. Compilers are written in C++ and allocate with `new`:
+/// when out of memory they throw through the driver's C code, which then keeps its locks for ever.
+/// All objects of the driver are then given up, since releasing any program would wait for a lock.
+cl_int build_or_give_up(KernelProgram::State& state) {
+  Device::State& device = *state.device;
+  cl_program& program = state.programs[device.driver];
   const LongWork work("the OpenCL driver was busy compiling kernels");
   try {
-    return clBuildProgram(state.program, 1, &state.device->device, flags.c_str(), nullptr, nullptr);
+    return clBuildProgram(program, 1, &device.drivers[device.driver], state.flags.c_str(), nullptr,
+                          nullptr);
   } catch (const std::exception& error) {
-    state.program = nullptr;
-    state.device->lost = true;
+    program = nullptr;
+    device.lost = true;
     throw DeviceError("the OpenCL driver threw an exception (" + std::string(error.what()) +
                           ") while building kernels/" + state.name +
                           "; check whether the machine is out of memory",
@@ -95,28 +121,35 @@ std::shared_ptr<KernelProgram::State> build(Device& device, const std::string& n
   auto state = std::make_shared<KernelProgram::State>();
   state->device = device.state();
   state->name = name;
-  const std::string source = expand_includes(name, text);
-  const char* data = source.c_str();
-  const std::size_t size = source.size();
-  cl_int code = CL_SUCCESS;
-  state->program = clCreateProgramWithSource(state->device->context, 1, &data, &size, &code);
-  check(code, "clCreateProgramWithSource", *state->device, name);
-  std::string flags;
-  for (const std::string& flag : compiler_flags(device.info())) flags += flag + " ";
-  for (const std::string& option : options) flags += option + " ";
-  // The notice ends with this scope, also when the build fails.
-  const auto slow = log_if_slow(*state->device, "kernels/" + name);
-  code = build_or_give_up(*state, flags);
-  if (code != CL_SUCCESS) {
-    throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " +
-                          device.info().name + ", options: " + flags + "\n" +
-                          build_log(state->program, *state->device),
-                      code);
-  }
+  state->source = expand_includes(name, text);
+  for (const std::string& flag : compiler_flags(device.info())) state->flags += flag + " ";
+  for (const std::string& option : options) state->flags += option + " ";
+  // Built at once, so that errors appear where the program is constructed.
+  state->built();
   return state;
 }
 
 }  // namespace
+
+cl_program KernelProgram::State::built() {
+  cl_program& program = programs[device->driver];
+  if (program != nullptr) return program;
+  const char* data = source.c_str();
+  const std::size_t size = source.size();
+  cl_int code = CL_SUCCESS;
+  program = clCreateProgramWithSource(device->context, 1, &data, &size, &code);
+  check(code, "clCreateProgramWithSource", *device, name);
+  // The notice ends with this scope, also when the build fails.
+  const auto slow = log_if_slow(*device, "kernels/" + name);
+  code = build_or_give_up(*this);
+  if (code != CL_SUCCESS) {
+    throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " +
+                          device->info.name + ", options: " + flags + "\n" +
+                          build_log(program, *device),
+                      code);
+  }
+  return program;
+}
 
 std::string define(const std::string& name, int value) {
   return "-D" + name + "=" + std::to_string(value);
@@ -159,23 +192,43 @@ Kernel::Kernel(const KernelProgram& program, const std::string& name)
   state_->program = program.state();
   state_->name = name;
   const Device::State& device = *state_->program->device;
-  cl_int code = CL_SUCCESS;
-  state_->kernel = clCreateKernel(state_->program->program, name.c_str(), &code);
-  // The message names the file, as a wrong name is usually one that was renamed there.
-  check(code, "clCreateKernel", device, name + " of kernels/" + state_->program->name);
-  check(clGetKernelInfo(state_->kernel, CL_KERNEL_NUM_ARGS, sizeof state_->arguments,
-                        &state_->arguments, nullptr),
+  const cl_kernel kernel = state_->made();
+  check(clGetKernelInfo(kernel, CL_KERNEL_NUM_ARGS, sizeof state_->count, &state_->count, nullptr),
         "clGetKernelInfo", device, name);
-  check(clGetKernelWorkGroupInfo(state_->kernel, device.device, CL_KERNEL_COMPILE_WORK_GROUP_SIZE,
-                                 sizeof state_->group, state_->group, nullptr),
+  state_->arguments.resize(state_->count);
+  check(clGetKernelWorkGroupInfo(kernel, device.drivers[device.driver],
+                                 CL_KERNEL_COMPILE_WORK_GROUP_SIZE, sizeof state_->group,
+                                 state_->group, nullptr),
         "clGetKernelWorkGroupInfo", device, name);
   // 0: the kernel requires none.
   for (std::size_t& size : state_->group) size = std::max<std::size_t>(size, 1);
 }
 
+cl_kernel Kernel::State::made() {
+  cl_kernel& kernel = kernels[program->device->driver];
+  if (kernel != nullptr) return kernel;
+  cl_int code = CL_SUCCESS;
+  kernel = clCreateKernel(program->built(), name.c_str(), &code);
+  // The message names the file, as a wrong name is usually one that was renamed there.
+  check(code, "clCreateKernel", *program->device, name + " of kernels/" + program->name);
+  return kernel;
+}
+
+void Kernel::State::pass(unsigned index) {
+  Argument& argument = arguments[index];
+  bool& known = argument.known[program->device->driver];
+  if (known) return;
+  const void* data = argument.value.empty() ? nullptr : argument.value.data();
+  const cl_int code = clSetKernelArg(made(), index, argument.bytes, data);
+  // The text of an error is built only if there is one.
+  if (code != CL_SUCCESS)
+    check(code, "clSetKernelArg", *program->device, name + ", argument " + std::to_string(index));
+  known = true;
+}
+
 void Kernel::expect(std::size_t count) const {
-  if (count == state_->arguments) return;
-  throw DeviceError("kernel " + state_->name + " takes " + std::to_string(state_->arguments) +
+  if (count == state_->count) return;
+  throw DeviceError("kernel " + state_->name + " takes " + std::to_string(state_->count) +
                         " arguments, " + std::to_string(count) + " were given",
                     CL_INVALID_KERNEL_ARGS);
 }
@@ -183,16 +236,28 @@ void Kernel::expect(std::size_t count) const {
 void Kernel::set_buffer(unsigned index, const RawBuffer& buffer) {
   // A cl_mem is a pointer; its value is the argument.
   void* memory = buffer.handle();
-  set_bytes(index, &memory, sizeof(void*));
+  set_bytes(index, &memory, sizeof(void*), buffer.number());
 }
 
-void Kernel::set_bytes(unsigned index, const void* data, std::size_t bytes) {
-  // Called before every launch by some callers, so the text of an error is built only if there is
-  // one.
-  const cl_int code = clSetKernelArg(state_->kernel, index, bytes, data);
-  if (code == CL_SUCCESS) return;
-  check(code, "clSetKernelArg", *state_->program->device,
-        state_->name + ", argument " + std::to_string(index));
+void Kernel::set_bytes(unsigned index, const void* data, std::size_t bytes, std::uint64_t buffer) {
+  if (index >= state_->count)
+    check(CL_INVALID_ARG_INDEX, "clSetKernelArg", *state_->program->device,
+          state_->name + ", argument " + std::to_string(index));
+  State::Argument& argument = state_->arguments[index];
+  // Most arguments are those of the launch before. A buffer is compared by its number, too: a new
+  // one may have the address of one that is gone, and the driver may hold more than the address.
+  const std::size_t held = data == nullptr ? 0 : bytes;
+  const bool same = argument.bytes == bytes && argument.buffer == buffer &&
+                    argument.value.size() == held &&
+                    (held == 0 || std::memcmp(argument.value.data(), data, held) == 0);
+  if (!same) {
+    const auto* first = static_cast<const unsigned char*>(data);
+    argument.value.assign(first, first + held);
+    argument.bytes = bytes;
+    argument.buffer = buffer;
+    for (bool& known : argument.known) known = false;
+  }
+  state_->pass(index);
 }
 
 void Kernel::enqueue(WorkSize global) { launch(global, nullptr); }
@@ -215,17 +280,23 @@ void Kernel::enqueue_groups(std::size_t groups) {
 void Kernel::launch(const WorkSize& global, const std::size_t* local) {
   if (global.n[0] == 0 || global.n[1] == 0 || global.n[2] == 0) return;
   Device::State& device = *state_->program->device;
+  const cl_kernel kernel = state_->made();
+  // After a change of the driver its kernel may lack arguments that were set before. Those that
+  // were never set are left for the launch to report.
+  for (unsigned i = 0; i < state_->count; ++i)
+    if (state_->arguments[i].bytes > 0) state_->pass(i);
   cl_event event = nullptr;
   // The driver may compile machine code at the first launch instead of at the build; the notice
   // ends at the next wait.
-  if (!state_->launched && !device.compiling)
+  bool& launched = state_->launched[device.driver];
+  if (!launched && !device.compiling)
     device.compiling = log_if_slow(device, "kernel " + state_->name);
-  state_->launched = true;
+  launched = true;
   const LongWork work("the OpenCL driver was busy compiling or starting a kernel");
   // With fewer axes a driver may choose better work-groups.
   const cl_uint axes = global.n[2] > 1 ? 3 : global.n[1] > 1 ? 2 : 1;
-  check(clEnqueueNDRangeKernel(device.queue, state_->kernel, axes, nullptr, global.n, local, 0,
-                               nullptr, device.profiling ? &event : nullptr),
+  check(clEnqueueNDRangeKernel(device.queue, kernel, axes, nullptr, global.n, local, 0, nullptr,
+                               device.profiling ? &event : nullptr),
         "clEnqueueNDRangeKernel", device, state_->name);
   if (event == nullptr) return;
   device.events.emplace_back(state_->name, event);

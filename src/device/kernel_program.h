@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -133,8 +134,10 @@ class Kernel {
   /// Sets the argument with the 0-based `index` to a buffer.
   void set_buffer(unsigned index, const RawBuffer& buffer);
   /// Sets the argument with the 0-based `index` to a copy of `bytes` bytes at `data`. If `data` is
-  /// null, reserves `bytes` bytes of local memory per work-group instead.
-  void set_bytes(unsigned index, const void* data, std::size_t bytes);
+  /// null, reserves `bytes` bytes of local memory per work-group instead. `buffer`: number of the
+  /// buffer whose handle the bytes are, or 0. Nothing is passed to the driver if the kernel has the
+  /// argument already.
+  void set_bytes(unsigned index, const void* data, std::size_t bytes, std::uint64_t buffer = 0);
   /// Queues a launch; all launches use this function. It records the profile and announces a first
   /// compilation. A null `local` lets the driver choose the work-group size.
   void launch(const WorkSize& global, const std::size_t* local);

@@ -2,6 +2,7 @@
 #include "device/device.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cctype>
 #include <cstdio>
@@ -122,6 +123,60 @@ TEST(Device, OutlivesItsOwnerWhileBuffersExist) {
     buffer = Buffer<int>(device, std::vector<int>{4, 5});
   }
   EXPECT_EQ(buffer.read(), (std::vector<int>{4, 5}));
+}
+
+/// Adds a number to each value in work-groups of one work-item, so that threads have work to share.
+const char* const kAdd =
+    "kernel void add(global int* x, int n, local int* l) { l[0] = n; x[get_global_id(0)] += l[0]; "
+    "}";
+
+TEST(Device, RunsKernelsInTheCallersThreadWithTheSameArguments) {
+  Device device;
+  Buffer<int> x(device, std::vector<int>{1, 2, 3});
+  Kernel add(KernelProgram::from_text(device, "add", kAdd), "add");
+  add.args(x, 10, LocalMemory{4}).enqueue(3, 1);
+  device.run_in_caller(true);
+  // Arguments persist over the change, buffers keep their content.
+  add.enqueue(3, 1);
+  add.args(x, 100, LocalMemory{4}).enqueue(3, 1);
+  EXPECT_EQ(x.read(), (std::vector<int>{121, 122, 123}));
+  device.run_in_caller(false);
+  add.enqueue(3, 1);
+  EXPECT_EQ(x.read(), (std::vector<int>{221, 222, 223}));
+}
+
+TEST(Device, PassesANewBufferInThePlaceOfOneThatIsGone) {
+  Device device;
+  Kernel add(KernelProgram::from_text(device, "add", kAdd), "add");
+  for (int i = 0; i < 20; ++i) {
+    // Drivers give freed addresses again, so that handles of the past come back.
+    Buffer<int> x(device, std::vector<int>{i, i});
+    add.args(x, 1, LocalMemory{4}).enqueue(2, 1);
+    EXPECT_EQ(x.read(), (std::vector<int>{i + 1, i + 1}));
+  }
+}
+
+TEST(Device, WakesNoThreadForKernelsInTheCallersThread) {
+  Device device;
+  if (!device.has_caller_driver()) GTEST_SKIP() << "no driver for the caller's thread";
+  Buffer<int> x(device, std::vector<int>(64));
+  Kernel add(KernelProgram::from_text(device, "add", kAdd), "add");
+  device.run_in_caller(true);
+  add.args(x, 1, LocalMemory{4}).enqueue(64, 1);
+  device.finish();
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  for (int i = 0; i < 1000; ++i) {
+    add.enqueue(64, 1);
+    device.finish();
+  }
+  getrusage(RUSAGE_SELF, &after);
+  // With worker threads each wait is a switch at least.
+  EXPECT_LT(after.ru_nvcsw - before.ru_nvcsw, 100);
+}
+
+TEST(Device, ListsOneDeviceForBothDriversOfAProcessor) {
+  for (const DeviceInfo& info : list_devices()) EXPECT_NE(info.name.substr(0, 6), "basic-");
 }
 
 TEST(DeviceError, NamesErrorsSymbolically) {
