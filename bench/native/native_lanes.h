@@ -28,6 +28,12 @@ inline Lanes fmax(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 inline Lanes fmin(const Lanes& a, float b) { return fmin(a, Lanes{} + b); }
 inline Lanes fmax(const Lanes& a, float b) { return fmax(a, Lanes{} + b); }
 inline float fmax(float a, float b) { return a > b ? a : b; }
+inline Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+inline Lanes smaller(const Lanes& a, float b) { return smaller(a, Lanes{} + b); }
+inline Lanes larger(const Lanes& a, float b) { return larger(a, Lanes{} + b); }
+inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) { return a > b ? a : b; }
 inline Lanes fabs(const Lanes& a) { return fmax(a, -a); }
 inline Lanes sqrt(const Lanes& a) {
   Lanes out;
@@ -53,6 +59,7 @@ inline ints isfinite(const Lanes& a) {
 inline float clamp(float x, float low, float high) { return x < low ? low : x > high ? high : x; }
 inline float mean_of(columns t) { return t; }
 inline bool all(bool of_columns) { return of_columns; }
+inline Lanes floored(const Lanes& a) { return floor(a); }
 
 #include "soil/node.h"   // NOLINT: on purpose inside the namespace
 #include "soil/point.h"  // NOLINT: the same

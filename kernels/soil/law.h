@@ -61,9 +61,9 @@ typedef struct LawState {
 // by three Newton steps from 1, of which the first is written out. 2 / sqrt(27) bounds the
 // invariant of s in exact arithmetic.
 INLINED real lode_radius(real determinant, real q, real sin_phi) {
-  const real safe = fmax(q, (scalar)(1e-3));
+  const real safe = larger(q, (scalar)(1e-3));
   const real invariant =
-      fmin(fmax(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
+      smaller(larger(-determinant / (safe * safe * safe), (scalar)(-0.3849)), (scalar)(0.3849));
   const real a = 0.5f * sin_phi * (3.0f - sin_phi * sin_phi) * invariant;
   real r = 1.0f + a / (2.0f - 3.0f * a);
   for (int newton = 0; newton < 2; ++newton)
@@ -73,7 +73,7 @@ INLINED real lode_radius(real determinant, real q, real sin_phi) {
 
 // Returns the share of bank density in the density state j0: 1 in bank state, 0 when loose.
 INLINED real dense_share(const LawSoil* soil, real j0) {
-  return fmin(fmax(soil->dense_offset - j0 * soil->inv_range, 0.0f), 1.0f);
+  return smaller(larger(soil->dense_offset - j0 * soil->inv_range, 0.0f), 1.0f);
 }
 
 // Returns the cohesion term of the yield stress, k = c cos phi [Pa], of soil that is not open
@@ -85,7 +85,7 @@ INLINED real cohesion_term(const LawSoil* soil, real dense, real shear) {
 
 // Returns the share of the cohesion that is left when J / J0 - 1 = open.
 INLINED real opening_share(const LawSoil* soil, real open) {
-  return fmin(fmax(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
+  return smaller(larger(1.0f - open * soil->inv_opening, 0.0f), 1.0f);
 }
 
 // Advances the state by dt [s] under the velocity gradient c [1/s], row by row. sigma: output, the
@@ -115,18 +115,18 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // [docs/soil.md, opening]. The lower limit keeps p finite. The upper limit is far above any soil
   // in flight: a loose particle that is stuck to a plate would open without end, and mixing would
   // open its cell.
-  j = fmin(fmax(j * (1.0f + dt * trace), SCHEME(min_volume_ratio)), SCHEME(max_volume_ratio));
+  j = smaller(larger(j * (1.0f + dt * trace), SCHEME(min_volume_ratio)), SCHEME(max_volume_ratio));
 #ifdef LAW_EXTENDED
   // One Newton step towards the density state that carries the pressure. Loosened soil carries
   // little until it is dense again [docs/soil.md, compaction].
   const real line = 1.0f + soil->cap_growth * (1.0f - j0);
   const real over =
-      fmax(soil->bulk * (1.0f - j / j0) - soil->cap * fmax(line, (scalar)(0.05)), 0.0f);
+      larger(soil->bulk * (1.0f - j / j0) - soil->cap * larger(line, (scalar)(0.05)), 0.0f);
   const real slope = soil->bulk / j0 + soil->cap * soil->cap_growth * step((scalar)(0.05), line);
-  j0 = fmax(j0 - over / slope, fmin(j0, SCHEME(min_density_state)));
+  j0 = larger(j0 - over / slope, smaller(j0, SCHEME(min_density_state)));
 #endif
   const real open = j / j0 - 1.0f;
-  const real p = soil->bulk * fmax(-open, 0.0f);
+  const real p = soil->bulk * larger(-open, 0.0f);
 
   // Yield stress from the cohesion of the density state and of the remaining bonds, faded by
   // opening [docs/soil.md, cohesion], then radial return [Klar 2016]
@@ -149,13 +149,13 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
       xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   real strength =
       lode_radius(determinant, q, sin_phi) *
-      (1.0f + soil->static_share * fmax(1.0f - rate * SCHEME(static_friction_time), 0.0f));
+      (1.0f + soil->static_share * larger(1.0f - rate * SCHEME(static_friction_time), 0.0f));
 #ifdef LAW_EXTENDED
   strength = strength * (1.0f + soil->matched * dense);
 #endif
   const real alpha = strength * sin_phi;
   const real q_yield = alpha * p + strength * k * fade;
-  const real keep = fmin(q_yield / fmax(q, (scalar)(1e-9)), 1.0f);
+  const real keep = smaller(q_yield / larger(q, (scalar)(1e-9)), 1.0f);
 #ifdef LAW_EXTENDED
   // Closed soil that dilates raises its own pressure as it slips. Part of the return is therefore a
   // rise of the yield stress [docs/soil.md, dilatancy].
@@ -163,8 +163,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   const real harder = alpha * soil->bulk * b * step(0.0f, -open);
   const real slip = q * (1.0f - keep) / (soil->shear + harder);
   const real stay = keep + (1.0f - keep) * (harder / (soil->shear + harder));
-  j0 = fmin(j0 * (1.0f + b * slip), fmax(soil->swell, j0));
-  const real pressure = soil->bulk * fmax(1.0f - j / j0, 0.0f);
+  j0 = smaller(j0 * (1.0f + b * slip), larger(soil->swell, j0));
+  const real pressure = soil->bulk * larger(1.0f - j / j0, 0.0f);
 #else
   const real slip = q * (1.0f - keep) / soil->shear;
   const real stay = keep, pressure = p;
@@ -180,7 +180,7 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // stress that acts on the grid; the yield stress used the pressure without it
   // [docs/soil.md, viscosity].
   const real eta2 = 2.0f * soil->viscosity * step(1.0f, keep);
-  const real damped = fmax(pressure - SCHEME(volume_damping) * soil->viscosity * trace, 0.0f);
+  const real damped = larger(pressure - SCHEME(volume_damping) * soil->viscosity * trace, 0.0f);
   const real applied = pressure > 0.0f ? damped : pressure;
   sigma[0] = s[0] + eta2 * dxx - applied;
   sigma[1] = s[1] + eta2 * dyy - applied;
@@ -192,8 +192,8 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   // Plastic shear loosens the density state [docs/soil.md, swell], but never beyond J: loosening
   // must not create pressure.
   state->shear = state->shear + slip;
-  const real grown = fmin(j0 + soil->loosening * slip, j);
-  state->j0 = fmax(j0, fmin(grown, soil->swell));
+  const real grown = smaller(j0 + soil->loosening * slip, j);
+  state->j0 = larger(j0, smaller(grown, soil->swell));
   state->j = j;
 }
 

@@ -22,7 +22,7 @@ INLINED void spline(real f, real* w) {
 // Returns the base node of a coordinate relative to the corner of its block [cells]. The result is
 // limited to the tile even for a NaN: the host will stop the run, but the kernel must not write
 // outside the tile.
-INLINED real base_node(real x) { return fmin(fmax(floor(x - 0.5f), -1.0f), 4.0f); }
+INLINED real base_node(real x) { return smaller(larger(floored(x - 0.5f), -1.0f), 4.0f); }
 
 // Returns the tile that particles on a given side (particle_fields.h) scatter to, and the node
 // field that they gather from: 0 neutral, 1 front, 2 back.
@@ -36,7 +36,7 @@ INLINED ints tile_of(ints side) { return side > 0 ? 2 - (side & 1) : 0; }
 // particles of a cell were open and half closed, the closed ones would carry a heap by themselves,
 // and it would come to rest too loose.
 INLINED real mean_opening(real volume, real bank, real open) {
-  return open > 0.0f ? volume / fmax(bank, 1.0f) : 0.0f;
+  return open > 0.0f ? volume / larger(bank, 1.0f) : 0.0f;
 }
 
 // Returns J of a particle after it has relaxed by the share `mixing` towards the mean opening of
@@ -62,7 +62,7 @@ INLINED real strain_rate(const real* c) {
 INLINED void advance_state(const real* c, scalar dt, const LawSoil* soil, real opening,
                            scalar mixing, scalar most_mixing, LawState* state, real* sigma) {
   const real before = state->j;
-  state->j = mixed(before, state->j0, opening, fmin(mixing * strain_rate(c), most_mixing));
+  state->j = mixed(before, state->j0, opening, smaller(mixing * strain_rate(c), most_mixing));
   law_update(c, dt, soil, state, sigma);
   state->j = isfinite(before) ? state->j : before + NAN;
 }
@@ -109,8 +109,8 @@ INLINED real velocity_gradient(real moment, real f, real v, scalar dx) {
 // soil at rest keeps its positions. full: node mass, divided by the free fraction, above which soil
 // counts as crowded at J = 1 [kg]. spread: dt / shear strain over which crowded soil separates [s].
 INLINED real crowding(const real* c, real j, real j0, real node_mass, scalar full, scalar spread) {
-  const real packed = full / fmax(node_mass, MASS_QUANTUM);
-  return fmin(j, j0) > packed ? fmin(spread * strain_rate(c), 1.0f) : 0.0f;
+  const real packed = full / larger(node_mass, MASS_QUANTUM);
+  return smaller(j, j0) > packed ? smaller(spread * strain_rate(c), 1.0f) : 0.0f;
 }
 
 // Returns the corrected J of a particle that is open (J > J0) although its nodes contain the mass
@@ -128,12 +128,12 @@ INLINED real close_noise(real j, real j0, real node_mass, scalar filled, scalar 
 // nodes contain more mass. share: from `crowding`; lean: sum of node mass x node position relative
 // to the particle along the axis [kg cells]; most: largest displacement [cells].
 INLINED real crowding_displacement(real share, real lean, real node_mass, scalar most) {
-  return fmin(fmax(-share * lean / fmax(node_mass, MASS_QUANTUM), -most), most);
+  return smaller(larger(-share * lean / larger(node_mass, MASS_QUANTUM), -most), most);
 }
 
 // Returns the largest absolute component of the velocity v; infinite if a component is not finite.
 INLINED real fastest_component(const real* v) {
-  const real largest = fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2]));
+  const real largest = larger(larger(fabs(v[0]), fabs(v[1])), fabs(v[2]));
   return isfinite(v[0] + v[1] + v[2]) ? largest : INFINITY;
 }
 

@@ -17,6 +17,12 @@ typedef float3 scalar3;
 typedef float4 columns;
 #define INLINED static inline
 
+// Return the smaller and the larger of two values, and the second one if either is NaN: a single
+// instruction, unlike fmin and fmax, which must return the one that is a number.
+static inline float smaller(float a, float b) { return a < b ? a : b; }
+static inline float larger(float a, float b) { return a > b ? a : b; }
+// Returns the largest whole number that is not above x.
+static inline float floored(float x) { return floor(x); }
 // Returns true if a condition holds for any of the particles computed at a time; here there is only
 // one.
 static inline int some(int yes) { return yes; }

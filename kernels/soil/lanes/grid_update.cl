@@ -87,11 +87,11 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   const bool in_the_open = far_above(ground);
   for (int i = 0; i < 16; ++i) {
     if (!some(rows[i] != 0.0f)) {
-      vstore16((float16)(0.0f), i, out);
+      PUT16((float16)(0.0f), out + 16 * i);
       continue;
     }
     const float16 v = velocity_of(rows[i], dv, hold, out + 16 * i);
-    vstore16(in_the_open ? v : held(v, ground, i), i, out);
+    PUT16(in_the_open ? v : held(v, ground, i), out + 16 * i);
   }
 }
 
@@ -159,8 +159,8 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update_near(
     const float16 sum = rows[0][i] + rows[1][i] + rows[2][i];
     const float16 front = rows[1][i] + select(none, rows[0][i], s == 1);
     const float16 back = rows[2][i] + select(none, rows[0][i], s == 2);
-    vstore16(velocity_of(select(sum, front, s > 0), dv, hold, from0 + 16 * i), i, out0);
-    vstore16(velocity_of(select(none, back, s > 0), dv, hold, from1 + 16 * i), i, out1);
+    PUT16(velocity_of(select(sum, front, s > 0), dv, hold, from0 + 16 * i), out0 + 16 * i);
+    PUT16(velocity_of(select(none, back, s > 0), dv, hold, from1 + 16 * i), out1 + 16 * i);
     const float4 m = fmax(sum.s37bf, MASS_QUANTUM);
     global float4* out = node_surface + near * BLOCK_NODES + 4 * i;
     out[0] = mixed ? weight[4 * i] / m.x : first;

@@ -44,7 +44,7 @@ INLINED void flush(global float* tile, int node, const Rows* sums) {
   for (int k = 0; k < 3; ++k) UNROLL
   for (int j = 0; j < 3; ++j) {
     global float* row = tile + 4 * (node + 8 * j + 64 * k);
-    vstore16(vload16(0, row) + sums->row[3 * k + j], 0, row);
+    PUT16(vload16(0, row) + sums->row[3 * k + j], row);
   }
 }
 
@@ -92,7 +92,7 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void particle_to_grid(
   for (int t = 0; mask >> t; ++t) {
     if (!(mask >> t & 1)) continue;
     for (int i = 0; i < TILE_NODES / 4; ++i)
-      vstore16((float16)(0.0f), i, tile + 4 * TILE_NODES * t);
+      PUT16((float16)(0.0f), tile + 4 * TILE_NODES * t + 16 * i);
   }
 
   float openings[4 * CELLS];

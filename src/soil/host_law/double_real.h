@@ -28,6 +28,12 @@ using std::fmax;
 using std::fmin;
 using std::isfinite;
 using std::sqrt;
+/// Returns the smaller of two values, and `b` if either is NaN, like the dialect's function.
+inline double smaller(double a, double b) { return a < b ? a : b; }
+/// Returns the larger of two values, and `b` if either is NaN, like the dialect's function.
+inline double larger(double a, double b) { return a > b ? a : b; }
+/// Returns the largest whole number that is not above x.
+inline double floored(double x) { return floor(x); }
 /// Returns x limited to low .. high, like the OpenCL built-in.
 inline double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
 /// Returns 0 if x < edge, else 1, like the OpenCL built-in.
