@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>
@@ -98,16 +99,31 @@ void held_bucket(int steps) {
   bench_row("soil_held_bucket", rig, steps, {motion});
 }
 
-/// A tilted bucket with its cutting edge in a bed of 28 800 particles: the cost of a trench.
-void dig(int steps) {
-  const soil::rig::SiteBox bed = {Vec3(6, 6, -0.6), Vec3(9, 8, 0)};
+/// A tilted bucket with its cutting edge in a bed of 8000 particles per cubic metre: the cost of a
+/// trench.
+void dig(const std::string& name, const soil::rig::SiteBox& bed, int steps) {
   soil::rig::Rig rig({soil::rig::sand(35)}, bed);
   rig.solver().insert(rig.fill(bed, true));
   soil::ToolMotion motion;
   motion.tool = rig.solver().add_tool(soil::rig::open_box(0.8, 0.8, 0.6));
   motion.v_WT = Vec3(0.5, 0, 0);
   motion.X_WT = make_pose(7.01, 7.02, 0.1, 0, radians(110), 0);
-  bench_row("soil_dig", rig, steps, {motion});
+  bench_row(name, rig, steps, {motion});
+}
+
+/// The same dig in beds of several sizes, in the caller's thread and in worker threads. Where both
+/// are equally fast lies the number of particles in src/soil/particles/schedule.cpp.
+void threads() {
+  for (const Vec3& size : {Vec3(1.6, 1, 0.3), Vec3(1.6, 1, 0.6), Vec3(2, 1.2, 0.6),
+                           Vec3(2, 1.7, 0.6), Vec3(2.5, 2, 0.6), Vec3(3, 2.4, 0.6)}) {
+    const soil::rig::SiteBox bed = {Vec3(6.4, 7 - size.y() / 2, -size.z()),
+                                    Vec3(6.4 + size.x(), 7 + size.y() / 2, 0)};
+    for (const char* below : {"1e9", "0"}) {
+      ::setenv("NAVVY_FEW_PARTICLES", below, 1);
+      dig(*below == '0' ? "soil_dig_workers" : "soil_dig_caller", bed, 300);
+    }
+    ::unsetenv("NAVVY_FEW_PARTICLES");
+  }
 }
 
 /// Runs the cases whose name contains the given word, or all cases without one.
@@ -122,7 +138,8 @@ int main(int argc, char** argv) {
   try {
     for (int i = 1; i < argc; ++i)
       (std::string(argv[i]) == "--profile" ? profile = true : (only = argv[i], true));
-    run("dig", [] { dig(100); });
+    run("dig", [] { dig("soil_dig", {Vec3(6, 6, -0.6), Vec3(9, 8, 0)}, 100); });
+    run("threads", threads);
     run("held_bucket", [] { held_bucket(200); });
     run("collapse_8k", [] { collapse(1.0, 200); });
     run("collapse_50k", [] { collapse(1.85, 100); });

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "device/device_error.h"
+#include "soil/particles/schedule.h"
 #include "soil/solver_state.h"
 
 namespace navvy::soil {
@@ -15,6 +16,13 @@ namespace {
 /// 0.5, and contact and law are stable to 0.8 [docs/soil.md, time step]. Otherwise a base step
 /// chosen for a slower tool would cost two half steps.
 constexpr double kMostStep = 1.3;
+
+/// Returns the device, with its driver for few particles: a solver starts without any, and its
+/// programs are then built for the driver that is used first.
+device::Device& for_few(device::Device& device) {
+  device.run_in_caller(true);
+  return device;
+}
 
 /// Returns the largest sound speed of the scene's soils [m/s], which limits the step.
 double fastest_sound_of(const std::vector<scene::Soil>& soils) {
@@ -57,9 +65,10 @@ void add_impulse(ToolImpulse& sum, const ToolImpulse& part) {
 
 }  // namespace
 
-Solver::State::State(device::Device& device, const scene::Scene& world_in,
+Solver::State::State(device::Device& device_in, const scene::Scene& world_in,
                      heightfield::Ground& ground_in, const SchemeConstants& scheme_in)
-    : world(world_in),
+    : device(for_few(device_in)),
+      world(world_in),
       ground(ground_in),
       scheme(scheme_in),
       frame(world_in, ground_in),
@@ -77,7 +86,8 @@ Solver::State::State(device::Device& device, const scene::Scene& world_in,
       floor(ground_in, frame.grid, scheme_in.held_margin),
       exchange(world_in, ground_in, scheme_in),
       standing(world, ground_in, frame, contact),
-      masses(ground_in, world_in.soils.size()) {}
+      masses(ground_in, world_in.soils.size()),
+      few_particles(soil::few_particles(device)) {}
 
 Solver::Solver(device::Device& device, const scene::Scene& world, heightfield::Ground& ground,
                const SchemeConstants& scheme)
@@ -186,6 +196,7 @@ void Solver::State::advance(double dt, std::span<const ToolMotion> motions,
     contact.set_twists(motions);
     update_floor();
   } else if (particles.count() > 0) {
+    choose_driver();
     rebin_if_due();
     update_lists(motions);
   }
@@ -337,6 +348,9 @@ void Solver::State::add(std::vector<Particle> added) {
   }
   assign(all);
 }
+
+// The results are the same to the bit with either driver.
+void Solver::State::choose_driver() { device.run_in_caller(particles.count() < few_particles); }
 
 void Solver::State::rebin_if_due() {
   if (!particles.rebin_due()) return;

@@ -37,8 +37,8 @@ namespace navvy::soil {
 ///
 /// The host waits for the device once per step, when it reads the report.
 struct Solver::State {
-  /// Creates all parts for a scene. `device` and `ground_in` must outlive the state.
-  State(device::Device& device, const scene::Scene& world_in, heightfield::Ground& ground_in,
+  /// Creates all parts for a scene. `device_in` and `ground_in` must outlive the state.
+  State(device::Device& device_in, const scene::Scene& world_in, heightfield::Ground& ground_in,
         const SchemeConstants& scheme_in);
 
   /// Advances by dt [s] in `parts` equal steps. Between two of them each tool moves on, and a tool
@@ -68,6 +68,9 @@ struct Solver::State {
   /// and adds `born` with new IDs.
   void replace(const std::vector<Particle>& all, const std::vector<std::uint8_t>& removed,
                std::vector<Particle> born);
+  /// Selects the driver for the present number of particles: few of them are simulated in the
+  /// caller's thread. Call it between two transfers only.
+  void choose_driver();
   /// Ends the current transfer: particles move, and block lists may change until the next step.
   void end_transfer() { particles.add_drift(current.end()); }
   /// Sorts the particles into new blocks if their drift requires it; records the mass of those that
@@ -108,6 +111,8 @@ struct Solver::State {
   /// Recomputes everything that follows from the saved state, after the state was loaded.
   void rebuild(Archive& a);
 
+  /// Device that runs the kernels.
+  device::Device& device;
   /// Scene that is simulated; never changed.
   scene::Scene world;
   /// Columns of the site.
@@ -142,6 +147,8 @@ struct Solver::State {
   MassRecord masses;
   /// Energy account; empty unless Solver::record_energy started one.
   std::optional<EnergyLedger> energy;
+  /// Number of particles below which kernels run in the caller's thread.
+  double few_particles;
   /// True if crowded particles are separated.
   bool crowding = true;
 

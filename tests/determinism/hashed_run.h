@@ -25,10 +25,10 @@ namespace navvy::determinism {
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
 /// Environment of PoCL's workers: the older name of the variable (to 3.x) and the newer one (from
-/// 4.0).
+/// 4.0). Without the driver for the caller's thread, which would run small scenes in any case.
 inline Environment threads(int count) {
   const std::string n = std::to_string(count);
-  return {{"POCL_MAX_PTHREAD_COUNT", n}, {"POCL_CPU_MAX_CU_COUNT", n}};
+  return {{"POCL_MAX_PTHREAD_COUNT", n}, {"POCL_CPU_MAX_CU_COUNT", n}, {"POCL_DEVICES", "pthread"}};
 }
 
 /// Environment for AVX2 kernels: PoCL compiles for the named processor, so a machine with AVX-512

@@ -21,6 +21,12 @@ TEST(Threads, OneAndTwoThreadsScoopBitIdentically) {
     EXPECT_GT(one.summary.at(key).get<int>(), 0) << key;
 }
 
+TEST(Threads, TheCallersThreadGivesTheBitsOfTwoWorkers) {
+  const HashedRun caller = hashed_run("caller", kScene, {"--duration", "5"}, {});
+  const HashedRun two = hashed_run("two", kScene, {"--duration", "5"}, threads(2));
+  EXPECT_EQ(first_difference(caller, two), "");
+}
+
 TEST(Threads, AResumedRunContinuesWithTheSameHashes) {
   const std::string snapshot = navvy::build_dir() + "/test-determinism/resume.snapshot";
   const HashedRun whole = hashed_run(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choice of the kernel variant for a device: soil law, transfers and contact are written for two
-// kinds of hardware.
+// Choices that depend on the device: the kernel variant, as soil law, transfers and contact are
+// written for two kinds of hardware, and the number of particles that are worth waking threads.
 #pragma once
 
 #include <string>
@@ -27,5 +27,12 @@ Schedule schedule_for(const device::Device& device);
 /// Returns the path of a stage's kernel source for the device's schedule, for example
 /// "soil/groups/rebin.cl" for the stage "rebin".
 std::string kernel_path(const device::Device& device, const std::string& stage);
+
+/// Returns the number of particles below which kernels run in the caller's thread, where the device
+/// has a driver for it: waking worker threads then costs more than dividing the work saves
+/// [docs/soil.md, threads]. The environment variable NAVVY_FEW_PARTICLES replaces the number; with
+/// 0 kernels never run in the caller's thread.
+/// @throws InputError if the variable is not a number from 0 upwards.
+double few_particles(const device::Device& device);
 
 }  // namespace navvy::soil
