@@ -51,7 +51,7 @@ bool same_file(const std::string& a, const std::string& b);
 
 /// Returns the content of a file.
 /// @throws FileError naming path and cause if the file is missing, is not a regular file or is
-/// larger than `most` bytes; the size is checked before the content is read
+/// larger than `most` bytes; at most that many bytes are kept in memory
 std::vector<char> read_file(const std::string& path,
                             std::size_t most = std::numeric_limits<std::size_t>::max());
 

@@ -227,7 +227,10 @@ void ElementReader::field(const Field& field) {
   const double factor = scene::unit_of(field.name).factor;
   // Only points may repeat: a track has one <roller_m> for each roller.
   const bool repeats = std::holds_alternative<std::vector<Vec3>*>(field.value);
-  if (repeats) repeatable_.push_back(field.name);
+  if (repeats) {
+    repeatable_.push_back(field.name);
+    points_.push_back(field.name);
+  }
   for (; child != nullptr; child = repeats ? child->NextSiblingElement(field.name) : nullptr)
     std::visit(ValueReader{field, *child, faults_, factor}, field.value);
   // The loop has left `child` at null. A value with an attribute or a reference does not repeat, so
@@ -345,8 +348,8 @@ void ElementReader::finish() {
     // The first one was read, so the second one is reported.
     if (!repeats && !seen.insert(name).second)
       faults_.error(*child, text_of(*child), "must occur only once", "remove one of them");
-    // Children with fields and items of lists have readers of their own.
-    if (repeats || contains(nested_, name)) continue;
+    // Children with fields and items of lists have readers of their own; repeated points have none.
+    if ((repeats && !contains(points_, name)) || contains(nested_, name)) continue;
     if (child->FirstChildElement())
       faults_.error(*child, child->FirstChildElement()->Name(), "must hold a value, not elements");
     if (child->FirstAttribute() && !contains(attributed_, name))

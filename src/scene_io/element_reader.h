@@ -68,10 +68,10 @@ class ElementReader final : public scene::Fields {
   const Names* names_;  ///< names to which fields may refer; null: references are not checked
   Faults& faults_;      ///< list to which errors are added
   bool mixed_;          ///< true: only children in the namespace `navvy:` are read
-  /// Names of allowed children, of those that may occur several times, of those with children of
-  /// their own, of values with an attribute, and of allowed attributes; each is filled while fields
-  /// are visited.
-  std::vector<std::string> known_, repeatable_, nested_, attributed_, attributes_;
+  /// Names of allowed children, of those that may occur several times, of those among them that are
+  /// points, of those with children of their own, of values with an attribute, and of allowed
+  /// attributes; each is filled while fields are visited.
+  std::vector<std::string> known_, repeatable_, points_, nested_, attributed_, attributes_;
 };
 
 /// Reads the struct `into`, which has a function `describe`, from an element and reports everything

@@ -288,7 +288,11 @@ bool to_number(const std::string& text, double& value) {
   // may have.
   const char* first = text.data();
   const char* last = first + text.size();
-  if (first != last && *first == '+') ++first;
+  if (first != last && *first == '+') {
+    ++first;
+    // "+-5" would be read as -5.
+    if (first != last && *first == '-') return false;
+  }
   const auto result = std::from_chars(first, last, value);
   return result.ec == std::errc() && result.ptr == last && first != last;
 }
