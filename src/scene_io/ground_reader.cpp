@@ -29,7 +29,8 @@ void check_layers(Element& parent, const std::vector<scene::GroundLayer>& layers
 /// Checks that a rectangle has an area; its corners are in the world [m].
 void check_rectangle(const Element& element, const Vec2& low, const Vec2& high, Faults& faults) {
   if (low.x() >= high.x() || low.y() >= high.y())
-    faults.error(element, "", "min_m must be less than max_m in x and y");
+    faults.error(element, "", "min_m must be less than max_m in x and y",
+                 "give the lower left corner in min_m");
 }
 
 void check_rectangles(Element& element, const scene::StartGround& ground, Faults& faults) {

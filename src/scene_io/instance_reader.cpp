@@ -34,7 +34,8 @@ void check_load(const Element& element, const scene::MachineInWorld& instance,
   const scene::Machine& machine = instance.machine;
   // A machine without links has faults of its own.
   if (!machine.links.empty() && machine.beds.empty())
-    faults.error(element, instance.name, "only a machine with <navvy:bed> carries a load");
+    faults.error(element, instance.name, "only a machine with <navvy:bed> carries a load",
+                 "remove the load, or place a machine with a bed, as dumper");
   const int index = world.soil_index(instance.load.soil);
   if (index < 0 || machine.beds.empty()) return;
   const scene::Soil& soil = world.soils[static_cast<std::size_t>(index)];

@@ -82,7 +82,8 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
     }
     const std::string parent = child_text(*joint, "parent");
     if (!parent.empty() && parent == child_text(*joint, "child"))
-      faults.error(*joint, parent, "parent and child must be different links");
+      faults.error(*joint, parent, "parent and child must be different links",
+                   "name the link that moves in <child>");
     const Element* axis = joint->FirstChildElement("axis");
     if (!axis) {
       if (type == "revolute" || type == "continuous" || type == "prismatic")
@@ -102,14 +103,16 @@ void check_joints(const Element& model, const Names& names, Faults& faults) {
       to_number(child_text(*limit, "lower"), lower);
       to_number(child_text(*limit, "upper"), upper);
       if (lower > upper)
-        faults.error(*limit, child_text(*limit, "lower"), "lower must not exceed upper");
+        faults.error(*limit, child_text(*limit, "lower"), "lower must not exceed upper",
+                     "exchange them");
     }
   }
 }
 
 void check_links(const Element& model, bool needs_mass, Faults& faults) {
   if (!model.FirstChildElement("link"))
-    faults.error(model, "", "a machine needs at least one <link>");
+    faults.error(model, "", "a machine needs at least one <link>",
+                 "add a <link> with its <inertial>");
   for (const Element* link = model.FirstChildElement("link"); link;
        link = link->NextSiblingElement("link")) {
     const Element* inertial = link->FirstChildElement("inertial");
@@ -122,7 +125,8 @@ void check_links(const Element& model, bool needs_mass, Faults& faults) {
       for (const Element* e = link->FirstChildElement(kind); e; e = e->NextSiblingElement(kind))
         if (!e->FirstChildElement("geometry") ||
             !e->FirstChildElement("geometry")->FirstChildElement())
-          faults.error(*e, "", "needs <geometry> with a shape");
+          faults.error(*e, "", "needs <geometry> with a shape",
+                       "add <geometry><box><size>X Y Z</size></box></geometry>, or another shape");
   }
 }
 

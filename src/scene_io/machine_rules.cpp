@@ -20,10 +20,14 @@ std::string type_of(const Names& names, const std::string& joint) {
 void check_cylinder(const Element& element, const scene::Cylinder& cylinder, Faults& faults) {
   if (has(element, "rod_pin_m") == has(element, "linkage"))
     faults.error(element, "",
-                 "needs either <rod_pin_m> (acts directly) or <linkage> (acts through a rocker)");
-  if (cylinder.rod >= cylinder.bore) faults.error(element, "", "rod_m must be less than bore_m");
+                 "needs either <rod_pin_m> (acts directly) or <linkage> (acts through a rocker)",
+                 "give one of them");
+  if (cylinder.rod >= cylinder.bore)
+    faults.error(element, "", "rod_m must be less than bore_m",
+                 "give diameters: the rod runs inside the bore");
   if (cylinder.base_link == cylinder.rod_link && !cylinder.base_link.empty())
-    faults.error(element, cylinder.rod_link, "base_link and rod_link must be different links");
+    faults.error(element, cylinder.rod_link, "base_link and rod_link must be different links",
+                 "name the links at the two ends of the cylinder");
 }
 
 void check_encoder(const Element& element, std::size_t index, const Names& names,
@@ -220,7 +224,8 @@ void set_initial_positions(Element& parent, const std::vector<scene::InitialPosi
         machine.joints[static_cast<std::size_t>(machine.joint_index(start.joint))];
     const bool turns = joint.type == JointType::kRevolute;
     if (!turns && joint.type != JointType::kPrismatic)
-      faults.error(element, start.joint, "only revolute and prismatic joints have a position");
+      faults.error(element, start.joint, "only revolute and prismatic joints have a position",
+                   "remove it, or name another joint");
     else if (turns != start.has_angle)
       faults.error(
           element, start.joint,

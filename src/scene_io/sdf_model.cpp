@@ -128,7 +128,8 @@ bool read_geometry(const sdf::Geometry& from, const Element& xml, bool solid, sc
     return uri && resolve_mesh(*uri, to.mesh_file, faults) &&
            check_mesh(*uri, to.mesh_file, solid, faults);
   } else {
-    faults.error(xml, "", "needs one of box, cylinder, cone, capsule, sphere, plane, mesh");
+    faults.error(xml, "", "needs one of box, cylinder, cone, capsule, sphere, plane, mesh",
+                 "add one of them");
     return false;
   }
   return true;
@@ -277,7 +278,9 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
   std::vector<std::size_t> bases;
   for (std::size_t i = 0; i < links.size(); ++i)
     if (std::find(moved.begin(), moved.end(), links[i].name) == moved.end()) bases.push_back(i);
-  if (bases.empty()) faults.error(model, "", "the joints form a loop: no link is the base");
+  if (bases.empty())
+    faults.error(model, "", "the joints form a loop: no link is the base",
+                 "remove the joint that closes it: links form a tree");
   for (std::size_t i = 1; i < bases.size(); ++i)
     faults.error(element_of("link", links[bases[i]].name), links[bases[i]].name,
                  "no joint connects this link to the base '" + links[bases[0]].name + "'",
@@ -302,7 +305,8 @@ void order_tree(const Element& model, std::vector<scene::Link> links,
   }
   // A separate loop is never reached from the base.
   if (machine.links.size() != links.size())
-    faults.error(model, "", "the joints form a loop beside the base");
+    faults.error(model, "", "the joints form a loop beside the base",
+                 "remove the joint that closes it: links form a tree");
 
   for (const NamedJoint& joint : joints) {
     if (joint.parent != "world") continue;

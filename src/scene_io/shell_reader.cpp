@@ -21,9 +21,11 @@ std::string corners_text(const std::array<int, 3>& t) {
 void read_triangles(Element& element, const std::vector<double>& vertices,
                     const std::vector<double>& corners, scene::Shell& shell, Faults& faults) {
   if (vertices.size() % 3 != 0)
-    faults.error(element, "", "vertices_m must hold 3 numbers a vertex");
+    faults.error(element, "", "vertices_m must hold 3 numbers a vertex",
+                 "complete the last vertex, or remove it");
   if (corners.size() % 3 != 0)
-    faults.error(element, "", "triangles must hold 3 vertex indices a triangle");
+    faults.error(element, "", "triangles must hold 3 vertex indices a triangle",
+                 "complete the last triangle, or remove it");
   for (std::size_t i = 0; i + 2 < vertices.size(); i += 3)
     shell.vertices.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
@@ -53,7 +55,8 @@ void check_surface(const Element& element, const scene::Shell& shell, Faults& fa
 void finish_shell(Element& element, scene::Shell& shell, Faults& faults) {
   const bool inline_given = has(element, "vertices_m") && has(element, "triangles");
   if (has(element, "mesh") == inline_given)
-    faults.error(element, "", "needs either <mesh> or <vertices_m> with <triangles>");
+    faults.error(element, "", "needs either <mesh> or <vertices_m> with <triangles>",
+                 "give one of them");
   if (inline_given)
     read_triangles(element, shell.vertex_numbers, shell.corner_numbers, shell, faults);
   // The numbers were only needed for reading; shells are copied with every machine.

@@ -88,7 +88,8 @@ scene::Soil read_soil(Element& element, Faults& faults) {
     // Soil files refer to no others, so there are no loops.
     if (!element.Parent()->ToElement() ||
         std::string(element.Parent()->ToElement()->Name()) == "sdf")
-      faults.error(element, ref, "ref is for worlds; a soil file holds values");
+      faults.error(element, ref, "ref is for worlds; a soil file holds values",
+                   "give the soil a name=\"...\" and its values");
     else
       inherit(element, ref, soil, faults);
   }

@@ -90,10 +90,12 @@ void read_cameras(Element& world_element, scene::Scene& world, Faults& faults) {
     // The frame of the two points follows from the names: none, a machine, or a link of it.
     if (!camera.machine.empty()) camera.kind = camera.link.empty() ? Kind::kChase : Kind::kOnLink;
     if (camera.machine.empty() && !camera.link.empty())
-      faults.error(*e, camera.link, "a camera on a link needs <machine>, too");
+      faults.error(*e, camera.link, "a camera on a link needs <machine>, too",
+                   "name the machine in <machine>");
     // A camera needs a direction to look in.
     if ((camera.position - camera.target).norm() < 1e-3)
-      faults.error(*e, "", "position_m and target_m must not be the same place");
+      faults.error(*e, "", "position_m and target_m must not be the same place",
+                   "move one of them: the camera looks from position_m at target_m");
     check_camera_names(*e, camera, world, faults);
     require_new_name(*e, camera.name, "camera", world.cameras, "rename one of them", faults);
     world.cameras.push_back(std::move(camera));
