@@ -29,7 +29,6 @@
 #include "scene_io/shipped.h"
 #include "session/session.h"
 #include "sim/occupied_areas.h"
-#include "sim/start_placing.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::cli {
@@ -63,24 +62,6 @@ std::vector<std::string> reads_of(const scene::Scene& scene, std::vector<std::st
   return others;
 }
 
-/// Returns true when no column of a layer has a value. Stops at the first one that has.
-bool unknown_everywhere(const map::TerrainMap& map, map::MapLayer layer) {
-  if (!map.has(layer)) return true;
-  constexpr int kSide = map::LayerTiles::kSide;
-  const map::LayerTiles& tiles = map.tiles(layer);
-  // 16 KiB, which would be much for a stack.
-  const auto buffer = std::make_unique<map::LayerTiles::Values>();
-  for (int ty = 0; ty * kSide < map.ny(); ++ty)
-    for (int tx = 0; tx * kSide < map.nx(); ++tx) {
-      const float* values = tiles.passing(tx, ty, *buffer);
-      if (values == nullptr) continue;
-      for (int y = 0; y < std::min(kSide, map.ny() - ty * kSide); ++y)
-        for (int x = 0; x < std::min(kSide, map.nx() - tx * kSide); ++x)
-          if (values[y * kSide + x] == values[y * kSide + x]) return false;
-    }
-  return true;
-}
-
 /// Returns the reason why a layer is unknown everywhere, and the remedy.
 std::pair<std::string, std::string> why_unknown(map::LayerNeeds needs, From from) {
   if (needs == map::LayerNeeds::kDesign)
@@ -102,12 +83,12 @@ std::string look_for_unknown(const MapCommand& options, const formats::MapFormat
                              From from) {
   std::string unknown;
   if (format.needs_design && map.has(map::MapLayer::kTarget) &&
-      unknown_everywhere(map, map::MapLayer::kTarget))
+      map::unknown_everywhere(map, map::MapLayer::kTarget))
     throw InputError(Fault{Fault::Severity::kError, "", 0, "--format", format.name,
                            "holds the soil to be dug, but the scene has no design",
                            "add a <navvy:design> to the scene"});
   for (const map::MapLayer layer : layers) {
-    if (!unknown_everywhere(map, layer)) continue;
+    if (!map::unknown_everywhere(map, layer)) continue;
     const std::string& name = map::info(layer).name;
     const auto [why, remedy] = why_unknown(map::info(layer).needs, from);
     if (!options.layers.empty())
@@ -172,19 +153,6 @@ map::TerrainMap of_snapshot(const MapCommand& options, const formats::MapFormat&
   return maker.map();
 }
 
-/// Returns the areas of all bodies at the start of a run.
-heightfield::OccupiedAreas at_start(const scene::Scene& scene, const heightfield::Ground& site) {
-  return std::make_shared<const std::vector<heightfield::OccupiedArea>>(
-      sim::occupied_areas(scene, sim::starting_poses(scene, site), sim::all_bodies(scene)));
-}
-
-/// Returns the areas of bodies that cannot have moved: a run's folder does not hold where the
-/// others are.
-heightfield::OccupiedAreas fixed(const scene::Scene& scene, const heightfield::Ground& site) {
-  return std::make_shared<const std::vector<heightfield::OccupiedArea>>(
-      sim::occupied_areas(scene, sim::starting_poses(scene, site), sim::fixed_bodies(scene)));
-}
-
 /// A map and its source.
 struct Made {
   map::TerrainMap map;
@@ -204,14 +172,21 @@ Made read(const MapCommand& options, const formats::MapFormat& format,
     const heightfield::Ground site = heightfield::make_ground(scene);
     const map::MapOptions wanted = map_options(options, layers, scene, site);
     // At the start nothing has moved, so all bodies are known, not only fixed ones.
-    if (options.start) return {map::map_of_site(site, wanted, at_start(scene, site)), From::kScene};
-    return {map::map_of_run(scene, site, end, wanted, fixed(scene, site)), From::kRun};
+    if (options.start)
+      return {
+          map::map_of_site(site, wanted, sim::starting_areas(scene, site, sim::all_bodies(scene))),
+          From::kScene};
+    // A run's folder does not hold where bodies have moved to.
+    return {map::map_of_run(scene, site, end, wanted,
+                            sim::starting_areas(scene, site, sim::fixed_bodies(scene))),
+            From::kRun};
   }
   if (is_sealed(options.from)) return {of_snapshot(options, format, layers), From::kSnapshot};
   const scene::Scene scene = load(scene_io::find_scene(options.from));
   require_apart(options, format, reads_of(scene, {}));
   const heightfield::Ground site = heightfield::make_ground(scene);
-  return {map::map_of_site(site, map_options(options, layers, scene, site), at_start(scene, site)),
+  return {map::map_of_site(site, map_options(options, layers, scene, site),
+                           sim::starting_areas(scene, site, sim::all_bodies(scene))),
           From::kScene};
 }
 

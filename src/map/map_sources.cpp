@@ -168,4 +168,21 @@ TerrainMap map_of_run(const scene::Scene& scene, const Ground& start,
       std::make_shared<const RunColumns>(view, shared, before, loose ? terrain_end : ""), 1);
 }
 
+bool unknown_everywhere(const TerrainMap& map, MapLayer layer) {
+  if (!map.has(layer)) return true;
+  constexpr int kSide = LayerTiles::kSide;
+  const LayerTiles& tiles = map.tiles(layer);
+  // 16 KiB, which would be much for a stack.
+  const auto buffer = std::make_unique<LayerTiles::Values>();
+  for (int ty = 0; ty * kSide < map.ny(); ++ty)
+    for (int tx = 0; tx * kSide < map.nx(); ++tx) {
+      const float* values = tiles.passing(tx, ty, *buffer);
+      if (values == nullptr) continue;
+      for (int y = 0; y < std::min(kSide, map.ny() - ty * kSide); ++y)
+        for (int x = 0; x < std::min(kSide, map.nx() - tx * kSide); ++x)
+          if (values[y * kSide + x] == values[y * kSide + x]) return false;
+    }
+  return true;
+}
+
 }  // namespace navvy::map

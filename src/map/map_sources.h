@@ -46,4 +46,7 @@ TerrainMap map_of_run(const scene::Scene& scene, const heightfield::Ground& star
                       const std::string& terrain_end, const MapOptions& options,
                       heightfield::OccupiedAreas areas = {});
 
+/// Returns true if a layer has no value in any column. Stops at the first column that has one.
+bool unknown_everywhere(const TerrainMap& map, MapLayer layer);
+
 }  // namespace navvy::map

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "geometry/oriented_box.h"
+#include "sim/start_placing.h"
 #include "vehicle/collision_box.h"
 
 namespace navvy::sim {
@@ -76,6 +78,13 @@ std::vector<OccupiedArea> occupied_areas(const World& world, const std::vector<c
         out);
   }
   return out;
+}
+
+heightfield::OccupiedAreas starting_areas(const scene::Scene& scene,
+                                          const heightfield::Ground& site,
+                                          const std::vector<char>& included) {
+  return std::make_shared<const std::vector<OccupiedArea>>(
+      occupied_areas(scene, starting_poses(scene, site), included));
 }
 
 std::vector<char> all_bodies(const scene::Scene& scene) {

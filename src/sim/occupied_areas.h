@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "heightfield/layered_ground.h"
 #include "heightfield/occupied_area.h"
 #include "scene/scene.h"
 #include "sim/world.h"
@@ -21,6 +22,13 @@ std::vector<heightfield::OccupiedArea> occupied_areas(const scene::Scene& scene,
 /// Returns the areas of the bodies of a running world at the present time.
 std::vector<heightfield::OccupiedArea> occupied_areas(const World& world,
                                                       const std::vector<char>& included);
+
+/// Returns the areas of bodies of a scene that is not running, at their starting poses on `site`,
+/// the untouched ground of the scene.
+/// @param included nonzero for each machine of the scene whose areas are wanted
+heightfield::OccupiedAreas starting_areas(const scene::Scene& scene,
+                                          const heightfield::Ground& site,
+                                          const std::vector<char>& included);
 
 /// Returns a list that includes all machines of `scene`.
 std::vector<char> all_bodies(const scene::Scene& scene);
