@@ -56,13 +56,15 @@ def git_line(*arguments):
 
 
 def base_commit():
-    """Returns the merge base with main, or a recent commit when this is main itself."""
+    """Returns the merge base with main, or the twentieth last commit when this is main itself:
+    changes land in dozens of commits, and three of them may hold no source at all.
+    """
     head = git_line("rev-parse", "HEAD")
     for main in ("origin/main", "main"):
         base = git_line("merge-base", "HEAD", main)
         if base and base != head:
             return base
-    return git_line("rev-parse", "-q", "--verify", "HEAD~3") or git_line(
+    return git_line("rev-parse", "-q", "--verify", "HEAD~20") or git_line(
         "rev-list", "--max-parents=0", "HEAD"
     )
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./dev nightly`: what CI leaves out."""
+import sys
 import time
 
 import build
@@ -27,6 +28,10 @@ STEPS = [
         "host tests and two worlds under sanitizers, kernels under Oclgrind",
         lambda: sanitize.sanitize_command([]),
     ),
+    (
+        "the documentation's site",
+        lambda: workspace.run(sys.executable, "-B", "tools/docs.py"),
+    ),
     ("every fuzz target for a minute", lambda: fuzz.fuzz_command(["60"])),
     ("slow cases", lambda: validate.validate_command([])),
 ]
@@ -36,8 +41,9 @@ def nightly_command(arguments):
     """Runs what CI leaves out, hours on two cores; ends with a table of results.
 
     Lint of all sources, the core preset without cache and precompiled headers, tests with label
-    nightly (each header by itself), `sanitize`, a minute of every fuzz target, `validate`. A step
-    that fails does not keep the others from running; the command fails in the end.
+    nightly (each header by itself), `sanitize`, the documentation's site, a minute of every fuzz
+    target, `validate`. A step that fails does not keep the others from running; the command fails
+    in the end.
     """
     workspace.parser(nightly_command, "nightly").parse_args(arguments)
     rows = []
