@@ -37,21 +37,56 @@ struct Bearing {
   Vec3 p_W = Vec3::Zero(), f_W = Vec3::Zero();
 };
 
-/// Returns the point straight below the centre of a wheel, in its plane: for a
+/// Axle of a wheel: its middle and its unit axis.
+struct Axle {
+  Vec3 p_W = Vec3::Zero(), axis_W = Vec3::UnitY();
+};
+
+/// Where a machine's parts are: the poses of its links, and the axles of its wheels.
+struct Placed {
+  std::vector<Pose> X_WL;
+  std::vector<Axle> axles;
+};
+
+Axle axle_of(const WheelState& wheel) {
+  return {wheel.X_WWheel.translation(), wheel.X_WWheel.linear().col(1)};
+}
+
+Placed placed_by(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
+  Placed out;
+  for (std::size_t l = 0; l < machine.links.size(); ++l)
+    out.X_WL.push_back(engine.link(index, static_cast<int>(l)).X_WL);
+  for (std::size_t w = 0; w < machine.wheels.size(); ++w)
+    out.axles.push_back(axle_of(engine.wheel(index, static_cast<int>(w))));
+  return out;
+}
+
+Placed placed_at(const scene::Machine& machine, const std::vector<Pose>& X_WL) {
+  Placed out{X_WL, {}};
+  for (const scene::Wheel& wheel : machine.wheels) {
+    const scene::Joint& spin =
+        machine.joints[static_cast<std::size_t>(machine.joint_index(wheel.joint))];
+    const Pose X_WJ = X_WL[static_cast<std::size_t>(spin.child)] * spin.X_LcJ;
+    out.axles.push_back({X_WJ.translation(), X_WJ.linear() * spin.axis.normalized()});
+  }
+  return out;
+}
+
+/// Returns the point straight below the middle of an axle, in the plane of its wheel: for a
 /// tilted axle it is to the side.
-Vec3 lowest_point(const scene::Wheel& wheel, const Pose& X_WWheel) {
-  const Vec3 axis = X_WWheel.linear().col(1);
-  const Vec3 down = -(Vec3::UnitZ() - axis.z() * axis);
-  return X_WWheel.translation() + wheel.radius * down.stableNormalized();
+Vec3 lowest_point(const scene::Wheel& wheel, const Axle& axle) {
+  const Vec3 down = -(Vec3::UnitZ() - axle.axis_W.z() * axle.axis_W);
+  return axle.p_W + wheel.radius * down.stableNormalized();
 }
 
 /// Returns the support points of wheel `w`: one, or the ends of its track's lower run.
-std::vector<Vec3> support_points_of(const scene::Machine& machine, const PhysicsEngine& engine,
-                                    int index, std::size_t w) {
+std::vector<Vec3> support_points_of(const scene::Machine& machine, const Placed& placed,
+                                    std::size_t w) {
   const scene::Wheel& wheel = machine.wheels[w];
-  if (!wheel.track) return {lowest_point(wheel, engine.wheel(index, static_cast<int>(w)).X_WWheel)};
+  if (!wheel.track) return {lowest_point(wheel, placed.axles[w])};
   const int joint = machine.joint_index(wheel.joint);
-  const Pose X_WC = engine.link(index, machine.joints[static_cast<std::size_t>(joint)].parent).X_WL;
+  const Pose& X_WC =
+      placed.X_WL[static_cast<std::size_t>(machine.joints[static_cast<std::size_t>(joint)].parent)];
   const std::array<Vec3, 2> run = wheel.track->lower_run();
   return {X_WC * run[0], X_WC * run[1]};
 }
@@ -63,7 +98,7 @@ std::vector<Bearing> bearings(const scene::Machine& machine, const PhysicsEngine
   for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
     const WheelState wheel = engine.wheel(index, static_cast<int>(w));
     if (!machine.wheels[w].track) {
-      out.push_back({lowest_point(machine.wheels[w], wheel.X_WWheel), wheel.force_W});
+      out.push_back({lowest_point(machine.wheels[w], axle_of(wheel)), wheel.force_W});
       continue;
     }
     const std::vector<terramechanics::TrackPatch> patches =
@@ -130,16 +165,16 @@ bool goes_with_base(const scene::Machine& machine, int link) {
 /// skids and caster balls.
 /// @param bottom mean height of the wheels' support points along the base's z axis
 /// @param radius of the smallest wheel [m]
-std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engine, int index,
-                        double bottom, double radius) {
+std::vector<Vec3> skids(const scene::Machine& machine, const Placed& placed, double bottom,
+                        double radius) {
   using Kind = scene::Geometry::Kind;
-  const Vec3 up = engine.link(index, 0).X_WL.linear().col(2);
+  const Vec3 up = placed.X_WL[0].linear().col(2);
   std::vector<Vec3> out;
   for (int l = 0; l < static_cast<int>(machine.links.size()); ++l) {
     const std::vector<scene::Collision>& shapes =
         machine.links[static_cast<std::size_t>(l)].collisions;
     if (shapes.empty() || !goes_with_base(machine, l)) continue;
-    const Pose X_WL = engine.link(index, l).X_WL;
+    const Pose& X_WL = placed.X_WL[static_cast<std::size_t>(l)];
     for (const scene::Collision& collision : shapes) {
       const Kind kind = collision.geometry.kind;
       if (kind == Kind::kMesh || kind == Kind::kPlane || kind == Kind::kCone) continue;
@@ -147,6 +182,23 @@ std::vector<Vec3> skids(const scene::Machine& machine, const PhysicsEngine& engi
       if (up.dot(p) < bottom + kStanding * radius) out.push_back(p);
     }
   }
+  return out;
+}
+
+/// Returns all points on which a machine stands.
+std::vector<Vec3> all_support_points(const scene::Machine& machine, const Placed& placed) {
+  const Vec3 up = placed.X_WL[0].linear().col(2);
+  std::vector<Vec3> out;
+  double height = 0, radius = std::numeric_limits<double>::infinity();
+  for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
+    const std::vector<Vec3> own = support_points_of(machine, placed, w);
+    for (const Vec3& point : own) {
+      out.push_back(point);
+      height += up.dot(point) / double(machine.wheels.size() * own.size());
+    }
+    radius = std::min(radius, machine.wheels[w].radius);
+  }
+  for (const Vec3& p : skids(machine, placed, height, radius)) out.push_back(p);
   return out;
 }
 
@@ -188,16 +240,44 @@ TippingLoad tipping_load(std::vector<Vec2> support_points, const Vec2& centre, d
   return out;
 }
 
+// Each edge of the polygon is an axis; the moment of the force about it grows with the factor.
+double tipping_factor(std::vector<Vec2> support_points, double ground, const Vec2& centre,
+                      double weight, const Vec3& p, const Vec3& f) {
+  double out = std::numeric_limits<double>::infinity();
+  const std::vector<Vec2> hull =
+      support_points.size() < 3 ? std::vector<Vec2>{} : hull_of(std::move(support_points));
+  if (hull.size() < 3) return 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    const Vec2 outward(edge.y(), -edge.x());
+    const double inside = -outward.dot(centre - hull[i]);
+    if (inside <= 0) return 0;
+    // A force down outside the edge tips, and so does a push outwards above the ground.
+    const double moment =
+        -f.z() * outward.dot(p.head<2>() - hull[i]) + outward.dot(f.head<2>()) * (p.z() - ground);
+    if (moment > 0) out = std::min(out, weight * inside / moment);
+  }
+  return out;
+}
+
+std::vector<Vec3> support_points(const scene::Machine& machine, const std::vector<Pose>& X_WL) {
+  return all_support_points(machine, placed_at(machine, X_WL));
+}
+
 // Weights the links' centres by their masses.
-Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
+Vec3 centre_of_mass(const scene::Machine& machine, const std::vector<Pose>& X_WL) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
   for (std::size_t i = 0; i < machine.links.size(); ++i) {
     const scene::Link& link = machine.links[i];
-    sum += link.mass * (engine.link(index, static_cast<int>(i)).X_WL * link.p_LCom);
+    sum += link.mass * (X_WL[i] * link.p_LCom);
     mass += link.mass;
   }
-  return mass > 0 ? Vec3(sum / mass) : engine.link(index, 0).X_WL.translation();
+  return mass > 0 ? Vec3(sum / mass) : X_WL[0].translation();
+}
+
+Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index) {
+  return centre_of_mass(machine, placed_by(machine, engine, index).X_WL);
 }
 
 // Collects the support points first: margins and loads refer to their polygon.
@@ -211,24 +291,16 @@ Stability stability(const scene::Machine& machine, const PhysicsEngine& engine, 
   // d/dt of up = w x up, and of its height cos(tilt). An upright axis has no direction of tilt.
   const double sine = std::sin(out.tilt);
   if (sine > 1e-6) out.tilt_rate = -base.w_WL.cross(up).z() / sine;
+  const Placed placed = placed_by(machine, engine, index);
   std::vector<Vec2> support_points;
-  double height = 0, radius = std::numeric_limits<double>::infinity();
-  for (std::size_t w = 0; w < machine.wheels.size(); ++w) {
-    const std::vector<Vec3> own = support_points_of(machine, engine, index, w);
-    for (const Vec3& point : own) {
-      support_points.push_back(point.head<2>());
-      height += up.dot(point) / double(machine.wheels.size() * own.size());
-    }
-    radius = std::min(radius, machine.wheels[w].radius);
-  }
-  for (const Vec3& p : skids(machine, engine, index, height, radius))
-    support_points.push_back(p.head<2>());
-  const Vec2 centre = centre_of_mass(machine, engine, index).head<2>();
+  for (const Vec3& p : all_support_points(machine, placed)) support_points.push_back(p.head<2>());
+  const Vec2 centre = centre_of_mass(machine, placed.X_WL).head<2>();
   out.margin = support_margin(support_points, centre);
   const int joint = machine.joint_index(machine.arm.bucket);
   if (joint < 0) return out;
   const scene::Joint& pin = machine.joints[static_cast<std::size_t>(joint)];
-  const Vec3 load_point = engine.link(index, pin.child).X_WL * Vec3(pin.X_LcJ.translation());
+  const Vec3 load_point =
+      placed.X_WL[static_cast<std::size_t>(pin.child)] * Vec3(pin.X_LcJ.translation());
   double mass = 0;
   for (const scene::Link& link : machine.links) mass += link.mass;
   const TippingLoad weakest = tipping_load(support_points, centre, mass, load_point.head<2>());

@@ -36,6 +36,24 @@ struct TippingLoad {
 TippingLoad tipping_load(std::vector<Vec2> support_points, const Vec2& centre, double mass,
                          const Vec2& load_point);
 
+/// Returns the factor by which the force `f` [N] on a machine at the point `p` must grow to tip the
+/// machine over an edge of its support polygon: 0 for a machine that tips without it, infinity if
+/// no factor tips it.
+///
+/// `support_points`, `centre` and `p` are positions in the world frame [m], `ground` is the height
+/// of the support points [m], and `weight` is the machine's [N]. Tyres and cylinders count as
+/// rigid. A force straight down gives tipping_load().
+double tipping_factor(std::vector<Vec2> support_points, double ground, const Vec2& centre,
+                      double weight, const Vec3& p, const Vec3& f);
+
+/// Returns the points on which `machine` stands while its links have the poses `X_WL`, in the order
+/// of machine.links: the support points of stability(), in the world frame [m].
+std::vector<Vec3> support_points(const scene::Machine& machine, const std::vector<Pose>& X_WL);
+
+/// Returns the centre of mass of all links of `machine` while they have the poses `X_WL`, in the
+/// order of machine.links, in the world frame [m].
+Vec3 centre_of_mass(const scene::Machine& machine, const std::vector<Pose>& X_WL);
+
 /// Returns the centre of mass of all links of `machine`, which is machine `index` of `engine`, in
 /// the world frame [m]. The soil that it carries is not included.
 Vec3 centre_of_mass(const scene::Machine& machine, const PhysicsEngine& engine, int index);

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "values.h"
 #include "vehicle/kinematics.h"
 #include "vehicle/machines.h"
+#include "vehicle/rating/tool_force.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -59,6 +61,86 @@ TEST(Ew180, TearOutForceIs90kN) {
   print_value("tear-out force, tip locked [N]", measured, "90e3 +-5 %",
               "ISO 6015; vehicles/ew180/SOURCE.md");
   EXPECT_NEAR(measured, 90e3, 0.05 * 90e3);
+}
+
+TEST(Ew180, RatedToolForcesAreThoseMeasuredWithTheTipLocked) {
+  const scene::Machine m = ew180();
+  const ToolForce breakout = rate_tool_force(m, ToolForceKind::kBreakout).rated,
+                  tear_out = rate_tool_force(m, ToolForceKind::kTearOut).rated;
+  print_value("rated breakout force [N]", breakout.hydraulic, "120e3 +-5 %",
+              "ISO 6015; vehicles/ew180/SOURCE.md");
+  print_value("rated tear-out force [N]", tear_out.hydraulic, "90e3 +-5 %",
+              "ISO 6015; vehicles/ew180/SOURCE.md");
+  EXPECT_NEAR(breakout.hydraulic, 120e3, 0.05 * 120e3);
+  EXPECT_NEAR(tear_out.hydraulic, 90e3, 0.05 * 90e3);
+  // 1 %: the tip is held by a spring, so the joints yield by a degree.
+  EXPECT_NEAR(locked_tip_force(breakout.stick, breakout.bucket, "bucket_joint", -1),
+              breakout.hydraulic, 0.01 * breakout.hydraulic);
+  EXPECT_NEAR(locked_tip_force(tear_out.stick, tear_out.bucket, "arm_joint", -1),
+              tear_out.hydraulic, 0.01 * tear_out.hydraulic);
+}
+
+/// Pulls at the cutting edge against its digging direction, the machine standing with its brakes
+/// on, until `over` returns true; returns the force [N]. The force grows to 0.8 of `expected`
+/// within two seconds, then by 1 kN/s.
+double pulled_until(scene::Machine m, const ToolForce& at, double expected,
+                    const std::function<bool(const PhysicsEngine&)>& over) {
+  const auto set = [&](const std::string& name, double q) {
+    m.joints.at(static_cast<std::size_t>(m.joint_index(name))).initial = q;
+  };
+  set("boom_joint", at.boom);
+  set("arm_joint", at.stick);
+  set("bucket_joint", at.bucket);
+  auto engine = make_bullet_engine(kDown);
+  engine->add_machine(m, Pose::Identity());
+  DriveInput brake;
+  brake.brake = true;
+  engine->set_drive(0, brake);
+  const auto ground = flat();
+  run(*engine, ground, 2, kStep);
+  const double pitch = at.boom + at.stick + at.bucket;
+  const Vec3 direction(std::sin(pitch), 0, -std::cos(pitch));
+  const int link = m.link_index("bucket");
+  double force = 0, result = 0;
+  run(*engine, ground, 60, kStep, [&](double) {
+    if (result > 0) return;
+    force += kStep * (force < 0.8 * expected ? 0.4 * expected : 1000);
+    engine->add_force(0, link, -force * direction, engine->link(0, link).X_WL * m.buckets[0].p_tip);
+    if (over(*engine)) result = force;
+  });
+  return result;
+}
+
+TEST(Ew180, TipsAtTheToolForceThatItsRatingGives) {
+  // Far ahead, the edge pulls down: the front wheels lift. Its own cylinders would yield before.
+  scene::Machine m = ew180();
+  for (scene::Cylinder& cylinder : m.cylinders) cylinder.pressure *= 4;
+  const ToolForce at = tool_force_at(m, ToolForceKind::kBreakout, 0.1, -0.8, 0.3);
+  ASSERT_EQ(at.limit(), ForceLimit::kTipping);
+  const double measured = pulled_until(m, at, at.tipping, [](const PhysicsEngine& engine) {
+    return engine.wheel(0, 0).force_W.z() <= 0 && engine.wheel(0, 1).force_W.z() <= 0;
+  });
+  print_value("tool force that lifts the front wheels [N]", measured,
+              std::to_string(at.tipping) + " +-5 %", "moment balance");
+  // 5 %: the balance assumes rigid tyres.
+  EXPECT_NEAR(measured, at.tipping, 0.05 * at.tipping);
+}
+
+TEST(Ew180, SlipsAtTheToolForceThatItsRatingGives) {
+  // The edge below the stick pulls towards the machine. Wheels of low grip slip before it tips.
+  const scene::Machine m = testing::with_grip(ew180(), 0.3);
+  const ToolForce at = tool_force_at(m, ToolForceKind::kBreakout, 0.4, -1.6, -0.4);
+  ASSERT_EQ(at.limit(), ForceLimit::kSlipping);
+  double start = std::nan("");
+  const double measured = pulled_until(m, at, at.slipping, [&](const PhysicsEngine& engine) {
+    const double x = engine.link(0, 0).X_WL.translation().x();
+    if (std::isnan(start)) start = x;
+    // Tyres yield by a centimetre before.
+    return x - start > 0.03;
+  });
+  print_value("tool force that makes the wheels slip [N]", measured,
+              std::to_string(at.slipping) + " +-5 %", "friction of the tyres");
+  EXPECT_NEAR(measured, at.slipping, 0.05 * at.slipping);
 }
 
 TEST(Ew180, SwingTorqueIs48kNm) {
