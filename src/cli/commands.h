@@ -38,6 +38,10 @@ void add_channels(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 /// Adds `navvy lab`, which runs an experiment of the virtual soil laboratory.
 void add_lab(CLI::App& app, Action& action);
+/// Adds the ratings of machines to `navvy lab`: the subcommands iso6015 and iso10567.
+void add_ratings(CLI::App& lab, Action& action);
+/// Adds `navvy lab iso11152`, which compares the energy of a motion with and without soil.
+void add_motion_energy(CLI::App& lab, Action& action);
 /// Adds `navvy bench`, which measures the speed of the soil simulation.
 void add_bench(CLI::App& app, Action& action);
 

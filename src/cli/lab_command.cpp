@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/lab_output.h"
+#include "cli/progress_line.h"
 #include "cli/validators.h"
 #include "core/edit_distance.h"
 #include "core/error.h"
@@ -40,6 +41,9 @@ struct LabOptions {
 constexpr std::size_t kWidth = 100;
 /// Column at which the parser begins the description of an option.
 constexpr std::size_t kHelpColumn = 30;
+
+/// Subcommand that lists constants.
+constexpr const char* kConstants = "constants";
 
 /// Stands for a space at which no line may break.
 constexpr char kJoint = '\x1f';
@@ -75,13 +79,14 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
 /// Returns the description of an option, wrapped to the right of the column of names.
 std::string described(const std::string& text) { return wrapped(text, kWidth - kHelpColumn); }
 
-/// Prints a line for each rig.
-int list_rigs() {
+/// Prints a line for each rig and each rating, in the order of the subcommands.
+int list_rigs(const CLI::App& command) {
   std::puts(
       "Virtual soil laboratory. `navvy lab RIG` runs an experiment, `navvy lab RIG --help` "
       "describes it.\n");
-  for (const lab::Rig& rig : lab::rigs())
-    std::printf("  %-12s %s\n", rig.name.c_str(), rig.summary.c_str());
+  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (one->get_name() != kConstants)
+      std::printf("  %-12s %s\n", one->get_name().c_str(), one->get_description().c_str());
   std::puts(
       "\n`navvy lab constants` lists the constants of the particle scheme, which --set "
       "scheme.NAME=VALUE changes.");
@@ -147,6 +152,14 @@ int run_rig(LabOptions options) {
   if (!options.plot.empty())
     write_file_atomically(options.plot, lab::svg_of(lab::plot_of(rig, sweep)));
   return outside ? kOutOfTolerance : kOk;
+}
+
+/// Refuses a word that is no rig, and names the nearest.
+[[noreturn]] void refuse_rig(const CLI::App& command, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(one->get_name());
+  throw refused("lab", word, "there is no rig of this name", did_you_mean(names, word));
 }
 
 /// Refuses an option that the rig does not have, and names the nearest.
@@ -283,15 +296,17 @@ void add_lab(CLI::App& app, Action& action) {
   command->require_subcommand(0, 1);
   command->allow_extras();
   for (const lab::Rig& rig : lab::rigs()) add_rig(*command, rig, options, action);
-  command->add_subcommand("constants", "list the constants of the particle scheme")
+  add_ratings(*command, action);
+  add_motion_energy(*command, action);
+  command->add_subcommand(kConstants, "list the constants of the particle scheme")
       ->callback([&action] { action = [] { return list_constants(); }; });
   command->callback([command, &action] {
     if (!command->get_subcommands().empty()) return;
     const std::vector<std::string> extras = command->remaining();
     // `navvy lab` alone lists the rigs. An unknown word is refused with the nearest name.
-    action = [extras] {
-      if (!extras.empty()) lab::find_rig(extras.front());
-      return list_rigs();
+    action = [extras, command] {
+      if (!extras.empty()) refuse_rig(*command, extras.front());
+      return list_rigs(*command);
     };
   });
 }

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lab_output.h"
 
-#include <unistd.h>
-
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/stopwatch.h"
 #include "device/device.h"
 #include "scene/soil_values.h"
 #include "soil/scheme.h"
@@ -121,16 +117,6 @@ void print_table(const lab::Report& report) {
               report.particles_peak, static_cast<unsigned long long>(report.steps),
               report.simulated_time, report.wall_time, static_cast<long long>(report.ledger_error),
               report.state_hash.c_str());
-}
-
-std::function<void(double)> progress_line(bool quiet) {
-  if (quiet || isatty(STDERR_FILENO) == 0) return {};
-  // Carriage return and the clearing code keep it on one line; the last call clears it.
-  return [watch = Stopwatch()](double share) {
-    std::fprintf(stderr, "\r%3.0f %%  about %.0f s left \033[K", 100 * share,
-                 watch.seconds() * (1 - share) / share);
-    if (share >= 1) std::fputs("\r\033[K", stderr);
-  };
 }
 
 }  // namespace navvy::cli

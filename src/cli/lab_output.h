@@ -2,7 +2,6 @@
 // Output of `navvy lab`: a table for the user, and JSON for programs.
 #pragma once
 
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 
 #include "lab/rig.h"
@@ -16,10 +15,5 @@ nlohmann::json to_json(const lab::Rig& rig, const lab::Setup& setup, const lab::
 /// Prints the results of an experiment to standard output, as a table with five significant digits.
 /// Results outside their tolerance are marked. Lines with information about the run follow.
 void print_table(const lab::Report& report);
-
-/// Returns a function that shows progress on stderr in a single line; its argument is the completed
-/// fraction, above 0 and up to 1. Returns an empty function if `quiet` is true or stderr is not a
-/// terminal.
-std::function<void(double)> progress_line(bool quiet);
 
 }  // namespace navvy::cli
