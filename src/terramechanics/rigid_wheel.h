@@ -39,6 +39,8 @@ struct WheelForce {
   double torque = 0;
   /// Lateral force of the soil on the wheel [N], positive against the lateral motion.
   double side = 0;
+  /// Part of `side` on the wheel's side wall [N].
+  double side_wall = 0;
   /// False if the ground cannot carry the load even with the axle at the level of the surface. The
   /// other values then belong to that deepest position.
   bool carried = true;
@@ -59,8 +61,13 @@ struct WheelForce {
 /// which makes a wheel sink deeper (32 mm in a published case for which this function gives 25 mm).
 ///
 /// Laterally, the rim moves by j_y = r (theta_1 - theta) (1 - s) tan beta with the slip angle beta;
-/// the shear stress opposes the resultant of both displacements. Soil that piles up beside the
-/// wheel is neglected.
+/// the shear stress opposes the resultant of both displacements. The sunken segment of the side
+/// wall meets passive resistance (bearing.h) along the chord L at the depth d(x) of the rim, as far
+/// as the lateral displacement since the soil met it mobilises it [Janosi 1961]:
+///
+///   F_wall = int R(d) (1 - exp(-j / K)) dx,   j = (L / 2 - x) tan beta
+///
+/// R(d) is passive_resistance() per width. Soil that piles up beside the wheel is neglected.
 ///
 /// Slip sinkage is modelled by a lower modulus: it is divided by slip_sinkage() to the power n +
 /// 1/2, so that a smooth wheel sinks slip_sinkage() times as deep [Bekker 1956]. Bulldozing

@@ -120,8 +120,34 @@ TEST(RigidWheel, SideForceGrowsWithTheSlipAngleAtTheCostOfPull) {
       EXPECT_EQ(force.side, 0);
     }
     side = force.side, pull = force.drawbar;
+    // 5 %: pressure stands off the plumb line.
+    EXPECT_LT(side - force.side_wall, std::tan(radians(20)) * 300 * 1.05);
   }
-  EXPECT_LT(side, std::tan(radians(20)) * 300 * 1.05);  // pressure stands off the plumb line: 5 %
+}
+
+TEST(RigidWheel, SideWallMeetsThePassiveResistanceOfItsSegment) {
+  scene::Soil soil = plain();
+  soil.cohesion = soil.residual_cohesion = 5e3;
+  soil.janosi_k = 1e-6;  // fully mobilised
+  WheelCase wheel{0.5, 0.2, 3000, 0};
+  wheel.slip_angle = radians(20);
+  const WheelForce force = rigid_wheel(wheel, soil);
+  // A shallow segment is a parabola of depth z over the chord l: the mean depth is 2/3 z, the mean
+  // square 8/15 z^2.
+  const double z = force.sinkage, l = 2 * std::sqrt((1.0 - z) * z);
+  const double unit = passive_resistance({&soil, 1}, 1, 1),
+               half = passive_resistance({&soil, 1}, 1, 0.5);
+  const double by_weight = 2 * (unit - 2 * half), by_cohesion = unit - by_weight;
+  const double expected = l * (by_cohesion * 2 / 3 * z + by_weight * 8 / 15 * z * z);
+  EXPECT_NEAR(force.side_wall, expected, 0.02 * expected);
+  // Straight ahead it meets nothing, and less angle mobilises less.
+  soil.janosi_k = 0.02;
+  const double partly = rigid_wheel(wheel, soil).side_wall;
+  EXPECT_LT(partly, force.side_wall);
+  wheel.slip_angle = radians(5);
+  EXPECT_LT(rigid_wheel(wheel, soil).side_wall, partly);
+  wheel.slip_angle = 0;
+  EXPECT_EQ(rigid_wheel(wheel, soil).side_wall, 0);
 }
 
 TEST(RigidWheel, GrousersShearSoilOnSoil) {

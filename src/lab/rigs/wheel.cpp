@@ -102,7 +102,9 @@ Report law_alone(const Setup& setup) {
   report.note("sinkage", value(1000 * law.sinkage), "mm", source);
   report.note("torque", value(law.torque), "N m", source);
   report.note("side force", value(law.side), "N",
-              "against the motion to the side; the wheel's side wall is not counted");
+              "against the motion to the side, side wall included");
+  report.note("side force on the side wall", value(law.side_wall), "N",
+              "passive resistance [Bekker 1969] [docs/machines.md, ruts]");
   report.note("bulldozing resistance", value(law.bulldozing), "N",
               "[Bekker 1969], counted in the pull");
   report.note("drawbar pull over the load", value(law.drawbar / wheel.load), "");
