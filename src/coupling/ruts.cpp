@@ -26,20 +26,21 @@ void Ruts::press_column(const PushedSoil::Place& place, double pressure, const P
   const scene::Soil& soil = ground_.setup().soils[ground_.surface_soil(ix, iy)];
   const std::int64_t key = static_cast<std::int64_t>(iy) * ground_.nx() + ix;
   Memory& memory = memory_.at(ix, iy);
-  // Reset when a tyre arrives on the column, not while one stays.
-  if (under_.insert(key).second && !ground_.held(ix, iy)) memory.sinking = {};
   const double height = ground_.height(ix, iy);
   memory.history.find(height);
+  // Another pass begins when a tyre arrives on the column, not while one stays.
+  if (under_.insert(key).second && !ground_.held(ix, iy)) {
+    memory.sinking = {};
+    memory.history.arrive(soil);
+  }
   // Slip increases the sinkage like this factor on the pressure.
   const double softer = std::pow(press.softer, soil.bekker_n);
   const double width = press.patch.width;
-  const auto [before, drop] = memory.history.press(soil, width, height, pressure * softer);
+  const auto [before, drop, work] = memory.history.press(soil, width, height, pressure * softer);
   if (!(drop > 0)) return;
   const double after = before + drop;
   memory.sinking.depth += drop;
-  memory.sinking.work += (terramechanics::plate_work(soil, after, width) -
-                          terramechanics::plate_work(soil, before, width)) /
-                         softer;
+  memory.sinking.work += work / softer;
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, after));
   ground_.compact_to(ix, iy, height - drop);
@@ -157,7 +158,7 @@ void Ruts::Bearing::visit(Archive& a) {
 }
 
 void Ruts::visit(Archive& a) {
-  a.section("ruts", 5, [&] {
+  a.section("ruts", 6, [&] {
     a("memory", memory_);
     a("bearing", bearing_);
   });

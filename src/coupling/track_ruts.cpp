@@ -21,8 +21,9 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   RutMemory& memory = ruts_.history(ix, iy);
   const double height = ground_.height(ix, iy);
   memory.find(height);
-  const auto [before, drop] = memory.press(soil, width, height, pressure, most);
+  const auto [before, drop, work] = memory.press(soil, width, height, pressure, most);
   if (!(drop > 0)) return;
+  (void)work;  // the track's resistance follows from its own depth
   const terramechanics::SoilState state{&soil, ground_.specific_volume(ix, iy)};
   pushed_.take(place, terramechanics::pushed_depth(state, width, before, before + drop));
   ground_.compact_to(ix, iy, height - drop);

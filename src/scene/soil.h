@@ -55,6 +55,9 @@ struct Soil {
   /// Frictional modulus of Bekker's pressure-sinkage law [N/m^(n+2)].
   double bekker_kphi = 1515040;
   double bekker_n = 0.7;  ///< exponent n of Bekker's pressure-sinkage law [-]
+  /// Exponent a of repeated passes: n passes of one tyre sink n^(1/a) times as deep as the first
+  /// [-]; 0: only the first pass sinks [docs/machines.md, ruts].
+  double multi_pass_exponent = 0;
   /// Shear displacement at which soil below tyres and tracks has reached 63 % of its strength [m].
   double janosi_k = 0.02;
   float color[3] = {0.45f, 0.33f, 0.22f};  ///< linear red, green and blue, 0 to 1
@@ -116,6 +119,10 @@ struct Soil {
     f("bekker_kphi_n_per_m_n2", bekker_kphi, {1, 1e9},
       "Frictional modulus of Bekker's pressure-sinkage law.");
     f("bekker_n", bekker_n, {0.05, 3}, "Exponent of Bekker's pressure-sinkage law.");
+    f("multi_pass_exponent", multi_pass_exponent, {0, 100},
+      "n passes of a tyre sink n^(1/a) times as deep as the first, a this exponent: 2 to 3 loose, "
+      "3 "
+      "to 4 medium, 4 to 5 firm soil; 0: repeated passes add nothing.");
     f("janosi_k_m", janosi_k, {1e-4, 1},
       "Shear displacement at which soil under tyres and tracks has 63 % of its strength.");
     f("color", Rgb{color}, "Linear red, green and blue.", kShown);

@@ -120,6 +120,72 @@ TEST(Ruts, SecondPassByAHeavierMachineSinksByItsOwnPressure) {
   }
 }
 
+/// Presses the ground under a tyre at one place, then at another, so that it leaves the first.
+void pass(Ruts& ruts, double load) {
+  ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, load)}});
+  ruts.press({{twin_tyre(), loaded_at(5.6, 5.6, 1e3)}});
+}
+
+TEST(Ruts, RepeatedPassesSinkAsTheRootOfTheirNumber) {
+  for (const double exponent : {2.5, 3.5, 4.5}) {
+    scene::Soil soil = flat_loam(1).setup().soils[0];
+    soil.multi_pass_exponent = exponent;
+    heightfield::Ground ground = flat(soil);
+    Ruts ruts(ground);
+    double first = 0, before = 0, added = 1;
+    for (int n = 1; n <= 4; ++n) {
+      pass(ruts, 44e3);
+      const double depth = deepest(ground);
+      if (n == 1) first = depth;
+      // 0.2 mm: heights are whole mass quanta, and the tread's ends overlap.
+      EXPECT_NEAR(depth, first * std::pow(n, 1 / exponent), 2e-4) << "pass " << n;
+      if (n > 1) EXPECT_LT(depth - before, added);
+      added = depth - before;
+      before = depth;
+      // Standing adds nothing.
+      ruts.press({{twin_tyre(), loaded_at(3.2, 3.2, 20e3)}});
+    }
+  }
+}
+
+TEST(Ruts, AnExponentOfZeroAddsNothingInRepeatedPasses) {
+  scene::Soil soil = flat_loam(1).setup().soils[0];
+  soil.multi_pass_exponent = 0;
+  heightfield::Ground ground = flat(soil);
+  Ruts ruts(ground);
+  pass(ruts, 44e3);
+  const double first = deepest(ground);
+  pass(ruts, 44e3);
+  EXPECT_EQ(deepest(ground), first);
+}
+
+TEST(RutMemory, WorkOfARepeatedPassIsItsPressureOverItsSinkage) {
+  scene::Soil soil = flat_loam(1).setup().soils[0];
+  soil.multi_pass_exponent = 3;
+  constexpr double kWidth = 0.3, kPressure = 150e3;
+  RutMemory memory;
+  const RutMemory::Press first = memory.press(soil, kWidth, 0, kPressure);
+  EXPECT_NEAR(first.work, kPressure * first.drop / (soil.bekker_n + 1), 1e-6 * first.work);
+  memory.height = -first.drop;
+  memory.arrive(soil);
+  const RutMemory::Press second = memory.press(soil, kWidth, -first.drop, kPressure);
+  EXPECT_NEAR(second.drop, first.drop * (std::cbrt(2.0) - 1), 1e-9);
+  // Less than the load over the whole drop, and more than half of it: the pressure grows from 0.
+  EXPECT_LT(second.work, kPressure * second.drop);
+  EXPECT_GT(second.work, 0.5 * kPressure * second.drop);
+  // Pressed by and by it takes the same.
+  RutMemory again = memory;
+  again.pressure = again.arrived = kPressure;
+  double work = 0, drop = 0;
+  for (const double share : {0.3, 0.6, 0.8, 1.0}) {
+    const RutMemory::Press part = again.press(soil, kWidth, -first.drop - drop, share * kPressure);
+    work += part.work;
+    drop += part.drop;
+  }
+  EXPECT_NEAR(drop, second.drop, 1e-9);
+  EXPECT_NEAR(work, second.work, 0.01 * second.work);
+}
+
 TEST(Ruts, PressFreshSoilDownToTheirOldFloor) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
