@@ -19,6 +19,8 @@ struct BodyContact {
   /// Normal force, the mean over the step [N]; 0 between bodies that no force moves.
   double force = 0;
   double depth = 0;  ///< largest depth of one body in the other [m]; 0: they only touch
+  /// Smallest side of the box around the shapes of the smaller body [m].
+  double size = 0;
 };
 
 /// Optional capability of an engine to report which machines touch. An engine has it if it derives
@@ -26,8 +28,8 @@ struct BodyContact {
 class ContactCapability {
  public:
   /// Returns the contacts of the last step, in an order that equal runs share. Contacts with the
-  /// ground, between two bodies of one link that forces move, and of machines that a closed hitch
-  /// couples, are not among them.
+  /// ground and of machines that a closed hitch couples are not among them, and those between two
+  /// bodies of one link that forces move only if they are deeper than a tenth of the smaller body.
   virtual const std::vector<BodyContact>& body_contacts() const = 0;
 
  protected:

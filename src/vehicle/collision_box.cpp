@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/collision_box.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "core/error.h"
 #include "geometry/obj/read_obj.h"
+#include "geometry/primitive_solids.h"
 #include "geometry/triangle_mesh.h"
 
 namespace navvy::vehicle {
@@ -43,6 +46,27 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
     // The reader of the scene reports a mesh that cannot be read; here it has no box.
     return std::nullopt;
   }
+}
+
+// Moments in ascending order are compared, as the link's axes need not be those of the boxes.
+InertiaShare inertia_share(const scene::Link& link) {
+  std::optional<geometry::SolidProperties> solid;
+  for (const scene::Collision& collision : link.collisions)
+    if (const std::optional<geometry::OrientedBox> box = box_of(collision)) {
+      const geometry::SolidProperties part =
+          geometry::placed(geometry::solid_box(2 * box->half), box->X_WO);
+      solid = solid ? geometry::joined(*solid, part) : part;
+    }
+  InertiaShare out;
+  if (!solid || !(solid->volume > 0) || !(link.mass > 0)) return out;
+  const auto moments = [](const Mat3& inertia) {
+    return Vec3(Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues());
+  };
+  const Vec3 own = moments(link.inertia),
+             expected = moments(solid->inertia * (link.mass / solid->volume));
+  for (int i = 0; i < 3; ++i)
+    if (own[i] < out.share * expected[i]) out = {own[i] / expected[i], own[i], expected[i]};
+  return out;
 }
 
 std::optional<WheelBox> box_of(const scene::Machine& machine, const scene::Wheel& wheel) {

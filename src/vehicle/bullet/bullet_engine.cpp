@@ -21,8 +21,10 @@
 #include "vehicle/bullet/convert.h"
 #include "vehicle/bullet/ground_shape.h"
 #include "vehicle/bullet/hitch_rows.h"
+#include "vehicle/bullet/lost_machine.h"
 #include "vehicle/bullet/mover.h"
 #include "vehicle/bullet/refuse.h"
+#include "vehicle/bullet/swept_contacts.h"
 #include "vehicle/bullet/tyre_bodies.h"
 
 namespace navvy::vehicle {
@@ -197,7 +199,7 @@ class BulletEngine final : public PhysicsEngine,
     for (auto& machine : machines_) machine->begin_step(ground, dt);
     tyre_bodies_.push(machines_, movers_, world_, dt);
     ground_shape_.set_ground(&ground);
-    detect();
+    detect(ground, dt);
     turn_ground_contacts();
     ground_shape_.set_ground(nullptr);
     // Detection uses poses alone. Materials need to know which bodies rest, before forces give all
@@ -213,12 +215,14 @@ class BulletEngine final : public PhysicsEngine,
       const Vec3 p = machine->tree().center(0);
       if (!p.allFinite() || !machine->tree().momentum().allFinite())
         throw SimulationError("vehicle: machine '" + machine->scene().name +
-                              "' has no finite pose");
-      if (!machine->tree().fixed_base() && p.z() < ground.height(p.x(), p.y()) - kLost)
-        throw SimulationError(
-            "vehicle: machine '" + machine->scene().name + "' has fallen through the ground at x " +
-            std::to_string(p.x()) + " m, y " + std::to_string(p.y()) +
-            " m; it needs wheels or collision shapes that start above the ground");
+                              "' has no finite pose" + cause(*machine));
+      if (machine->tree().fixed_base() || !(p.z() < ground.height(p.x(), p.y()) - kLost)) continue;
+      const std::string why = cause(*machine);
+      throw SimulationError(
+          "vehicle: machine '" + machine->scene().name + "' has fallen through the ground at x " +
+          std::to_string(p.x()) + " m, y " + std::to_string(p.y()) + " m" +
+          (why.empty() ? "; it needs wheels or collision shapes that start above the ground"
+                       : why));
     }
     contact_list_.collect(world_, machines_, movers_, dt);
     forget_contacts();
@@ -306,6 +310,11 @@ class BulletEngine final : public PhysicsEngine,
     materials_.mark(machine);
   }
 
+  /// Returns the likely cause of a machine that the engine lost.
+  std::string cause(const BulletMachine& machine) const {
+    return cause_of_loss(machine, contact_list_.load_on(machine));
+  }
+
   void solve(double dt) {
     // One group for the whole world: no islands, so results do not depend on neighbours.
     info_.m_timeStep = dt;
@@ -322,12 +331,14 @@ class BulletEngine final : public PhysicsEngine,
 
   /// Detects all contacts of this step. A body that wakes has neighbours and ground of its own, so
   /// pairs are searched again.
-  void detect() {
+  void detect(const GroundQuery& ground, double dt) {
     world_.updateAabbs();
+    swept_.stretch_boxes(world_, dt);
     do world_.computeOverlappingPairs();
     while (wake_neighbours());
     dispatcher_.dispatchAllCollisionPairs(broadphase_.getOverlappingPairCache(),
                                           world_.getDispatchInfo(), &dispatcher_);
+    swept_.add(world_, dispatcher_, ground_, ground_shape_, ground, dt);
   }
   /// Wakes sleeping bodies whose box overlaps an active one's. Returns whether there were any.
   bool wake_neighbours() {
@@ -391,6 +402,7 @@ class BulletEngine final : public PhysicsEngine,
 
   /// Drops every pair and manifold, so that the next step starts from the state alone.
   void forget_contacts() {
+    swept_.drop(dispatcher_);
     // This also removes the warm start, which is disabled, see the top.
     btOverlappingPairCache* cache = broadphase_.getOverlappingPairCache();
     while (cache->getNumOverlappingPairs() > 0) {
@@ -413,6 +425,7 @@ class BulletEngine final : public PhysicsEngine,
   btCollisionObject ground_;
   TyreBodies tyre_bodies_;
   ContactList contact_list_;
+  SweptContacts swept_;
   std::vector<std::unique_ptr<BulletMachine>> machines_;
   std::vector<Mover> movers_;
   std::vector<Coupled> hitches_;

@@ -60,6 +60,13 @@ std::unique_ptr<btMultiBodyLinkCollider> BulletMachine::make_collider(const Link
   collider->setRestitution(0);
   // Stiff but not rigid: ground that was raised under a body must not launch it.
   collider->setContactStiffnessAndDamping(kContactStiffness, kContactDamping);
+  // Read by SweptContacts alone: the engine does not use Bullet's own continuous detection.
+  btVector3 low, high;
+  shape.compound->getAabb(btTransform::getIdentity(), low, high);
+  low = low.absolute();
+  low.setMax(high.absolute());
+  collider->setCcdSweptSphereRadius(low.length());
+  collider->setCcdMotionThreshold(0.5 * shape.thinnest);
   // A fixed body collides only with active ones.
   const bool stands = tree_.fixed_base() && link == 0;
   collider->forceActivationState(stands ? ISLAND_SLEEPING : DISABLE_DEACTIVATION);

@@ -3,11 +3,24 @@
 
 #include <algorithm>
 
+#include "vehicle/collision_box.h"
+
 namespace navvy::vehicle {
 namespace {
 
 bool is_same(const ContactBody& a, const ContactBody& b) {
   return a.machine == b.machine && a.obstacle == b.obstacle && a.link == b.link;
+}
+
+/// Depth in shares of the smaller body that is listed between any two bodies.
+constexpr double kDeep = 0.1;
+
+/// Returns the smallest side of the box around the shapes of an object, in its own axes [m].
+double smallest_side(const btCollisionObject& object) {
+  btVector3 low, high;
+  object.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+  const btVector3 side = high - low;
+  return std::min({side.x(), side.y(), side.z()});
 }
 
 /// Returns true for a body of one link that forces move, such as a rock.
@@ -74,7 +87,22 @@ void ContactList::add(const btCollisionObject* one, const btCollisionObject* oth
   }
   contact.force = force;
   contact.depth = depth;
+  contact.size = std::min(smallest_side(*one), smallest_side(*other));
   contacts_.push_back(contact);
+}
+
+const BulletMachine* ContactList::load_on(const BulletMachine& machine) const {
+  const auto found = loads_.find(&machine);
+  return found == loads_.end() ? nullptr : found->second;
+}
+
+void ContactList::note_load(const BulletMachine& one, const BulletMachine& other) {
+  const bool heavy = one.tree().total_mass() > other.tree().total_mass();
+  const BulletMachine &load = heavy ? one : other, &under = heavy ? other : one;
+  const double mass = under.tree().total_mass();
+  if (!(mass > 0) || !(load.tree().total_mass() > kMostMassRatio * mass)) return;
+  const BulletMachine*& known = loads_[&under];
+  if (known == nullptr || load.tree().total_mass() > known->tree().total_mass()) known = &load;
 }
 
 void ContactList::collect(btCollisionWorld& world,
@@ -88,8 +116,8 @@ void ContactList::collect(btCollisionWorld& world,
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     const auto* one = static_cast<const BulletMachine*>(manifold.getBody0()->getUserPointer());
     const auto* other = static_cast<const BulletMachine*>(manifold.getBody1()->getUserPointer());
-    // The ground is no machine, and heaps of loose bodies have thousands of contacts.
-    if (one == nullptr || other == nullptr || (is_loose(*one) && is_loose(*other))) continue;
+    // The ground is no machine.
+    if (one == nullptr || other == nullptr || manifold.getNumContacts() == 0) continue;
     double impulse = 0, depth = 0;
     bool touches = false;
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
@@ -98,6 +126,12 @@ void ContactList::collect(btCollisionWorld& world,
       depth = std::max(depth, -static_cast<double>(point.getDistance()));
       touches = touches || point.getDistance() <= 0 || point.m_appliedImpulse > 0;
     }
+    if (impulse > 0) note_load(*one, *other);
+    // Heaps of loose bodies have thousands of contacts.
+    if (is_loose(*one) && is_loose(*other) &&
+        !(depth > kDeep * std::min(smallest_side(*manifold.getBody0()),
+                                   smallest_side(*manifold.getBody1()))))
+      continue;
     if (touches) add(manifold.getBody0(), manifold.getBody1(), impulse / dt, depth);
   }
   if (!movers.empty()) collect_of_obstacles(world);

@@ -4,6 +4,7 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -22,8 +23,13 @@ class ContactList {
                const std::vector<Mover>& movers, double dt);
   /// Returns the contacts.
   const std::vector<BodyContact>& contacts() const { return contacts_; }
+  /// Returns the heaviest body that has pressed on `machine` since the engine was made and that is
+  /// too heavy for contacts (kMostMassRatio); null if there is none. Only for messages.
+  const BulletMachine* load_on(const BulletMachine& machine) const;
 
  private:
+  /// Remembers the heavier of two bodies that press on each other, if it is too heavy.
+  void note_load(const BulletMachine& one, const BulletMachine& other);
   /// Adds a contact of two collision objects to the entry of their links, if both are of machines.
   void add(const btCollisionObject* one, const btCollisionObject* other, double force,
            double depth);
@@ -35,6 +41,8 @@ class ContactList {
   const std::vector<std::unique_ptr<BulletMachine>>* machines_ = nullptr;
   const std::vector<Mover>* movers_ = nullptr;
   std::vector<BodyContact> contacts_;
+  /// By machine: the heaviest body that has pressed on it, if it is too heavy for contacts.
+  std::map<const BulletMachine*, const BulletMachine*> loads_;
 };
 
 }  // namespace navvy::vehicle

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vehicle/bullet/convert.h"
+#include "vehicle/bullet/swept_contacts.h"
 
 namespace navvy::vehicle {
 namespace {
@@ -82,8 +83,17 @@ void ContactMaterials::set(const scene::MaterialPair& pair, const Vec3& v, const
   // Bullet closes a gap and resolves a penetration within the same row, and both would change the
   // rebound. So the impact acts in the first step that finds the bodies overlapping, by their
   // velocity alone.
-  if (deep < 0) {
+  if (deep < 0 && point.m_partId0 != kSweptContact) {
     point.setDistance(kFar);
+    return;
+  }
+  // Bodies that would pass each other in this step find no later overlap.
+  if (deep < 0) {
+    point.setDistance(0);
+    point.m_combinedRestitution = pair.restitution;
+    point.m_contactERP = 0;
+    point.m_contactCFM = 0;
+    point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP | BT_CONTACT_FLAG_HAS_CONTACT_CFM;
     return;
   }
   // Velocity when the bodies met, and the velocity that returns them there with the restitution's

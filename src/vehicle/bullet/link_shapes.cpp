@@ -87,6 +87,20 @@ std::unique_ptr<btCollisionShape> make_shape(
          "a link cannot collide as a plane; a plane in a scene is the rock under the ground");
 }
 
+/// Returns the smallest width of a convex shape [m], the least over 13 directions.
+double width_of(const btConvexShape& shape) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const btVector3 d = btVector3(x, y, z).normalized();
+        least = std::min(least, static_cast<double>(d.dot(shape.localGetSupportingVertex(d) -
+                                                          shape.localGetSupportingVertex(-d))));
+      }
+  return least;
+}
+
 /// Friction of a shell's steel against bodies without a material (U): about 0.5 on a stone with the
 /// usual 0.8.
 constexpr double kSteelFriction = 0.6;
@@ -98,6 +112,7 @@ LinkShape make_steel(const scene::Shell& shell) {
   LinkShape out;
   out.compound = std::make_unique<btCompoundShape>();
   out.friction = kSteelFriction;
+  out.thinnest = 2 * shell.half_thickness;
   for (std::size_t t = 0; t < shell.triangles.size(); ++t) {
     auto plate = std::make_unique<btConvexHullShape>();
     for (std::size_t i = 0; i < 3; ++i) plate->addPoint(to_bt(shell.corner(t, i)), false);
@@ -122,6 +137,9 @@ LinkShape make_link_shape(const scene::Link& link, const Pose& X_IL, bool stands
     out.parts.back()->setMargin(std::min(0.02, out.parts.back()->getMargin()));
     out.compound->addChildShape(to_bt(Pose(X_IL * collision.X_LC)), out.parts.back().get());
     out.friction = std::max(out.friction, collision.friction);
+    if (out.parts.back()->isConvex())
+      out.thinnest =
+          std::min(out.thinnest, width_of(static_cast<const btConvexShape&>(*out.parts.back())));
   }
   return out;
 }

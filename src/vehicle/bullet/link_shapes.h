@@ -6,6 +6,7 @@
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btStridingMeshInterface.h>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct LinkShape {
   std::unique_ptr<btCompoundShape> compound;
   /// Largest friction coefficient of the parts [-], which applies to the whole compound.
   double friction = 0.8;
+  /// Smallest side of any part [m]; infinite if there is none, or for triangles that never move.
+  double thinnest = std::numeric_limits<double>::infinity();
 };
 
 /// Returns the plates of a shell as one compound in the frame of the shell's link. Each triangle of
