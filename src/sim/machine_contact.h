@@ -11,6 +11,7 @@ struct MachineContact {
   int other_machine = 0, other_link = 0;  ///< second body
   double force = 0;                       ///< normal force, the mean over the step [N]
   double depth = 0;                       ///< depth of one body in the other [m]
+  double size = 0;                        ///< smallest side of the box around the smaller body [m]
 };
 
 }  // namespace navvy::sim

@@ -55,8 +55,13 @@ std::vector<MachineContact> Machines::contacts() const {
     return -1;
   };
   for (const vehicle::BodyContact& contact : capability->body_contacts()) {
-    MachineContact one{index_of_body(contact.one), contact.one.link, index_of_body(contact.other),
-                       contact.other.link,         contact.force,    contact.depth};
+    MachineContact one{index_of_body(contact.one),
+                       contact.one.link,
+                       index_of_body(contact.other),
+                       contact.other.link,
+                       contact.force,
+                       contact.depth,
+                       contact.size};
     // -1 is a body that is no machine of the scene; contacts inside a machine are left out as well.
     if (one.machine < 0 || one.other_machine < 0 || one.machine == one.other_machine) continue;
     // The lower index comes first, so that a pair has one form whatever the engine's order.

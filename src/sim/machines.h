@@ -35,8 +35,9 @@ class Machines {
   /// Returns the current state of a hitch. `index` is an index into scene::Scene::hitches.
   /// @throws InputError for a hitch that does not exist.
   vehicle::HitchState hitch(int index) const;
-  /// Returns the contacts between machines in the last step. Empty if the physics engine does not
-  /// report any.
+  /// Returns the contacts between machines in the last step; those of two bodies of one link that
+  /// forces move are among them only if they are deep (vehicle::ContactCapability). Empty if the
+  /// physics engine does not report any.
   std::vector<MachineContact> contacts() const;
 
  private:

@@ -146,6 +146,82 @@ std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pos
 
 namespace {
 
+/// Largest gap between bodies of which one counts as resting on the other [m].
+constexpr double kResting = 0.05;
+
+double mass_of(const scene::Machine& machine) {
+  double sum = 0;
+  for (const scene::Link& link : machine.links) sum += link.mass;
+  return sum;
+}
+
+/// Returns true if one of `boxes` would meet one of `below` when it sank a little, and is above it.
+bool rests_on(std::vector<LinkBox> boxes, const std::vector<LinkBox>& below) {
+  for (LinkBox& one : boxes) {
+    one.box.X_WO.translation().z() -= kResting;
+    for (const LinkBox& other : below)
+      if (one.box.X_WO.translation().z() > other.box.X_WO.translation().z() &&
+          geometry::penetration(one.box, other.box) > 0)
+        return true;
+  }
+  return false;
+}
+
+Fault warning(Fault fault) {
+  fault.severity = Fault::Severity::kWarning;
+  return fault;
+}
+
+/// Returns a warning for each link whose inertia does not fit its shape.
+void check_inertias(const scene::Scene& scene, const scene::MachineInWorld& placed,
+                    std::vector<Fault>& faults) {
+  if (placed.machine.kinematic) return;
+  for (std::size_t l = placed.machine.fixed_base ? 1 : 0; l < placed.machine.links.size(); ++l) {
+    const scene::Link& link = placed.machine.links[l];
+    const vehicle::InertiaShare inertia = vehicle::inertia_share(link);
+    if (inertia.share >= vehicle::kLeastInertiaShare) continue;
+    faults.push_back(warning(error(
+        scene, placed, text("%.3g kg m2", inertia.inertia),
+        "the inertia of its link '" + link.name + "' is " + text("%.2g %%", 100 * inertia.share) +
+            " of that of a solid body of its collision shapes and mass, " +
+            text("%.3g kg m2", inertia.expected) + ": forces will spin it beyond any time step",
+        "correct <inertia> in its file, or give navvy:density_kg_per_m3")));
+  }
+}
+
+}  // namespace
+
+std::vector<Fault> check_bodies(const scene::Scene& scene, const std::vector<Pose>& X_WB) {
+  std::vector<Fault> faults;
+  const auto is_movable = [](const scene::Machine& machine) {
+    return !machine.kinematic && !machine.fixed_base;
+  };
+  std::vector<double> masses;
+  for (const scene::MachineInWorld& placed : scene.machines) {
+    check_inertias(scene, placed, faults);
+    masses.push_back(mass_of(placed.machine));
+  }
+  for (std::size_t a = 0; a < scene.machines.size(); ++a)
+    for (std::size_t b = 0; b < scene.machines.size(); ++b) {
+      const scene::MachineInWorld &upper = scene.machines[a], &lower = scene.machines[b];
+      const double ratio = masses[a] / masses[b];
+      // Masses first: they are cheap and nearly always decide.
+      if (!(ratio > vehicle::kMostMassRatio) || !is_movable(upper.machine) ||
+          !is_movable(lower.machine) ||
+          !rests_on(boxes_of(upper, X_WB.at(a)), boxes_of(lower, X_WB.at(b))))
+        continue;
+      faults.push_back(warning(
+          error(scene, upper, text("%.4g kg", masses[a]),
+                "it rests on '" + lower.name + "' of " + text("%.4g kg", masses[b]) +
+                    ", a ratio of " + text("%.3g", ratio) +
+                    ": contacts carry ratios up to 200, beyond that bodies sink into each other",
+                "give '" + lower.name + "' more mass, or fix it to the other one")));
+    }
+  return faults;
+}
+
+namespace {
+
 /// Returns a comparison of the design with this site, so that a wrong unit or position shows. A
 /// design that cannot be built is an error elsewhere.
 std::string reported_design(const scene::Scene& scene, const heightfield::Ground& ground) try {
@@ -184,6 +260,7 @@ StartCheck check_start(const scene::Scene& scene) {
     out.design = reported_design(scene, ground);
     const std::vector<Pose> X_WB = starting_poses(scene, ground);
     out.faults = check_overlaps(scene, X_WB);
+    for (Fault& fault : check_bodies(scene, X_WB)) out.faults.push_back(std::move(fault));
     std::vector<Fault> buried = check_buried(scene, X_WB, ground);
     const bool falls = !buried.empty();
     for (Fault& fault : buried) out.faults.push_back(std::move(fault));

@@ -26,6 +26,12 @@ std::vector<Fault> check_overlaps(const scene::Scene& scene, const std::vector<P
 std::vector<Fault> check_buried(const scene::Scene& scene, const std::vector<Pose>& X_WB,
                                 const heightfield::Terrain& ground);
 
+/// Returns a warning for every link that forces move whose inertia is less than 1 % of that of a
+/// solid body of its collision shapes, and for every two bodies of which the upper one rests on the
+/// lower one at the start and has more than 200 times its mass: contacts do not carry such bodies.
+/// `X_WB` holds the initial pose of each machine's base link, in the scene's order.
+std::vector<Fault> check_bodies(const scene::Scene& scene, const std::vector<Pose>& X_WB);
+
 /// Result of check_start: the errors found at the start of a scene, and the state of each machine
 /// after the first second.
 struct StartCheck {

@@ -39,9 +39,10 @@ std::string digger(const std::string& height) {
          " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground></include>";
 }
 
-void expect_one(const std::vector<Fault>& faults, const std::vector<std::string>& parts) {
+void expect_one(const std::vector<Fault>& faults, const std::vector<std::string>& parts,
+                Fault::Severity severity = Fault::Severity::kError) {
   ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].severity, Fault::Severity::kError);
+  EXPECT_EQ(faults[0].severity, severity);
   for (const std::string& part : parts)
     EXPECT_NE(faults[0].text().find(part), std::string::npos)
         << "'" << part << "' is not in: " << faults[0].text();
@@ -87,6 +88,39 @@ TEST(StartCheck, NamesAnEyeOutOfReachAndAllowsHitchedMachinesToOverlap) {
   EXPECT_TRUE(faults_of(train("-1.2", "<closed>false</closed>")).empty());
 }
 
+/// Returns a cube with edges of 0.3 m and this inertia [kg m2].
+std::string cube(const std::string& name, const std::string& height, const std::string& mass,
+                 const std::string& inertia) {
+  return "<model name=\"" + name + "\"><pose>0 0 " + height +
+         " 0 0 0</pose><navvy:on_ground>false</navvy:on_ground><link name=\"b\"><inertial><mass>" +
+         mass + "</mass><inertia><ixx>" + inertia + "</ixx><iyy>" + inertia + "</iyy><izz>" +
+         inertia +
+         "</izz></inertia></inertial><collision name=\"c\"><geometry><box><size>0.3 0.3 0.3"
+         "</size></box></geometry></collision></link></model>";
+}
+
+TEST(StartCheck, WarnsOfAnInertiaThatDoesNotFitTheShape) {
+  // 10 kg: 0.15 kg m2.
+  EXPECT_TRUE(faults_of(cube("c", "0.5", "10", "0.002")).empty());
+  expect_one(faults_of(cube("c", "0.5", "10", "0.0014")),
+             {"w.sdf:", "include[c]", "0.0014 kg m2", "its link 'b'", "0.93 %", "0.15 kg m2",
+              "correct <inertia>"},
+             Fault::Severity::kWarning);
+}
+
+TEST(StartCheck, WarnsOfATooHeavyBodyOnAnother) {
+  const std::string light = cube("light", "0.15", "10", "0.15");
+  EXPECT_TRUE(faults_of(light + cube("heavy", "0.45", "1990", "30")).empty());
+  expect_one(faults_of(light + cube("heavy", "0.45", "2010", "30")),
+             {"w.sdf:", "include[heavy]", "2010 kg", "rests on 'light' of 10 kg", "201",
+              "sink into each other"},
+             Fault::Severity::kWarning);
+  // Beside it, or the light one above: nothing rests on it.
+  EXPECT_TRUE(faults_of(light + cube("heavy", "1.5", "2010", "30")).empty());
+  EXPECT_TRUE(
+      faults_of(cube("light", "0.45", "10", "0.15") + cube("heavy", "0.15", "2010", "30")).empty());
+}
+
 TEST(StartCheck, AcceptsShippedScenes) {
   int scenes = 0;
   for (const auto& entry :
@@ -95,6 +129,8 @@ TEST(StartCheck, AcceptsShippedScenes) {
     const scene::Scene scene = testing::load(entry.path().filename().string());
     const heightfield::Ground ground = heightfield::make_ground(scene, nullptr);
     for (const Fault& fault : check_buried(scene, starting_poses(scene, ground), ground))
+      ADD_FAILURE() << fault.text();
+    for (const Fault& fault : check_bodies(scene, starting_poses(scene, ground)))
       ADD_FAILURE() << fault.text();
     ++scenes;
   }
