@@ -22,6 +22,8 @@ enum ExitCode {
   kIncomplete = 6,
   /// A result of a laboratory experiment is outside its tolerance.
   kOutOfTolerance = 7,
+  /// An event occurred that the scene forbids. All results were written.
+  kForbidden = 8,
   /// A signal (Ctrl-C, SIGTERM, SIGHUP) or the loss of the controller ended the run. Results up to
   /// then are complete.
   kInterrupted = 130

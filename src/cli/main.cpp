@@ -138,9 +138,10 @@ int run(int argc, char** argv) {
       "be written, 5 the simulation failed (it leaves failed.snapshot), 6 the run ended before a "
       "program of it did\n"
       "(see programs in summary.json), 7 `navvy lab` measured a result outside its "
-      "tolerance, 130\n"
-      "interrupted (Ctrl-C, SIGTERM, SIGHUP, a controller that went away); above 130 a crash, "
-      "which is reported.\n"
+      "tolerance, 8 an event\n"
+      "that the scene forbids (navvy:forbid) ended the run, 130 interrupted (Ctrl-C, SIGTERM, "
+      "SIGHUP, a controller\n"
+      "that went away); above 130 a crash, which is reported.\n"
       "docs/README.md lists all pages; docs/reference/scene.md has the elements of scene files.");
   // The chosen subcommand fills the action.
   cli::Action action;

@@ -120,9 +120,6 @@ void Operator::State::finish(StepState state, const std::string& reason, const O
 
 namespace {
 
-/// Distance that a machine may settle, roll out or be shaken during a step in which it stands [m].
-constexpr double kMostMoved = 0.5;
-
 /// Returns true for steps in which the machine keeps its place. A dig moves its machine and has
 /// limits of its own, and a trajectory may turn wheels.
 bool stands_still(const ActivityStep& step) {
@@ -137,12 +134,9 @@ bool stands_still(const ActivityStep& step) {
 StepState Operator::State::look(const Observation& seen, double dt, std::string& reason) {
   if (const StepState state = watch.look(seen, dt, reason); fell_short(state)) return state;
   const Vec3 p = seen.X_WB.translation();
-  if (seen.ground != nullptr) {
-    const Vec2i at = seen.ground->column_at(p.x(), p.y());
-    if (!seen.ground->contains(at.x(), at.y())) {
-      reason = "its base is beyond the border of the site";
-      return StepState::kOffSite;
-    }
+  if (seen.ground != nullptr && is_off_site(*seen.ground, p)) {
+    reason = "its base is beyond the border of the site";
+    return StepState::kOffSite;
   }
   const double moved = (p - stood).head<2>().norm();
   const bool towed = seen.is_coupled && seen.is_coupled();

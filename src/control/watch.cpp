@@ -13,6 +13,11 @@ constexpr double kOutside = 0.2;    // [s]
 
 }  // namespace
 
+bool is_off_site(const heightfield::Terrain& site, const Vec3& p_W) {
+  const Vec2i at = site.column_at(p_W.x(), p_W.y());
+  return !site.contains(at.x(), at.y());
+}
+
 StepState Watch::look(const Observation& seen, double dt, std::string& reason) {
   const vehicle::Stability& stands = seen.stability;
   if (!stands.free) return StepState::kRunning;

@@ -10,6 +10,12 @@
 
 namespace navvy::control {
 
+/// Distance that a machine may settle, roll out or be shaken while it is to stand [m].
+inline constexpr double kMostMoved = 0.5;
+
+/// Returns true if the site has no column below the point `p_W`, in W [m].
+bool is_off_site(const heightfield::Terrain& site, const Vec3& p_W);
+
 /// Checks once per control step whether the machine has tipped over or is buried.
 class Watch {
  public:

@@ -100,6 +100,24 @@ json collision_list(const session::Session& session) {
   return list;
 }
 
+/// Returns an entry for each lasting overlap of two links.
+json overlap_list(const session::Session& session) {
+  json list = json::array();
+  for (const session::BodyOverlap& one : session.overlaps().overlaps()) {
+    const sim::MachineHandle machine = session.world().machines().at(one.machine),
+                             other = session.world().machines().at(one.other_machine);
+    list.push_back({{"machine", machine.name()},
+                    {"link", machine.link(one.link).name()},
+                    {"other_machine", other.name()},
+                    {"other_link", other.link(one.other_link).name()},
+                    {"start_s", one.start},
+                    {"end_s", one.end},
+                    {"depth_m", one.depth_peak},
+                    {"depth_share", one.share_peak}});
+  }
+  return list;
+}
+
 /// Returns the present payload of buckets and beds [kg], by "machine/shell".
 json carried(const session::Session& session) {
   json out = json::object();
@@ -188,6 +206,12 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["carried_kg"] = carried(session);
   out["collisions"] = collision_list(session);
   out["collision_count"] = session.collisions().count();
+  out["overlaps"] = overlap_list(session);
+  out["overlap_count"] = session.overlaps().count();
+  // Absent in a run without one.
+  if (const auto& event = session.forbidden())
+    out["forbidden_event"] = {
+        {"event", event->event}, {"reason", event->reason}, {"time_s", event->time}};
   // Results on the ground.
   out["bank_volume_m3"] = earth.bank_volume;
   out["loose_volume_m3"] = earth.loose_volume;

@@ -13,15 +13,18 @@ const char* name_of(EndReason reason) {
       return "out_of_time";
     case EndReason::kEndRequested:
       return "end_requested";
+    case EndReason::kForbidden:
+      return "forbidden";
     case EndReason::kInterrupted:
       break;
   }
   return "interrupted";
 }
 
-// The summary knows three ends; its readers find the details in its list of programs.
+// The summary knows four ends; its readers find the details in its list of programs.
 const char* status_of(EndReason reason) {
   if (reason == EndReason::kInterrupted) return "interrupted";
+  if (reason == EndReason::kForbidden) return "failed";
   return reason == EndReason::kComplete ? "finished" : "incomplete";
 }
 

@@ -7,7 +7,7 @@
 namespace navvy::run {
 
 /// Reason why a run ended. If several reasons apply, the first one in this order is reported:
-/// kInterrupted, kComplete, kFellShort, then one of the others.
+/// kInterrupted, kForbidden, kComplete, kFellShort, then one of the others.
 enum class EndReason {
   /// All programs were completed, and no machine fell over.
   kComplete,
@@ -18,14 +18,17 @@ enum class EndReason {
   /// The caller or a controller ended the run early.
   kEndRequested,
   /// A signal interrupted the run, or its controller disconnected.
-  kInterrupted
+  kInterrupted,
+  /// An event occurred that the scene forbids.
+  kForbidden
 };
 
 /// Result of a run.
 struct RunEnd {
   /// Reason why the run ended.
   EndReason reason = EndReason::kEndRequested;
-  /// Cause of an interruption, as text for the user; empty for other reasons.
+  /// Cause of an interruption, or the forbidden event, as text for the user; empty for other
+  /// reasons.
   std::string cause;
   /// Simulated time at the end [s].
   double time = 0;
@@ -34,11 +37,11 @@ struct RunEnd {
   bool snapshot_missed = false;
 };
 
-/// Returns the name of an end reason: "complete", "fell_short", "out_of_time", "end_requested" or
-/// "interrupted".
+/// Returns the name of an end reason: "complete", "fell_short", "out_of_time", "end_requested",
+/// "interrupted" or "forbidden".
 const char* name_of(EndReason reason);
 /// Returns the value of "status" in summary.json for a run with this end reason: "finished",
-/// "incomplete" or "interrupted".
+/// "incomplete", "interrupted" or "failed".
 const char* status_of(EndReason reason);
 
 }  // namespace navvy::run

@@ -204,6 +204,8 @@ RunEnd Simulation::State::end_now(bool requested, const std::string& interrupted
   end.cause = interrupted_by;
   if (!interrupted_by.empty())
     end.reason = EndReason::kInterrupted;
+  else if (session->forbidden())
+    end.reason = EndReason::kForbidden, end.cause = session->forbidden()->text();
   else if (session->complete())
     end.reason = EndReason::kComplete;
   else if (session->fell_short())
@@ -214,8 +216,8 @@ RunEnd Simulation::State::end_now(bool requested, const std::string& interrupted
   return end;
 }
 
-/// Returns why a run is not finished: the cause of an interruption, or the programs that did not
-/// reach their end. Empty for a finished run.
+/// Returns why a run is not finished: the cause of an interruption, the forbidden event, or the
+/// programs that did not reach their end. Empty for a finished run.
 std::string Simulation::State::message_of(const RunEnd& end) const {
   if (!end.cause.empty() || end.reason == EndReason::kComplete) return end.cause;
   std::string out;

@@ -9,6 +9,7 @@
 #include "core/math.h"
 #include "scene/design.h"
 #include "scene/fields.h"
+#include "scene/forbidden.h"
 #include "scene/ground.h"
 #include "scene/hitch.h"
 #include "scene/machine.h"
@@ -217,6 +218,7 @@ struct Scene {
   std::vector<Light> lights;             ///< lights; the first one is the sun
   Recording recording;                   ///< length and output of the run
   std::vector<MapRecord> records;        ///< maps and messages that the run writes
+  Forbidden forbidden;                   ///< events that end the run as failed
 
   /// Passes all fields of a scene's <world> to the visitor `f`.
   void describe(Fields& f) {
@@ -241,6 +243,7 @@ struct Scene {
     f("light", lights, limits::kMachines, "Directional light.", kSdf | kShown);
     f("navvy:recording", recording, "Length and output of a run.", kShown);
     f("navvy:record", records, limits::kMachines, "Maps that a run writes at a rate.", kShown);
+    f("navvy:forbid", forbidden, "Events that end a run as failed.", kShown);
   }
 
   /// Returns the index in `soils` of the soil with this name; -1 if there is none.

@@ -27,7 +27,7 @@ bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
          std::max(c.y(), d.y()) >= std::min(a.y(), b.y());
 }
 
-/// A floor needs an inside: separate corners, and edges that meet at their corners only.
+/// An area needs an inside: separate corners, and edges that meet at their corners only.
 void check_polygon(const Element& at, const std::vector<Vec2>& polygon, Faults& faults) {
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -54,22 +54,30 @@ void finish_area(const Element& element, scene::DesignArea& area, Faults& faults
   const Element* polygon = element.FirstChildElement("polygon_m");
   if (polygon == nullptr) return;
   const std::vector<double> numbers = std::move(area.polygon_numbers);
-  if (numbers.size() < 6 || numbers.size() % 2 != 0 ||
-      numbers.size() > 2 * limits::kDesignCorners) {
-    faults.error(
-        *polygon, std::to_string(numbers.size()) + " numbers",
-        "a polygon is x and y of 3 to " + std::to_string(limits::kDesignCorners) + " corners",
-        "e.g. 0 0 4 0 4 2 0 2");
-    return;
-  }
-  for (std::size_t i = 0; i < numbers.size(); i += 2)
-    area.polygon.emplace_back(numbers[i], numbers[i + 1]);
-  check_polygon(*polygon, area.polygon, faults);
+  area.polygon = polygon_of(*polygon, numbers, faults);
+  if (area.polygon.empty()) return;
   if (const Element* depth = element.FirstChildElement("depth_m"); depth && area.depth == 0)
     faults.error(*depth, "0", "a pit is deeper than 0, a pad less", "0.8 digs, -0.8 fills");
 }
 
 }  // namespace
+
+std::vector<Vec2> polygon_of(const Element& at, const std::vector<double>& numbers,
+                             Faults& faults) {
+  std::vector<Vec2> polygon;
+  if (numbers.size() < 6 || numbers.size() % 2 != 0 ||
+      numbers.size() > 2 * limits::kDesignCorners) {
+    faults.error(
+        at, std::to_string(numbers.size()) + " numbers",
+        "a polygon is x and y of 3 to " + std::to_string(limits::kDesignCorners) + " corners",
+        "e.g. 0 0 4 0 4 2 0 2");
+    return polygon;
+  }
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    polygon.emplace_back(numbers[i], numbers[i + 1]);
+  check_polygon(at, polygon, faults);
+  return polygon;
+}
 
 scene::Design read_design(Element& element, Faults& faults) {
   scene::Design design;

@@ -11,6 +11,7 @@
 #include "scene_io/assembly.h"
 #include "scene_io/design_reader.h"
 #include "scene_io/element_reader.h"
+#include "scene_io/forbidden_reader.h"
 #include "scene_io/ground_reader.h"
 #include "scene_io/hitch_reader.h"
 #include "scene_io/instance_reader.h"
@@ -300,6 +301,8 @@ scene::Scene read_world(Document& document, const scene::StepKinds& kinds, Fault
   // After all machines, as steps name machines that come later in the file.
   check_program_order(*element, world, faults);
   read_section(*element, "navvy:recording", world.recording, faults);
+  if (Element* e = element->FirstChildElement("navvy:forbid"))
+    world.forbidden = read_forbidden(*e, faults);
   read_records(*element, world, faults);
   read_cameras(*element, world, faults);
   for (Element* e : children_of(*element, {"light"})) read_light(*e, world.lights, faults);

@@ -19,13 +19,18 @@ bool is_loose(const scene::Machine& machine) {
   return !machine.fixed_base && !machine.kinematic && machine.joints.empty();
 }
 
+}  // namespace
+
 std::string name_of_link(const sim::World& world, int machine, int link) {
   const sim::MachineHandle one = world.machines().at(machine);
   return "'" + one.name() + "' (" + one.description().links[static_cast<std::size_t>(link)].name +
          ")";
 }
 
-}  // namespace
+std::string text_of(const MachineCollision& collision, const sim::World& world) {
+  return name_of_link(world, collision.machine, collision.link) + " touches " +
+         name_of_link(world, collision.other_machine, collision.other_link);
+}
 
 void MachineCollision::visit(Archive& a) {
   a("machine", machine);
@@ -59,16 +64,16 @@ void CollisionWatch::look(const sim::World& world) {
       continue;
     }
     ++count_;
+    const MachineCollision fresh{contact.machine,    contact.link, contact.other_machine,
+                                 contact.other_link, now,          now,
+                                 contact.force,      contact.depth};
     // The list is bounded, the count is not.
-    if (list_.size() < kMost)
-      list_.push_back({contact.machine, contact.link, contact.other_machine, contact.other_link,
-                       now, now, contact.force, contact.depth});
+    if (list_.size() < kMost) list_.push_back(fresh);
     if (!logged_.insert({contact.machine, contact.other_machine}).second) continue;
     std::array<char, 32> when{};
     std::snprintf(when.data(), when.size(), "%.2f s", now);
-    log_warning("collision: " + name_of_link(world, contact.machine, contact.link) + " touches " +
-                name_of_link(world, contact.other_machine, contact.other_link) + " at " +
-                when.data() + "; the summary lists all of them (logged once per pair of machines)");
+    log_warning("collision: " + text_of(fresh, world) + " at " + when.data() +
+                "; the summary lists all of them (logged once per pair of machines)");
   }
 }
 

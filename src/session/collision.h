@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,13 @@ struct MachineCollision {
   /// Saves or loads all fields.
   void visit(Archive& a);
 };
+
+/// Returns machine and link as text, such as "'robot' (chassis)". Both are indices, as in
+/// MachineCollision.
+std::string name_of_link(const sim::World& world, int machine, int link);
+/// Returns the two machines of a collision with their links, as "'robot' (chassis) touches 'wall'
+/// (panel)".
+std::string text_of(const MachineCollision& collision, const sim::World& world);
 
 /// Records the collisions of a run. Bodies of one link that forces move, such as rocks and loads,
 /// are excluded: tools touch and carry them. It changes nothing that a run computes.

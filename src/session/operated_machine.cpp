@@ -82,14 +82,7 @@ void OperatedMachine::connect_gauges() {
       if (hitches[h].name == name) return world.machines().hitch(static_cast<int>(h)).closed;
     return false;
   };
-  seen_.is_coupled = [&world, machine = index()] {
-    const std::vector<scene::Hitch>& hitches = world.description().hitches;
-    for (std::size_t h = 0; h < hitches.size(); ++h)
-      if ((hitches[h].parent == machine || hitches[h].child == machine) &&
-          world.machines().hitch(static_cast<int>(h)).closed)
-        return true;
-    return false;
-  };
+  seen_.is_coupled = [&world, machine = index()] { return is_coupled(world, machine); };
 }
 
 void OperatedMachine::step(std::vector<Cycle>& cycles, std::vector<BedTip>& tips) {

@@ -39,7 +39,8 @@ struct Session::State {
         surface(world),
         device_name(device.info().name),
         // The number and order of tools never change.
-        tools(world.machines().tools()) {
+        tools(world.machines().tools()),
+        forbidden(world) {
     for (int m = 0; m < world.machines().count(); ++m)
       for (const scene::Bucket& bucket : world.machines().at(m).description().buckets)
         buckets.emplace_back(world.machines().at(m), bucket);
@@ -70,6 +71,8 @@ struct Session::State {
   OperatedMachine::Programs programs;
   ForceStatistics force;
   CollisionWatch collisions;
+  OverlapWatch overlaps;
+  ForbiddenWatch forbidden;
   /// Simulated time since every program ended [s].
   double idle = 0;
   /// Wall time that operators took [s].
@@ -82,6 +85,7 @@ struct Session::State {
   void take_over(int machine);
   bool has_link(int machine, int link) const;
   void note_forces();
+  std::vector<MachineOutcome> outcomes() const;
   void visit(Archive& a);
 };
 
@@ -152,12 +156,27 @@ void Session::State::watch_border() {
   }
 }
 
+/// Returns the states of the machines that have failed.
+std::vector<MachineOutcome> Session::State::outcomes() const {
+  std::vector<MachineOutcome> out;
+  for (const OperatedMachine& one : operated)
+    if (one.op().ended() && !one.op().done()) {
+      const control::StepReport& last = one.op().reports().back();
+      out.push_back({one.index(), last.state, last.reason});
+    }
+  for (const UncontrolledMachine& one : uncontrolled_machines)
+    if (one.fall()) out.push_back({one.index(), one.fall()->state, one.fall()->reason});
+  return out;
+}
+
 bool Session::State::has_link(int machine, int link) const {
   const auto& links = world.machines().at(machine).description().links;
   return link >= 0 && static_cast<std::size_t>(link) < links.size();
 }
 
 void Session::State::take_over(int machine) {
+  for (UncontrolledMachine& one : uncontrolled_machines)
+    if (one.index() == machine) one.take();
   for (OperatedMachine& one : operated)
     if (one.index() == machine && one.take())
       log_info("'" + one.name() + "' leaves its program at " + std::to_string(world.time()) +
@@ -167,8 +186,9 @@ void Session::State::take_over(int machine) {
 /// Visits all state beside the world: reports first, then each operated machine.
 void Session::State::visit(Archive& a) {
   // Version 3 added machines taken by inputs; 4 operators; 5 their reports; 6 peaks of draft and
-  // uplift; 7 the watch over machines that no program drives; 8 loads of tip and dump, collisions.
-  a.section("session", 8, [&] {
+  // uplift; 7 the watch over machines that no program drives; 8 loads of tip and dump, collisions;
+  // 9 overlaps, forbidden events, places of machines that no program drives.
+  a.section("session", 9, [&] {
     a("cycles", cycles);
     a("tips", tips);
     // Reports name machines by their index.
@@ -180,9 +200,12 @@ void Session::State::visit(Archive& a) {
     a.require(std::all_of(tips.begin(), tips.end(), known), "tips",
               "refers to a machine that the scene does not have");
     a("force", force);
-    a.unhashed("only reports: a collision changes the states of its machines",
-               [&] { a("collisions", collisions); });
-    const auto both_known = [&](const MachineCollision& one) {
+    a.unhashed("only reports: a collision changes the states of its machines", [&] {
+      a("collisions", collisions);
+      a("overlaps", overlaps);
+      a("forbidden", forbidden);
+    });
+    const auto both_known = [&](const auto& one) {
       return one.machine >= 0 && one.machine < one.other_machine &&
              one.other_machine < world.machines().count() && has_link(one.machine, one.link) &&
              has_link(one.other_machine, one.other_link);
@@ -190,6 +213,8 @@ void Session::State::visit(Archive& a) {
     a.require(
         std::all_of(collisions.collisions().begin(), collisions.collisions().end(), both_known),
         "collisions", "refers to a machine or link that the scene does not have");
+    a.require(std::all_of(overlaps.overlaps().begin(), overlaps.overlaps().end(), both_known),
+              "overlaps", "refers to a machine or link that the scene does not have");
     a("idle", idle);
     // Programs may have been added to the scene since.
     a.constant("programs", operated.size(),
@@ -219,6 +244,8 @@ Session::Session(scene::Scene description, device::Device& device,
   for (Fault& fault : sim::check_overlaps(s.world.description(), X_WB))
     faults.push_back(std::move(fault));
   for (Fault& fault : sim::check_buried(s.world.description(), X_WB, s.surface.terrain()))
+    faults.push_back(std::move(fault));
+  for (Fault& fault : sim::check_bodies(s.world.description(), X_WB))
     faults.push_back(std::move(fault));
   const auto is_error = [](const Fault& fault) {
     return fault.severity == Fault::Severity::kError;
@@ -261,6 +288,10 @@ void Session::step() {
   s.world.step();
   s.note_forces();
   s.collisions.look(s.world);
+  s.overlaps.look(s.world);
+  s.forbidden.look(s.world, s.collisions,
+                   s.forbidden.needs_states() ? s.outcomes() : std::vector<MachineOutcome>(),
+                   done());
 }
 
 void Session::watch(const std::string& link) { state_->world.watch(link); }
@@ -312,7 +343,7 @@ bool Session::done() const {
   const bool at_rest = state_->world.soil().counts().particles == 0 ||
                        state_->idle >= kLongestRest * recording.settle;
   const bool programs_over = state_->idle > 0 && state_->idle >= recording.settle && at_rest;
-  return programs_over || time_is_over();
+  return programs_over || time_is_over() || forbidden().has_value();
 }
 
 /// Allows half a step of slack: time is step count x dt and may be rounded below the duration.
@@ -321,7 +352,12 @@ bool Session::time_is_over() const {
          state_->world.description().recording.duration - 0.5 * state_->world.dt();
 }
 
+const std::optional<ForbiddenEvent>& Session::forbidden() const {
+  return state_->forbidden.event();
+}
+
 bool Session::complete() const {
+  if (forbidden()) return false;
   const auto stands = [](const UncontrolledMachine& one) { return !one.fall(); };
   return std::all_of(state_->uncontrolled_machines.begin(), state_->uncontrolled_machines.end(),
                      stands) &&
@@ -382,6 +418,7 @@ std::vector<ProgramReport> Session::programs() const {
 const std::vector<Cycle>& Session::cycles() const { return state_->cycles; }
 const std::vector<BedTip>& Session::tips() const { return state_->tips; }
 const CollisionWatch& Session::collisions() const { return state_->collisions; }
+const OverlapWatch& Session::overlaps() const { return state_->overlaps; }
 const std::vector<std::optional<sim::SoilEnergy>>& Session::energy_at_ends() const {
   return state_->energy_at_ends;
 }

@@ -12,6 +12,8 @@
 #include "control/path_planner.h"
 #include "core/archive.h"
 #include "session/collision.h"
+#include "session/forbidden_watch.h"
+#include "session/overlap_watch.h"
 #include "session/reports.h"
 #include "sim/world.h"
 
@@ -51,14 +53,17 @@ class Session {
   /// every program has ended (successfully or not), the settling time has passed since, and no
   /// loose soil is active; active soil delays the end by six settling times at most. A program that
   /// inputs have taken over never counts as ended, and without programs only the duration ends the
-  /// run.
+  /// run. A forbidden event ends the run at once.
   bool done() const;
   /// Returns true if every program is done or has been taken over by inputs, and no machine has
-  /// fallen without a program.
+  /// fallen, left the site or been pushed away without a program.
   bool complete() const;
   /// Returns true if a step of a program has failed, or if a machine has fallen (tipped over or
-  /// been buried) while no program controlled it.
+  /// been buried), left the site or been pushed away while no program controlled it.
   bool fell_short() const;
+  /// Returns the first event that the scene forbids (scene::Forbidden) and that has occurred; empty
+  /// if there was none. It ends the run as failed.
+  const std::optional<ForbiddenEvent>& forbidden() const;
 
   /// Returns the world for reading. To command machines, use the functions of this class.
   const sim::World& world() const;
@@ -89,7 +94,7 @@ class Session {
   const heightfield::DesignSurface* design() const;
   /// Returns what the machine with the index `machine` is doing: the phase of its operator (see
   /// control::Operator::phase), "idle" if it has no program, "inputs" after inputs have taken over,
-  /// or "tipped" or "buried" if it has fallen.
+  /// or "tipped", "buried", "off_site" or "moved" if that has happened without a program.
   std::string phase(int machine) const;
   /// Returns the reports of all programs, in the order of the machines. A program still running
   /// when the scene's duration has elapsed is out of time. A machine that has fallen without a
@@ -100,6 +105,8 @@ class Session {
   const std::vector<Cycle>& cycles() const;
   /// Returns the collisions of machines so far, with their number.
   const CollisionWatch& collisions() const;
+  /// Returns the overlaps of bodies so far that lasted, with their number.
+  const OverlapWatch& overlaps() const;
   /// Returns all completed bed tips, in the order in which they ended.
   const std::vector<BedTip>& tips() const;
   /// Returns the force statistics over all steps so far.

@@ -19,10 +19,14 @@ namespace navvy::session {
 void observe_stance(const sim::World& world, const sim::MachineHandle& machine,
                     const std::vector<sim::WheelHandle>& wheels, control::Observation& seen);
 
+/// Returns true if a closed hitch couples the machine with the index `machine` in the scene.
+bool is_coupled(const sim::World& world, int machine);
+
 /// Monitors one machine while no program controls it.
 ///
-/// If the machine falls, that is, tips over or is buried, this is reported once: in the log at that
-/// moment, and as a step report for the summary.
+/// If the machine falls, that is, tips over or is buried, leaves the site, or is pushed away while
+/// nothing drives it, this is reported: in the log at that moment, and as a step report for the
+/// summary. A machine that was pushed away may still fall, which is a second report.
 class UncontrolledMachine {
  public:
   /// Makes the monitor of the machine with the index `machine` in the scene. `world` must outlive
@@ -32,17 +36,22 @@ class UncontrolledMachine {
   /// Returns the index of the machine in the scene.
   int index() const { return machine_.index(); }
   /// Checks the machine. Call it in each step in which no program controls the machine. `by_inputs`
-  /// is true if inputs control it; the report states that.
+  /// is true if inputs have taken it over from its program; the report states that.
   void look(bool by_inputs);
-  /// Returns the report of the machine's fall, with state (kTipped or kBuried), time and position;
-  /// empty if the machine has not fallen. Its step number is 0, because it belongs to no step of a
-  /// program.
+  /// Records that inputs drive the machine from now on, so that it may move.
+  void take() { driven_ = true; }
+  /// Returns the last report of the machine, with state (kTipped, kBuried, kOffSite or kMoved),
+  /// time and position; empty if there is nothing to report. Its step number is 0, because it
+  /// belongs to no step of a program.
   const std::optional<control::StepReport>& fall() const { return fall_; }
 
   /// Saves or loads all state that affects later reports.
   void visit(Archive& a);
 
  private:
+  /// Returns kOffSite or kMoved with a reason, or kRunning.
+  control::StepState look_at_place(std::string& reason);
+
   // World that the machine is in.
   const sim::World& world_;
   // The monitored machine.
@@ -53,8 +62,14 @@ class UncontrolledMachine {
   control::Observation seen_;
   // Detects that the machine has fallen.
   control::Watch watch_;
-  // Report of the fall; empty if the machine has not fallen.
+  // Last report; empty if there is none.
   std::optional<control::StepReport> fall_;
+  // Place that the machine is to keep, in W [m].
+  Vec3 stood_;
+  // True if inputs have driven the machine.
+  bool driven_ = false;
+  // True if the base has been on the site.
+  bool on_site_ = false;
 };
 
 }  // namespace navvy::session

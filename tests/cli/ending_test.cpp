@@ -139,5 +139,37 @@ TEST_F(Ending, ReportsNoProgramAsRunningWhenTheControllerEndsTheRun) {
   EXPECT_EQ(complained().find("running"), std::string::npos) << complained();
 }
 
+TEST_F(Ending, HasItsOwnStatusAfterAForbiddenEvent) {
+  const std::string path = (directory_ / "scene.sdf").string();
+  std::ofstream(path)
+      << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"wall\">\n"
+         "<navvy:soil ref=\"gravel\"/><navvy:ground><size_m>12 10</size_m></navvy:ground>\n"
+         "<navvy:solver><cell_m>0.2</cell_m></navvy:solver>\n"
+         "<include><uri>model://robot</uri><pose>-1.2 0 0 0 0 0</pose><navvy:program><drive_to>"
+         "<target_m>3 0</target_m><speed_m_per_s>1</speed_m_per_s></drive_to></navvy:program>"
+         "</include>\n"
+         "<model name=\"wall\"><static>true</static><link name=\"b\"><collision name=\"c\">"
+         "<geometry><box><size>0.3 9 1.2</size></box></geometry></collision></link></model>\n"
+         "<navvy:recording><duration_s>9</duration_s></navvy:recording></world></sdf>\n";
+  EXPECT_EQ(run({path, "--set", "forbid.collision=true"}), 8) << complained();
+  const nlohmann::json written = summary();
+  EXPECT_EQ(written.at("status"), "failed");
+  EXPECT_LT(written.at("simulated_time_s").get<double>(), 5);
+  const nlohmann::json event = written.at("forbidden_event");
+  EXPECT_EQ(event.at("event"), "collision");
+  EXPECT_NE(event.at("reason").get<std::string>().find("touches 'wall' (b)"), std::string::npos)
+      << event;
+  EXPECT_NEAR(event.at("time_s").get<double>(), written.at("simulated_time_s").get<double>(), 1e-9);
+  const std::string line = "forbidden event collision: 'robot' (";
+  EXPECT_EQ(written.at("message").get<std::string>().rfind(line, 0), 0u) << written.at("message");
+  EXPECT_NE(said().find("failed: " + line), std::string::npos) << said();
+  EXPECT_NE(said().find("results: "), std::string::npos) << said();
+  // Its state can be examined, and continued by a scene that forbids nothing.
+  EXPECT_EQ(ProgramRun::run({"run", path, "--no-render", "--resume", out() + "/failed.snapshot",
+                             "--duration", "6", "--out", out() + "2"}),
+            0)
+      << complained();
+}
+
 }  // namespace
 }  // namespace navvy

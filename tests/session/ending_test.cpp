@@ -222,5 +222,49 @@ TEST(SessionEnd, OfAMachineThatLeavesTheSiteIsOffSite) {
   EXPECT_LT(report.last().place.x(), 15.4);
 }
 
+TEST(SessionEnd, OfAParkedMachineThatSlidesIsMoved) {
+  device::Device device;
+  const LogLines log;
+  Session session(load(kSteep, machine("robot", "parked", "-8 0 0 0 0 0", "") +
+                                   machine("robot", "robot", "0 3 0 0 0 0",
+                                           "<wait><duration_s>0.2</duration_s></wait>")),
+                  device);
+  while (session.phase(0) == "idle" && session.world().time() < 5) session.step();
+  EXPECT_EQ(session.phase(0), "moved");
+  EXPECT_TRUE(session.fell_short());
+  EXPECT_FALSE(session.complete());
+  const ProgramReport report = session.programs().at(0);
+  EXPECT_EQ(report.last().state, StepState::kMoved);
+  EXPECT_EQ(report.last().step, 0);
+  EXPECT_NE(report.last().reason.find("it slid or was pushed 0.5"), std::string::npos)
+      << report.last().reason;
+  EXPECT_NE(log.text().find("'parked' (idle): moved: "), std::string::npos) << log.text();
+}
+
+TEST(SessionEnd, OfAParkedMachineThatAnotherPushesIsMoved) {
+  device::Device device;
+  Session session(
+      load("<size_m>20 8</size_m>",
+           machine("robot", "parked", "0 0 0 0 0 0", "") +
+               "<include><uri>model://robot</uri><name>pusher</name><pose>-2 0 0 0 0 0</pose>"
+               "<navvy:physics>kinematic</navvy:physics><navvy:program><drive_to><target_m>3 0"
+               "</target_m></drive_to></navvy:program></include>"),
+      device);
+  while (session.phase(0) == "idle" && session.world().time() < 12) session.step();
+  EXPECT_EQ(session.phase(0), "moved");
+  EXPECT_GT(session.collisions().count(), 0);
+}
+
+TEST(SessionEnd, OfAMachineThatInputsDriveOffTheSiteIsOffSite) {
+  device::Device device;
+  Session session(load("<size_m>12 8</size_m>", machine("robot", "robot", "3 0 0 0 0 0", "")),
+                  device);
+  session.set("robot/drive/speed", 1);
+  while (session.phase(0) == "idle" && session.world().time() < 8) session.step();
+  EXPECT_EQ(session.phase(0), "off_site");
+  EXPECT_GT(session.programs().at(0).last().place.x(), 6);
+  EXPECT_TRUE(session.fell_short());
+}
+
 }  // namespace
 }  // namespace navvy::session
