@@ -28,7 +28,7 @@ class ContactList {
   const BulletMachine* load_on(const BulletMachine& machine) const;
 
  private:
-  /// Remembers the heavier of two bodies that press on each other, if it is too heavy.
+  /// Records the heavier of two bodies that press on each other, if it is too heavy.
   void note_load(const BulletMachine& one, const BulletMachine& other);
   /// Adds a contact of two collision objects to the entry of their links, if both are of machines.
   void add(const btCollisionObject* one, const btCollisionObject* other, double force,
@@ -41,7 +41,7 @@ class ContactList {
   const std::vector<std::unique_ptr<BulletMachine>>* machines_ = nullptr;
   const std::vector<Mover>* movers_ = nullptr;
   std::vector<BodyContact> contacts_;
-  /// By machine: the heaviest body that has pressed on it, if it is too heavy for contacts.
+  /// Heaviest body that has pressed on each machine, if it is too heavy for contacts.
   std::map<const BulletMachine*, const BulletMachine*> loads_;
 };
 
