@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/buffer.h"
 
+#include <array>
+#include <cstdio>
+
 #include "core/long_work.h"
 #include "device/opencl_private.h"
 
 namespace navvy::device {
+
+namespace {
+
+std::string mebibytes(std::uint64_t bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f MiB", static_cast<double>(bytes) / (1 << 20));
+  return text.data();
+}
+
+}  // namespace
 
 struct RawBuffer::Memory {
   // Keeps the context and the queue alive: a buffer may outlive its Device object.
@@ -26,7 +39,9 @@ struct RawBuffer::Memory {
       throw DeviceError(
           "clCreateBuffer of " + std::to_string(bytes) + " bytes failed: " + error_name(code) +
               ", on device " + device->info.text() + "; " + std::to_string(device->memory_used) +
-              " bytes are in use; use a larger soil cell or a device with more memory",
+              " bytes are in use, so that " + mebibytes(device->memory_used + bytes) +
+              " are wanted and the device allows " + mebibytes(device->info.memory) +
+              "; use a larger soil cell, a smaller max_particles, or a device with more memory",
           code);
     }
     size = bytes;

@@ -50,6 +50,24 @@ std::string cost_of_files(const scene::Scene& scene) {
   return text;
 }
 
+/// Returns what active soil costs in small cells; empty for other cells.
+std::string cost_of_soil(const scene::Scene& scene) {
+  // A cubic metre in cells of 3 cm takes 61 MiB; above, a dig rarely needs as much as the program.
+  constexpr double kSmall = 0.03;
+  // Of a particle with its lists (core/limits.h, kParticles), and particles in a cell.
+  constexpr double kBytes = 216, kPerCell = 8;
+  const double cell = scene.solver.cell, most = scene.solver.max_particles;
+  if (!(cell < kSmall)) return "";
+  const double each = kPerCell / (cell * cell * cell);
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "cells of %.3g m: a cubic metre of active soil takes %.3g particles and %.0f MiB of "
+      "the device; max_particles allows %.3g m3 and %.0f MiB",
+      cell, each, each * kBytes / (1 << 20), most / each, most * kBytes / (1 << 20));
+  return text;
+}
+
 /// Splits a text into lines.
 void add_lines(std::vector<std::string>& lines, const std::string& text) {
   std::istringstream in(text);
@@ -69,6 +87,7 @@ SceneCheck check_scene(const scene::Scene& scene) {
   add_lines(out.notes, start.terrain);
   add_lines(out.notes, start.design);
   add_lines(out.notes, cost_of_files(scene));
+  add_lines(out.notes, cost_of_soil(scene));
   for (std::size_t m = 0; m < start.standing.size(); ++m)
     if (start.standing[m].free)
       out.notes.push_back(standing(scene.machines[m].name, start.standing[m], start.falling[m]));

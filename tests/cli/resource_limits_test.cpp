@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,30 @@ TEST_F(ResourceLimits, NoFurtherProcessIsNamed) {
   EXPECT_EQ(status, 3) << complained();
   EXPECT_TRUE(complains("ulimit")) << complained();
   EXPECT_FALSE(complains("internal error")) << complained();
+}
+
+TEST_F(ResourceLimits, CellsOfTwoCentimetresRunOrNameTheMemoryTheyWant) {
+  const std::string path = (directory_ / "fine.sdf").string();
+  std::ofstream(path)
+      << "<sdf version=\"1.9\" xmlns:navvy=\"navvy\"><world name=\"fine\">\n"
+         "<navvy:soil ref=\"sand_dry\"/>\n"
+         "<navvy:ground><size_m>4 4</size_m><depth_m>0.5</depth_m><block><center_m>0 0</center_m>"
+         "<length_m>0.4</length_m><width_m>0.4</width_m><height_m>0.3</height_m></block>"
+         "<active><min_m>-0.3 -0.3</min_m><max_m>0.3 0.3</max_m><bottom_m>-0.1</bottom_m></active>"
+         "</navvy:ground>\n"
+         "<navvy:solver><cell_m>0.02</cell_m></navvy:solver>\n"
+         "<navvy:recording><duration_s>0.03</duration_s></navvy:recording></world></sdf>\n";
+  EXPECT_EQ(run({"check", path}), 0) << complained();
+  EXPECT_NE(said().find("a cubic metre of active soil takes 1e+06 particles and 206 MiB"),
+            std::string::npos)
+      << said();
+  EXPECT_EQ(run({"run", path, "--no-render", "--out", out()}), 0) << complained();
+  EXPECT_GT(summary().at("particles_peak").get<int>(), 70000);
+  EXPECT_EQ(summary().at("mass_ledger").at("error_units"), 0);
+  environment_ = {{"NAVVY_DEVICE_MEMORY_MIB", "10"}};
+  EXPECT_EQ(run({"run", path, "--no-render", "--out", out()}), 3) << complained();
+  EXPECT_TRUE(complains("MiB are wanted and the device allows 10.0 MiB")) << complained();
+  EXPECT_TRUE(complains("use a larger soil cell")) << complained();
 }
 
 }  // namespace
