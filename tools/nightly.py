@@ -4,6 +4,7 @@ import sys
 import time
 
 import build
+import campaigns
 import fuzz
 import lint
 import sanitize
@@ -29,6 +30,10 @@ STEPS = [
         lambda: sanitize.sanitize_command([]),
     ),
     (
+        "20 simulated minutes of scoops under sanitizers, with leaks",
+        lambda: campaigns.soak_command(["0.334", "--sanitize"]),
+    ),
+    (
         "the documentation's site",
         lambda: workspace.run(sys.executable, "-B", "tools/docs.py"),
     ),
@@ -41,9 +46,9 @@ def nightly_command(arguments):
     """Runs what CI leaves out, hours on two cores; ends with a table of results.
 
     Lint of all sources, the core preset without cache and precompiled headers, tests with label
-    nightly (each header by itself), `sanitize`, the documentation's site, a minute of every fuzz
-    target, `validate`. A step that fails does not keep the others from running; the command fails
-    in the end.
+    nightly (each header by itself), `sanitize`, 20 simulated minutes of `soak` under the address
+    sanitizer, the documentation's site, a minute of every fuzz target, `validate`. A step that
+    fails does not keep the others from running; the command fails in the end.
     """
     workspace.parser(nightly_command, "nightly").parse_args(arguments)
     rows = []

@@ -13,6 +13,13 @@
 #include "core/error.h"
 #include "core/file.h"
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define NAVVY_ADDRESS_SANITIZER
+#include <sanitizer/allocator_interface.h>
+#endif
+#endif
+
 namespace navvy::soak {
 namespace {
 
@@ -20,6 +27,12 @@ const char* const kHeader =
     "cycle,simulated_s,wall_s,process,heap_bytes,resident_bytes,device_bytes,particles,ledger_"
     "units,state_hash";
 
+#ifdef NAVVY_ADDRESS_SANITIZER
+/// The sanitizer has an allocator of its own.
+std::int64_t heap_in_use() {
+  return static_cast<std::int64_t>(__sanitizer_get_current_allocated_bytes());
+}
+#else
 /// Returns the number after the last `mark` of the C library's report, in size="...".
 std::int64_t size_after(const std::string& report, const std::string& mark) {
   const std::size_t at = report.rfind(mark);
@@ -43,6 +56,7 @@ std::int64_t heap_in_use() {
          size_after(report, "<total type=\"fast\"") - size_after(report, "<total type=\"rest\"") +
          size_after(report, "<total type=\"mmap\"");
 }
+#endif
 
 std::int64_t resident() {
   std::int64_t all = 0, pages = 0;
