@@ -27,8 +27,12 @@ std::string Shell::surface_hash() const {
 Shell Machine::with_teeth(const Shell& shell) const {
   Shell out = shell;
   for (const Bucket& bucket : buckets)
-    if (bucket.shell == shell.name && bucket.teeth)
-      out.toothed = ToothedEdge{*bucket.teeth, bucket.p_tip, bucket.cut_direction, bucket.width};
+    if (bucket.shell == shell.name) {
+      // A straight edge is one tooth as wide as the bucket.
+      const Teeth straight{1, bucket.width, 0, shell.edge_bevel};
+      out.toothed = ToothedEdge{bucket.teeth.value_or(straight), bucket.p_tip, bucket.cut_direction,
+                                bucket.width};
+    }
   return out;
 }
 

@@ -550,7 +550,8 @@ struct Machine {
 
   /// Returns the index of the link with this name in `links`; -1 if there is none.
   int link_index(const std::string& name_of_link) const;
-  /// Returns `shell`, a shell of this machine, with the teeth of the bucket that it belongs to.
+  /// Returns `shell`, a shell of this machine, with the cutting edge and the teeth of the bucket
+  /// that it belongs to.
   Shell with_teeth(const Shell& shell) const;
   /// Returns the index of the joint with this name in `joints`; -1 if there is none.
   int joint_index(const std::string& name_of_joint) const;

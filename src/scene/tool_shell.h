@@ -32,9 +32,9 @@ struct Teeth {
   }
 };
 
-/// The cutting edge of a shell and the teeth on it.
+/// The cutting edge of a bucket's shell and the teeth on it.
 struct ToothedEdge {
-  Teeth teeth;                 ///< the teeth
+  Teeth teeth;                 ///< the teeth; a straight edge is one tooth as wide as the edge
   Vec3 p_tip = Vec3::Zero();   ///< middle of the edge in the link's frame [m]
   Vec3 ahead = Vec3::UnitX();  ///< unit vector along the plate and outward, in the link's frame
   double width = 1;            ///< width of the edge [m]
@@ -52,10 +52,10 @@ struct Shell : geometry::TriangleMesh {
   /// adhesion (`adhesion_share`) for contact with this shell [-].
   double friction_share = 1, adhesion_share = 1;
   /// Thickness of the plate at its free edges / thickness of the plate; 0: sharp, without
-  /// resistance.
+  /// resistance. Of a bucket's shell only the cutting edge has it; its rims are sharp.
   double edge_share = 0;
   double edge_bevel = kPi;  ///< angle between the faces at a free edge [rad]; pi: blunt
-  /// Teeth of the bucket that the shell belongs to; not a field of the file's <navvy:shell>.
+  /// Cutting edge of the bucket that the shell belongs to; not a field of the file's <navvy:shell>.
   std::optional<ToothedEdge> toothed;
   std::string mesh;  ///< OBJ file with the triangles; empty: the file lists them
   /// Coordinates of vertices and indices of triangle corners as the file lists them; cleared once
@@ -79,7 +79,8 @@ struct Shell : geometry::TriangleMesh {
       "Share of the tangent of a soil's tool friction angle; 0 with adhesion_share 0: smooth.");
     f("adhesion_share", adhesion_share, {0, 2}, "Share of a soil's adhesion.");
     f("edge_share", edge_share, {0, 1},
-      "Thickness of the plate at its free edges, as a share of the plate's; 0: sharp.");
+      "Thickness of the plate at its free edges, as a share of the plate's; 0: sharp. Only the "
+      "cutting edge of a bucket's shell has it.");
     f("edge_bevel_deg", edge_bevel, {1, 180},
       "Angle between the faces of the plate at its free edges; 180: blunt.");
   }

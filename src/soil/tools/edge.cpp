@@ -94,11 +94,13 @@ void Edges::add_tool(const ShellGeometry& geometry) {
       // triangle and at right angles to the edge.
       const Vec3 inward = t.corner[(i + 2) % 3] - a, outward = -(inward - inward.dot(u) * u);
       // Teeth stand for the cutting edge: less area, farther ahead, with their own bevel.
-      const bool teeth = shell.toothed && on_cutting_edge(*shell.toothed, a, ab, outward);
-      const scene::Teeth tooth = teeth ? shell.toothed->teeth : scene::Teeth{};
-      const double share = teeth ? tooth.number * tooth.width / shell.toothed->width : 1;
-      const Vec3 ahead = (teeth ? tooth.length : 0) * outward.normalized();
-      const int profile = teeth ? profile_of(tooth.bevel) : plain;
+      const bool cuts = shell.toothed && on_cutting_edge(*shell.toothed, a, ab, outward);
+      // The rims of a bucket's side plates are sharp [docs/tools.md, edges].
+      if (shell.toothed && !cuts) continue;
+      const scene::Teeth tooth = cuts ? shell.toothed->teeth : scene::Teeth{};
+      const double share = cuts ? tooth.number * tooth.width / shell.toothed->width : 1;
+      const Vec3 ahead = (cuts ? tooth.length : 0) * outward.normalized();
+      const int profile = cuts ? profile_of(tooth.bevel) : plain;
       // Several rows of points: soil yields beside a strip that is narrower than its nodes.
       const double spread = thickness + scheme_.edge_spread * cell_;
       const int along = std::max(1, static_cast<int>(std::ceil(ab.norm() / (kSpacing * cell_)))),

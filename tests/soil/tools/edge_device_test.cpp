@@ -137,6 +137,17 @@ TEST(Edge, SharpPlateFeelsNothing) {
   EXPECT_EQ(got.edge.norm(), 0);
 }
 
+TEST(Edge, OnlyTheCuttingEdgeOfABucketResists) {
+  scene::Shell shell = upright();
+  const double whole = push(shell, clay()).edge.z();
+  // A straight edge, as scene::Machine::with_teeth gives it to a bucket without teeth.
+  shell.toothed = scene::ToothedEdge{{1, kWidth, 0, kPi}, Vec3::Zero(), -Vec3::UnitZ(), kWidth};
+  EXPECT_NEAR(push(shell, clay()).edge.z() / whole, 1, 0.01);
+  // The edge that is pushed into the ground is a rim of a bucket that cuts the other way.
+  shell.toothed->ahead = Vec3::UnitZ();
+  EXPECT_EQ(push(shell, clay()).edge.norm(), 0);
+}
+
 TEST(Edge, TeethResistByTheirShareOfTheEdge) {
   scene::Shell shell = upright();
   shell.toothed = scene::ToothedEdge{{3, 0.08, 0, kPi}, Vec3::Zero(), -Vec3::UnitZ(), kWidth};
