@@ -104,6 +104,45 @@ TEST(ShippedFiles, TheTestBucketIsAConsistentlyWoundShell) {
   }
 }
 
+/// Returns the free edges of a shell, those of only one triangle, as pairs of vertices.
+std::vector<std::pair<int, int>> free_edges(const scene::Shell& shell) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const auto& t : shell.triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++uses[std::minmax(t[i], t[(i + 1) % 3])];
+  std::vector<std::pair<int, int>> out;
+  for (const auto& [edge, count] : uses)
+    if (count == 1) out.push_back(edge);
+  return out;
+}
+
+// The soil resists a bucket's cutting edge where its shell has a free edge at the bucket's tip.
+TEST(ShippedFiles, BucketsNameACuttingEdgeThatResists) {
+  int buckets = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / "vehicles")) {
+    if (!entry.is_directory()) continue;
+    const scene::Machine machine = load_machine((entry.path() / "model.sdf").string());
+    for (const scene::Bucket& bucket : machine.buckets)
+      for (const scene::Shell& given : machine.shells) {
+        if (given.name != bucket.shell) continue;
+        ++buckets;
+        const scene::Shell shell = machine.with_teeth(given);
+        ASSERT_TRUE(shell.toothed) << entry.path();
+        EXPECT_GT(shell.edge_thickness(), 0) << entry.path();
+        int found = 0;
+        for (const auto& [a, b] : free_edges(shell)) {
+          const Vec3 p = shell.vertices[static_cast<std::size_t>(a)],
+                     q = shell.vertices[static_cast<std::size_t>(b)];
+          // Meshes are read in single precision.
+          if ((0.5 * (p + q) - shell.toothed->p_tip).norm() > 1e-6) continue;
+          ++found;
+          EXPECT_NEAR((p - q).norm(), shell.toothed->width, 1e-6) << entry.path();
+        }
+        EXPECT_EQ(found, 1) << entry.path();
+      }
+  }
+  EXPECT_EQ(buckets, 3);
+}
+
 // Listings in the documentation that are whole files are loaded as printed.
 TEST(ShippedFiles, ListingsOfTheDocumentationLoad) {
   const std::string directory = navvy::build_dir() + "/tutorial";
