@@ -8,6 +8,7 @@
 
 #include "core/stopwatch.h"
 #include "record/summary.h"
+#include "validation/dig_meter.h"
 #include "validation/report.h"
 #include "validation/scenes.h"
 #include "validation/trench_measure.h"
@@ -22,16 +23,44 @@ double mean_cycle_time(const std::vector<session::Cycle>& cycles) {
   return (cycles.back().start - cycles.front().start) / static_cast<double>(cycles.size() - 1);
 }
 
+/// Reports the loads of the dig and where its energy goes. `volume`: bank volume [m3].
+void report_loads_and_energy(const DigMeter& meter, double volume) {
+  const char* source = "the trench [docs/validation.md, Whole digs]";
+  print_value("lost from the fullest moment to lift-out, share of all loads", meter.lost(),
+              "0.10 wanted, no tolerance", source);
+  const auto per_volume = [volume](double joules) { return joules / volume / 1000; };
+  print_value("energy of drives and cylinders [kJ/m3]", per_volume(meter.work()),
+              "340 wanted, no tolerance", source);
+  print_value("of it, cutting [kJ/m3]", per_volume(meter.cutting()), "no tolerance",
+              "work of the bucket in the ground");
+  print_value("of it, lifting the load [kJ/m3]", per_volume(meter.lifting()), "no tolerance",
+              "work of the bucket on its load after that");
+  print_value("of it, moving the machine [kJ/m3]",
+              per_volume(meter.work() - meter.cutting() - meter.lifting()), "no tolerance",
+              "the rest");
+  expect_between("mean draft over the cut area [kPa]", per_volume(meter.draft_work()), 40, 130,
+                 "light loam, handbooks [docs/validation.md, Whole digs]");
+  expect_between("cutting energy / mean draft over the cut area",
+                 meter.cutting() / meter.draft_work(), 0.9, 1.1,
+                 "force x path [docs/validation.md, Whole digs]");
+  print_value("largest force on edges and teeth [N]", meter.edge_peak(), "no tolerance",
+              "[docs/tools.md, edges]");
+  print_value("part of the draft on edges and teeth", meter.edge_part(), "no tolerance",
+              "[docs/tools.md, edges]");
+}
+
 TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   const scene::Scene description = load_scene("trench.sdf");
   const control::Dig dig = dig_step(description);
   session::Session session(description, shared_device());
   WheelTracks tracks(session.world().ground());
+  DigMeter meter(session);
   double fastest_rise = 0;
   const Stopwatch watch;
   while (!session.done()) {
     session.step();
     tracks.mark(session.world());
+    meter.look();
     fastest_rise =
         std::max(fastest_rise, std::abs(session.world().machines().at(0).link(0).velocity().z()));
   }
@@ -87,6 +116,7 @@ TEST(Trench, IsDugToItsDesignAndTheSpoilSwells) {
   for (const session::Cycle& cycle : session.cycles()) uplift = std::max(uplift, cycle.uplift_peak);
   expect_between("soil's push up on the bucket in a curl, less the load [N]", uplift, 0, 10e3,
                  "the heel does not carry the machine [docs/validation.md, Whole digs]");
+  report_loads_and_energy(meter, earth.bank_volume);
   print_value("peak draft of the cutting edge [N]", session.force().draft_peak, "no tolerance",
               "plausibility");
   expect_between("soil on the ground under the swing, share of the loose volume",
