@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -113,6 +114,24 @@ TEST(SweptContacts, AFastObstacleCarriesABodyAlong) {
   }
   EXPECT_GT(engine->link(0, 0).X_WL.translation().x(), state.X_WL.translation().x());
   EXPECT_GT(engine->link(0, 0).v_WL.x(), 10);
+}
+
+/// A flap that swings through a link of its own machine, as a thin bucket through its stick.
+TEST(SweptContacts, LeaveLinksOfOneMachineAlone) {
+  scene::Machine machine = plate(Vec3(0.2, 0.2, 0.2), true);
+  const scene::Machine flap = plate(Vec3(0.4, 0.4, 0.005));
+  machine.links.push_back(flap.links[0]);
+  machine.links.back().name = "flap";
+  machine.links.back().X_ML = make_pose(0, 0, 0.3);
+  machine.joints.push_back(testing::revolute("hinge", 0, 1, Vec3::UnitX()));
+  auto engine = make_bullet_engine(Vec3::Zero());
+  engine->add_machine(machine, make_pose(0, 0, 5));
+  // An impulse beside the hinge turns the flap.
+  engine->apply_impulse(0, 1, Vec3(0, 0, 5), Vec3(0.5, 0, 0), Vec3(0, 0, 5.3));
+  const double before = engine->joint(0, 0).velocity;
+  ASSERT_GT(std::abs(before), 1);
+  run(*engine, flat(), 0.5, kStep);
+  EXPECT_NEAR(engine->joint(0, 0).velocity, before, 0.02 * std::abs(before));
 }
 
 TEST(SweptContacts, ContinueFromASnapshotBitIdentically) {

@@ -132,6 +132,8 @@ void SweptContacts::add(btCollisionWorld& world, btCollisionDispatcher& dispatch
     auto* one = static_cast<btCollisionObject*>(pairs[i].m_pProxy0->m_clientObject);
     auto* other = static_cast<btCollisionObject*>(pairs[i].m_pProxy1->m_clientObject);
     if (!is_fast(one) && !is_fast(other)) continue;
+    // Pairs of the broad phase include links of one machine, which do not collide.
+    if (!dispatcher.needsCollision(one, other)) continue;
     if (one == &ground || other == &ground) {
       cast_down(dispatcher, one == &ground ? *other : *one, ground, shape, heights, dt);
       continue;
