@@ -82,25 +82,41 @@ DeviceInfo describe(cl_platform_id platform, cl_device_id device) {
   return info;
 }
 
-/// Value of POCL_DEVICES that asks PoCL for its driver without worker threads beside the usual one.
-constexpr const char* kBothDrivers = "pthread basic";
-
-/// Asks PoCL for its driver without worker threads, which it offers on request only. Returns true
-/// if it was asked, by this process or by the one that started it. Call it before the platform
-/// shows its devices: PoCL then reads which drivers are wanted, and starts no other. So another
-/// choice of the user is kept; builds with drivers for GPUs are left alone, as are versions from 4
-/// on, whose drivers have other names.
-bool ask_for_caller_driver(cl_platform_id platform) {
-  const std::string version = platform_text(platform, CL_PLATFORM_VERSION);
+/// Returns true for a version of PoCL whose driver without worker threads can be asked for. Builds
+/// with drivers for GPUs are left alone, as a choice would leave those out; versions from 4 on have
+/// other names.
+bool has_basic_driver(const std::string& version) {
   const std::size_t at = version.find("PoCL ");
   if (at == std::string::npos || version.find("CUDA") != std::string::npos) return false;
   int major = 0;
   std::from_chars(version.data() + at + 5, version.data() + version.size(), major);
-  if (major < 1 || major > 3) return false;
-  ::setenv("POCL_DEVICES", kBothDrivers, 0);
-  const char* wanted = std::getenv("POCL_DEVICES");
-  return wanted != nullptr && std::string_view(wanted) == kBothDrivers;
+  return major >= 1 && major <= 3;
 }
+
+/// Asks PoCL for its driver without worker threads, which it offers on request only, while this
+/// object lives. PoCL reads the request when a platform first shows its devices, and starts the
+/// drivers that were asked for and no others, so a user's own choice is kept.
+class CallerDriverRequest {
+ public:
+  explicit CallerDriverRequest(cl_platform_id platform)
+      : asked_(std::getenv(kVariable) == nullptr &&
+               has_basic_driver(platform_text(platform, CL_PLATFORM_VERSION))) {
+    if (asked_) ::setenv(kVariable, "pthread basic", 1);
+  }
+  // Other OpenCL programs that this process starts see the devices that they expect.
+  ~CallerDriverRequest() {
+    if (asked_) ::unsetenv(kVariable);
+  }
+  CallerDriverRequest(const CallerDriverRequest&) = delete;
+  CallerDriverRequest& operator=(const CallerDriverRequest&) = delete;
+
+  /// Returns true if the request was made.
+  bool asked() const { return asked_; }
+
+ private:
+  static constexpr const char* kVariable = "POCL_DEVICES";
+  bool asked_;
+};
 
 /// Hides the driver without worker threads from the list of devices: it becomes the `caller` of the
 /// device with threads, and is no choice of its own.
@@ -116,14 +132,11 @@ void pair_drivers(std::vector<Found>& of_platform) {
   of_platform.erase(basic);
 }
 
-/// Returns the devices of all platforms.
-std::vector<Found> find_devices() {
+/// Finds the devices of all platforms.
+std::vector<Found> find_devices_once() {
   // Before the first OpenCL call: PoCL reads its cache folder from the environment when its
   // platform starts.
   prepare_kernel_cache();
-  // One thread at a time: PoCL 3.1 shows devices to a second thread before they have their names.
-  static std::mutex first;
-  const std::lock_guard<std::mutex> alone(first);
   std::vector<Found> found;
   cl_uint platform_count = 0;
   if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0)
@@ -131,7 +144,7 @@ std::vector<Found> find_devices() {
   std::vector<cl_platform_id> platforms(platform_count);
   if (clGetPlatformIDs(platform_count, platforms.data(), nullptr) != CL_SUCCESS) return found;
   for (cl_platform_id platform : platforms) {
-    const bool asked = ask_for_caller_driver(platform);
+    const CallerDriverRequest request(platform);
     // OpenCL wants two calls, the first for the number. A platform without devices reports an
     // error, so errors do not end the search.
     cl_uint count = 0;
@@ -144,13 +157,24 @@ std::vector<Found> find_devices() {
     std::vector<Found> of_platform;
     for (cl_device_id device : devices)
       of_platform.push_back({platform, device, describe(platform, device), nullptr});
-    if (asked) pair_drivers(of_platform);
+    if (request.asked()) pair_drivers(of_platform);
     for (Found& entry : of_platform) {
       // The index counts over all platforms in the loader's order; it is what a user types.
       entry.info.index = static_cast<int>(found.size());
       found.push_back(std::move(entry));
     }
   }
+  return found;
+}
+
+/// Returns the devices of all platforms. They are found once in a process: a platform keeps its
+/// devices, and PoCL 3.1 shows them to a second thread before they have their names.
+std::vector<Found> find_devices() {
+  static std::mutex first;
+  static std::vector<Found> found;
+  const std::lock_guard<std::mutex> alone(first);
+  // Without any device another try may succeed, such as with a cache folder that can be written.
+  if (found.empty()) found = find_devices_once();
   return found;
 }
 

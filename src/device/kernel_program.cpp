@@ -143,9 +143,12 @@ cl_program KernelProgram::State::built() {
   const auto slow = log_if_slow(*device, "kernels/" + name);
   code = build_or_give_up(*this);
   if (code != CL_SUCCESS) {
+    const std::string log = build_log(program, *device);
+    // Not kept: a later launch would report the missing machine code instead of the log.
+    clReleaseProgram(program);
+    program = nullptr;
     throw DeviceError("kernels/" + name + " does not build: " + error_name(code) + ", on device " +
-                          device->info.name + ", options: " + flags + "\n" +
-                          build_log(program, *device),
+                          device->info.name + ", options: " + flags + "\n" + log,
                       code);
   }
   return program;
