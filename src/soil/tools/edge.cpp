@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/log.h"
 #include "soil/particles/buffers.h"
 #include "soil/particles/schedule.h"
 #include "soil/scheme.h"
@@ -86,6 +87,7 @@ void Edges::add_tool(const ShellGeometry& geometry) {
   const double thickness = shell.edge_thickness();
   if (!(thickness > 0)) return;
   const int plain = profile_of(shell.edge_bevel);
+  bool resists = false;
   for (const ShellGeometry::Triangle& t : geometry.triangles())
     for (std::size_t i = 0; i < 3; ++i) {
       if (!t.edge_free[i]) continue;
@@ -97,6 +99,7 @@ void Edges::add_tool(const ShellGeometry& geometry) {
       const bool cuts = shell.toothed && on_cutting_edge(*shell.toothed, a, ab, outward);
       // The rims of a bucket's side plates are sharp [docs/tools.md, edges].
       if (shell.toothed && !cuts) continue;
+      resists = true;
       const scene::Teeth tooth = cuts ? shell.toothed->teeth : scene::Teeth{};
       const double share = cuts ? tooth.number * tooth.width / shell.toothed->width : 1;
       const Vec3 ahead = (cuts ? tooth.length : 0) * outward.normalized();
@@ -114,6 +117,11 @@ void Edges::add_tool(const ShellGeometry& geometry) {
                             outward.normalized(), share * ab.norm() / along * thickness / across,
                             profile});
     }
+  if (shell.toothed && !resists)
+    log_warning("shell '" + shell.name +
+                "': none of its free edges lies within 0.1 m of the bucket's tip_m and along "
+                "cut_direction, so that its cutting edge meets no resistance; correct tip_m or "
+                "cut_direction, or set edge_share to 0");
 }
 
 void Edges::set_near(const BlockTable& table, const std::vector<std::int32_t>& near_list) {

@@ -5,6 +5,7 @@
 
 #include "lab/theory/formulas.h"
 #include "lab/tool_driver.h"
+#include "log_lines.h"
 #include "soil/host_law/double_contact.h"
 #include "soil/rig.h"
 #include "soil/tools/edge.h"
@@ -145,7 +146,10 @@ TEST(Edge, OnlyTheCuttingEdgeOfABucketResists) {
   EXPECT_NEAR(push(shell, clay()).edge.z() / whole, 1, 0.01);
   // The edge that is pushed into the ground is a rim of a bucket that cuts the other way.
   shell.toothed->ahead = Vec3::UnitZ();
+  const LogLines log;
   EXPECT_EQ(push(shell, clay()).edge.norm(), 0);
+  EXPECT_NE(log.text().find("its cutting edge meets no resistance"), std::string::npos)
+      << log.text();
 }
 
 TEST(Edge, TeethResistByTheirShareOfTheEdge) {
