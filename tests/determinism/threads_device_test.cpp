@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Short version of the minute of digging: one scoop, 1 and 2 threads, snapshot and resume.
 #include "determinism/hashed_run.h"
+#include "device/device.h"
 #include "paths.h"
 
 namespace navvy::determinism {
@@ -21,10 +22,25 @@ TEST(Threads, OneAndTwoThreadsScoopBitIdentically) {
     EXPECT_GT(one.summary.at(key).get<int>(), 0) << key;
 }
 
+/// The driver changes in mid-run, in both directions, also beyond a snapshot.
 TEST(Threads, TheCallersThreadGivesTheBitsOfTwoWorkers) {
-  const HashedRun caller = hashed_run("caller", kScene, {"--duration", "5"}, {});
+  if (!device::Device("cpu").has_caller_driver())
+    GTEST_SKIP() << "no driver for the caller's thread";
   const HashedRun two = hashed_run("two", kScene, {"--duration", "5"}, threads(2));
+  const HashedRun caller =
+      hashed_run("caller", kScene, {"--duration", "5"}, {{"NAVVY_FEW_PARTICLES", "1e9"}});
   EXPECT_EQ(first_difference(caller, two), "");
+  const std::string snapshot = (run_folder("snapshot") / "few.snapshot").string();
+  std::filesystem::create_directories(run_folder("snapshot"));
+  const Environment few{
+      {"NAVVY_FEW_PARTICLES", std::to_string(two.summary.at("particles_peak").get<int>() / 2)}};
+  const HashedRun both = hashed_run(
+      "both", kScene, {"--duration", "5", "--snapshot", snapshot, "--snapshot-at", "2.5"}, few);
+  EXPECT_EQ(first_difference(both, two), "");
+  const HashedRun resumed =
+      hashed_run("resumed", kScene, {"--duration", "5", "--resume", snapshot}, few);
+  ASSERT_FALSE(resumed.at.empty());
+  EXPECT_EQ(first_difference(two, resumed, resumed.at.begin()->first), "");
 }
 
 TEST(Threads, AResumedRunContinuesWithTheSameHashes) {

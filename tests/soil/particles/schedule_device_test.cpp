@@ -173,5 +173,17 @@ TEST(SoilSchedule, IsChosenByTheDeviceUnlessTheVariableSaysOtherwise) {
   EXPECT_THROW(schedule_for(device), InputError);
 }
 
+TEST(SoilSchedule, TakesTheNumberOfFewParticlesFromTheVariable) {
+  const device::Device& device = Rig::device();
+  ::setenv("NAVVY_FEW_PARTICLES", "2500", 1);
+  EXPECT_EQ(few_particles(device), 2500);
+  for (const char* wrong : {"-1", "nan", "many", "5 ", ""}) {
+    ::setenv("NAVVY_FEW_PARTICLES", wrong, 1);
+    EXPECT_THROW(few_particles(device), InputError) << wrong;
+  }
+  ::unsetenv("NAVVY_FEW_PARTICLES");
+  EXPECT_GT(few_particles(device), 0);
+}
+
 }  // namespace
 }  // namespace navvy::soil
