@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "session/spill_area.h"
 #include "sim/timing.h"
 #include "sim/world_terrain.h"
 
@@ -21,18 +22,6 @@ constexpr double kLeastGain = 0.05;
 
 std::string quoted_name(const sim::World& world, int machine) {
   return "'" + world.machines().at(machine).name() + "'";
-}
-
-/// Returns true if a point lies inside a polygon: a ray from it crosses an odd number of edges.
-bool is_inside(const std::vector<Vec2>& polygon, const Vec2& p) {
-  bool inside = false;
-  for (std::size_t i = 0, k = polygon.size() - 1; i < polygon.size(); k = i++) {
-    const Vec2 &a = polygon[i], &b = polygon[k];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
 }
 
 /// Returns true if the base of a machine is above a column of the site.
@@ -103,7 +92,7 @@ void ForbiddenWatch::look_at_border(const sim::World& world) {
   }
 }
 
-/// Marks all columns at the first call: polygons may have a thousand corners.
+/// Marks all columns at the first call.
 bool ForbiddenWatch::is_allowed(const sim::World& world, int ix, int iy) {
   const std::vector<scene::SpillArea>& areas = forbidden_.spill->areas;
   if (areas.empty()) return true;
@@ -111,12 +100,8 @@ bool ForbiddenWatch::is_allowed(const sim::World& world, int ix, int iy) {
   const auto nx = static_cast<std::size_t>(site.nx()), ny = static_cast<std::size_t>(site.ny());
   if (allowed_.empty()) {
     allowed_.resize(nx * ny);
-    for (std::size_t k = 0; k < allowed_.size(); ++k) {
-      const Vec2 p = site.origin() + site.cell() * Vec2(double(k % nx) + 0.5, double(k / nx) + 0.5);
-      allowed_[k] = std::any_of(areas.begin(), areas.end(), [&](const scene::SpillArea& area) {
-        return is_inside(area.polygon, p);
-      });
-    }
+    for (const scene::SpillArea& area : areas)
+      mark_inside(area.polygon, {site.origin(), site.cell(), site.nx(), site.ny()}, allowed_);
   }
   return allowed_[static_cast<std::size_t>(iy) * nx + static_cast<std::size_t>(ix)] != 0;
 }
