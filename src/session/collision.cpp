@@ -44,6 +44,7 @@ void MachineCollision::visit(Archive& a) {
 }
 
 void CollisionWatch::look(const sim::World& world) {
+  touching_.reset();
   for (const sim::MachineContact& contact : world.machines().contacts()) {
     // Loose bodies, such as rocks in a bucket, touch machines in normal work.
     const auto& machines = world.description().machines;
@@ -61,12 +62,14 @@ void CollisionWatch::look(const sim::World& world) {
       known->end = now;
       known->force_peak = std::max(known->force_peak, contact.force);
       known->depth_peak = std::max(known->depth_peak, contact.depth);
+      if (!touching_) touching_ = *known;
       continue;
     }
     ++count_;
     const MachineCollision fresh{contact.machine,    contact.link, contact.other_machine,
                                  contact.other_link, now,          now,
                                  contact.force,      contact.depth};
+    if (!touching_) touching_ = fresh;
     // The list is bounded, the count is not.
     if (list_.size() < kMost) list_.push_back(fresh);
     if (!logged_.insert({contact.machine, contact.other_machine}).second) continue;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -46,6 +47,8 @@ class CollisionWatch {
   const std::vector<MachineCollision>& collisions() const { return list_; }
   /// Returns the number of all collisions.
   std::int64_t count() const { return count_; }
+  /// Returns the first collision of which look() last saw a contact; empty if nothing touched.
+  const std::optional<MachineCollision>& touching() const { return touching_; }
 
   /// Saves or loads all fields.
   void visit(Archive& a);
@@ -58,6 +61,8 @@ class CollisionWatch {
   std::int64_t count_ = 0;
   /// Pairs of machines whose first collision was logged.
   std::set<std::pair<int, int>> logged_;
+  /// A collision with a contact in the last step. Not part of the state: each step sets it.
+  std::optional<MachineCollision> touching_;
 };
 
 }  // namespace navvy::session

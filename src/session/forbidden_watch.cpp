@@ -24,6 +24,14 @@ std::string quoted_name(const sim::World& world, int machine) {
   return "'" + world.machines().at(machine).name() + "'";
 }
 
+/// Returns true if the scene forbids the event with this name.
+bool is_forbidden(const scene::Forbidden& forbidden, const std::string& event) {
+  return (event == "collision" && forbidden.collision) ||
+         (event == "off_site" && forbidden.off_site) || (event == "tip" && forbidden.tip) ||
+         (event == "buried" && forbidden.buried) ||
+         (event == "spill_outside" && forbidden.spill.has_value());
+}
+
 /// Returns true if the base of a machine is above a column of the site.
 bool is_on_site(const sim::World& world, int machine) {
   const Vec3 p = world.machines().at(machine).link(0).pose().translation();
@@ -65,8 +73,9 @@ void ForbiddenWatch::note(const sim::World& world, const char* event, const std:
 void ForbiddenWatch::look(const sim::World& world, const CollisionWatch& collisions,
                           const std::vector<MachineOutcome>& states, bool last) {
   if (event_ || !forbidden_.any()) return;
-  if (forbidden_.collision && !collisions.collisions().empty())
-    return note(world, "collision", text_of(collisions.collisions().front(), world));
+  // A resumed run lists collisions from before; only one of this step ends it.
+  if (forbidden_.collision && collisions.touching())
+    return note(world, "collision", text_of(*collisions.touching(), world));
   for (const MachineOutcome& one : states) {
     const bool tipped = one.state == control::StepState::kTipped;
     if (tipped ? !forbidden_.tip : !forbidden_.buried || one.state != control::StepState::kBuried)
@@ -142,8 +151,8 @@ void ForbiddenWatch::look_at_soil(const sim::World& world) {
 
 void ForbiddenWatch::visit(Archive& a) {
   a("event", event_);
-  // A run that is resumed with a scene that forbids nothing continues.
-  if (a.loading() && !forbidden_.any()) event_.reset();
+  // A run that is resumed with a scene that does not forbid this event continues.
+  if (a.loading() && event_ && !is_forbidden(forbidden_, event_->event)) event_.reset();
   // As many as the scene has machines.
   a.fixed("was_on_site", was_on_site_);
 }

@@ -177,6 +177,43 @@ TEST_F(ForbiddenEvents, SurviveASnapshotAndLetASceneWithoutThemContinue) {
   load_saved(state, lenient);
   EXPECT_FALSE(lenient.done());
   EXPECT_FALSE(lenient.forbidden().has_value());
+  // The scene forbids something, but not what had happened.
+  Session other(load("<size_m>12 10</size_m>", scene, "<tip>true</tip>"), device_);
+  load_saved(state, other);
+  EXPECT_FALSE(other.done());
+  EXPECT_FALSE(other.forbidden().has_value());
+}
+
+TEST_F(ForbiddenEvents, ACollisionFromBeforeARunWasResumedDoesNotEndIt) {
+  const std::string scene =
+      machine("robot", "-3 0 0 0 0 0",
+              "<navvy:physics>kinematic</navvy:physics>" + program(kIntoWall)) +
+      kWall;
+  run("<size_m>12 10</size_m>", scene, "");
+  ASSERT_GT(session_->collisions().count(), 0);
+  ASSERT_GT(session_->world().machines().at(0).link(0).pose().translation().x(), 2)
+      << "the robot is behind the wall";
+  Session resumed(load("<size_m>12 10</size_m>", scene, "<collision>true</collision>"), device_);
+  load_saved(saved(*session_), resumed);
+  for (int i = 0; i < 3; ++i) resumed.step();
+  EXPECT_GT(resumed.collisions().count(), 0);
+  EXPECT_FALSE(resumed.forbidden().has_value()) << resumed.forbidden()->text();
+}
+
+TEST_F(ForbiddenEvents, ACollisionThatLastsWhenARunIsResumedEndsIt) {
+  const std::string scene =
+      machine("robot", "-3 0 0 0 0 0",
+              "<navvy:physics>kinematic</navvy:physics>" + program(kIntoWall)) +
+      kWall;
+  Session before(load("<size_m>12 10</size_m>", scene, ""), device_);
+  while (before.collisions().count() == 0 && !before.done()) before.step();
+  session_ = std::make_unique<Session>(
+      load("<size_m>12 10</size_m>", scene, "<collision>true</collision>"), device_);
+  load_saved(saved(before), *session_);
+  EXPECT_FALSE(session_->forbidden().has_value());
+  while (!session_->done()) session_->step();
+  expect("collision", "'wall' (b)");
+  EXPECT_NEAR(session_->forbidden()->time, before.world().time() + before.world().dt(), 1e-9);
 }
 
 }  // namespace
