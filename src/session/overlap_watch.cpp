@@ -106,8 +106,10 @@ void OverlapWatch::note(Open& one, const sim::World& world) {
   const bool logged = std::any_of(list_.begin(), list_.end(), [&](const BodyOverlap& before) {
     return before.machine == fresh.machine && before.other_machine == fresh.other_machine;
   });
-  if (list_.size() < kMost) list_.push_back(fresh);
-  if (logged || list_.size() == kMost) return;
+  const bool full = list_.size() == kMost;
+  if (!full) list_.push_back(fresh);
+  // Pairs that the full list lacks would be logged at each of their overlaps.
+  if (logged || full) return;
   std::array<char, 128> text{};
   std::snprintf(text.data(), text.size(),
                 "%.3f m deep for %.2f s, %.0f %% of the smaller one's smallest side, at %.2f s: ",
