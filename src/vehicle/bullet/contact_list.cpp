@@ -75,6 +75,7 @@ void ContactList::add(const btCollisionObject* one, const btCollisionObject* oth
                       double depth) {
   BodyContact contact;
   if (!find(one, contact.one) || !find(other, contact.other)) return;
+  const double size = std::min(smallest_side(*one), smallest_side(*other));
   // A link and its shells are one body.
   for (BodyContact& known : contacts_) {
     // The order of the two bodies in a contact of Bullet is arbitrary.
@@ -82,12 +83,16 @@ void ContactList::add(const btCollisionObject* one, const btCollisionObject* oth
     const bool swapped = is_same(known.one, contact.other) && is_same(known.other, contact.one);
     if (!as_is && !swapped) continue;
     known.force += force;
-    known.depth = std::max(known.depth, depth);
+    // Depth and size stay those of one pair of shapes: depth / size is what readers judge.
+    if (depth * known.size > known.depth * size) {
+      known.depth = depth;
+      known.size = size;
+    }
     return;
   }
   contact.force = force;
   contact.depth = depth;
-  contact.size = std::min(smallest_side(*one), smallest_side(*other));
+  contact.size = size;
   contacts_.push_back(contact);
 }
 
