@@ -210,12 +210,12 @@ std::vector<Fault> check_bodies(const scene::Scene& scene, const std::vector<Pos
           !is_movable(lower.machine) ||
           !rests_on(boxes_of(upper, X_WB.at(a)), boxes_of(lower, X_WB.at(b))))
         continue;
-      faults.push_back(warning(
-          error(scene, upper, text("%.4g kg", masses[a]),
-                "it rests on '" + lower.name + "' of " + text("%.4g kg", masses[b]) +
-                    ", a ratio of " + text("%.3g", ratio) +
-                    ": contacts carry ratios up to 200, beyond that bodies sink into each other",
-                "give '" + lower.name + "' more mass, or fix it to the other one")));
+      faults.push_back(warning(error(
+          scene, upper, text("%.4g kg", masses[a]),
+          "it rests on '" + lower.name + "' of " + text("%.4g kg", masses[b]) + ", a ratio of " +
+              text("%.3g", ratio) + ": contacts carry ratios up to " +
+              text("%.0f", vehicle::kMostMassRatio) + ", beyond that bodies sink into each other",
+          "give '" + lower.name + "' more mass, or fix it to the other one")));
     }
   return faults;
 }
