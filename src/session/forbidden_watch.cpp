@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "control/watch.h"
 #include "core/log.h"
 #include "session/spill_area.h"
 #include "sim/timing.h"
@@ -30,13 +31,6 @@ bool is_forbidden(const scene::Forbidden& forbidden, const std::string& event) {
          (event == "off_site" && forbidden.off_site) || (event == "tip" && forbidden.tip) ||
          (event == "buried" && forbidden.buried) ||
          (event == "spill_outside" && forbidden.spill.has_value());
-}
-
-/// Returns true if the base of a machine is above a column of the site.
-bool is_on_site(const sim::World& world, int machine) {
-  const Vec3 p = world.machines().at(machine).link(0).pose().translation();
-  const Vec2i at = world.ground().column_at(p.x(), p.y());
-  return world.ground().contains(at.x(), at.y());
 }
 
 double mass_of(const std::vector<heightfield::SoilLayer>& column) {
@@ -93,7 +87,8 @@ void ForbiddenWatch::look_at_border(const sim::World& world) {
     // Structures around the site stand where they are.
     if (world.machines().at(m).description().fixed_base) continue;
     std::uint8_t& was = was_on_site_[static_cast<std::size_t>(m)];
-    const bool is = is_on_site(world, m);
+    const Vec3 p = world.machines().at(m).link(0).pose().translation();
+    const bool is = !control::is_off_site(world.ground(), p);
     if (was != 0 && !is)
       return note(world, "off_site",
                   "the base of " + quoted_name(world, m) + " is beyond the border of the site");
