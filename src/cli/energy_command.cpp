@@ -123,13 +123,11 @@ void add_motion_energy(CLI::App& lab, Action& action) {
       "each joint\ncommanded to the position and speed that it had. ISO 11152 measures energy with "
       "soil and in motions\nwithout; the difference is what the soil takes.\n\nwork: effort times "
       "speed of all joints and the drive. pump: flow times pressure. Then the joints of the\narm. "
-      "A "
-      "load that drives its actuator returns nothing. Per tonne: over the mass that was dug "
+      "A load that drives its actuator returns nothing. Per tonne: over the mass that was dug "
       "(earthwork\nof summary.json). The motions are the same as far as the last line says.\n\nOne "
       "trench, about two minutes:\n  navvy lab iso11152 trench\n\nIts first scoops in stiff "
       "clay:\n "
-      " "
-      "navvy lab iso11152 trench --set soil.ref=clay_stiff --duration 30");
+      " navvy lab iso11152 trench --set soil.ref=clay_stiff --duration 30");
   command->callback([options, &action] { action = [options] { return compare(*options); }; });
 }
 

@@ -41,8 +41,7 @@ std::string cause_of(const BodyOverlap& overlap, const sim::World& world) {
       !is_movable(world, overlap.other_machine, overlap.other_link) ||
       !(ratio > vehicle::kMostMassRatio))
     return "after an impact, by a larger force than contacts carry, or because one started inside "
-           "the "
-           "other";
+           "the other";
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
                 "their masses are %.3g and %.3g kg, a ratio of %.3g: contacts carry ratios up to "

@@ -60,8 +60,7 @@ std::string TerrainReport::warning() const {
   if (site_gaps == 0) return "";
   std::string out = line(
       "%lld of %lld map cells on the site (%.3g %%, %.3g m2) have no height and were filled from "
-      "their "
-      "neighbours, from up to %.3g m away",
+      "their neighbours, from up to %.3g m away",
       static_cast<long long>(site_gaps), static_cast<long long>(site_cells), 100 * share_filled(),
       static_cast<double>(site_gaps) * cell_x * cell_y, filled_from());
   out.pop_back();

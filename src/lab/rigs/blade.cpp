@@ -322,8 +322,7 @@ Rig blade_rig() {
                    "--travel 1.5 --expected-n 280 --tolerance-percent 25 --cell 0.05"},
                   {"Raked blade in sand [Hatamura 1977]; the formula of [Miedema 2014] for the "
                    "largest force gives 259, 400, 605 N "
-                   "at "
-                   "rakes of 30, 45, 60",
+                   "at rakes of 30, 45, 60",
                    "--width 0.33 --length 0.20 --rake-deg 30 --phi-deg 38 --delta-deg 26.6 "
                    "--density 1460 --depth 0.10 --cell "
                    "0.033 --ahead 4 --tolerance-percent 0 --speed 0.05 --from 0.4 --travel 0.5"},

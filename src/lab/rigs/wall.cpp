@@ -70,8 +70,7 @@ void read_wall(const Setup& setup, const Vec3& force, double share, Report& repo
       .holds_for(
           "E of 4 MPa or more, soil that does not soften; pushed in by 0.2 H, or a smooth wall of "
           "20 cells drawn out "
-          "by "
-          "0.03 H at 0.01 m/s or less",
+          "by 0.03 H at 0.01 m/s or less",
           s.young_modulus > 3.99e6 && moved > (passive ? 0.1999 : 0.0299) && slow && !softens(s));
   // Ka or Kp as in textbooks.
   if (!rough)
