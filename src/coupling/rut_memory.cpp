@@ -11,7 +11,8 @@ namespace {
 
 // [m] A surface this close has not been moved by others since it was pressed.
 constexpr double kSameHeight = 1e-3;
-constexpr int kSlices = 8;  // of the work of a repeated pass, an even number
+// Of the work of a repeated pass, an even number: 1 % at the largest exponent.
+constexpr int kSlices = 16;
 
 /// Sinkage under a load that arrives on ground that earlier ones have pressed to the depth `before`
 /// [m].
@@ -24,14 +25,16 @@ struct Passes {
   /// Returns the depth under a load that alone would sink by `alone` [m].
   double depth(double alone) const {
     if (!add_up()) return std::max(before, alone);
+    // The power of a share of the larger depth is at most 1, so that nothing overflows.
     const double a = soil.multi_pass_exponent;
-    return before * std::pow(1 + std::pow(alone / before, a), 1 / a);
+    const auto [less, more] = std::minmax(before, alone);
+    return more * std::pow(1 + std::pow(less / more, a), 1 / a);
   }
   /// Returns the sinkage of the load alone that brings it to `depth` [m]; the inverse of depth().
   double alone(double depth) const {
     if (!(depth > before)) return 0;
     const double a = soil.multi_pass_exponent;
-    return before * std::pow(std::pow(depth / before, a) - 1, 1 / a);
+    return depth * std::pow(1 - std::pow(before / depth, a), 1 / a);
   }
   /// Returns the work of the load from one depth to another, per unit of area [J/m2].
   double work(double from, double to) const {
@@ -39,7 +42,7 @@ struct Passes {
       return terramechanics::plate_work(soil, to, width) -
              terramechanics::plate_work(soil, from, width);
     // By Simpson's rule over the sinkage of the load alone, y: its pressure times dz, and
-    // dz/dy = (y / z)^(a - 1).
+    // dz/dy = (y / z)^(a - 1), which is finite because a is at least 1.
     const double start = alone(from), slice = (alone(to) - start) / kSlices;
     double sum = 0;
     for (int i = 0; i <= kSlices; ++i) {

@@ -186,6 +186,33 @@ TEST(RutMemory, WorkOfARepeatedPassIsItsPressureOverItsSinkage) {
   EXPECT_NEAR(work, second.work, 0.01 * second.work);
 }
 
+TEST(RutMemory, RepeatedPassesAreFiniteAtBothEndsOfTheExponent) {
+  constexpr double kWidth = 0.3;
+  for (const double exponent : {1.0, 20.0})
+    // The later load a little, or by far, the lighter or the heavier one.
+    for (const double ratio : {1e-6, 0.5, 1.0, 2.0, 1e6}) {
+      scene::Soil soil = flat_loam(1).setup().soils[0];
+      soil.multi_pass_exponent = exponent;
+      const double pressure = ratio > 1 ? 1e2 : 1e5;
+      RutMemory memory;
+      const double first = memory.press(soil, kWidth, 0, pressure).drop;
+      memory.height = -first;
+      memory.arrive(soil);
+      const RutMemory::Press second = memory.press(soil, kWidth, -first, ratio * pressure);
+      const double alone = terramechanics::plate_sinkage(soil, ratio * pressure, kWidth);
+      const double more = std::max(first, alone), less = std::min(first, alone);
+      const double expected = more * std::pow(1 + std::pow(less / more, exponent), 1 / exponent);
+      EXPECT_NEAR(first + second.drop, expected, 1e-6 * expected) << exponent << ' ' << ratio;
+      EXPECT_TRUE(std::isfinite(second.work)) << exponent << ' ' << ratio;
+      EXPECT_GE(second.work, 0) << exponent << ' ' << ratio;
+      // No load does more work than itself over what it presses deeper.
+      EXPECT_LE(second.work, 1.001 * ratio * pressure * second.drop + 1e-9);
+      // At 1 the depths add up, at 20 the larger one remains but for 4 %.
+      if (exponent == 1) EXPECT_NEAR(first + second.drop, first + alone, 1e-6 * expected);
+      if (exponent == 20) EXPECT_LT(first + second.drop, 1.04 * more);
+    }
+}
+
 TEST(Ruts, PressFreshSoilDownToTheirOldFloor) {
   heightfield::Ground ground = flat_loam();
   Ruts ruts(ground);
