@@ -47,6 +47,10 @@ struct RutMemory {
     arrived = repeats ? pressure : 0;
     floor_arrived = repeats ? floor_pressure : 0;
   }
+  /// Ends the pass of the last tyre: whatever presses next, until another load arrives, sinks to
+  /// the larger of both depths and adds nothing. Call it for loads that do not add up, after
+  /// `find`.
+  void leave() { arrived = floor_arrived = 0; }
 
   /// Result of `press`.
   struct Press {

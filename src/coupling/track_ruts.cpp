@@ -21,6 +21,10 @@ void TrackRuts::press_column(const PushedSoil::Place& place, double pressure, do
   RutMemory& memory = ruts_.history(ix, iy);
   const double height = ground_.height(ix, iy);
   memory.find(height);
+  // Cleared, not begun anew: the law of repeated passes is measured for tyres, and a column sees
+  // all segments of a track as one load. A track therefore ends at the larger of both depths, not
+  // on the depth that the last tyre found. A tyre that comes later adds to the track's depth.
+  memory.leave();
   const auto [before, drop, work] = memory.press(soil, width, height, pressure, most);
   if (!(drop > 0)) return;
   (void)work;  // the track's resistance follows from its own depth

@@ -21,7 +21,8 @@ constexpr double kSinkSpeed = 0.2;
 /// capacity flows aside.
 ///
 /// The load history is shared with Ruts: ground that a tyre has pressed remains pressed when a
-/// track arrives, and vice versa.
+/// track arrives, and vice versa. The depth of a track does not add to that of earlier passes
+/// (RutMemory::leave); tyres that come later add theirs.
 class TrackRuts {
  public:
   /// Makes an object that presses `ground`. The load history is stored in `ruts`. Both must outlive

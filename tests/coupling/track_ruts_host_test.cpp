@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-heightfield::Ground flat_loam() {
+heightfield::Ground flat_loam(double multi_pass_exponent = 0) {
   scene::Soil loam;
   loam.name = "loam";
+  loam.multi_pass_exponent = multi_pass_exponent;
   heightfield::Ground::Setup setup;
   setup.nx = setup.ny = 64;
   setup.cell = 0.1;
@@ -96,6 +97,40 @@ TEST(TrackRuts, DeepenRutsOfTyresOnlyByTheDifferenceAndViceVersa) {
   // Plates of two widths: a pressure is remembered, and sinks the wider one a little more.
   EXPECT_NEAR(depth({true, false}), tyre, 0.02 * tyre);
   EXPECT_NEAR(depth({false, true}), tyre, 0.02 * tyre);
+}
+
+TEST(TrackRuts, AddNothingToRepeatedPassesOfTyres) {
+  // With the exponent 0, too, the larger depth remains.
+  for (const double exponent : {0.0, 2.5}) {
+    heightfield::Ground ground = flat_loam(exponent);
+    Ruts tyres(ground);
+    TrackRuts ruts(ground, tyres);
+    const Vec2i at = ground.column_at(3.2, 3.2);
+    const auto depth = [&] { return -ground.height(at.x(), at.y()); };
+    vehicle::WheelState here, away;
+    here.X_WWheel.translation() = Vec3(3.2, 3.2, 0.5);
+    away.X_WWheel.translation() = Vec3(5.6, 5.6, 0.5);
+    here.force_W = away.force_W = Vec3(0, 0, 20e3);
+    tyres.press({{scene::Wheel{}, here}});
+    const double once = depth();
+    tyres.press({{scene::Wheel{}, away}});
+    tyres.press({{scene::Wheel{}, here}});
+    const double twice = depth();
+    // 2^(1/2.5) = 1.32.
+    EXPECT_NEAR(twice, exponent > 0 ? 1.32 * once : once, 0.02 * once);
+    const auto press = [&](double sinkage) {
+      const scene::Soil& soil = ground.setup().soils[0];
+      const double pressure = terramechanics::plate_pressure(soil, sinkage, 0.6);
+      ruts.press({patch_at(3.2, 3.2, pressure * 0.4 * 0.6)}, kFar, true);
+    };
+    // Deeper than the first pass, less deep than both: on top of the first it would reach 1.42.
+    if (exponent > 0) {
+      press(1.15 * once);
+      EXPECT_EQ(depth(), twice);
+    }
+    press(1.6 * once);
+    EXPECT_NEAR(depth(), 1.6 * once, 0.02 * once);
+  }
 }
 
 TEST(TrackRuts, HoldTheRecordsOfTyresToo) {
