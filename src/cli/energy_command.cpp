@@ -11,6 +11,7 @@
 #include "cli/progress_line.h"
 #include "cli/scene_options.h"
 #include "core/file.h"
+#include "core/printable.h"
 #include "device/device.h"
 #include "run/motion_energy.h"
 
@@ -30,9 +31,15 @@ struct Row {
   double with_soil = 0, without_soil = 0;
 };
 
+/// Returns the energies of the whole machine.
+std::vector<Row> totals_of(const run::EnergyComparison& result) {
+  return {{"work", result.with_soil.work, result.without_soil.work},
+          {"pump", result.with_soil.pump, result.without_soil.pump}};
+}
+
+/// Returns the totals, then the work of each joint.
 std::vector<Row> rows_of(const run::EnergyComparison& result) {
-  std::vector<Row> out = {{"work", result.with_soil.work, result.without_soil.work},
-                          {"pump", result.with_soil.pump, result.without_soil.pump}};
+  std::vector<Row> out = totals_of(result);
   for (const run::JointWork& one : result.joints)
     out.push_back({one.joint, one.with_soil, one.without_soil});
   return out;
@@ -59,6 +66,18 @@ void print(const run::EnergyComparison& result) {
                 per_tonne(row.with_soil - row.without_soil, result.moved).c_str());
   std::printf("paths of the bucket's edge differ by %.3f m (rms), %.3f m at most\n",
               result.path_rms, result.path_largest);
+  if (result.end.reason == run::EndReason::kForbidden)
+    std::printf("failed: %s\n", printable(result.end.cause).c_str());
+  for (const std::string& program : result.unfinished)
+    std::printf("incomplete: %s\n", printable(program).c_str());
+}
+
+/// Returns the exit status for the ending of the motion, as `navvy run` does: a duration on the
+/// command line asks for no more than that.
+int status_of(const EnergyOptions& options, const run::RunEnd& end) {
+  if (end.reason == run::EndReason::kForbidden) return kForbidden;
+  const bool asked = end.reason == run::EndReason::kOutOfTime && options.scene.duration > 0;
+  return end.reason == run::EndReason::kComplete || asked ? kOk : kIncomplete;
 }
 
 std::string csv_of(const run::EnergyComparison& result) {
@@ -78,15 +97,24 @@ nlohmann::json json_of(const EnergyOptions& options, const std::string& device,
                         {"version", NAVVY_VERSION},
                         {"device", device},
                         {"scene", options.scene.file},
+                        {"end", run::name_of(result.end.reason)},
+                        {"unfinished", result.unfinished},
                         {"machine", result.machine},
                         {"duration_s", result.duration},
                         {"cycles", result.cycles},
                         {"moved_kg", result.moved},
                         {"path_rms_m", result.path_rms},
                         {"path_largest_m", result.path_largest}};
-  for (const Row& row : rows_of(result))
-    out["energy"][row.name] = {{"with_soil_j", row.with_soil},
-                               {"without_soil_j", row.without_soil}};
+  if (!result.end.cause.empty()) out["forbidden_event"] = result.end.cause;
+  const auto energy = [](double with_soil, double without_soil) {
+    return nlohmann::json{{"with_soil_j", with_soil}, {"without_soil_j", without_soil}};
+  };
+  for (const Row& row : totals_of(result))
+    out["energy"][row.name] = energy(row.with_soil, row.without_soil);
+  // Of their own: a joint may be called like one of the totals.
+  out["joints"] = nlohmann::json::object();
+  for (const run::JointWork& one : result.joints)
+    out["joints"][one.joint] = energy(one.with_soil, one.without_soil);
   return out;
 }
 
@@ -103,7 +131,7 @@ int compare(const EnergyOptions& options) {
   if (!options.json.empty())
     write_file_atomically(options.json,
                           json_of(options, device.info().text(), result).dump(1) + "\n");
-  return kOk;
+  return status_of(options, result.end);
 }
 
 }  // namespace
@@ -119,15 +147,25 @@ void add_motion_energy(CLI::App& lab, Action& action) {
   command->add_option("--json", options->json, "write the result to this JSON file, in SI units");
   command->add_flag("--quiet", options->quiet, "no progress line");
   command->footer(
-      "\nThe scene runs twice: as it is, then without programs and without tools that touch soil, "
-      "each joint\ncommanded to the position and speed that it had. ISO 11152 measures energy with "
-      "soil and in motions\nwithout; the difference is what the soil takes.\n\nwork: effort times "
-      "speed of all joints and the drive. pump: flow times pressure. Then the joints of the\narm. "
-      "A load that drives its actuator returns nothing. Per tonne: over the mass that was dug "
-      "(earthwork\nof summary.json). The motions are the same as far as the last line says.\n\nOne "
-      "trench, about two minutes:\n  navvy lab iso11152 trench\n\nIts first scoops in stiff "
-      "clay:\n "
-      " navvy lab iso11152 trench --set soil.ref=clay_stiff --duration 30");
+      "\nThe scene runs twice: as it is, then without programs and without tools that touch "
+      "soil, each joint\n"
+      "commanded to the position and speed that it had. ISO 11152 measures energy with soil "
+      "and in motions\n"
+      "without; the difference is what the soil takes.\n"
+      "\nwork: effort times speed of all joints and the drive. pump: flow times pressure. Then "
+      "the joints of the\n"
+      "arm. A load that drives its actuator returns nothing. Per tonne: over the mass that was "
+      "dug on the whole\n"
+      "site (earthwork of summary.json), so that no second machine may have a tool and a "
+      "program. The motions\n"
+      "are the same as far as the last line of the table says.\n"
+      "\nPrograms that did not reach their end and forbidden events are printed; the exit status "
+      "is then 6 or 8,\n"
+      "as that of navvy run. A program that --duration cuts off is no failure.\n"
+      "\nOne trench, about two minutes:\n"
+      "  navvy lab iso11152 trench\n"
+      "\nIts first scoops in stiff clay:\n"
+      "  navvy lab iso11152 trench --set soil.ref=clay_stiff --duration 30");
   command->callback([options, &action] { action = [options] { return compare(*options); }; });
 }
 

@@ -44,6 +44,29 @@ int machine_index(const scene::Scene& scene, const std::string& name) {
   return found;
 }
 
+/// Returns true if a machine may dig: it has a program, and a tool that is no bed.
+bool may_dig(const scene::MachineInWorld& one) {
+  const auto is_tool = [&](const scene::Shell& shell) {
+    const auto holds = [&](const scene::Bed& bed) { return bed.shell == shell.name; };
+    return std::none_of(one.machine.beds.begin(), one.machine.beds.end(), holds);
+  };
+  return !one.program.steps.empty() &&
+         std::any_of(one.machine.shells.begin(), one.machine.shells.end(), is_tool);
+}
+
+/// Refuses other machines that may dig: what they dig would count as work of this one.
+void require_one_digs(const scene::Scene& scene, int machine) {
+  for (int i = 0; i < static_cast<int>(scene.machines.size()); ++i) {
+    const scene::MachineInWorld& other = scene.machines[static_cast<std::size_t>(i)];
+    if (i != machine && may_dig(other))
+      refuse(other.name,
+             "several machines with a tool and a program: the mass that the site loses is shared "
+             "out to none of them",
+             "remove the navvy:program of all but '" +
+                 scene.machines[static_cast<std::size_t>(machine)].name + "'");
+  }
+}
+
 /// Returns the indices of the joints whose motion is repeated.
 std::vector<int> repeated_joints(const scene::Machine& machine) {
   std::vector<int> out;
@@ -166,6 +189,24 @@ struct Subject {
   std::vector<int> joints;
 };
 
+/// Fills in how the motion with soil ended, by the order of EndReason.
+void note_end(const session::Session& session, EnergyComparison& out) {
+  out.end.time = session.world().time();
+  if (session.forbidden()) {
+    out.end.reason = EndReason::kForbidden;
+    out.end.cause = session.forbidden()->text();
+  } else if (session.complete()) {
+    out.end.reason = EndReason::kComplete;
+  } else {
+    out.end.reason = session.fell_short() ? EndReason::kFellShort : EndReason::kOutOfTime;
+  }
+  const auto& machines = session.world().description().machines;
+  for (const session::ProgramReport& report : session.programs())
+    if (report.last().state != control::StepState::kDone)
+      out.unfinished.push_back(session::report_line(
+          report, machines[static_cast<std::size_t>(report.machine)].name, "the motion ended"));
+}
+
 /// Runs the scene and fills in its results; `path` receives that of the edge.
 Motion run_with_soil(const scene::Scene& scene, const Subject& subject, device::Device& device,
                      const std::function<void(double)>& progress, EnergyComparison& out,
@@ -179,6 +220,7 @@ Motion run_with_soil(const scene::Scene& scene, const Subject& subject, device::
     motion.push_back(moments(session.world()));
     if (progress) progress(0.5 * session.world().time() / scene.recording.duration);
   }
+  note_end(session, out);
   out.duration = session.world().time();
   for (const record::SoilMoved& soil : record::measure_earthwork(session.world()).soils)
     out.moved += soil.dug;
@@ -220,6 +262,7 @@ EnergyComparison compare_motion_energy(const scene::Scene& scene, const std::str
                                        const std::function<void(double)>& progress) {
   Subject subject;
   subject.machine = machine_index(scene, machine);
+  require_one_digs(scene, subject.machine);
   const scene::MachineInWorld& placed = scene.machines[static_cast<std::size_t>(subject.machine)];
   subject.bucket = &placed.machine.buckets.front();
   subject.joints = repeated_joints(placed.machine);

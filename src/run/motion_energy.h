@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "run/run_end.h"
 #include "scene/scene.h"
 
 namespace navvy::device {
@@ -33,6 +34,10 @@ struct MotionEnergy {
 
 /// Result of compare_motion_energy().
 struct EnergyComparison {
+  /// How the motion with soil ended: kComplete, kFellShort, kOutOfTime or kForbidden.
+  RunEnd end;
+  /// One line for each program that did not reach its end (session::report_line).
+  std::vector<std::string> unfinished;
   std::string machine;            ///< name of the machine in the scene
   double duration = 0;            ///< simulated time of each motion [s]
   double moved = 0;               ///< mass that was dug [kg], as in `earthwork` of summary.json
@@ -50,12 +55,18 @@ struct EnergyComparison {
 /// The first run is that of the scene, with its programs. The second one repeats the motion: it has
 /// no programs and no tools that touch soil, each joint of the arm and each joint with a cylinder
 /// is commanded to the position and speed that it had, and each drive as it was. Machines stand on
-/// the same ground and ride on it; hitches stay as they are at the start.
+/// the same ground and ride on it; hitches stay as they are at the start. A program that falls
+/// short and an event that the scene forbids end the motion, and both energies are those up to
+/// there.
+///
+/// The mass is what the whole site lost to digging, so that no other machine may dig: none may have
+/// both a program and a tool that touches soil, apart from a bed.
 ///
 /// @param machine name of the machine, which has a `navvy:bucket`; empty if only one machine does
 /// @param progress called with the completed share of both runs, 0 to 1; may be empty
-/// @throws InputError for a machine that is missing, ambiguous, kinematic or without a bucket, and
-/// for a scene that cannot be built; SimulationError if a run fails.
+/// @throws InputError for a machine that is missing, ambiguous, kinematic or without a bucket, for
+/// a second machine that may dig, and for a scene that cannot be built; SimulationError if a run
+/// fails.
 EnergyComparison compare_motion_energy(const scene::Scene& scene, const std::string& machine,
                                        device::Device& device,
                                        const std::function<void(double)>& progress = {});

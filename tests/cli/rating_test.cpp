@@ -86,6 +86,11 @@ TEST_F(Rating, ComparesEnergiesOfAMotionOnlyForAMachineWithABucket) {
   EXPECT_NE(complained().find("navvy:bucket"), std::string::npos) << complained();
   EXPECT_EQ(run({"lab", "iso11152", "two_excavators"}), 2);
   EXPECT_NE(complained().find("name one of them"), std::string::npos) << complained();
+  // Both dig, and the mass is that of the whole site.
+  EXPECT_EQ(run({"lab", "iso11152", "two_excavators", "--machine", "south"}), 2);
+  EXPECT_NE(complained().find("'north'"), std::string::npos) << complained();
+  EXPECT_NE(complained().find("remove the navvy:program of all but 'south'"), std::string::npos)
+      << complained();
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace navvy::run {
 namespace {
 
 /// Returns a scene with the excavator on a small site of loam and one step of its program.
-scene::Scene scene_with(const std::string& step) {
+scene::Scene scene_with(const std::string& step, const std::string& world = "") {
   return scene_io::load_scene_from_string(
       R"(<?xml version="1.0"?>
 <sdf version="1.9" xmlns:navvy="navvy">
@@ -30,6 +30,8 @@ scene::Scene scene_with(const std::string& step) {
       <navvy:program>)" +
           step + R"(</navvy:program>
     </include>
+)" + world +
+          R"(
     <navvy:recording><duration_s>40</duration_s><settle_s>0.5</settle_s></navvy:recording>
   </world>
 </sdf>)",
@@ -52,6 +54,36 @@ TEST(MotionEnergy, OfAMotionInTheAirIsTheSameWithAndWithoutSoil) {
   EXPECT_NEAR(both.without_soil.work, both.with_soil.work, 0.01 * both.with_soil.work);
   EXPECT_NEAR(both.without_soil.pump, both.with_soil.pump, 0.02 * both.with_soil.pump);
   EXPECT_LT(both.path_largest, 0.02);
+  EXPECT_EQ(both.end.reason, EndReason::kComplete);
+  EXPECT_TRUE(both.unfinished.empty());
+}
+
+TEST(MotionEnergy, TellsHowTheMotionEnded) {
+  device::Device device;
+  scene::Scene scene = scene_with("<wait><duration_s>5</duration_s></wait>");
+  scene.recording.duration = 0.1;
+  const EnergyComparison cut = compare_motion_energy(scene, "", device);
+  EXPECT_EQ(cut.end.reason, EndReason::kOutOfTime);
+  EXPECT_NEAR(cut.end.time, 0.1, 0.01);
+  ASSERT_EQ(cut.unfinished.size(), 1u);
+  EXPECT_NE(cut.unfinished[0].find("excavator"), std::string::npos) << cut.unfinished[0];
+}
+
+TEST(MotionEnergy, RefusesASecondMachineThatMayDig) {
+  const std::string second = R"(
+    <include>
+      <uri>model://ew180</uri><name>second</name><pose>-4 6 0 0 0 0</pose>PROGRAM
+    </include>)";
+  const std::string wait = "<wait><duration_s>0.1</duration_s></wait>",
+                    program = "<navvy:program>" + wait + "</navvy:program>";
+  const auto with = [&](const std::string& text) {
+    std::string all = second;
+    return scene_with(wait, all.replace(all.find("PROGRAM"), 7, text));
+  };
+  device::Device device;
+  EXPECT_THROW(compare_motion_energy(with(program), "excavator", device), InputError);
+  // A parked one digs nothing.
+  EXPECT_EQ(compare_motion_energy(with(""), "excavator", device).machine, "excavator");
 }
 
 TEST(MotionEnergy, OfAScoopIsLargerWithSoilByMoreThanItsLift) {
