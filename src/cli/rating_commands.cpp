@@ -141,20 +141,30 @@ void add_tool_forces(CLI::App& lab, Action& action) {
   command->add_flag("--curve", options->curve,
                     "also print the forces over the range of the working joint");
   command->footer(
-      "\nThe force of the cutting edge (not of the teeth) along its circle: about the bucket's "
-      "pivot while the\nbucket cylinder works (breakout), about the stick's while the stick "
-      "cylinder works (tear-out, with the\nbucket where its breakout force is largest). For each "
-      "force three positions of the arm, among all:\n  rated     the largest hydraulic force: the "
-      "first circuit at its relief pressure, the working one or one\n            that must hold; "
-      "weights and friction of the arm are excluded\n  alone     the largest force of the working "
-      "circuit alone, as if the others held any load\n  standing  the largest force of the machine "
-      "without an anchor\nColumns: working, the force of the working circuit alone; hydraulic, "
-      "with the circuit that limits it; tips\nand slips, the forces at which the machine does; "
-      "standing, the least of these, and its cause.\n\nThe ground is level and firm, with the "
-      "friction of the tyres or tracks; brakes are on, the oscillating axle\nis locked, tyres are "
-      "rigid.\n\nBoth forces of all shipped machines:\n  navvy lab iso6015\n\nA machine of your "
-      "own, with the curve over the bucket's and the stick's range:\n  navvy lab iso6015 mine.sdf "
-      "--curve --csv forces.csv");
+      "\nThe force at the middle of the bucket's cutting edge (tip_m), along its circle: about "
+      "the bucket's pivot\n"
+      "while the bucket cylinder works (breakout), about the stick's while the stick cylinder "
+      "works (tear-out,\n"
+      "with the bucket where its breakout force is largest). ISO 6015 takes the edge and not the "
+      "tips of teeth:\n"
+      "those ahead of it (length_m) are left out; those of the shipped buckets end at the edge.\n"
+      "\nFor each force three positions of the arm, among all:\n"
+      "  rated     the largest hydraulic force: the first circuit at its relief pressure, the "
+      "working one or one\n"
+      "            that must hold; weights and friction of the arm are excluded\n"
+      "  alone     the largest force of the working circuit alone, as if the others held any load\n"
+      "  standing  the largest force of the machine without an anchor\n"
+      "Columns: working, the force of the working circuit alone; hydraulic, with the circuit "
+      "that limits it; tips\n"
+      "and slips, the forces at which the machine does; standing, the least of these, and its "
+      "cause.\n"
+      "\nThe ground is level and firm, with the friction of the tyres or tracks; brakes are on, "
+      "the oscillating axle\n"
+      "is locked, tyres are rigid.\n"
+      "\nBoth forces of all shipped machines:\n"
+      "  navvy lab iso6015\n"
+      "\nA machine of your own, with the curve over the bucket's and the stick's range:\n"
+      "  navvy lab iso6015 mine.sdf --curve --csv forces.csv");
   command->callback(
       [options, &action] { action = [options] { return rate_tool_forces(*options); }; });
 }
@@ -177,17 +187,23 @@ void add_lift_capacity(CLI::App& lab, Action& action) {
   command->add_flag("--bucket", options->with_bucket,
                     "with the bucket curled in, whose weight reduces the load");
   command->footer(
-      "\nThe load hangs on the bucket's pivot. Its rated lift capacity is the smaller one of 87 % "
-      "of the\nhydraulic lift capacity (marked *) and 75 % of the tipping load. The hydraulic lift "
-      "capacity is the load\nat which the first circuit, of boom or stick, reaches its relief "
-      "pressure while it holds load and arm.\nThe tipping load moves the centre of mass onto an "
-      "edge of the support polygon: a line between wheels or\ntracks. Lift charts are published "
-      "without the bucket, as here without --bucket; a tool's weight is then\npart of the load. "
-      "The "
-      "last column is the largest reach at the height.\n\nThe ground is level and firm, tyres are "
-      "rigid, the oscillating axle is locked.\n\nThe chart over the front and the side:\n  navvy "
-      "lab iso10567 ew180\n\nAt one place, all round:\n  navvy lab iso10567 ew180 --reach 6 "
-      "--height 1.5 --swing-deg 0,30,60,90,120,150,180 --csv lift.csv");
+      "\nThe load hangs on the bucket's pivot. Its rated lift capacity is the smaller one of 87 "
+      "% of the\n"
+      "hydraulic lift capacity (marked *) and 75 % of the tipping load. The hydraulic lift "
+      "capacity is the load\n"
+      "at which the first circuit, of boom or stick, reaches its relief pressure while it "
+      "holds load and arm.\n"
+      "The tipping load moves the centre of mass onto an edge of the support polygon: a line "
+      "between wheels or\n"
+      "tracks. Lift charts are published without the bucket, as here without --bucket; a "
+      "tool's weight is then\n"
+      "part of the load. The last column is the largest reach at the height.\n"
+      "\nThe ground is level and firm, tyres are rigid, the oscillating axle is locked.\n"
+      "\nThe chart over the front and the side:\n"
+      "  navvy lab iso10567 ew180\n"
+      "\nAt one place, all round:\n"
+      "  navvy lab iso10567 ew180 --reach 6 --height 1.5 --swing-deg 0,30,60,90,120,150,180 "
+      "--csv lift.csv");
   command->callback(
       [options, &action] { action = [options] { return rate_lift_capacity(*options); }; });
 }

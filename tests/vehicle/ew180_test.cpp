@@ -21,9 +21,9 @@ using testing::run;
 constexpr double kStep = 1.0 / 600;
 const Vec3 kDown(0, 0, -kGravity);
 
-/// ISO 6015: the tooth tip is held by a strong spring, one cylinder works, all others hold; returns
-/// the tip force perpendicular to the radius from the working joint [N]. Without gravity, as the
-/// standard considers the cylinder's force only; the base is fixed.
+/// ISO 6015: the middle of the cutting edge is held by a strong spring, one cylinder works, all
+/// others hold; returns the tip force perpendicular to the radius from the working joint [N].
+/// Without gravity, as the standard considers the cylinder's force only; the base is fixed.
 double locked_tip_force(double stick, double bucket, const std::string& role, double direction) {
   scene::Machine m = ew180(0.3, stick, bucket);
   m.fixed_base = true;

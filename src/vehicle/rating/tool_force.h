@@ -74,10 +74,11 @@ std::optional<Fault> tool_force_fault(const scene::Machine& machine);
 
 /// Computes a tool force of `machine` over all positions of its arm. Takes about a second.
 ///
-/// The cutting edge is the middle of the bucket's edge, without teeth. For the tear-out force the
-/// bucket is where the breakout force is largest. Positions in which the edge is within the support
-/// polygon, seen from above, do not count. The machine stands on level, firm ground with the
-/// friction of its tyres or tracks, its wheels locked by its brakes, its oscillating axle locked.
+/// The force acts at the middle of the bucket's cutting edge (scene::Bucket::p_tip), as the
+/// standard defines it; teeth ahead of the edge are left out. For the tear-out force the bucket is
+/// where the breakout force is largest. Positions in which the edge is within the support polygon,
+/// seen from above, do not count. The machine stands on level, firm ground with the friction of its
+/// tyres or tracks, its wheels locked by its brakes, its oscillating axle locked.
 /// @throws InputError with tool_force_fault().
 ToolForceRating rate_tool_force(const scene::Machine& machine, ToolForceKind kind);
 
