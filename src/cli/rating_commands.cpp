@@ -89,6 +89,12 @@ int rate_tool_forces(const RatingOptions& options) {
   return kOk;
 }
 
+/// Returns a heading [deg] within (-180, 180].
+double wrapped(double heading) {
+  const double out = std::remainder(heading, 360.0);
+  return out == -180 ? 180 : out + 0.0;  // no negative zero
+}
+
 /// Returns multiples of 1.5 m within a range, the usual grid of lift charts.
 std::vector<double> usual(double low, double high) {
   constexpr double kStep = 1.5;
@@ -108,7 +114,8 @@ int rate_lift_capacity(const RatingOptions& options) {
     LiftTable table;
     table.machine = machine.name;
     table.with_bucket = options.with_bucket;
-    for (const double heading : options.headings) table.headings.push_back(radians(heading));
+    for (const double heading : options.headings)
+      table.headings.push_back(radians(wrapped(heading)));
     const auto [low, high] = chart.heights();
     table.heights = options.heights.empty() ? usual(low, high) : options.heights;
     // As in published charts, the highest first.
@@ -181,7 +188,8 @@ void add_lift_capacity(CLI::App& lab, Action& action) {
       ->check(above_zero);
   list("--height", options->heights, "heights of the load above the ground [m]")
       ->check(within(-100, 100));
-  list("--swing-deg", options->headings, "directions of the arm from the front, to the left [deg]")
+  list("--swing-deg", options->headings,
+       "directions of the arm from the front, to the left [deg], as of -180 to 180")
       ->check(within(-360, 360))
       ->default_str("0,90");
   command->add_flag("--bucket", options->with_bucket,

@@ -88,11 +88,13 @@ std::string csv_line(const ToolForceRow& row, const char* position, const ToolFo
                vehicle::name_of(f.limit())});
 }
 
-/// Returns "over the front", "over the left side", "over the rear", or the angle.
+/// Returns "over the front", "over the left side", "over the right side", "over the rear", or the
+/// angle.
 std::string heading_text(double heading) {
   const double angle = std::round(degrees(heading) * 1e6) / 1e6;
   if (angle == 0) return "over the front";
-  if (angle == 90 || angle == -90) return "over the side";
+  if (angle == 90) return "over the left side";
+  if (angle == -90) return "over the right side";
   if (angle == 180 || angle == -180) return "over the rear";
   char text[48];
   std::snprintf(text, sizeof text, "%g deg from the front", angle);
@@ -114,14 +116,18 @@ void print_lift_table(const LiftTable& table) {
                 table.with_bucket ? "with its bucket" : "without bucket", "height [m]");
     for (const double reach : table.reaches) std::printf(" %7.2f ", reach);
     std::printf("  largest reach [m]\n");
+    bool any = false;
     for (std::size_t i = 0; i < table.lines.size(); ++i) {
       const LiftTable::Line& at = table.lines[i];
+      for (const auto& one : at.at_reach[h]) any = any || one.has_value();
+      any = any || at.at_most[h].has_value();
       std::printf("%-12.2f", table.heights[i]);
       for (const auto& one : at.at_reach[h]) std::printf(" %8s", tonnes(one).c_str());
       if (at.at_most[h])
         std::printf("  %8s at %.2f", tonnes(at.at_most[h]).c_str(), at.at_most[h]->reach);
       std::printf("\n");
     }
+    if (!any) std::puts("the arm does not turn there, or reaches none of these places");
   }
 }
 

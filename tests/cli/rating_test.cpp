@@ -46,7 +46,7 @@ TEST_F(Rating, GivesLiftCapacityOverReachAndSwing) {
                  "0,90", "--json", path("lift.json"), "--csv", path("lift.csv")}),
             0)
       << complained();
-  EXPECT_NE(said().find("over the side"), std::string::npos) << said();
+  EXPECT_NE(said().find("over the left side"), std::string::npos) << said();
   const json lifts = read("lift.json").at("lifts");
   ASSERT_EQ(lifts.size(), 4u) << "at 6 m and at the largest reach, over front and side";
   for (const json& one : lifts) {
@@ -58,6 +58,22 @@ TEST_F(Rating, GivesLiftCapacityOverReachAndSwing) {
   // The usual grid has no place inside the machine and none that the arm does not reach.
   ASSERT_EQ(run({"lab", "iso10567", "ew180", "--json", path("chart.json")}), 0) << complained();
   EXPECT_GT(read("chart.json").at("lifts").size(), 20u);
+}
+
+TEST_F(Rating, WrapsHeadingsAndTellsTheSidesApart) {
+  ASSERT_EQ(run({"lab", "iso10567", "ew180", "--reach", "6", "--height", "1.5", "--swing-deg",
+                 "270,-90,-180,360", "--json", path("lift.json")}),
+            0)
+      << complained();
+  EXPECT_NE(said().find("over the right side"), std::string::npos) << said();
+  EXPECT_EQ(said().find("over the left side"), std::string::npos) << said();
+  EXPECT_NE(said().find("over the rear"), std::string::npos) << said();
+  EXPECT_NE(said().find("over the front"), std::string::npos) << said();
+  const json lifts = read("lift.json").at("lifts");
+  ASSERT_EQ(lifts.size(), 8u) << "at 6 m and at the largest reach";
+  for (const std::size_t i : {0u, 1u}) EXPECT_EQ(lifts[i], lifts[i + 2]) << "270 is -90";
+  EXPECT_NEAR(lifts[4].at("swing_deg").get<double>(), 180, 1e-9);
+  EXPECT_EQ(lifts[6].at("swing_deg").get<double>(), 0);
 }
 
 TEST_F(Rating, RefusesBadInputWithARemedy) {

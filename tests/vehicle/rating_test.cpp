@@ -277,6 +277,19 @@ TEST(LiftChart, ReachesAsFarAsItsArmAndNoFarther) {
   EXPECT_FALSE(chart.at(6, 2, 1).has_value());
 }
 
+TEST(LiftChart, FindsADirectionWhichLimitsAllowOnlyAfterATurn) {
+  scene::Machine machine = scene_io::load_machine(scene_io::shipped_machines().at("ew180"));
+  scene::Joint& swing =
+      machine.joints[static_cast<std::size_t>(machine.joint_index(machine.arm.swing))];
+  swing.has_limits = true;
+  swing.lower = radians(-100);
+  swing.upper = radians(200);
+  LiftChart chart(machine, false);
+  for (const double heading : {270.0, -170.0})
+    EXPECT_TRUE(chart.at(6, 1.5, radians(heading)).has_value()) << heading;
+  EXPECT_FALSE(chart.at(6, 1.5, radians(-130)).has_value());
+}
+
 TEST(LiftChart, ExcavatorsLiftLessOverTheSideAndAllRoundAreSymmetric) {
   for (const char* name : {"ew180", "ex180_tracked"}) {
     LiftChart chart(scene_io::load_machine(scene_io::shipped_machines().at(name)), false);

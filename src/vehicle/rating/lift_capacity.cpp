@@ -112,8 +112,12 @@ struct LiftChart::State {
   bool swing_to(double heading) {
     if (arm.swing < 0) return heading == 0;
     const double q = rest.axis(arm.swing).z() < 0 ? -heading : heading;
-    rest.set(arm.swing, q);
-    return rest.position(arm.swing) == q;
+    // Limits may allow a direction only with a turn more or less.
+    for (const double turn : {0.0, -2 * kPi, 2 * kPi}) {
+      rest.set(arm.swing, q + turn);
+      if (rest.position(arm.swing) == q + turn) return true;
+    }
+    return false;
   }
 
   /// Evaluates the capacity with the joints as they were set.
