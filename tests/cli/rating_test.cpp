@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// `navvy lab iso6015` and `navvy lab iso10567` as a process: tables, CSV, JSON, and bad input.
+// `navvy lab iso6015`, `iso10567` and `iso11152` as a process: tables, CSV, JSON, endings, and bad
+// input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -106,6 +108,27 @@ TEST_F(Rating, ComparesEnergiesOfAMotionOnlyForAMachineWithABucket) {
   EXPECT_EQ(run({"lab", "iso11152", "two_excavators", "--machine", "south"}), 2);
   EXPECT_NE(complained().find("'north'"), std::string::npos) << complained();
   EXPECT_NE(complained().find("remove the navvy:program of all but 'south'"), std::string::npos)
+      << complained();
+}
+
+TEST_F(Rating, ReportsHowAComparedMotionEnded) {
+  std::ofstream(path("cut.sdf")) << R"(<sdf version="1.9" xmlns:navvy="navvy"><world name="cut">
+<navvy:soil ref="loam"/><navvy:ground><size_m>24 20</size_m><depth_m>4</depth_m></navvy:ground>
+<navvy:solver><cell_m>0.2</cell_m></navvy:solver>
+<include><uri>model://ew180</uri><name>excavator</name><navvy:program>
+<wait><duration_s>5</duration_s></wait></navvy:program></include>
+<navvy:recording><duration_s>0.1</duration_s></navvy:recording></world></sdf>)";
+  EXPECT_EQ(run({"lab", "iso11152", path("cut.sdf"), "--quiet", "--json", path("cut.json")}), 6)
+      << complained();
+  EXPECT_NE(said().find("incomplete: 'excavator', step 1 of 1 (wait)"), std::string::npos)
+      << said();
+  const json cut = read("cut.json");
+  EXPECT_EQ(cut.at("end"), "out_of_time");
+  EXPECT_EQ(cut.at("unfinished").size(), 1u);
+  EXPECT_EQ(cut.at("energy").size(), 2u) << "work and pump";
+  EXPECT_TRUE(cut.at("joints").contains("boom_joint")) << cut;
+  // A duration on the command line asks for no more.
+  EXPECT_EQ(run({"lab", "iso11152", path("cut.sdf"), "--quiet", "--duration", "0.05"}), 0)
       << complained();
 }
 
