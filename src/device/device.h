@@ -58,7 +58,7 @@ struct KernelTime {
 /// Moving is cheap and leaves the source without a device.
 ///
 /// With PoCL a device has a second driver without worker threads. Small launches are faster there,
-/// as no thread is woken [docs/soil.md, threads]; the bits of the results are the same.
+/// as no thread is signalled [docs/soil.md, threads]; results are bit-identical.
 class Device {
  public:
   /// Selects a device: "cpu", "gpu", an index in `list_devices`, or a part of a device or platform

@@ -34,7 +34,7 @@ struct MotionEnergy {
 
 /// Result of compare_motion_energy().
 struct EnergyComparison {
-  /// How the motion with soil ended: kComplete, kFellShort, kOutOfTime or kForbidden.
+  /// End of the motion with soil: kComplete, kFellShort, kOutOfTime or kForbidden.
   RunEnd end;
   /// One line for each program that did not reach its end (session::report_line).
   std::vector<std::string> unfinished;

@@ -349,7 +349,7 @@ void Solver::State::add(std::vector<Particle> added) {
   assign(all);
 }
 
-// The results are the same to the bit with either driver.
+// Either driver gives bit-identical results.
 void Solver::State::choose_driver() { device.run_in_caller(particles.count() < few_particles); }
 
 void Solver::State::rebin_if_due() {

@@ -156,7 +156,7 @@ TEST(Device, PassesANewBufferInThePlaceOfOneThatIsGone) {
   }
 }
 
-TEST(Device, WakesNoThreadForKernelsInTheCallersThread) {
+TEST(Device, SignalsNoThreadForKernelsInTheCallersThread) {
   Device device;
   if (!device.has_caller_driver()) GTEST_SKIP() << "no driver for the caller's thread";
   Buffer<int> x(device, std::vector<int>(64));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choices that depend on the device: the kernel variant, as soil law, transfers and contact are
-// written for two kinds of hardware, and the number of particles that are worth waking threads.
+// written for two kinds of hardware, and the number of particles that are worth more threads.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ Schedule schedule_for(const device::Device& device);
 std::string kernel_path(const device::Device& device, const std::string& stage);
 
 /// Returns the number of particles below which kernels run in the caller's thread, where the device
-/// has a driver for it: waking worker threads then costs more than dividing the work saves
+/// has a driver for it: signalling worker threads then costs more than dividing the work saves
 /// [docs/soil.md, threads]. The environment variable NAVVY_FEW_PARTICLES replaces the number; with
 /// 0 kernels never run in the caller's thread.
 /// @throws InputError if the variable is not a number from 0 upwards.
