@@ -28,7 +28,7 @@ TEST_F(Energy, OfADigIsInTheSummaryAndResultsAreBitIdentical) {
   const nlohmann::json with = dig({"--energy"});
   const nlohmann::json& energy = with.at("soil_energy_j");
   double spent = 0;
-  for (const char* term : {"plastic", "viscous", "contact", "transfer", "mixing"})
+  for (const char* term : {"plastic", "viscous", "contact", "edge", "transfer", "mixing"})
     spent += energy.at(term).get<double>();
   const double supplied = energy.at("tools").get<double>() + energy.at("gravity").get<double>() +
                           energy.at("exchanged").get<double>();

@@ -89,6 +89,8 @@ TEST_F(ByteFlip, OfAnExcavatorOnItsWheelsIsDetected) {
   // A brake that is off is not hashed; a set one is, by its held position.
   std::set<std::string> with_brakes = kReasons;
   with_brakes.insert("hashed by the held position while it is set");
+  // Only soil with an exponent of repeated passes reads it, and hashes its effect.
+  with_brakes.insert("hashed by the pressures below where it is true");
   EXPECT_EQ(reasons(*session), with_brakes);
 }
 
