@@ -43,6 +43,7 @@ scene::Machine machine_of(const std::string& name) {
   const auto found = files.find(name);
   if (found != files.end()) return scene_io::load_machine(found->second);
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const auto& [one, path] : files) names.push_back(one);
   throw InputError(Fault{Fault::Severity::kError, "", 0, "machine", name,
                          "no such file and no such shipped machine", suggestion(name, names)});

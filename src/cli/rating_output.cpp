@@ -10,7 +10,6 @@
 namespace navvy::cli {
 namespace {
 
-using vehicle::ForceLimit;
 using vehicle::LiftCapacity;
 using vehicle::ToolForce;
 

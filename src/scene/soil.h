@@ -64,7 +64,7 @@ struct Soil {
 
   /// Passes the fields of <navvy:soil> to the visitor `f`. The ranges include every soil, even snow
   /// and lunar dust.
-  void describe(Fields& f) {
+  void describe(Fields& f) {  // A list of fields. NOLINT(readability-function-size)
     f.attribute("name", name, "Name by which layers, loads and results refer to the soil.");
     f.attribute("ref", ref,
                 "Shipped soil, or *.sdf file with one soil, whose values the elements replace.",

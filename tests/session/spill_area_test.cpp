@@ -42,8 +42,8 @@ TEST(SpillArea, MarksTheColumnsWhoseCentresLieInside) {
         std::vector<std::uint8_t> marks(63u * 47u, 0);
         mark_inside(polygon, raster, marks);
         for (std::size_t k = 0; k < marks.size(); ++k) {
-          const Vec2 p =
-              raster.origin + raster.cell * Vec2(double(k % 63) + 0.5, double(k / 63) + 0.5);
+          const std::size_t x = k % 63, y = k / 63;
+          const Vec2 p = raster.origin + raster.cell * Vec2(double(x) + 0.5, double(y) + 0.5);
           ASSERT_EQ(marks[k] != 0, is_inside(polygon, p)) << corners << " corners, column " << k;
         }
         std::reverse(polygon.begin(), polygon.end());
