@@ -53,7 +53,7 @@ StepState ProgressMonitor::look(const Observation& seen, const scene::Machine& m
   stuck_ += dt;
   push_ += dt * seen.tyre_force;
   // Use the fastest driven wheel: an open differential may turn one side alone.
-  double fastest = 0, weight = 0;
+  double fastest = 0;
   for (const scene::Wheel& wheel : machine.wheels) {
     const int joint = wheel.driven ? machine.joint_index(wheel.joint) : -1;
     if (joint >= 0)
@@ -62,11 +62,10 @@ StepState ProgressMonitor::look(const Observation& seen, const scene::Machine& m
   }
   rolled_ += dt * fastest;
   if (stuck_ < std::max(kPatience, 4 * kMoved / std::abs(speed))) return StepState::kRunning;
-  for (const scene::Link& link : machine.links) weight += link.mass * kGravity;
   const double push = push_.head<2>().norm() / stuck_;
   const std::string stood =
       "it has stood for " + number_text(stuck_, "s") + ", " + metres(left) + " from the target";
-  if (push > kPush * weight) {
+  if (push > kPush * machine.total_mass() * kGravity) {
     reason =
         stood + ": something holds it while its tyres push with " + number_text(push / 1000, "kN");
     return StepState::kBlocked;

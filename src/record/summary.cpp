@@ -82,20 +82,25 @@ json tip_list(const session::Session& session) {
   return tips;
 }
 
+/// Returns an entry with the names of two links.
+json names_of(const session::Session& session, const sim::LinkPair& links) {
+  const sim::MachineHandle machine = session.world().machines().at(links.machine),
+                           other = session.world().machines().at(links.other_machine);
+  return {{"machine", machine.name()},
+          {"link", machine.link(links.link).name()},
+          {"other_machine", other.name()},
+          {"other_link", other.link(links.other_link).name()}};
+}
+
 /// Returns an entry for each collision of two links.
 json collision_list(const session::Session& session) {
   json list = json::array();
   for (const session::MachineCollision& one : session.collisions().collisions()) {
-    const sim::MachineHandle machine = session.world().machines().at(one.machine),
-                             other = session.world().machines().at(one.other_machine);
-    list.push_back({{"machine", machine.name()},
-                    {"link", machine.link(one.link).name()},
-                    {"other_machine", other.name()},
-                    {"other_link", other.link(one.other_link).name()},
-                    {"start_s", one.start},
-                    {"end_s", one.end},
-                    {"force_peak_n", one.force_peak},
-                    {"depth_m", one.depth_peak}});
+    list.push_back(names_of(session, one));
+    list.back().update({{"start_s", one.start},
+                        {"end_s", one.end},
+                        {"force_peak_n", one.force_peak},
+                        {"depth_m", one.depth_peak}});
   }
   return list;
 }
@@ -104,16 +109,11 @@ json collision_list(const session::Session& session) {
 json overlap_list(const session::Session& session) {
   json list = json::array();
   for (const session::BodyOverlap& one : session.overlaps().overlaps()) {
-    const sim::MachineHandle machine = session.world().machines().at(one.machine),
-                             other = session.world().machines().at(one.other_machine);
-    list.push_back({{"machine", machine.name()},
-                    {"link", machine.link(one.link).name()},
-                    {"other_machine", other.name()},
-                    {"other_link", other.link(one.other_link).name()},
-                    {"start_s", one.start},
-                    {"end_s", one.end},
-                    {"depth_m", one.depth_peak},
-                    {"depth_share", one.share_peak}});
+    list.push_back(names_of(session, one));
+    list.back().update({{"start_s", one.start},
+                        {"end_s", one.end},
+                        {"depth_m", one.depth_peak},
+                        {"depth_share", one.share_peak}});
   }
   return list;
 }

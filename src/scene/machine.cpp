@@ -36,6 +36,12 @@ Shell Machine::with_teeth(const Shell& shell) const {
   return out;
 }
 
+double Machine::total_mass() const {
+  double sum = 0;
+  for (const Link& link : links) sum += link.mass;
+  return sum;
+}
+
 int Machine::link_index(const std::string& name_of_link) const {
   for (std::size_t i = 0; i < links.size(); ++i)
     if (links[i].name == name_of_link) return static_cast<int>(i);

@@ -548,6 +548,8 @@ struct Machine {
       given(traversability.given));
   }
 
+  /// Returns the mass of all links [kg].
+  double total_mass() const;
   /// Returns the index of the link with this name in `links`; -1 if there is none.
   int link_index(const std::string& name_of_link) const;
   /// Returns `shell`, a shell of this machine, with the cutting edge and the teeth of the bucket

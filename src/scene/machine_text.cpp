@@ -70,9 +70,7 @@ void add_drive(std::string& out, const Drive& drive) {
 
 std::string machine_text(const Machine& machine) {
   std::string out;
-  double mass = 0;
-  for (const Link& link : machine.links) mass += link.mass;
-  add(out, "  mass: %.0f kg%s\n", mass,
+  add(out, "  mass: %.0f kg%s\n", machine.total_mass(),
       machine.kinematic    ? "; moved by its joints' positions, without dynamics"
       : machine.fixed_base ? "; its base is fixed"
                            : "");

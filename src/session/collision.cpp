@@ -27,25 +27,23 @@ std::string name_of_link(const sim::World& world, int machine, int link) {
          ")";
 }
 
-std::string text_of(const MachineCollision& collision, const sim::World& world) {
-  return name_of_link(world, collision.machine, collision.link) + " touches " +
-         name_of_link(world, collision.other_machine, collision.other_link);
+std::string text_of(const sim::LinkPair& links, const sim::World& world) {
+  return name_of_link(world, links.machine, links.link) + " touches " +
+         name_of_link(world, links.other_machine, links.other_link);
 }
 
 void MachineCollision::visit(Archive& a) {
-  a("machine", machine);
-  a("link", link);
-  a("other_machine", other_machine);
-  a("other_link", other_link);
+  visit_links(a);
   a("start", start);
   a("end", end);
   a("force_peak", force_peak);
   a("depth_peak", depth_peak);
 }
 
-void CollisionWatch::look(const sim::World& world) {
+void CollisionWatch::look(const sim::World& world,
+                          const std::vector<sim::MachineContact>& contacts) {
   touching_.reset();
-  for (const sim::MachineContact& contact : world.machines().contacts()) {
+  for (const sim::MachineContact& contact : contacts) {
     // Loose bodies, such as rocks in a bucket, touch machines in normal work.
     const auto& machines = world.description().machines;
     if (is_loose(machines[static_cast<std::size_t>(contact.machine)].machine) ||
@@ -54,9 +52,7 @@ void CollisionWatch::look(const sim::World& world) {
     const double now = world.time();
     // The newest collisions are at the end.
     const auto known = std::find_if(list_.rbegin(), list_.rend(), [&](const MachineCollision& one) {
-      return one.machine == contact.machine && one.link == contact.link &&
-             one.other_machine == contact.other_machine && one.other_link == contact.other_link &&
-             now - one.end <= kBreak;
+      return one.is_of(contact) && now - one.end <= kBreak;
     });
     if (known != list_.rend()) {
       known->end = now;
@@ -66,9 +62,7 @@ void CollisionWatch::look(const sim::World& world) {
       continue;
     }
     ++count_;
-    const MachineCollision fresh{contact.machine,    contact.link, contact.other_machine,
-                                 contact.other_link, now,          now,
-                                 contact.force,      contact.depth};
+    const MachineCollision fresh{contact, now, now, contact.force, contact.depth};
     if (!touching_) touching_ = fresh;
     // The list is bounded, the count is not.
     if (list_.size() < kMost) list_.push_back(fresh);

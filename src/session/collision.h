@@ -17,9 +17,7 @@ namespace navvy::session {
 
 /// One collision of two links: a time in which they touched. Breaks of less than 0.1 s do not end
 /// it.
-struct MachineCollision {
-  /// Indices of the two machines in scene::Scene::machines, and of their links.
-  int machine = 0, link = 0, other_machine = 0, other_link = 0;
+struct MachineCollision : sim::LinkPair {
   double start = 0, end = 0;  ///< simulated times of the first and the last contact [s]
   /// Largest normal force, the mean over a step [N]; 0 if no force moves either machine.
   double force_peak = 0;
@@ -30,19 +28,19 @@ struct MachineCollision {
 };
 
 /// Returns machine and link as text, such as "'robot' (chassis)". Both are indices, as in
-/// MachineCollision.
+/// sim::LinkPair.
 std::string name_of_link(const sim::World& world, int machine, int link);
 /// Returns the two machines of a collision with their links, as "'robot' (chassis) touches 'wall'
 /// (panel)".
-std::string text_of(const MachineCollision& collision, const sim::World& world);
+std::string text_of(const sim::LinkPair& links, const sim::World& world);
 
 /// Records the collisions of a run. Bodies of one link that forces move, such as rocks and loads,
 /// are excluded: tools touch and carry them. It changes nothing that a run computes.
 class CollisionWatch {
  public:
-  /// Records the contacts of the last step of `world`. Logs a warning at the first contact of each
-  /// pair of machines.
-  void look(const sim::World& world);
+  /// Records `contacts`, those of the last step of `world`. Logs a warning at the first contact of
+  /// each pair of machines.
+  void look(const sim::World& world, const std::vector<sim::MachineContact>& contacts);
   /// Returns the collisions in the order in which they began, at most kMost of them.
   const std::vector<MachineCollision>& collisions() const { return list_; }
   /// Returns the number of all collisions.

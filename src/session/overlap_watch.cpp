@@ -26,17 +26,12 @@ bool is_movable(const sim::World& world, int machine, int link) {
   return !one.kinematic && (!one.fixed_base || link != 0);
 }
 
-double mass_of(const scene::Machine& machine) {
-  double sum = 0;
-  for (const scene::Link& link : machine.links) sum += link.mass;
-  return sum;
-}
-
 /// Returns the likely cause with its remedy.
 std::string cause_of(const BodyOverlap& overlap, const sim::World& world) {
   const scene::Machine& one = world.machines().at(overlap.machine).description();
   const scene::Machine& other = world.machines().at(overlap.other_machine).description();
-  const double a = mass_of(one), b = mass_of(other), ratio = std::max(a, b) / std::min(a, b);
+  const double a = one.total_mass(), b = other.total_mass(),
+               ratio = std::max(a, b) / std::min(a, b);
   if (!is_movable(world, overlap.machine, overlap.link) ||
       !is_movable(world, overlap.other_machine, overlap.other_link) ||
       !(ratio > vehicle::kMostMassRatio))
@@ -50,18 +45,10 @@ std::string cause_of(const BodyOverlap& overlap, const sim::World& world) {
   return text.data();
 }
 
-bool is_same(const BodyOverlap& overlap, const sim::MachineContact& contact) {
-  return overlap.machine == contact.machine && overlap.link == contact.link &&
-         overlap.other_machine == contact.other_machine && overlap.other_link == contact.other_link;
-}
-
 }  // namespace
 
 void BodyOverlap::visit(Archive& a) {
-  a("machine", machine);
-  a("link", link);
-  a("other_machine", other_machine);
-  a("other_link", other_link);
+  visit_links(a);
   a("start", start);
   a("end", end);
   a("depth_peak", depth_peak);
@@ -73,19 +60,17 @@ void OverlapWatch::Open::visit(Archive& a) {
   a("number", number);
 }
 
-void OverlapWatch::look(const sim::World& world) {
+void OverlapWatch::look(const sim::World& world, const std::vector<sim::MachineContact>& contacts) {
   const double now = world.time();
-  for (const sim::MachineContact& contact : world.machines().contacts()) {
+  for (const sim::MachineContact& contact : contacts) {
     if (!(contact.depth > std::max(kLeast, kDeep * contact.size))) continue;
     if (!is_movable(world, contact.machine, contact.link) &&
         !is_movable(world, contact.other_machine, contact.other_link))
       continue;
     auto known = std::find_if(open_.begin(), open_.end(),
-                              [&](const Open& one) { return is_same(one.overlap, contact); });
+                              [&](const Open& one) { return one.overlap.is_of(contact); });
     if (known == open_.end()) {
-      open_.push_back({{contact.machine, contact.link, contact.other_machine, contact.other_link,
-                        now, now, 0, 0},
-                       -1});
+      open_.push_back({{contact, now, now, 0, 0}, -1});
       known = open_.end() - 1;
     }
     BodyOverlap& overlap = known->overlap;

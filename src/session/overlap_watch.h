@@ -13,9 +13,7 @@ namespace navvy::session {
 
 /// Time for which two links were deeper in each other than a tenth of the smaller one's smallest
 /// side. Contacts of a sound simulation are far less deep, or last for moments.
-struct BodyOverlap {
-  /// Indices of the two machines in scene::Scene::machines, and of their links.
-  int machine = 0, link = 0, other_machine = 0, other_link = 0;
+struct BodyOverlap : sim::LinkPair {
   double start = 0, end = 0;  ///< simulated times of the first and the last deep contact [s]
   double depth_peak = 0;      ///< largest depth of one link in the other [m]
   double share_peak = 0;      ///< largest depth / smallest side of the smaller link [-]
@@ -29,9 +27,9 @@ struct BodyOverlap {
 /// computes.
 class OverlapWatch {
  public:
-  /// Looks at the contacts of the last step of `world`. Logs a warning when the first overlap of
-  /// two machines has lasted 0.2 s.
-  void look(const sim::World& world);
+  /// Looks at `contacts`, those of the last step of `world`. Logs a warning when the first overlap
+  /// of two machines has lasted 0.2 s.
+  void look(const sim::World& world, const std::vector<sim::MachineContact>& contacts);
   /// Returns the overlaps in the order in which they were noted, at most kMost of them.
   const std::vector<BodyOverlap>& overlaps() const { return list_; }
   /// Returns the number of all overlaps.

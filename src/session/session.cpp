@@ -287,8 +287,9 @@ void Session::step() {
   // The world steps with the commands given above. Forces are those of this step.
   s.world.step();
   s.note_forces();
-  s.collisions.look(s.world);
-  s.overlaps.look(s.world);
+  const std::vector<sim::MachineContact> contacts = s.world.machines().contacts();
+  s.collisions.look(s.world, contacts);
+  s.overlaps.look(s.world, contacts);
   s.forbidden.look(s.world, s.collisions,
                    s.forbidden.needs_states() ? s.outcomes() : std::vector<MachineOutcome>(),
                    done());

@@ -41,6 +41,13 @@ vehicle::HitchState Machines::hitch(int index) const {
   return parts_->dynamic->hitches()->hitch(index);
 }
 
+void LinkPair::visit_links(Archive& a) {
+  a("machine", machine);
+  a("link", link);
+  a("other_machine", other_machine);
+  a("other_link", other_link);
+}
+
 std::vector<MachineContact> Machines::contacts() const {
   std::vector<MachineContact> out;
   const auto* capability = dynamic_cast<const vehicle::ContactCapability*>(parts_->dynamic.get());
@@ -55,10 +62,8 @@ std::vector<MachineContact> Machines::contacts() const {
     return -1;
   };
   for (const vehicle::BodyContact& contact : capability->body_contacts()) {
-    MachineContact one{index_of_body(contact.one),
-                       contact.one.link,
-                       index_of_body(contact.other),
-                       contact.other.link,
+    MachineContact one{{index_of_body(contact.one), contact.one.link, index_of_body(contact.other),
+                        contact.other.link},
                        contact.force,
                        contact.depth,
                        contact.size};

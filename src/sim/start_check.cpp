@@ -149,12 +149,6 @@ namespace {
 /// Largest gap between bodies of which one counts as resting on the other [m].
 constexpr double kResting = 0.05;
 
-double mass_of(const scene::Machine& machine) {
-  double sum = 0;
-  for (const scene::Link& link : machine.links) sum += link.mass;
-  return sum;
-}
-
 /// Returns true if one of `boxes` would meet one of `below` when it sank a little, and is above it.
 bool rests_on(std::vector<LinkBox> boxes, const std::vector<LinkBox>& below) {
   for (LinkBox& one : boxes) {
@@ -199,7 +193,7 @@ std::vector<Fault> check_bodies(const scene::Scene& scene, const std::vector<Pos
   std::vector<double> masses;
   for (const scene::MachineInWorld& placed : scene.machines) {
     check_inertias(scene, placed, faults);
-    masses.push_back(mass_of(placed.machine));
+    masses.push_back(placed.machine.total_mass());
   }
   for (std::size_t a = 0; a < scene.machines.size(); ++a)
     for (std::size_t b = 0; b < scene.machines.size(); ++b) {

@@ -27,12 +27,6 @@ scene::Machine shipped(const std::string& name) {
   return scene_io::load_machine(navvy::source_dir() + "/vehicles/" + name + "/model.sdf");
 }
 
-double mass_of(const scene::Machine& machine) {
-  double mass = 0;
-  for (const scene::Link& link : machine.links) mass += link.mass;
-  return mass;
-}
-
 class Crawlers : public ::testing::TestWithParam<std::string> {
  protected:
   Crawlers() : machine(shipped(GetParam())), engine(build()) {}
@@ -62,7 +56,7 @@ TEST_P(Crawlers, StandOnTheirRollersWithTheirWeight) {
   run(*engine, flat(), 3, kStep);
   double load = 0;
   for (int w = 0; w < 2; ++w) load += engine->wheel(0, w).force_W.z();
-  EXPECT_NEAR(load, mass_of(machine) * kGravity, 0.002 * load);
+  EXPECT_NEAR(load, machine.total_mass() * kGravity, 0.002 * load);
   EXPECT_LT(engine->link(0, 0).v_WL.norm(), 1e-3);
   EXPECT_GT(stability(machine, *engine, 0).margin, 0.1 * gauge());
   for (int w = 0; w < 2; ++w) {
@@ -128,7 +122,7 @@ TEST_P(Crawlers, TurnOnTheSpotAgainstTheMomentOfTheirTracks) {
 TEST_P(Crawlers, PullOnAFloorWithTheGripOfTheirTracks) {
   run(*engine, flat(), 2, kStep);
   engine->set_drive(0, {0.5 * top_speed(), 0, false});
-  const double weight = mass_of(machine) * kGravity;
+  const double weight = machine.total_mass() * kGravity;
   // A tether at ground level, so that the load distribution does not change; 2 % of the weight per
   // centimetre.
   double pull = 0;
@@ -156,12 +150,12 @@ TEST_P(Crawlers, PullOnSoilByItsCohesionAndFriction) {
   ground.set_soil([&soil](double, double) { return terramechanics::SoilState{&soil, 1.0}; });
   // Motors that do not limit the pull.
   auto& drive = std::get<scene::DifferentialDrive>(machine.drive);
-  drive.tractive_force = 3 * mass_of(machine) * kGravity;
+  drive.tractive_force = 3 * machine.total_mass() * kGravity;
   drive.power *= 10;
   engine = build();
   run(*engine, ground, 2, kStep);
   engine->set_drive(0, {0.5 * top_speed(), 0, false});
-  const double weight = mass_of(machine) * kGravity;
+  const double weight = machine.total_mass() * kGravity;
   double pull = 0;
   run(*engine, ground, 8, kStep, [&](double) {
     const LinkState base = engine->link(0, 0);

@@ -45,7 +45,7 @@ MachineAtRest::MachineAtRest(const scene::Machine& machine)
     for (std::size_t l = 0; l < carried.size(); ++l)
       if (carried[l] != 0) beyond_[j].push_back(static_cast<int>(l));
   }
-  for (const scene::Link& link : machine.links) mass_ += link.mass;
+  mass_ = machine.total_mass();
   place();
 }
 
