@@ -82,12 +82,31 @@ std::vector<int> repeated_joints(const scene::Machine& machine) {
   return out;
 }
 
+/// Repeated joint of a machine after one step.
+struct JointMoment {
+  double position = 0, velocity = 0;  ///< [rad|m], [rad/s|m/s]
+  bool braked = false;                ///< true while its brake is set
+};
+
 /// State of a machine after one step, from which its motion is repeated.
 struct Moment {
-  std::vector<std::pair<double, double>> joints;  ///< position and velocity
-  std::vector<char> braked;
+  std::vector<JointMoment> joints;  ///< those of repeated_joints, in its order
   vehicle::DriveInput drive;
 };
+
+/// Handles of the joints of all machines whose motion is repeated, by machine; none for kinematic
+/// machines. Found once, as names are compared.
+std::vector<std::vector<sim::JointHandle>> repeated_handles(const sim::World& world) {
+  std::vector<std::vector<sim::JointHandle>> out(
+      static_cast<std::size_t>(world.machines().count()));
+  for (int m = 0; m < world.machines().count(); ++m) {
+    const sim::MachineHandle machine = world.machines().at(m);
+    if (machine.description().kinematic) continue;
+    for (const int j : repeated_joints(machine.description()))
+      out[static_cast<std::size_t>(m)].push_back(machine.joint(j));
+  }
+  return out;
+}
 
 /// Adds up the energy of one machine and follows the edge of its bucket.
 class Meter {
@@ -133,39 +152,36 @@ class Meter {
 using Motion = std::vector<std::vector<Moment>>;  // by step, then by machine
 
 /// Reads the state of all machines that forces move; others have an empty one.
-std::vector<Moment> moments(const sim::World& world) {
-  std::vector<Moment> out(static_cast<std::size_t>(world.machines().count()));
-  for (int m = 0; m < world.machines().count(); ++m) {
-    const sim::MachineHandle machine = world.machines().at(m);
+std::vector<Moment> moments(const sim::World& world,
+                            const std::vector<std::vector<sim::JointHandle>>& joints) {
+  std::vector<Moment> out(joints.size());
+  for (std::size_t m = 0; m < joints.size(); ++m) {
+    const sim::MachineHandle machine = world.machines().at(static_cast<int>(m));
     if (machine.description().kinematic) continue;
-    Moment& now = out[static_cast<std::size_t>(m)];
-    for (const int j : repeated_joints(machine.description())) {
-      const vehicle::JointState state = machine.joint(j).state();
-      now.joints.emplace_back(state.position, state.velocity);
-      now.braked.push_back(state.braked ? 1 : 0);
+    for (const sim::JointHandle& joint : joints[m]) {
+      const vehicle::JointState state = joint.state();
+      out[m].joints.push_back({state.position, state.velocity, state.braked});
     }
-    now.drive = machine.drive();
+    out[m].drive = machine.drive();
   }
   return out;
 }
 
 /// Commands all machines to where they were at the end of the step to come.
-void command(sim::World& world, const std::vector<Moment>& before,
-             const std::vector<Moment>& target) {
+void command(sim::World& world, const std::vector<std::vector<sim::JointHandle>>& joints,
+             const std::vector<Moment>& before, const std::vector<Moment>& target) {
   sim::MachineCommands commands = world.commands();
-  for (int m = 0; m < world.machines().count(); ++m) {
-    const sim::MachineHandle machine = world.machines().at(m);
+  for (std::size_t m = 0; m < joints.size(); ++m) {
+    const sim::MachineHandle machine = world.machines().at(static_cast<int>(m));
     if (machine.description().kinematic) continue;
-    const Moment &start = before[static_cast<std::size_t>(m)],
-                 &end = target[static_cast<std::size_t>(m)];
-    if (machine.description().has_drive) commands.set(machine, end.drive);
-    const std::vector<int> joints = repeated_joints(machine.description());
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      const sim::JointHandle joint = machine.joint(joints[k]);
-      if (end.braked[k] != start.braked[k]) commands.set_brake(joint, end.braked[k] != 0);
+    if (machine.description().has_drive) commands.set(machine, target[m].drive);
+    for (std::size_t k = 0; k < joints[m].size(); ++k) {
+      const sim::JointHandle& joint = joints[m][k];
+      const JointMoment &start = before[m].joints[k], &end = target[m].joints[k];
+      if (end.braked != start.braked) commands.set_brake(joint, end.braked);
       // By speeds: a command of a position would brake before each of them.
-      const double off = start.joints[k].first - joint.position();
-      commands.set(joint, {vehicle::JointMode::kVelocity, end.joints[k].second + kReturn * off});
+      const double off = start.position - joint.position();
+      commands.set(joint, {vehicle::JointMode::kVelocity, end.velocity + kReturn * off});
     }
   }
 }
@@ -213,11 +229,12 @@ Motion run_with_soil(const scene::Scene& scene, const Subject& subject, device::
                      std::vector<Vec3>& path) {
   session::Session session(scene, device, planner::path_planners());
   Meter meter(session.world().machines().at(subject.machine), subject.joints, *subject.bucket);
-  Motion motion = {moments(session.world())};
+  const auto joints = repeated_handles(session.world());
+  Motion motion = {moments(session.world(), joints)};
   while (!session.done()) {
     session.step();
     meter.read(session.world().dt());
-    motion.push_back(moments(session.world()));
+    motion.push_back(moments(session.world(), joints));
     if (progress) progress(0.5 * session.world().time() / scene.recording.duration);
   }
   note_end(session, out);
@@ -238,9 +255,10 @@ void run_without_soil(const scene::Scene& scene, const Subject& subject, device:
                       const std::function<void(double)>& progress, EnergyComparison& out) {
   sim::World world(without_soil(scene), device);
   Meter meter(world.machines().at(subject.machine), subject.joints, *subject.bucket);
+  const auto joints = repeated_handles(world);
   double sum = 0;
   for (std::size_t step = 1; step < motion.size(); ++step) {
-    command(world, motion[step - 1], motion[step]);
+    command(world, joints, motion[step - 1], motion[step]);
     world.step();
     meter.read(world.dt());
     const double apart = (meter.path().back() - path[step - 1]).norm();
