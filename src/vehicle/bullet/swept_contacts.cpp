@@ -25,22 +25,38 @@ constexpr double kThin = 0.005;
 /// Halvings of the interval in which a corner meets the ground.
 constexpr int kHalvings = 24;
 
+/// Velocity of a collision object: that of its origin [m/s], and its angular velocity [rad/s], in
+/// W.
+struct Velocity {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();
+};
+
+Velocity velocity_of(const btCollisionObject& object) {
+  const auto* machine = static_cast<const BulletMachine*>(object.getUserPointer());
+  if (machine == nullptr) return {};
+  const LinkState link = machine->tree().link(object.getUserIndex());
+  const Vec3 origin = to_eigen(object.getWorldTransform().getOrigin());
+  return {link.v_WL + link.w_WL.cross(origin - link.X_WL.translation()), link.w_WL};
+}
+
+/// Returns the farthest way of any point of an object in a step [m].
+double travel_of(const btCollisionObject& object, const Velocity& velocity, double dt) {
+  return dt * (velocity.v.norm() + velocity.w.norm() * object.getCcdSweptSphereRadius());
+}
+
 /// Pose of a collision object at the start and the end of a step, as its velocity predicts it.
 struct Motion {
   btTransform from, to;
-  double travel = 0;  ///< farthest way of any of its points [m]
 };
 
-Motion motion_of(const btCollisionObject& object, double dt) {
-  Motion out{object.getWorldTransform(), object.getWorldTransform(), 0};
-  const auto* machine = static_cast<const BulletMachine*>(object.getUserPointer());
-  if (machine == nullptr) return out;
-  const LinkState link = machine->tree().link(object.getUserIndex());
-  const Vec3 v =
-      link.v_WL + link.w_WL.cross(to_eigen(out.from.getOrigin()) - link.X_WL.translation());
-  btTransformUtil::integrateTransform(out.from, to_bt(v), to_bt(link.w_WL), dt, out.to);
-  out.travel = dt * (v.norm() + link.w_WL.norm() * object.getCcdSweptSphereRadius());
+Motion motion_of(const btCollisionObject& object, const Velocity& velocity, double dt) {
+  Motion out{object.getWorldTransform(), object.getWorldTransform()};
+  if (velocity.v.isZero(0) && velocity.w.isZero(0)) return out;
+  btTransformUtil::integrateTransform(out.from, to_bt(velocity.v), to_bt(velocity.w), dt, out.to);
   return out;
+}
+Motion motion_of(const btCollisionObject& object, double dt) {
+  return motion_of(object, velocity_of(object), dt);
 }
 
 /// Returns the corners of a shape in its own frame: its farthest points in 26 directions.
@@ -105,12 +121,14 @@ void SweptContacts::stretch_boxes(btCollisionWorld& world, double dt) {
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i) {
     const btCollisionObject& object = *objects[i];
-    const Motion motion = motion_of(object, dt);
+    const Velocity velocity = velocity_of(object);
+    const double travel = travel_of(object, velocity, dt);
     const double threshold = object.getCcdMotionThreshold();
-    if (motion.travel > 0 && threshold < kThin) fast_.insert(&object);
+    if (travel > 0 && threshold < kThin) fast_.insert(&object);
     // Most bodies end here.
-    if (!(motion.travel > threshold)) continue;
+    if (!(travel > threshold)) continue;
     fast_.insert(&object);
+    const Motion motion = motion_of(object, velocity, dt);
     btVector3 low, high, low_end, high_end;
     object.getCollisionShape()->getAabb(motion.from, low, high);
     object.getCollisionShape()->getAabb(motion.to, low_end, high_end);

@@ -24,8 +24,8 @@ inline constexpr int kSweptContact = -7;
 /// body, all its shapes and their corners are cast along the motion of the step, relative to the
 /// bodies in the way, and each hit becomes a contact with the remaining gap as its distance: the
 /// solver lets the bodies close the gap and no more. Corners of bodies thinner than 10 mm also
-/// carry them on the ground at any speed. Thicker and slower bodies cost one comparison each, and
-/// their contacts are unchanged.
+/// carry them on the ground at any speed. Of thicker and slower bodies only the velocity is read,
+/// and their contacts are unchanged.
 class SweptContacts {
  public:
   /// Enlarges the bounding boxes of fast bodies to the space that they sweep in a step of `dt` [s],
