@@ -56,7 +56,7 @@ struct Soil {
   double bekker_kphi = 1515040;
   double bekker_n = 0.7;  ///< exponent n of Bekker's pressure-sinkage law [-]
   /// Exponent a of repeated passes: n passes of one tyre sink n^(1/a) times as deep as the first
-  /// [-]; 0: only the first pass sinks [docs/machines.md, ruts].
+  /// [-], 1 to 20; 0: only the first pass sinks [docs/machines.md, ruts].
   double multi_pass_exponent = 0;
   /// Shear displacement at which soil below tyres and tracks has reached 63 % of its strength [m].
   double janosi_k = 0.02;
@@ -119,10 +119,9 @@ struct Soil {
     f("bekker_kphi_n_per_m_n2", bekker_kphi, {1, 1e9},
       "Frictional modulus of Bekker's pressure-sinkage law.");
     f("bekker_n", bekker_n, {0.05, 3}, "Exponent of Bekker's pressure-sinkage law.");
-    f("multi_pass_exponent", multi_pass_exponent, {0, 100},
-      "n passes of a tyre sink n^(1/a) times as deep as the first, a this exponent: 2 to 3 loose, "
-      "3 "
-      "to 4 medium, 4 to 5 firm soil; 0: repeated passes add nothing.");
+    f("multi_pass_exponent", multi_pass_exponent, {0, 20},
+      "n passes of a tyre sink n^(1/a) times as deep as the first, a this exponent, at least 1: 2 "
+      "to 3 loose, 3 to 4 medium, 4 to 5 firm soil; 0: repeated passes add nothing.");
     f("janosi_k_m", janosi_k, {1e-4, 1},
       "Shear displacement at which soil under tyres and tracks has 63 % of its strength.");
     f("color", Rgb{color}, "Linear red, green and blue.", kShown);

@@ -119,7 +119,7 @@ std::vector<Fault> check_relations(const Soil& soil) {
   if (soil.multi_pass_exponent != 0 && !(soil.multi_pass_exponent >= 1))
     out.push_back(fault(soil, "multi_pass_exponent", soil.multi_pass_exponent,
                         "must be 0 or at least 1: equal passes sink ever less",
-                        "give 1 or more, or 0 for ground that only the first pass presses"));
+                        "give 1 to 20, or 0 for ground that only the first pass presses"));
   return out;
 }
 
