@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,7 +15,6 @@
 #include "cli/exit_code.h"
 #include "cli/rating_output.h"
 #include "cli/validators.h"
-#include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "scene_io/loader.h"
@@ -36,26 +33,13 @@ struct RatingOptions {
   bool curve = false, with_bucket = false;
 };
 
-/// Returns the machine that a user means by `name`: a file, or a shipped machine.
-scene::Machine machine_of(const std::string& name) {
-  if (std::filesystem::exists(name)) return scene_io::load_machine(name);
-  const std::map<std::string, std::string> files = scene_io::shipped_machines();
-  const auto found = files.find(name);
-  if (found != files.end()) return scene_io::load_machine(found->second);
-  std::vector<std::string> names;
-  names.reserve(files.size());
-  for (const auto& [one, path] : files) names.push_back(one);
-  throw InputError(Fault{Fault::Severity::kError, "", 0, "machine", name,
-                         "no such file and no such shipped machine", suggestion(name, names)});
-}
-
 /// Returns the machines to rate: those that were named, or all shipped ones with a bucket. A
 /// shipped machine without tool forces is left out with a line that gives the reason; one that was
 /// named is an error.
 std::vector<scene::Machine> machines_of(const RatingOptions& options) {
   std::vector<scene::Machine> out;
   for (const std::string& name : options.machines) {
-    out.push_back(machine_of(name));
+    out.push_back(scene_io::load_machine(scene_io::find_machine(name, "machine")));
     if (const auto fault = vehicle::tool_force_fault(out.back())) throw InputError(*fault);
   }
   if (!options.machines.empty()) return out;

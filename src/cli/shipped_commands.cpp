@@ -13,7 +13,6 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/scene_options.h"
-#include "core/edit_distance.h"
 #include "core/error.h"
 #include "core/math.h"
 #include "scene/machine_text.h"
@@ -51,18 +50,9 @@ int machines() {
 
 /// Prints what a machine is made of.
 int one_machine(const std::string& name) {
-  const std::map<std::string, std::string> files = scene_io::shipped_machines();
-  const auto found = files.find(name);
-  if (found == files.end()) {
-    std::vector<std::string> names;
-    names.reserve(files.size());
-    for (const auto& [one, path] : files) names.push_back(one);
-    throw InputError(Fault{Fault::Severity::kError, "", 0, "machines", name,
-                           "no such shipped machine", suggestion(name, names)});
-  }
-  std::printf("%s\n  %s\n  file: %s\n%s", name.c_str(),
-              scene_io::description_of(found->second).c_str(), found->second.c_str(),
-              scene::machine_text(scene_io::load_machine(found->second)).c_str());
+  const std::string file = scene_io::find_machine(name, "machines");
+  std::printf("%s\n  %s\n  file: %s\n%s", name.c_str(), scene_io::description_of(file).c_str(),
+              file.c_str(), scene::machine_text(scene_io::load_machine(file)).c_str());
   return kOk;
 }
 
@@ -138,7 +128,7 @@ void add_machines(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "machines",
       "list the shipped machines; with a name its mass, links, joints, capacities and drive");
-  command->add_option("name", *name, "a shipped machine: prints its parts");
+  command->add_option("name", *name, "a shipped machine or a machine file: prints its parts");
   command->callback([name, &action] {
     action = [name] { return name->empty() ? machines() : one_machine(*name); };
   });

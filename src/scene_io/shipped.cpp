@@ -58,6 +58,20 @@ std::string find_scene(const std::string& name) {
                                        : suggestion(name, known) + "; `navvy scenes` lists them"});
 }
 
+std::string find_machine(const std::string& name, const std::string& where) {
+  std::error_code unreadable;
+  if (fs::is_regular_file(name, unreadable)) return name;
+  std::vector<std::string> known;
+  for (const auto& [machine, path] : shipped_machines()) {
+    if (machine == name) return path;
+    known.push_back(machine);
+  }
+  throw InputError(Fault{
+      Fault::Severity::kError, "", 0, where, name, "no such file here and no such shipped machine",
+      known.empty() ? "set NAVVY_DATA_DIR"
+                    : suggestion(name, known) + "; `navvy machines` lists them"});
+}
+
 std::vector<scene::Soil> shipped_soils() {
   const std::string directory = find_data("terrain/soils");
   if (directory.empty())

@@ -24,6 +24,12 @@ std::map<std::string, std::string> shipped_scenes();
 /// @throws InputError that suggests the most similar shipped scene, for any other unknown name
 std::string find_scene(const std::string& name);
 
+/// Returns the path of the machine file that a user means by `name`: a path, or the name of a
+/// shipped machine. An existing file takes precedence over a shipped machine. `where` states in
+/// messages where the name was given. @throws InputError that suggests the most similar shipped
+/// machine, for an unknown name
+std::string find_machine(const std::string& name, const std::string& where);
+
 /// Returns the shipped soils, in the order of their file names. @throws InputError if the directory
 /// with soils is not found
 std::vector<scene::Soil> shipped_soils();
