@@ -33,13 +33,26 @@ class TipPath {
   /// way from its commanded angle.
   Axes start(const OperatorContext& place, const Stance& stance, const Vec2& p, double height,
              double tip_angle);
+  /// Parts of a scoop, in which the path responds differently to the machine.
+  enum class Part {
+    /// The tip moves down into the ground.
+    kDown,
+    /// The tip moves along a floor, whose height it keeps by feedback from its measured height.
+    kAlong,
+    /// The bucket curls. While the machine tilts, a held tip does not raise the path, because that
+    /// would pull the machine over.
+    kCurl
+  };
   /// Commands the tip to the point `p` (x, y) in W [m] at the height `z + lift`, then updates
   /// `reached`, `lift` and `slow` from the machine's response. `dt` [s] is the length of the
   /// control step. The angles of the path go to OperatorContext::handover; the targets in `out` are
-  /// ahead of them by the servo's own lag. While `curling` is true and the machine tilts, a held
-  /// tip does not raise the path, because that would pull the machine over.
+  /// ahead of them by the servo's own lag.
   void follow(OperatorContext& place, const Stance& stance, const Vec2& p, const Observation& seen,
-              double dt, bool curling, Command& out);
+              double dt, Part part, Command& out);
+
+  /// Adds to the angles of OperatorContext::handover what the servos' targets are ahead of them, so
+  /// that a move that starts there continues without a jump.
+  void hand_over(OperatorContext& place) const;
 
   /// Saves or loads the path.
   void visit(Archive& a);
@@ -58,14 +71,19 @@ class TipPath {
   // Computes the joint angles for the tip at `p` (x, y) and `height` in W [m].
   Solution solve(const OperatorContext& place, const Stance& stance, const Vec2& p,
                  double height) const;
-  // Updates `slow` and `lift` from the lag of the tip and the tilt of the machine.
+  // Updates `slow` and `lift` from the lag of the tip, the load of the cylinders and the tilt of
+  // the machine.
   void feel_stall(const OperatorContext& place, const Stance& stance, const Observation& seen,
                   double dt, bool curling);
+  // Updates the correction of the tip's height from its measured height.
+  void keep_level(const OperatorContext& place, const Observation& seen, double dt);
 
   // Filtered rates of the path's joint angles [rad/s].
   Axes rate_{};
   // Time for which the tip has been held [s]; decreases while it is free.
   double stall_ = 0;
+  // Correction of the commanded height by feedback, and its part that adds up over time [m].
+  double trim_ = 0, trim_sum_ = 0;
 };
 
 }  // namespace navvy::control

@@ -381,7 +381,7 @@ TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
       // The arm follows at once: nothing blocks it, the machine itself moves.
       for (std::size_t k = 0; k < 4; ++k)
         alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-      tip.follow(alone.place, stance, p, alone.seen, kStep, true, out);
+      tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kCurl, out);
     }
   };
   follow(1.4, 1);
@@ -423,7 +423,7 @@ TEST(TipPath, CommandsTargetsAheadOfAMovingPathByTheServosLag) {
       alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
     before = alone.place.handover.q;
     tip.z -= 0.2 * kStep;
-    tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
+    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kDown, out);
   }
   for (std::size_t k = 1; k < 4; ++k) {
     const double q = alone.place.handover.q[k], rate = (q - before[k]) / kStep;
@@ -447,7 +447,8 @@ TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
     alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
   // The path goes down half a metre while the joints stay, blocked by soil.
   tip.z = -0.3;
-  for (int i = 0; i < 200; ++i) tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
+  for (int i = 0; i < 200; ++i)
+    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kDown, out);
   EXPECT_LT(tip.slow, 0.35);  // below this a tip at rest counts as blocked
   // 0.3 m/s for the rest of 2 s after the lag has grown and been detected
   EXPECT_GT(tip.lift, 0.2);
@@ -456,9 +457,67 @@ TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
   for (int i = 0; i < 50; ++i) {
     for (std::size_t k = 0; k < 4; ++k)
       alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-    tip.follow(alone.place, stance, p, alone.seen, kStep, false, out);
+    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kDown, out);
   }
   EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; blocked for a step or two before
+}
+
+TEST(TipPath, KeepsTheEdgeOnItsFloorWhenTheMachinePitches) {
+  for (const TipPath::Part part : {TipPath::Part::kDown, TipPath::Part::kAlong}) {
+    Alone alone(Swing(0));
+    Stance stance;
+    stance.begin(Pose::Identity());
+    TipPath tip;
+    Command out;
+    out.joints.resize(alone.seen.joints.size());
+    const Vec2 p(6.5, 0);
+    alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+    // The nose sinks by 0.3 deg, which the stance has not seen yet.
+    alone.seen.X_WB = make_pose(0, 0, 0, 0, radians(0.3), 0);
+    double height = 0;
+    for (int i = 0; i < 200; ++i) {
+      ArmAngles q;
+      for (std::size_t k = 0; k < 4; ++k)
+        alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
+      for (std::size_t k = 0; k < 3; ++k) q[k] = alone.place.handover.q[k + 1];
+      const BucketPose pose = alone.place.arm->forward(q);
+      height = (alone.seen.X_WB * alone.place.arm->X_BS() * Vec3(pose.reach, 0, pose.height)).z();
+      tip.follow(alone.place, stance, p, alone.seen, kStep, part, out);
+    }
+    // 6.5 m x 0.3 deg = 34 mm too low without feedback.
+    if (part == TipPath::Part::kAlong)
+      EXPECT_NEAR(height, 0.2, 0.002);
+    else
+      EXPECT_NEAR(height, 0.166, 0.002);
+  }
+}
+
+TEST(TipPath, SlowsDownWhenACylinderTakesNearlyItsWholeForce) {
+  Alone alone(Swing(0));
+  Stance stance;
+  stance.begin(Pose::Identity());
+  TipPath tip;
+  Command out;
+  out.joints.resize(alone.seen.joints.size());
+  const Vec2 p(6.5, 0);
+  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+  const auto slow_at = [&](double share) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      vehicle::JointState& joint = alone.seen.joints[alone.place.joint(k)];
+      joint.position = alone.place.handover.q[k];
+      joint.effort_limit = 1e5;
+      joint.effort = k == 2 ? -share * 1e5 : 0;
+    }
+    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kAlong, out);
+    return tip.slow;
+  };
+  EXPECT_EQ(slow_at(0.7), 1);
+  EXPECT_NEAR(slow_at(0.9), 0.5, 1e-9);
+  EXPECT_NEAR(slow_at(1), 0.3, 1e-9);
+  EXPECT_EQ(tip.lift, 0);
+  // A tip that hardly moves rises before the joint stalls.
+  for (int i = 0; i < 100; ++i) slow_at(0.97);
+  EXPECT_GT(tip.lift, 0.1);
 }
 
 }  // namespace

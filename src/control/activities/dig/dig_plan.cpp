@@ -15,8 +15,15 @@ constexpr double kRefused = 0.4;
 // A scoop begins at least this far from the near end if the slice is dug there: the edge needs
 // distance to fill the bucket and to cut on while it curls [m].
 constexpr double kLeastRun = 1.6;
+// A scoop whose soil begins behind finished floor starts this far before it, so that the bucket has
+// turned to its digging angle when it fills [m].
+constexpr double kTurnRun = 0.7;
+// A pass along the floor leaves this share of the soil on it, spread thin towards the far end.
+constexpr double kLeftBehind = 0.06;
 // The ramp that the curl leaves at the near end, which a pass along the floor does not take [m].
 constexpr double kRamp = 0.4;
+// Mean length of that ramp [m], and the largest factor by which upper slices are thicker for it.
+constexpr double kRampShare = 0.3, kMostShift = 1.2;
 // A pass along the floor keeps clear of the far wall by this [m].
 constexpr double kFarClear = 0.1;
 constexpr double kBeside = 0.5;     // how far beside the cut spilt soil is looked for [m]
@@ -24,7 +31,7 @@ constexpr double kOverload = 0.15;  // a load may be larger than a full bucket b
 constexpr double kThinner = 0.7;    // a slice after one that held the bucket, of that one
 constexpr double kThinnest = 0.1;   // what the soil's cells still resolve [m]
 // The rest of a slice below this share of a bucket waits for the next slice.
-constexpr double kWorth = 0.5;
+constexpr double kWorth = 0.7;
 // The rest of the last slice below this share of a bucket stays, but no more than this share of the
 // trench.
 constexpr double kWorthLast = 0.15, kMostRest = 0.05;
@@ -127,20 +134,27 @@ int DigPlan::loads() const {
 }
 
 double DigPlan::level_of(int k) const {
-  return dig_.depth * std::round(static_cast<double>(loads()) * k / slices()) / loads();
+  const double even =
+      dig_.depth * std::round(static_cast<double>(loads()) * k / slices()) / loads();
+  if (k >= slices()) return even;
+  // What the curls of the upper slices leave at the near end is dug with the last slice.
+  const double ramps = std::min(kMostShift, length_ / std::max(kSample, length_ - kRampShare));
+  return std::max(even, std::min(ramps * even, k * dig_.pass_depth));
 }
 
 double DigPlan::least_rest() const {
   return std::min(kWorthLast * scoop_volume_, kMostRest * design_volume());
 }
 
-Scoop DigPlan::clean_up(const SurfaceView& surface) const {
+Scoop DigPlan::clean_up(const SurfaceView& surface, bool hindered) const {
   // From the farthest soil that a pass can take without wearing the far wall.
   int i = samples() - 1;
-  while (i > 1 &&
-         (at(i) > length_ - kFarClear + 1e-9 || !stands(surface, i, dig_.depth, kTolerance)))
-    --i;
-  const double start = at(run_up(surface, i, dig_.depth, kTolerance));
+  double passed = 0;
+  const double left = kLeftBehind * volume_on_floor(surface);
+  while (i > 1 && (at(i) > length_ - kFarClear + 1e-9 || passed < left ||
+                   !stands(surface, i, dig_.depth, kTolerance)))
+    passed += piece_above(surface, i--, dig_.depth);
+  const double start = at(run_up(surface, i, dig_.depth, kTolerance, hindered));
   const bool any = volume_on_floor(surface) > least_rest() || state(surface).is_rough();
   return {start, 0, at(i), dig_.depth, any};
 }
@@ -201,9 +215,11 @@ double DigPlan::fill_end(const SurfaceView& surface, int start, double level) co
   return 0;
 }
 
-int DigPlan::run_up(const SurfaceView& surface, int i, double level, double least) const {
+int DigPlan::run_up(const SurfaceView& surface, int i, double level, double least,
+                    bool hindered) const {
   // Back over the floor of the slice and what lies thin on it; undiggable soil ends it.
-  for (; i + 1 < samples() && at(i) < kLeastRun; ++i)
+  const double least_start = std::max(kLeastRun, hindered ? 0 : at(i) + kTurnRun);
+  for (; i + 1 < samples() && at(i) < least_start - 1e-9; ++i)
     if (height(surface, at(i + 1)) > start_[static_cast<std::size_t>(i + 1)] - level + least) break;
   return i;
 }
@@ -228,7 +244,7 @@ double DigPlan::volume_on_floor(const SurfaceView& surface) const {
   return sum;
 }
 
-Scoop DigPlan::next(const SurfaceView& surface) const {
+Scoop DigPlan::next(const SurfaceView& surface, bool hindered) const {
   // The next slice starts only when the one above holds no worthwhile load.
   double above = 0;
   for (int k = 1; k <= slices(); ++k) {
@@ -241,8 +257,8 @@ Scoop DigPlan::next(const SurfaceView& surface) const {
     for (const double least : {thick, kTolerance})
       for (int i = samples() - 1; i >= 1; --i)
         if (stands(surface, i, level, least))
-          return {at(run_up(surface, i, level, least)), fill_end(surface, i, level), at(i), level,
-                  true};
+          return {at(run_up(surface, i, level, least, hindered)), fill_end(surface, i, level),
+                  at(i), level, true};
   }
   return {};
 }

@@ -70,8 +70,9 @@ class DigPlan {
   DigPlan(const Dig& dig, const TrenchLine& line, double scoop_volume, const SurfaceView& surface);
 
   /// Returns the next scoop. It is in the uppermost slice that still has enough soil, and it starts
-  /// at the farthest soil of that slice.
-  Scoop next(const SurfaceView& surface) const;
+  /// at the farthest soil of that slice, or before it over finished floor. If `hindered`, something
+  /// in the ground held the last scoop, and the next one starts at the soil.
+  Scoop next(const SurfaceView& surface, bool hindered) const;
   /// Marks the ground around `s` [m] as impossible to dig below its current depth. Call it for a
   /// scoop that came up nearly empty.
   void refuse(const SurfaceView& surface, double s);
@@ -82,8 +83,8 @@ class DigPlan {
   /// by less than one load.
   double slice() const { return dig_.depth / slices(); }
   /// Returns a scoop along the floor of the trench, from the farthest soil on it, if it would bring
-  /// a load worth a cycle.
-  Scoop clean_up(const SurfaceView& surface) const;
+  /// a load worth a cycle. `hindered` as in `next`.
+  Scoop clean_up(const SurfaceView& surface, bool hindered) const;
   /// Returns the volume of soil [m3] that is inside the width of the trench and above a given
   /// depth. `level` is that depth below the original surface [m]. Soil that cannot be dug does not
   /// count.
@@ -119,7 +120,7 @@ class DigPlan {
   /// Returns the sample at which a scoop should start whose soil begins at sample `i`. Near the
   /// machine this is farther out, over floor with less than `least` [m] of soil on it, so that the
   /// bucket has enough distance to fill.
-  int run_up(const SurfaceView& surface, int i, double level, double least) const;
+  int run_up(const SurfaceView& surface, int i, double level, double least, bool hindered) const;
   /// Returns true if more than `least` [m] of soil stands above the depth `level` [m] at sample `i`
   /// and on average over the length that follows it.
   bool stands(const SurfaceView& surface, int i, double level, double least) const;

@@ -26,6 +26,8 @@ constexpr double kOpenNear = 0.3;
 constexpr double kSameStart = 0.5;
 // Share of a slice: when the drag was raised by more on average, the next slice is thinner.
 constexpr double kHeldUp = 0.4;
+// Mean height by which something in the ground raised a drag [m].
+constexpr double kHindered = 0.02;
 constexpr double kEmpty = 0.008;      // share of a full bucket: less counts as nothing
 constexpr double kWorthwhile = 0.03;  // less makes an empty scoop
 // On the last floor a scoop that brings less is not repeated: a high wall sheds as much again and
@@ -48,7 +50,7 @@ constexpr double kUndone = 0.15;
 // A pass along the floor that brings less than this share of a load is the last one: one of the
 // first two, a later one, and one along a floor that is not down yet.
 constexpr int kFewCleanUps = 2;
-constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.05;
+constexpr double kLeastCleanUp = 0.15, kLeastLateCleanUp = 0.2, kLeastOnRoughFloor = 0.03;
 constexpr double kHeapRadius = 0.6;  // around the dump point [m]
 // During the return swing the arm comes down after this share of the swing.
 constexpr double kArmAfterSwing = 0.4;
@@ -99,12 +101,14 @@ bool Digging::plan_scoop(const Observation& seen) {
   // Both limits end the dig whatever the plan still sees.
   if (cycles() >= dig_.max_cycles.value_or(kMostCycles) || m.empty_scoops >= kMostEmpty)
     return false;
-  Scoop scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.next(surface); });
+  Scoop scoop = with_surface(
+      seen, [&](const SurfaceView& surface) { return plan_.next(surface, m.hindered != 0); });
   m.cleaning = 0;
   // Soil that fell back is spread along the whole floor, too thin for a scoop of the plan; one or
   // two passes clean it up.
   if (!scoop.any && may_clean(seen)) {
-    scoop = with_surface(seen, [&](const SurfaceView& surface) { return plan_.clean_up(surface); });
+    scoop = with_surface(
+        seen, [&](const SurfaceView& surface) { return plan_.clean_up(surface, m.hindered != 0); });
     m.cleaning = scoop.any ? 1 : 0;
   }
   if (!scoop.any || beyond_reach(scoop)) return false;
@@ -118,6 +122,8 @@ bool Digging::plan_scoop(const Observation& seen) {
 bool Digging::may_clean(const Observation& seen) const {
   const double least = m.clean_ups <= kFewCleanUps ? kLeastCleanUp : kLeastLateCleanUp;
   if (m.clean_ups == 0 || m.cleaned >= least * m.full_mass) return true;
+  // A pass that the ground held has refused that place, and another takes what is ahead of it.
+  if (m.hindered != 0) return true;
   // Walls that go on shedding soil are cleaned up after until the trench is done.
   const TrenchState now =
       with_surface(seen, [&](const SurfaceView& surface) { return plan_.state(surface); });
@@ -223,10 +229,18 @@ void Digging::start_dump(const Observation& seen) {
 }
 
 void Digging::thin_slices() {
+  const double raised = m.held_up + m.lift_before * (m.scoop_start - m.s);
+  m.hindered = raised > kHindered * (m.scoop_start - m.s) ? 1 : 0;
   // A boulder raises the path for a part of the drag, soil that is too strong for all of it.
   if (m.cleaning != 0 || m.held_up <= kHeldUp * plan_.slice() * (m.scoop_start - m.s)) return;
   if (plan_.thin())
     place_.warn("the soil holds the bucket: slices of " + metres(plan_.slice()) + " from now on");
+}
+
+bool Digging::met_undiggable(const Observation& seen) const {
+  // A pass along the whole floor may bring little, unless something in the ground raised it.
+  if (m.cleaning != 0) return m.hindered != 0 && seen.payload < kWorthwhile * m.full_mass;
+  return seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kLooseParticles) * m.full_mass;
 }
 
 bool Digging::dump(const Observation& seen) {
@@ -313,8 +327,8 @@ bool Digging::conclude(const Observation& seen) {
   // A program that sets a number of cycles wants these, not the trench.
   if (dig_.max_cycles && cycles() >= *dig_.max_cycles) {
     remark("made its " + std::to_string(*dig_.max_cycles) + " cycles; " + left);
-  } else if (const Scoop next =
-                 with_surface(seen, [&](const SurfaceView& s) { return plan_.next(s); });
+  } else if (const Scoop next = with_surface(
+                 seen, [&](const SurfaceView& s) { return plan_.next(s, m.hindered != 0); });
              next.any && beyond_reach(next)) {
     const Vec2 p = plan_.point(next.start);
     const SwingPoint at =
@@ -376,7 +390,9 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
       enter(kCurl);
       break;
     case kCurl:
-      if (curl(seen, dt, out)) start_carry(seen);
+      if (!curl(seen, dt, out)) break;
+      m.tip.hand_over(place_);
+      start_carry(seen);
       break;
     case kLift:
       if (!lift(seen)) break;
@@ -389,10 +405,7 @@ bool Digging::update(const Observation& seen, double dt, Command& out) {
       if (!swing(seen)) break;
       if (m.cleaning != 0) m.cleaned = seen.payload;
       m.empty_scoops = seen.payload < kWorthwhile * m.full_mass ? m.empty_scoops + 1 : 0;
-      // A pass along the whole floor may bring little; a scoop that does has met soil that cannot
-      // be dug.
-      if (m.cleaning == 0 &&
-          seen.payload < (m.scoop_level < dig_.depth ? kWorthwhile : kLooseParticles) * m.full_mass)
+      if (met_undiggable(seen))
         with_surface(seen,
                      [&](const SurfaceView& surface) { plan_.refuse(surface, m.soil_start); });
       tell(CycleEvent::kDumpStart);
@@ -432,6 +445,7 @@ void DiggingMemory::visit(Archive& a) {
   a("full_mass", full_mass);
   a("lift_before", lift_before);
   a("held_up", held_up);
+  a("hindered", hindered);
   a("ground", ground);
   a("edge", edge);
   a("held", held);

@@ -48,6 +48,8 @@ struct DiggingMemory {
   double lift_before = 0;
   /// Integral of the additional lift since then over the distance dragged [m2].
   double held_up = 0;
+  /// 1 if something in the ground held the last drag, else 0.
+  std::int64_t hindered = 0;
   /// Height in W of the ground under the start of the scoop [m].
   double ground = 0;
   /// Height in W that the bucket must have left below it before the machine swings [m].
@@ -135,6 +137,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
   bool swing(const Observation& seen);
   /// Starts to open the bucket while the swing ends.
   void start_dump(const Observation& seen);
+  /// Returns true if the load shows that the scoop has met soil that cannot be dug.
+  bool met_undiggable(const Observation& seen) const;
   /// Continues the dump. Returns true when the bucket is empty, or when waiting longer is no use.
   bool dump(const Observation& seen);
   /// Shakes the bucket with its cylinder while soil sticks to it.
@@ -162,6 +166,8 @@ class Digging final : public ActivityWith<DiggingMemory> {
 
   /// Enters the phase kPenetrate at the start of the scoop.
   void start_scoop(const Observation& seen);
+  /// Returns true if the swing has come to rest at its commanded angle.
+  bool is_aligned(const Observation& seen) const;
   /// Moves the tip down into the soil, and enters the drag when it is deep enough. Small
   /// corrections of the scoop's start happen in the air.
   void penetrate(const Observation& seen, double dt, Command& out);

@@ -15,23 +15,30 @@ namespace {
 // [rad/s]; time in which drag and turn begin [s].
 constexpr double kDownAir = 1.1, kDownSoil = 0.6, kDragSpeed = 0.9;
 constexpr double kTurnIn = 1.2, kStartTime = 0.4;
+// Deceleration on the way down [m/s2] to this speed at the floor [m/s].
+constexpr double kDownBrake = 1.5, kDownCreep = 0.1;
 // In the air, so far above the ground [m], the tip moves along the trench at this speed [m/s] to a
 // start this near [m].
 constexpr double kNearGround = 0.1, kAlong = 0.8, kAtStart = 0.03;
+// Swing beside the line, and its speed, at which a bucket may go down between the edges [rad],
+// [rad/s]; at a reach of 7 m the bucket is 3 cm aside.
+constexpr double kAside = 0.004, kSwingRest = 0.02;
 // Difference from its digging angle at which a bucket may curl [rad].
 constexpr double kTurnedIn = radians(5);
 // Share of the wanted load at which the curl begins: the edge cuts on, and the heap in front of the
 // mouth falls off when the tip leaves the ground. tuned: on the trench, at 0.85 / 0.97 four scoops
 // bring 840 / 880 kg.
-constexpr double kCurlAt = 0.97;
+constexpr double kCurlAt = 0.93;
 constexpr double kCurlTime = 1.7;  // [s]
 // The edge cuts on at this speed [m/s] in this first share of the curl, if the bucket has this
 // share of a load; with less it only scrapes. Held by rock it stands still (TipPath::slow). tuned:
 // on the trench 0.4, 0.6 and 0.7 m/s bring 600, 740 and 744 kg a cycle and over-dig 8.7, 9.2 and
 // 10.0 %, as the soil beside the cut breaks out with it.
-constexpr double kCurlSpeed = 0.6, kCutOn = 0.7, kFair = 0.3;
+constexpr double kCurlSpeed = 0.6, kCutOn = 0.5, kFair = 0.3;
 // Shares of the curl at which the bucket has turned, and at which it begins to leave the ground.
 constexpr double kTurned = 0.7, kRises = 0.4;
+// Share of the curl from which on a bucket that has turned may be carried on.
+constexpr double kCarryOn = 0.94;
 // A curl on the spot pours out soil, so this much of the path to the near end is left to it,
 // whatever the load. tuned: on a trench 1.6 m deep, passes along the floor that dragged on to the
 // end lost 190 of 250 kg in the curl.
@@ -46,6 +53,8 @@ constexpr double kOut = 0.15;      // lowest point over the surface after the cu
 constexpr double kPastEnd = 0.03;  // the shell may pass the far end by this [m]
 // The drag continues by this beyond its planned end when the bucket is not full [m].
 constexpr double kMore = 0.5;
+// Share of the wanted load with which a scoop ends where it was planned to.
+constexpr double kFairLoad = 0.93;
 // Raised by this on the way down, the scoop continues at that depth [m].
 constexpr double kPenetrateLift = 0.12;
 constexpr double kPhaseLimit = 12;  // [s]
@@ -63,8 +72,17 @@ double Digging::floor_height() const {
   return plan_.start_height(m.s) - m.scoop_level + arm_.below_tip(m.tip.reached);
 }
 
+bool Digging::is_aligned(const Observation& seen) const {
+  const vehicle::JointState& swing = seen.joints[place_.joint(0)];
+  return std::abs(place_.handover.q[0] - swing.position) < kAside &&
+         std::abs(swing.velocity) < kSwingRest;
+}
+
 void Digging::follow_tip(const Observation& seen, double dt, Command& out) {
-  m.tip.follow(place_, m.stance, plan_.point(m.s), seen, dt, phase_index() == kCurl, out);
+  const TipPath::Part part = phase_index() == kCurl   ? TipPath::Part::kCurl
+                             : phase_index() == kDrag ? TipPath::Part::kAlong
+                                                      : TipPath::Part::kDown;
+  m.tip.follow(place_, m.stance, plan_.point(m.s), seen, dt, part, out);
 }
 
 void Digging::penetrate(const Observation& seen, double dt, Command& out) {
@@ -73,11 +91,20 @@ void Digging::penetrate(const Observation& seen, double dt, Command& out) {
   const bool there = std::abs(m.scoop_start - m.s) < kAtStart;
   const double near = m.ground + kNearGround;
   const bool in_air = m.tip.z > near;
-  const double goal = there ? floor_height() : std::max(near, floor_height());
-  m.tip.z = std::max(goal, m.tip.z - (in_air ? kDownAir : kDownSoil) * m.tip.slow * dt);
+  // Between the edges only when the swing has come to rest over the line: a bucket that is still
+  // aside takes soil from the wall.
+  const double over_edge = std::max(near, plan_.start_height(m.s) + kNearGround);
+  const double floor = floor_height();
+  const double goal = !is_aligned(seen) ? std::max(over_edge, floor)
+                      : !there          ? std::max(near, floor)
+                                        : floor;
+  // Braked before the floor, or the boom's mass carries the edge below it.
+  const double brake = kDownCreep + std::sqrt(2 * kDownBrake * std::max(0.0, m.tip.z - goal));
+  const double down = std::min(in_air ? kDownAir : kDownSoil, brake);
+  m.tip.z = std::max(goal, m.tip.z - down * m.tip.slow * dt);
   follow_tip(seen, dt, out);
   // Soil that holds the tip on the way down is dug at the depth it allows.
-  if ((there && m.tip.z <= goal) || m.tip.lift > kPenetrateLift || overdue(kPhaseLimit)) {
+  if ((there && m.tip.z <= floor) || m.tip.lift > kPenetrateLift || overdue(kPhaseLimit)) {
     m.lift_before = m.tip.lift;
     m.held_up = 0;
     enter(kDrag);
@@ -102,7 +129,7 @@ bool Digging::drag(const Observation& seen, double dt, Command& out) {
   // Before it has rotated, its heel is at the far end, and the curl would press it into the wall.
   const bool full = seen.payload >= kCurlAt * m.full_mass && turned_in;
   // Equal loads leave no small rest of a slice; a dig of a number of cycles fills each.
-  const bool fair = !dig_.max_cycles && seen.payload > 0.8 * m.full_mass;
+  const bool fair = !dig_.max_cycles && seen.payload > kFairLoad * m.full_mass;
   const bool planned = m.s <= m.scoop_end && (fair || m.s <= m.scoop_end - kMore);
   const double left_to_curl = m.cleaning != 0 ? kCleanCurlPath : kCurlPath;
   const bool at_end = m.s <= std::min(left_to_curl, 0.5 * m.scoop_start);
@@ -128,7 +155,9 @@ bool Digging::curl(const Observation& seen, double dt, Command& out) {
   const double top = plan_.start_height(m.s) + kOut + arm_.below_tip(m.tip.reached);
   m.tip.z = mix(turned, std::max(turned, top), smooth((m.progress - kRises) / (1 - kRises)));
   follow_tip(seen, dt, out);
-  return m.progress >= 1 || overdue(kPhaseLimit);
+  // The carry goes on before the bucket has come to rest.
+  const bool turned_up = m.progress > kCarryOn && m.tip.reached - kCarry < kTurnedIn;
+  return m.progress >= 1 || turned_up || overdue(kPhaseLimit);
 }
 
 }  // namespace navvy::control
