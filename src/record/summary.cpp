@@ -164,6 +164,65 @@ json design_comparison(const sim::World& world, const sim::ActivePlaces& active,
           {"largest_error_m", f.largest_error}};
 }
 
+/// Adds what programs, machines and bodies did to `out`.
+void add_programs(const session::Session& session, const std::string& status, json& out) {
+  out["programs"] = program_list(session, status);
+  out["cycles"] = session.cycles().size();
+  out["cycle_list"] = cycle_list(session);
+  // The payload of each cycle at the lift out of the ground, for a quick look.
+  out["payload_kg"] = json::array();
+  for (const session::Cycle& cycle : session.cycles())
+    out["payload_kg"].push_back(cycle.payload_lift_out);
+  out["tip_list"] = tip_list(session);
+  out["carried_kg"] = carried(session);
+  out["collisions"] = collision_list(session);
+  out["collision_count"] = session.collisions().count();
+  out["overlaps"] = overlap_list(session);
+  out["overlap_count"] = session.overlaps().count();
+  // Absent in a run without one.
+  if (const auto& event = session.forbidden())
+    out["forbidden_event"] = {
+        {"event", event->event}, {"reason", event->reason}, {"time_s", event->time}};
+}
+
+/// Adds the shape of the ground to `out`.
+void add_ground(const session::Session& session, const sim::ActivePlaces& active, json& out) {
+  const sim::World& world = session.world();
+  const Earthwork earth = measure_earthwork(world, active.on_ground);
+  out["bank_volume_m3"] = earth.bank_volume;
+  out["loose_volume_m3"] = earth.loose_volume;
+  for (std::size_t i = 0; i < earth.soils.size(); ++i)
+    out["earthwork"].push_back({{"soil", world.description().soils[i].name},
+                                {"dug_kg", earth.soils[i].dug},
+                                {"spoil_kg", earth.soils[i].spoil}});
+  if (const heightfield::DesignSurface* design = session.design())
+    out["design"] = design_comparison(world, active, *design);
+}
+
+/// Adds energy, forces and the solver's counts to `out`.
+void add_forces(const session::Session& session, json& out) {
+  const sim::World& world = session.world();
+  const sim::SoilCounts counts = world.soil().counts();
+  // Sum over all machines.
+  out["energy_j"] = session.energy();
+  // Energy account of the active soil, if it was opened.
+  if (const auto energy = world.soil().energy())
+    out["soil_energy_j"] = soil_energy(*energy, nullptr);
+  // Forces are evaluated in every step, not at the rate of telemetry.
+  out["bucket_force_peak_n"] = session.force().peak;
+  out["bucket_draft_peak_n"] = session.force().draft_peak;
+  out["bucket_force_mean_n"] = session.force().mean();
+  out["rock_force_peak_n"] = session.force().rock_peak;
+  out["momentum_residual_max"] = session.force().residual_max;
+  // Counts of the solver, e.g. to choose a device.
+  out["particles_peak"] = counts.particles_peak;
+  out["particle_steps"] = counts.particle_steps;
+  out["shell_crossings"] = counts.shell_crossings;
+  out["rebins"] = counts.rebins;
+  out["activated_columns"] = counts.activated_columns;
+  out["deposited_blocks"] = counts.deposited_blocks;
+}
+
 }  // namespace
 
 /// The keys are an interface (docs/reference/results.md lists them): they may be added and never
@@ -172,8 +231,6 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   const sim::World& world = session.world();
   // One pass over the particles serves all that follows.
   const sim::ActivePlaces active = sim::active_places(world);
-  const Earthwork earth = measure_earthwork(world, active.on_ground);
-  const sim::SoilCounts counts = world.soil().counts();
   json out;
   // Scene, status and speed.
   out["schema_version"] = kSummarySchemaVersion;
@@ -194,51 +251,9 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["time_share"] = time_shares(session, status);
   for (const auto& [stage, seconds] : world.soil().stage_times())
     out["soil_stage_s"][stage] = seconds;
-  // Results of the programs.
-  out["programs"] = program_list(session, status.status);
-  out["cycles"] = session.cycles().size();
-  out["cycle_list"] = cycle_list(session);
-  // The payload of each cycle at the lift out of the ground, for a quick look.
-  out["payload_kg"] = json::array();
-  for (const session::Cycle& cycle : session.cycles())
-    out["payload_kg"].push_back(cycle.payload_lift_out);
-  out["tip_list"] = tip_list(session);
-  out["carried_kg"] = carried(session);
-  out["collisions"] = collision_list(session);
-  out["collision_count"] = session.collisions().count();
-  out["overlaps"] = overlap_list(session);
-  out["overlap_count"] = session.overlaps().count();
-  // Absent in a run without one.
-  if (const auto& event = session.forbidden())
-    out["forbidden_event"] = {
-        {"event", event->event}, {"reason", event->reason}, {"time_s", event->time}};
-  // Results on the ground.
-  out["bank_volume_m3"] = earth.bank_volume;
-  out["loose_volume_m3"] = earth.loose_volume;
-  for (std::size_t i = 0; i < earth.soils.size(); ++i)
-    out["earthwork"].push_back({{"soil", world.description().soils[i].name},
-                                {"dug_kg", earth.soils[i].dug},
-                                {"spoil_kg", earth.soils[i].spoil}});
-  if (const heightfield::DesignSurface* design = session.design())
-    out["design"] = design_comparison(world, active, *design);
-  // Sum over all machines.
-  out["energy_j"] = session.energy();
-  // Energy account of the active soil, if it was opened.
-  if (const auto energy = world.soil().energy())
-    out["soil_energy_j"] = soil_energy(*energy, nullptr);
-  // Forces are evaluated in every step, not at the rate of telemetry.
-  out["bucket_force_peak_n"] = session.force().peak;
-  out["bucket_draft_peak_n"] = session.force().draft_peak;
-  out["bucket_force_mean_n"] = session.force().mean();
-  out["rock_force_peak_n"] = session.force().rock_peak;
-  out["momentum_residual_max"] = session.force().residual_max;
-  // Counts of the solver, e.g. to choose a device.
-  out["particles_peak"] = counts.particles_peak;
-  out["particle_steps"] = counts.particle_steps;
-  out["shell_crossings"] = counts.shell_crossings;
-  out["rebins"] = counts.rebins;
-  out["activated_columns"] = counts.activated_columns;
-  out["deposited_blocks"] = counts.deposited_blocks;
+  add_programs(session, status.status, out);
+  add_ground(session, active, out);
+  add_forces(session, out);
   out["frames"] = status.frames;
   out["mass_ledger"] = ledger(session, active);
   // Null while the run goes on, as the hash costs a pass over the state.
