@@ -23,6 +23,8 @@ constexpr double kNearGround = 0.1, kAlong = 0.8, kAtStart = 0.03;
 // Swing beside the line, and its speed, at which a bucket may go down between the edges [rad],
 // [rad/s]; at a reach of 7 m the bucket is 3 cm aside.
 constexpr double kAside = 0.004, kSwingRest = 0.02;
+// Time after which the bucket goes down although the swing is still aside, as on a slope [s].
+constexpr double kSwingPatience = 2;
 // Difference from its digging angle at which a bucket may curl [rad].
 constexpr double kTurnedIn = radians(5);
 // Share of the wanted load at which the curl begins: the edge cuts on, and the heap in front of the
@@ -92,19 +94,19 @@ void Digging::penetrate(const Observation& seen, double dt, Command& out) {
   const double near = m.ground + kNearGround;
   const bool in_air = m.tip.z > near;
   // Between the edges only when the swing has come to rest over the line: a bucket that is still
-  // aside takes soil from the wall.
+  // aside takes soil from the wall. One that is down already is not raised again.
   const double over_edge = std::max(near, plan_.start_height(m.s) + kNearGround);
   const double floor = floor_height();
-  const double goal = !is_aligned(seen) ? std::max(over_edge, floor)
-                      : !there          ? std::max(near, floor)
-                                        : floor;
+  const bool waits = !is_aligned(seen) && m.tip.z >= over_edge && phase_time() < kSwingPatience;
+  const double goal = waits ? over_edge : there ? floor : std::max(near, floor);
   // Braked before the floor, or the boom's mass carries the edge below it.
   const double brake = kDownCreep + std::sqrt(2 * kDownBrake * std::max(0.0, m.tip.z - goal));
   const double down = std::min(in_air ? kDownAir : kDownSoil, brake);
   m.tip.z = std::max(goal, m.tip.z - down * m.tip.slow * dt);
   follow_tip(seen, dt, out);
   // Soil that holds the tip on the way down is dug at the depth it allows.
-  if ((there && m.tip.z <= floor) || m.tip.lift > kPenetrateLift || overdue(kPhaseLimit)) {
+  if ((there && !waits && m.tip.z <= floor) || m.tip.lift > kPenetrateLift ||
+      overdue(kPhaseLimit)) {
     m.lift_before = m.tip.lift;
     m.held_up = 0;
     enter(kDrag);
