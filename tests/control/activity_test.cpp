@@ -366,34 +366,53 @@ TEST(Stance, SettlesWithItsGroundAndReportsTheTippingDirection) {
   EXPECT_EQ(stance.tilt_factor(pitched(-1.6)), 0);
 }
 
-TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
-  Alone alone(Swing(0));
+/// A tip path at 6.5 m ahead of a machine that stands level.
+struct OnPath {
+  OnPath() {
+    stance.begin(Pose::Identity());
+    out.joints.resize(alone.seen.joints.size());
+    alone.place.handover.q = tip.start(alone.place, stance, Vec2(6.5, 0), 0.2, -radians(93));
+    arrive();
+  }
+  /// Lets the arm reach its commanded angles: nothing holds it.
+  void arrive() {
+    for (std::size_t k = 0; k < 4; ++k) joint(k).position = alone.place.handover.q[k];
+  }
+  /// Returns the observed joint of an axis, 0 to 3.
+  vehicle::JointState& joint(std::size_t axis) {
+    return alone.seen.joints[alone.place.joint(axis)];
+  }
+  /// Advances the path by one control step; the arm stays where it is.
+  void follow(TipPath::Part part) {
+    tip.follow(alone.place, stance, Vec2(6.5, 0), alone.seen, kStep, part, out);
+  }
+
+  Alone alone{Swing(0)};
   Stance stance;
-  stance.begin(Pose::Identity());
   TipPath tip;
   Command out;
-  out.joints.resize(alone.seen.joints.size());
-  const Vec2 p(6.5, 0);
-  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+};
+
+TEST(TipPath, RisesWhenTheBucketLiftsTheFrontAndNotWhenItPullsItDown) {
+  OnPath at;
   const auto follow = [&](double nose_up_deg, double seconds) {
-    alone.seen.X_WB = make_pose(0, 0, 0, 0, -radians(nose_up_deg), 0);
+    at.alone.seen.X_WB = make_pose(0, 0, 0, 0, -radians(nose_up_deg), 0);
     for (int i = 0; i * kStep < seconds; ++i) {
       // The arm follows at once: nothing blocks it, the machine itself moves.
-      for (std::size_t k = 0; k < 4; ++k)
-        alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-      tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kCurl, out);
+      at.arrive();
+      at.follow(TipPath::Part::kCurl);
     }
   };
   follow(1.4, 1);
-  EXPECT_EQ(tip.lift, 0);  // within the tyres' compliance
+  EXPECT_EQ(at.tip.lift, 0);  // within the tyres' compliance
   follow(-2.9, 1);
-  EXPECT_EQ(tip.lift, 0);
+  EXPECT_EQ(at.tip.lift, 0);
   follow(2.6, 0.5);
-  EXPECT_NEAR(tip.lift, 0.25, 0.01);  // 0.5 m/s, one control step of slack
-  EXPECT_GT(tip.slow, 0);             // the path continues slowly
-  EXPECT_LT(tip.slow, 0.3);
+  EXPECT_NEAR(at.tip.lift, 0.25, 0.01);  // 0.5 m/s, one control step of slack
+  EXPECT_GT(at.tip.slow, 0);             // the path continues slowly
+  EXPECT_LT(at.tip.slow, 0.3);
   follow(0, 1);
-  EXPECT_NEAR(tip.lift, 0.15, 0.01);  // back at 0.1 m/s
+  EXPECT_NEAR(at.tip.lift, 0.15, 0.01);  // back at 0.1 m/s
 }
 
 TEST(Profile, RampAcceleratesAndBrakesEvenly) {
@@ -409,80 +428,54 @@ TEST(Profile, RampAcceleratesAndBrakesEvenly) {
 }
 
 TEST(TipPath, CommandsTargetsAheadOfAMovingPathByTheServosLag) {
-  Alone alone(Swing(0));
-  Stance stance;
-  stance.begin(Pose::Identity());
-  TipPath tip;
-  Command out;
-  out.joints.resize(alone.seen.joints.size());
-  const Vec2 p(6.5, 0);
-  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+  OnPath at;
   Axes before{};
   for (int i = 0; i < 200; ++i) {
-    for (std::size_t k = 0; k < 4; ++k)
-      alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-    before = alone.place.handover.q;
-    tip.z -= 0.2 * kStep;
-    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kDown, out);
+    at.arrive();
+    before = at.alone.place.handover.q;
+    at.tip.z -= 0.2 * kStep;
+    at.follow(TipPath::Part::kDown);
   }
   for (std::size_t k = 1; k < 4; ++k) {
-    const double q = alone.place.handover.q[k], rate = (q - before[k]) / kStep;
+    const double q = at.alone.place.handover.q[k], rate = (q - before[k]) / kStep;
     // 1 / 20 s ahead; rates change slowly along the path, and are smoothed over 0.1 s.
-    EXPECT_NEAR(out.joints[alone.place.joint(k)]->target - q, 0.05 * rate,
+    EXPECT_NEAR(at.out.joints[at.alone.place.joint(k)]->target - q, 0.05 * rate,
                 0.004 + 0.1 * 0.05 * std::abs(rate));
     EXPECT_GT(std::abs(rate), 0.01);
   }
 }
 
 TEST(TipPath, RisesWhileTheTipIsBlockedAndLowersWhenFree) {
-  Alone alone(Swing(0));
-  Stance stance;
-  stance.begin(Pose::Identity());
-  TipPath tip;
-  Command out;
-  out.joints.resize(alone.seen.joints.size());
-  const Vec2 p(6.5, 0);
-  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
-  for (std::size_t i = 0; i < 4; ++i)
-    alone.seen.joints[alone.place.joint(i)].position = alone.place.handover.q[i];
+  OnPath at;
   // The path goes down half a metre while the joints stay, blocked by soil.
-  tip.z = -0.3;
-  for (int i = 0; i < 200; ++i)
-    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kDown, out);
-  EXPECT_LT(tip.slow, 0.35);  // below this a tip at rest counts as blocked
+  at.tip.z = -0.3;
+  for (int i = 0; i < 200; ++i) at.follow(TipPath::Part::kDown);
+  EXPECT_LT(at.tip.slow, 0.35);  // below this a tip at rest counts as blocked
   // 0.3 m/s for the rest of 2 s after the lag has grown and been detected
-  EXPECT_GT(tip.lift, 0.2);
-  const double raised = tip.lift;
+  EXPECT_GT(at.tip.lift, 0.2);
+  const double raised = at.tip.lift;
   // Released: the joints follow at once.
   for (int i = 0; i < 50; ++i) {
-    for (std::size_t k = 0; k < 4; ++k)
-      alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kDown, out);
+    at.arrive();
+    at.follow(TipPath::Part::kDown);
   }
-  EXPECT_NEAR(tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; blocked for a step or two before
+  EXPECT_NEAR(at.tip.lift, raised - 0.1 * 0.5, 0.01);  // 0.1 m/s; blocked for a step or two before
 }
 
 TEST(TipPath, KeepsTheEdgeOnItsFloorWhenTheMachinePitches) {
   for (const TipPath::Part part : {TipPath::Part::kDown, TipPath::Part::kAlong}) {
-    Alone alone(Swing(0));
-    Stance stance;
-    stance.begin(Pose::Identity());
-    TipPath tip;
-    Command out;
-    out.joints.resize(alone.seen.joints.size());
-    const Vec2 p(6.5, 0);
-    alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+    OnPath at;
     // The nose sinks by 0.3 deg, which the stance has not seen yet.
-    alone.seen.X_WB = make_pose(0, 0, 0, 0, radians(0.3), 0);
+    at.alone.seen.X_WB = make_pose(0, 0, 0, 0, radians(0.3), 0);
     double height = 0;
     for (int i = 0; i < 200; ++i) {
       ArmAngles q;
-      for (std::size_t k = 0; k < 4; ++k)
-        alone.seen.joints[alone.place.joint(k)].position = alone.place.handover.q[k];
-      for (std::size_t k = 0; k < 3; ++k) q[k] = alone.place.handover.q[k + 1];
-      const BucketPose pose = alone.place.arm->forward(q);
-      height = (alone.seen.X_WB * alone.place.arm->X_BS() * Vec3(pose.reach, 0, pose.height)).z();
-      tip.follow(alone.place, stance, p, alone.seen, kStep, part, out);
+      at.arrive();
+      for (std::size_t k = 0; k < 3; ++k) q[k] = at.alone.place.handover.q[k + 1];
+      const BucketPose pose = at.alone.place.arm->forward(q);
+      height =
+          (at.alone.seen.X_WB * at.alone.place.arm->X_BS() * Vec3(pose.reach, 0, pose.height)).z();
+      at.follow(part);
     }
     // 6.5 m x 0.3 deg = 34 mm too low without feedback.
     if (part == TipPath::Part::kAlong)
@@ -493,31 +486,23 @@ TEST(TipPath, KeepsTheEdgeOnItsFloorWhenTheMachinePitches) {
 }
 
 TEST(TipPath, SlowsDownWhenACylinderTakesNearlyItsWholeForce) {
-  Alone alone(Swing(0));
-  Stance stance;
-  stance.begin(Pose::Identity());
-  TipPath tip;
-  Command out;
-  out.joints.resize(alone.seen.joints.size());
-  const Vec2 p(6.5, 0);
-  alone.place.handover.q = tip.start(alone.place, stance, p, 0.2, -radians(93));
+  OnPath at;
   const auto slow_at = [&](double share) {
     for (std::size_t k = 0; k < 4; ++k) {
-      vehicle::JointState& joint = alone.seen.joints[alone.place.joint(k)];
-      joint.position = alone.place.handover.q[k];
-      joint.effort_limit = 1e5;
-      joint.effort = k == 2 ? -share * 1e5 : 0;
+      at.joint(k).effort_limit = 1e5;
+      at.joint(k).effort = k == 2 ? -share * 1e5 : 0;
     }
-    tip.follow(alone.place, stance, p, alone.seen, kStep, TipPath::Part::kAlong, out);
-    return tip.slow;
+    at.arrive();
+    at.follow(TipPath::Part::kAlong);
+    return at.tip.slow;
   };
   EXPECT_EQ(slow_at(0.7), 1);
   EXPECT_NEAR(slow_at(0.9), 0.5, 1e-9);
   EXPECT_NEAR(slow_at(1), 0.3, 1e-9);
-  EXPECT_EQ(tip.lift, 0);
+  EXPECT_EQ(at.tip.lift, 0);
   // A tip that hardly moves rises before the joint stalls.
   for (int i = 0; i < 100; ++i) slow_at(0.97);
-  EXPECT_GT(tip.lift, 0.1);
+  EXPECT_GT(at.tip.lift, 0.1);
 }
 
 }  // namespace
