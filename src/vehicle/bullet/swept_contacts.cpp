@@ -7,7 +7,6 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "vehicle/bullet/bullet_machine.h"
 #include "vehicle/bullet/convert.h"
@@ -93,7 +92,7 @@ struct ShapeHit final : btCollisionWorld::ConvexResultCallback {
     return hit.m_hitFraction;
   }
   bool needsCollision(btBroadphaseProxy*) const override { return true; }
-  explicit ShapeHit(btTransform pose) : target(std::move(pose)) {}
+  explicit ShapeHit(const btTransform& pose) : target(pose) {}
 
   btTransform target;
   btVector3 normal{0, 0, 0}, point{0, 0, 0};
@@ -108,7 +107,7 @@ struct CornerHit final : btCollisionWorld::RayResultCallback {
     return hit.m_hitFraction;
   }
   bool needsCollision(btBroadphaseProxy*) const override { return true; }
-  explicit CornerHit(btTransform pose) : target(std::move(pose)) {}
+  explicit CornerHit(const btTransform& pose) : target(pose) {}
 
   btTransform target;
   btVector3 normal{0, 0, 0};
