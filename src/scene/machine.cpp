@@ -48,6 +48,11 @@ int Machine::link_index(const std::string& name_of_link) const {
   return -1;
 }
 
+bool Machine::has_sensors() const {
+  return std::any_of(links.begin(), links.end(),
+                     [](const Link& link) { return !link.sensors.empty(); });
+}
+
 bool Machine::is_bucket(int shell) const {
   return names_shell(buckets, shells.at(static_cast<std::size_t>(shell)));
 }

@@ -17,6 +17,7 @@
 #include "scene/drive.h"
 #include "scene/fields.h"
 #include "scene/material.h"
+#include "scene/sensor.h"
 #include "scene/tool_shell.h"
 
 namespace navvy::scene {
@@ -108,7 +109,8 @@ struct Link {
   std::vector<Collision> collisions;  ///< shapes for contact with rigid bodies
   /// Material of the link's collisions and shells in contact with rigid bodies.
   LinkMaterial material;
-  double density = 0;  ///< density for deriving mass and inertia [kg/m3]; 0: not given
+  double density = 0;           ///< density for deriving mass and inertia [kg/m3]; 0: not given
+  std::vector<Sensor> sensors;  ///< sensors on the link
 
   /// Passes the fields of a <link> to the visitor `f`.
   void describe(Fields& f) {
@@ -123,6 +125,9 @@ struct Link {
     f.derived("inertia", inertia);
     f("visual", visuals, limits::kShapes, "Appearance.", kSdf | kShown);
     f("collision", collisions, limits::kShapes, "Contact shape.", kSdf);
+    // Sensors only read the world, so they are no parameters of it.
+    f("sensor", sensors, kMostSensors, "Sensor, which reads the world and changes nothing.",
+      kSdf | kShown);
   }
 };
 
@@ -557,6 +562,8 @@ struct Machine {
   Shell with_teeth(const Shell& shell) const;
   /// Returns the index of the joint with this name in `joints`; -1 if there is none.
   int joint_index(const std::string& name_of_joint) const;
+  /// Returns true if any link carries a sensor.
+  bool has_sensors() const;
   /// Returns true if the shell with index `shell` belongs to a digging bucket.
   bool is_bucket(int shell) const;
   /// Returns true if the shell with index `shell` belongs to a tipping container.

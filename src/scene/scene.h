@@ -78,6 +78,8 @@ struct MachineInWorld {
   /// in an <include>.
   bool in_scene = false;
   std::vector<InitialPosition> initial_positions;  ///< joint positions that an <include> sets
+  /// Sensors as the scene gives them; the reader has moved them to the links that carry them.
+  std::vector<Sensor> sensors;
 
   /// Passes all fields of an <include> or <model> to the visitor `f`.
   void describe(Fields& f) {
@@ -111,6 +113,9 @@ struct MachineInWorld {
     f.group({"navvy:load", "Loose soil in the machine's bed at the start.", {}, load.mass > 0, {}},
             [this](Fields& g) { load.describe(g); });
     f("navvy:program", program, "Steps of the machine, in order.", kOwnReader);
+    f("navvy:sensor", sensors, kMostSensors,
+      "Sensor that the scene adds to a link of the machine; its elements are those of <sensor>.",
+      kShown);
   }
 };
 

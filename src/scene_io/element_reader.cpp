@@ -140,8 +140,9 @@ struct ValueReader {
     }
     faults.error(at, value, rule);
   }
-  // Poses belong to SDF; derived values have no element.
-  void operator()(Pose*) const {}
+  // Only sensors have poses that are read here; libsdformat reads the others.
+  void operator()(Pose* out) const { read_pose(at, *out, faults); }
+  // Derived values have no element.
   void operator()(Mat3*) const {}
   void operator()(const scene::Computed&) const {}
 };
@@ -224,6 +225,8 @@ void ElementReader::field(const Field& field) {
                   field.text);
     return;
   }
+  // The form of the angles is given by attributes, which the reader of poses knows.
+  if (std::holds_alternative<Pose*>(field.value)) attributed_.emplace_back(field.name);
   const double factor = scene::unit_of(field.name).factor;
   // Only points may repeat: a track has one <roller_m> for each roller.
   const bool repeats = std::holds_alternative<std::vector<Vec3>*>(field.value);

@@ -8,6 +8,7 @@
 #include "scene_io/machine_rules.h"
 #include "scene_io/mesh_path.h"
 #include "scene_io/program_reader.h"
+#include "scene_io/sensor_reader.h"
 #include "scene_io/xml_limits.h"
 
 namespace navvy::scene_io {
@@ -100,7 +101,11 @@ scene::MachineInWorld read_instance(Element& element, const scene::Scene& world,
     instance.machine = read_machine(element, known.sdf_sound, faults);
     instance.name = instance.machine.name;
   }
-  // Links and joints of the file were checked with it, so only soils are looked up here.
+  // Sensors of the scene name parts of the machine.
+  names.links = names_in_list(instance.machine.links);
+  names.joints = names_in_list(instance.machine.joints);
+  names.shells = names_in_list(instance.machine.shells);
+  for (Element* sensor : children_of(element, {"navvy:sensor"})) fill_in_preset(*sensor, faults);
   names.soils = names_in_list(world.soils);
   if (!names.soils.empty()) instance.load.soil = names.soils[0];
   const bool kinematic_file = is_include && instance.machine.kinematic;
@@ -115,6 +120,7 @@ scene::MachineInWorld read_instance(Element& element, const scene::Scene& world,
     instance.machine.kinematic = true;
   }
   set_initial_positions(element, instance.initial_positions, instance.machine, faults);
+  add_sensors(element, instance, faults);
   if (const Element* pose = element.FirstChildElement("pose"))
     read_place(*pose, instance, world, known, faults);
   if (const Element* load = element.FirstChildElement("navvy:load"))

@@ -8,6 +8,7 @@
 #include "scene_io/machine_rules.h"
 #include "scene_io/sdf_model.h"
 #include "scene_io/sdf_rules.h"
+#include "scene_io/sensor_reader.h"
 #include "scene_io/shell_reader.h"
 
 namespace navvy::scene_io {
@@ -44,6 +45,7 @@ scene::Machine read_machine(Element& model, bool sdf_sound, Faults& faults) {
     if (const Element* element = named_child(model, "link", link.name))
       link.material.line = place_of(child_or_self(*element, "navvy:material")).line;
   read_extensions(model, names, machine, faults);
+  read_sensors(model, names, machine, faults);
   // Wheels and shells decide which links have other contact shapes.
   derive_parts(model, machine, faults);
   return machine;

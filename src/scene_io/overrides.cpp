@@ -402,11 +402,11 @@ void warn_of_unused_seed(Document& document, const Overrides& overrides, const s
   for (const scene::GroundFeature& shape : world.ground.features)
     used = used || (shape.kind == scene::GroundFeature::Kind::kHills && !shape.has_seed);
   for (const scene::MachineInWorld& placed : world.machines)
-    used = used || !placed.machine.encoders.empty();
+    used = used || !placed.machine.encoders.empty() || placed.machine.has_sensors();
   if (!used)
     faults.add({Fault::Severity::kWarning, "command line", 0, "--seed",
                 std::to_string(*overrides.seed),
-                "has no effect: the scene has neither hills without a seed nor encoders",
+                "has no effect: the scene has neither hills without a seed nor encoders or sensors",
                 "remove it, or set ground.hills.seed"});
 }
 

@@ -14,6 +14,7 @@
 #include "scene_io/loader.h"
 #include "scene_io/materials_reader.h"
 #include "scene_io/mesh_path.h"
+#include "scene_io/sensor_reader.h"
 #include "scene_io/soil_reader.h"
 
 namespace navvy::scene_io {
@@ -93,6 +94,8 @@ class Resolver {
   void include(Element& element);
   /// Replaces the paths of meshes; `model` still belongs to the file that they count from.
   void meshes(Element& model);
+  /// Writes out the presets of the sensors in `parent`.
+  void sensors(Element& parent);
   void list_files();
 
  private:
@@ -167,6 +170,14 @@ void Resolver::meshes(Element& model) {
   });
 }
 
+void Resolver::sensors(Element& parent) {
+  visit_all(parent, [&](Element& element) {
+    if (!is_called(&element, "sensor") && !is_called(&element, "navvy:sensor")) return;
+    fill_in_preset(element, none_);
+    while (Element* preset = element.FirstChildElement("navvy:preset")) element.DeleteChild(preset);
+  });
+}
+
 void Resolver::include(Element& element) {
   Element* uri = element.FirstChildElement("uri");
   std::string path;
@@ -180,6 +191,7 @@ void Resolver::include(Element& element) {
   if (attribute(*document->root(), "version") != attribute(root, "version"))
     return keep(*uri, absolute(path));
   meshes(*model);
+  sensors(*model);
   // The copy belongs to this document; the machine's own document ends with this function.
   Element& inlined = *model->DeepClone(element.GetDocument())->ToElement();
   if (element.FirstChildElement("name"))
@@ -231,6 +243,7 @@ std::string resolved_text(Document& document, const scene::Scene& world) {
   for (Element* e = root.FirstChildElement("model"); e != nullptr;
        e = e->NextSiblingElement("model"))
     resolver.meshes(*e);
+  resolver.sensors(root);
   for (Element* e = root.FirstChildElement("include"); e != nullptr;) {
     // The include is replaced by a model.
     Element* next = e->NextSiblingElement("include");

@@ -16,8 +16,8 @@ namespace navvy::scene_io {
 namespace {
 
 // Ignoring an element of kWarn leaves the simulation as it is; ignoring one of kError would change
-// the physics.
-enum class Support { kUsed, kWarn, kError };
+// the physics. An element of kOwn has a reader of its own, which checks its inside.
+enum class Support { kUsed, kOwn, kWarn, kError };
 // Text of an element. kElements: elements and no text, kAny: not checked.
 enum class Type { kElements, kNumber, kNumbers3, kFlag, kText, kPose, kColor, kAny };
 using enum Support;
@@ -34,7 +34,6 @@ struct Rule {
   Range range = {-1e16, 1e16};
 };
 
-constexpr const char* kSensors = "sensors are not simulated yet";
 constexpr const char* kLook = "only changes the look";
 
 const Rule kRules[] = {
@@ -50,7 +49,7 @@ const Rule kRules[] = {
     {"world", "gui", kWarn, kAny, "Navvy has no window"},
     {"world", "plugin", kWarn, kAny, "plugins of Gazebo are not run"},
     {"world", "audio", kWarn, kAny, "there is no sound"},
-    {"world", "magnetic_field", kWarn, kAny, kSensors},
+    {"world", "magnetic_field", kWarn, kAny, "there is no magnetometer"},
     {"world", "spherical_coordinates", kWarn, kAny, "the heightmap file holds its coordinates"},
     {"world", "atmosphere", kWarn, kAny, "there is no air drag"},
     {"world", "wind", kError, kAny, "wind is not supported"},
@@ -86,7 +85,7 @@ const Rule kRules[] = {
     {"link", "kinematic", kError, kFlag, "whole machines only: navvy:physics kinematic"},
     {"link", "velocity_decay", kError, kAny, "use the joints' damping"},
     {"link", "must_be_base_link", kError, kFlag, "the link without a parent joint is the base"},
-    {"link", "sensor", kWarn, kAny, "sensors are not simulated yet; for pictures use navvy:camera"},
+    {"link", "sensor", kOwn, kAny},
     {"link", "light projector particle_emitter", kWarn, kAny, kLook},
     {"link", "audio_source audio_sink", kWarn, kAny, "there is no sound"},
     {"link", "battery", kWarn, kAny, "batteries are not simulated"},
@@ -101,7 +100,7 @@ const Rule kRules[] = {
     {"visual", "geometry material"},
     {"visual", "cast_shadows", kWarn, kFlag, kLook},
     {"visual", "transparency", kWarn, kNumber, "use the alpha of diffuse", {0, 1}},
-    {"visual collision", "laser_retro", kWarn, kNumber, kSensors},
+    {"visual collision", "laser_retro", kWarn, kNumber, "intensities are not simulated"},
     {"visual", "visibility_flags meta plugin", kWarn, kAny, kLook},
     // Pictures use diffuse; ambient is usually its copy.
     {"material", "diffuse ambient specular", kUsed, kColor, "", {0, 1}},
@@ -144,7 +143,7 @@ const Rule kRules[] = {
     {"joint", "axis"},
     {"joint", "axis2", kError, kAny, "joints have one axis; use two joints and a small link"},
     {"joint", "physics", kWarn, kAny, "settings of other engines"},
-    {"joint", "sensor", kWarn, kAny, kSensors},
+    {"joint", "sensor", kWarn, kAny, "give a link a sensor of type navvy:joint"},
     {"joint", "thread_pitch screw_thread_pitch", kError, kNumber, "screw joints are not supported"},
     {"joint", "gearbox_ratio", kError, kNumber, "gearbox joints are not supported"},
     {"joint", "gearbox_reference_body", kError, kText, "gearbox joints are not supported"},
@@ -182,7 +181,7 @@ std::vector<std::string> names_in(const std::string& parent) {
   std::vector<std::string> names;
   if (const auto children = rules().find(parent); children != rules().end())
     for (const auto& [name, rule] : children->second)
-      if (rule->support == kUsed) names.push_back(name);
+      if (rule->support == kUsed || rule->support == kOwn) names.push_back(name);
   for (const std::string& name : schema().extensions(parent)) names.push_back(name);
   return names;
 }
@@ -334,9 +333,9 @@ std::vector<SdfUse> sdf_uses() {
   std::vector<SdfUse> out;
   for (const Rule& rule : kRules)
     out.push_back({rule.parents, rule.names,
-                   rule.support == kUsed   ? "read"
-                   : rule.support == kWarn ? "ignored, with a warning"
-                                           : "refused",
+                   rule.support == kUsed || rule.support == kOwn ? "read"
+                   : rule.support == kWarn                       ? "ignored, with a warning"
+                                                                 : "refused",
                    rule.why});
   return out;
 }

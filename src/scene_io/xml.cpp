@@ -196,6 +196,20 @@ Element* Document::create(const char* name, const Element& from) {
   return element;
 }
 
+void Document::append_copy(Element& parent, const Element& from) {
+  auto& owner = *static_cast<Document*>(parent.GetDocument()->GetUserData());
+  Element* to = owner.create(from.Name(), from);
+  parent.InsertEndChild(to);
+  for (const auto* at = from.FirstAttribute(); at; at = at->Next())
+    to->SetAttribute(at->Name(), at->Value());
+  for (const auto* node = from.FirstChild(); node; node = node->NextSibling()) {
+    if (const Element* child = node->ToElement())
+      append_copy(*to, *child);
+    else if (node->ToText())
+      to->InsertEndChild(node->DeepClone(to->GetDocument()));
+  }
+}
+
 const Document& Document::of(const Element& element) {
   // The pointer was set when the document was parsed.
   return *static_cast<const Document*>(element.GetDocument()->GetUserData());

@@ -118,6 +118,10 @@ class Document {
   /// Returns the document that contains an element.
   static const Document& of(const Element& element);
 
+  /// Appends a copy of `from`, with everything inside, to the children of `parent`, which belongs
+  /// to any document. Errors in the copy are reported at the position of its original.
+  static void append_copy(Element& parent, const Element& from);
+
   /// Returns the name of the file.
   const std::string& file() const { return file_; }
   /// Creates an element in this document; the caller inserts it. Errors in the new element are

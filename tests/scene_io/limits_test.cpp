@@ -168,6 +168,10 @@ TEST(Limits, ListsOfASceneAreBounded) {
       refused(world_text("<model name=\"m\"><link name=\"l\">" +
                          repeated("<visual name=\"v\"/>", limits::kShapes + 1) + "</link></model>"),
               "at most 200 <visual> in one <link>"));
+  EXPECT_TRUE(refused(
+      world_text("<model name=\"m\"><link name=\"l\">" +
+                 repeated("<sensor name=\"s\"/>", scene::kMostSensors + 1) + "</link></model>"),
+      "at most 100 <sensor> in one <link>"));
   EXPECT_TRUE(
       refused(world_text("<model name=\"m\"><navvy:program>" +
                          repeated("<wait><duration_s>1</duration_s></wait>", limits::kSteps + 1) +
@@ -180,7 +184,7 @@ TEST(Limits, AnIncludedFileCountsAtEachUse) {
   const std::string model = folder / "model.sdf";
   write_file_atomically(
       model, "<sdf version=\"1.9\"><model name=\"m\"><static>1</static><link name=\"a\">" +
-                 repeated("<sensor/>", 60'000) + "</link></model></sdf>");
+                 repeated("<light/>", 60'000) + "</link></model></sdf>");
   std::string machines;
   for (int i = 0; i < 9; ++i)
     machines +=
