@@ -66,6 +66,7 @@ ArrayView ArrayOutputs::view(int array) const {
   out.bytes_ = values_[i].bytes;
   out.sequence_ = values_[i].sequence;
   out.time_ = values_[i].time;
+  out.delivered_ = values_[i].delivered;
   return out;
 }
 
@@ -92,12 +93,14 @@ int ArrayOutputs::add(ArrayChannel channel) {
 }
 
 // Counts the publication, which readers use to detect a new value.
-std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X_WF) {
+std::span<std::byte> ArrayOutputs::publish(int array, double time, const Pose& X_WF,
+                                           double delivered) {
   require_index("array", array, channels_.size());
   Value& value = values_[static_cast<std::size_t>(array)];
   // Stamped before it is filled: the caller writes in place, which saves a copy of every image.
   ++value.sequence;
   value.time = time;
+  value.delivered = delivered;
   value.X_WF = X_WF;
   return value.bytes;
 }
@@ -109,15 +112,20 @@ void ArrayOutputs::visit(Archive& a) {
       "the snapshot has other arrays than the world; add the same samplers, then load";
   // The snapshot must hold as many arrays, under the same names, in the same order.
   a.constant("count", channels_.size(), rule);
+  const auto visit_value = [&](std::size_t i) {
+    a.constant("name", channels_[i].name, rule);
+    // The stamps too: an old scan with a new stamp would be another state.
+    a("sequence", values_[i].sequence);
+    a("time", values_[i].time);
+    a("delivered", values_[i].delivered);
+    a("X_WF", values_[i].X_WF);
+    // The shape may differ under the same name.
+    a.fixed("bytes", values_[i].bytes);
+  };
   for (std::size_t i = 0; i < channels_.size(); ++i)
     a.item(i, [&] {
-      a.constant("name", channels_[i].name, rule);
-      // The stamp too: an old scan with a new stamp would be another state.
-      a("sequence", values_[i].sequence);
-      a("time", values_[i].time);
-      a("X_WF", values_[i].X_WF);
-      // The shape may differ under the same name.
-      a.fixed("bytes", values_[i].bytes);
+      if (channels_[i].hashed) return visit_value(i);
+      a.unhashed("the sampler changes nothing that a run computes", [&] { visit_value(i); });
     });
 }
 

@@ -62,6 +62,8 @@ struct ArrayChannel {
   std::vector<int> shape;
   /// Publication rate in publications per second of simulated time; 0 means one after every step.
   double rate = 0;
+  /// False: values are left out of the hash of the world's state (Sampler::hashed).
+  bool hashed = true;
 
   /// Returns the number of elements; 0 if the shape is empty or contains a length that is not
   /// positive.
@@ -79,8 +81,11 @@ class ArrayView {
   /// Returns the number of values published so far. It is 0 before the first one; all elements are
   /// then zero.
   std::uint64_t sequence() const { return sequence_; }
-  /// Returns the simulated time at which the value was published [s].
+  /// Returns the simulated time at which the value was measured [s].
   double time() const { return time_; }
+  /// Returns the simulated time at which the value was published [s]; later than `time()` for a
+  /// sensor with latency.
+  double delivered() const { return delivered_; }
   /// Returns the pose of the array's frame F in W at the time of the value.
   const Pose& X_WF() const { return *X_WF_; }
   /// Returns the elements as raw bytes in row-major order and native byte order, for language
@@ -104,7 +109,7 @@ class ArrayView {
   /// Storage of the array's elements, owned by ArrayOutputs.
   std::span<const std::byte> bytes_;
   std::uint64_t sequence_ = 0;
-  double time_ = 0;
+  double time_ = 0, delivered_ = 0;
 };
 
 /// All arrays of a world. Clients read them; samplers fill them through a Publisher.
@@ -135,10 +140,11 @@ class ArrayOutputs {
   /// @throws InputError for a shape without elements or a name that is in use.
   int add(ArrayChannel channel);
   /// Starts a new value of the array with the index `array` and returns its storage, which the
-  /// caller must fill completely before anyone reads it. `time` is the simulated time [s] and
-  /// `X_WF` the pose in W of the array's frame at that time.
+  /// caller must fill completely before anyone reads it. `time` is the simulated time of the
+  /// measurement [s], `X_WF` the pose in W of the array's frame at that time, and `delivered` the
+  /// present time [s].
   /// @throws InputError for an index that does not exist.
-  std::span<std::byte> publish(int array, double time, const Pose& X_WF);
+  std::span<std::byte> publish(int array, double time, const Pose& X_WF, double delivered);
 
   /// Visits sequence number, time stamp, frame pose and bytes of every array: everything that
   /// readers can see is part of the state. Loading requires a list of arrays with the same names,
@@ -152,8 +158,8 @@ class ArrayOutputs {
     std::vector<std::byte> bytes;
     /// Number of values published so far.
     std::uint64_t sequence = 0;
-    /// Simulated time of the value [s].
-    double time = 0;
+    /// Simulated times at which the value was measured and published [s].
+    double time = 0, delivered = 0;
     /// Pose of the array's frame F in W at that time.
     Pose X_WF = Pose::Identity();
   };

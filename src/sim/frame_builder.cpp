@@ -7,19 +7,17 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "sim/cylinder_shapes.h"
 #include "sim/particle_clipper.h"
 #include "sim/world_parts.h"
 #include "sim/world_terrain.h"
-#include "vehicle/kinematics.h"
 
 namespace navvy::sim {
 namespace {
 
 // Loose soil is drawn as particles, so the ground below it is that of the columns.
 constexpr heightfield::SurfaceKind kDrawn = heightfield::SurfaceKind::kColumns;
-constexpr int kWindow = 1024;           // columns along one side of the drawn ground
-constexpr double kLinkageAside = 0.20;  // distance of a bucket linkage's bars from its middle [m]
-constexpr double kBarRadius = 0.05;     // [m]
+constexpr int kWindow = 1024;  // columns along one side of the drawn ground
 // Smallest distance of a drawn lump's centre from steel, in its radius.
 constexpr double kOffPlates = 1.1;
 
@@ -143,40 +141,7 @@ void FrameBuilder::add_machines() {
       for (const scene::Visual& visual : machine.links[l].visuals)
         frame_.shapes.push_back({&visual, X_WL * visual.X_LV});
     }
-    for (const scene::Cylinder& cylinder : machine.cylinders) add_cylinder(index, cylinder);
-  }
-}
-
-// Draws barrel and rod between the pins, and the bars of a linkage.
-void FrameBuilder::add_cylinder(int m, const scene::Cylinder& cylinder) {
-  const scene::Machine& machine =
-      world_.description().machines[static_cast<std::size_t>(m)].machine;
-  const int joint = machine.joint_index(cylinder.joint),
-            base = machine.link_index(cylinder.base_link),
-            rod = machine.link_index(cylinder.rod_link);
-  if (joint < 0 || base < 0 || rod < 0) return;
-  // The pins follow from the joint's angle; a cylinder has no state of its own.
-  const auto geometry = vehicle::cylinder_geometry(machine, cylinder,
-                                                   world_.machines().at(m).joint(joint).position());
-  const Pose X_WL = world_.machines().at(m).link(base).pose();
-  const auto add = [&](const Vec3& from, const Vec3& to, double radius, double barrel,
-                       double aside) {
-    const Vec3 shift = X_WL.linear() * Vec3(0, aside, 0);
-    frame_.cylinders.push_back({from + shift, to + shift, radius, barrel});
-  };
-  // Draw all `count` cylinders side by side.
-  for (int i = 0; i < cylinder.count; ++i)
-    add(X_WL * geometry.p_base, X_WL * geometry.p_rod, 0.6 * cylinder.bore, 0.55 * geometry.length,
-        cylinder.spacing * (i - 0.5 * (cylinder.count - 1)));
-  if (!cylinder.has_linkage) return;
-  // Rocker and coupler on both sides; rod pin and coupler pin are on one ray from the rocker's
-  // pivot.
-  const Vec3 pin = cylinder.p_rocker + cylinder.rocker_coupler / cylinder.rocker_rod *
-                                           (geometry.p_rod - cylinder.p_rocker);
-  const Vec3 on_bucket = world_.machines().at(m).link(rod).pose() * cylinder.p_coupler;
-  for (const double aside : {-kLinkageAside, kLinkageAside}) {
-    add(X_WL * cylinder.p_rocker, X_WL * pin, kBarRadius, cylinder.rocker_coupler, aside);
-    add(X_WL * pin, on_bucket, kBarRadius, cylinder.coupler, aside);
+    add_cylinder_shapes(world_, index, frame_.cylinders);
   }
 }
 

@@ -42,9 +42,6 @@ class FrameBuilder {
   void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
   /// Adds all visual shapes of the machines with their poses, and all cylinders.
   void add_machines();
-  /// Adds a hydraulic cylinder of the machine with index `m` to the frame, and the bars of its
-  /// bucket linkage if it has one.
-  void add_cylinder(int m, const scene::Cylinder& cylinder);
   /// Adds the active particles, moved away from the plates of tools.
   void add_particles();
 

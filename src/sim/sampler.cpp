@@ -43,8 +43,9 @@ int Publisher::declare(Channel channel) {
 
 int Publisher::declare(ArrayChannel channel) {
   require_new(channel.name);
-  // The rate is the sampler's, whatever the channel holds.
-  channel.rate = rate_;
+  // The rate is the sampler's. One that looks at every step may publish less often.
+  if (rate_ > 0) channel.rate = rate_;
+  channel.hashed = hashed_;
   ArrayOutputs::require_elements(channel);
   new_arrays_.push_back(std::move(channel));
   return static_cast<int>(arrays_.channels().size() + new_arrays_.size()) - 1;
@@ -76,7 +77,7 @@ SamplerSlot::SamplerSlot(std::unique_ptr<Sampler> sampler, Outputs& outputs, Arr
       // Read once: a sampler that changed its name or rate would contradict its channels.
       name_(sampler_->name()),
       rate_(sampler_->rate()),
-      publisher_(outputs, arrays, rate_) {
+      publisher_(outputs, arrays, rate_, sampler_->hashed()) {
   if (!std::isfinite(rate_) || rate_ < 0)
     throw InputError(Fault{Fault::Severity::kError, "", 0, name_, std::to_string(rate_),
                            "the rate must be a finite number of samples per second, not negative",

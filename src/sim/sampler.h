@@ -24,8 +24,9 @@ class Publisher {
  public:
   /// Creates a publisher that adds scalar outputs to `outputs` and arrays to `arrays`; both lists
   /// must outlive it. `rate` [1/s] is stored as the publication rate of every array.
-  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate)
-      : outputs_(outputs), arrays_(arrays), rate_(rate) {}
+  /// `hashed` is Sampler::hashed.
+  Publisher(Outputs& outputs, ArrayOutputs& arrays, double rate, bool hashed = true)
+      : outputs_(outputs), arrays_(arrays), rate_(rate), hashed_(hashed) {}
   Publisher(const Publisher&) = delete;
   Publisher& operator=(const Publisher&) = delete;
 
@@ -50,7 +51,16 @@ class Publisher {
   template <class T>
   std::span<T> fill(int array, const Pose& X_WF = Pose::Identity()) {
     require(array, element_type<T>());
-    const std::span<std::byte> bytes = arrays_.publish(array, time_, X_WF);
+    const std::span<std::byte> bytes = arrays_.publish(array, time_, X_WF, time_);
+    return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
+  }
+
+  /// Publishes an array as `fill` does, for a value that was measured at the earlier time
+  /// `measured` [s]: the value is stamped with that time, and delivered at the current one.
+  template <class T>
+  std::span<T> fill_late(int array, const Pose& X_WF, double measured) {
+    require(array, element_type<T>());
+    const std::span<std::byte> bytes = arrays_.publish(array, measured, X_WF, time_);
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
@@ -77,6 +87,8 @@ class Publisher {
   ArrayOutputs& arrays_;
   /// Publication rate of the sampler's arrays [1/s]; 0 means one publication after every step.
   double rate_;
+  /// True if the arrays are part of the hash of the world's state.
+  bool hashed_;
   /// Simulated time of the current sample [s].
   double time_ = 0;
   /// Scalar outputs that are declared but not yet part of the world.
@@ -126,6 +138,10 @@ class Sampler {
   /// Takes a sample: reads `world` and sets the outputs through `out`. Called when the sampler is
   /// added, and after each step in which a sample is due.
   virtual void sample(const World& world, Publisher& out) = 0;
+  /// Returns true if state and values of the sampler are part of the hash of the world's state.
+  /// Only a sampler that a run with and without it must agree on returns false. Snapshots contain
+  /// it either way.
+  virtual bool hashed() const { return true; }
   /// Visits the sampler's own state, such as a random generator or a delay line. The world visits
   /// the published values. Samplers without state need not override this.
   virtual void visit(Archive&) {}
@@ -141,6 +157,8 @@ class SamplerSlot {
 
   /// Returns the sampler's name.
   const std::string& name() const { return name_; }
+  /// Returns Sampler::hashed.
+  bool hashed() const { return sampler_->hashed(); }
   /// Returns true if a sample is due in step number `step` with steps of `dt` [s], that is, if that
   /// step is the nearest one to a sample time (sim/timing.h).
   bool due(std::uint64_t step, double dt) const;

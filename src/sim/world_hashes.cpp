@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/world_hashes.h"
 
+#include <algorithm>
+
 #include "core/hash.h"
 #include "core/saved_state.h"
 #include "sim/world_parts.h"
@@ -37,7 +39,10 @@ std::vector<std::pair<std::string, std::string>> WorldHashes::parts() const {
     for (const vehicle::Encoders& encoders : parts_->encoders) add_to_hash(sum, encoders);
     out.emplace_back("encoders", sum.hex());
   }
-  if (!parts_->samplers.empty()) add("arrays", parts_->arrays);
+  const auto& samplers = parts_->samplers;
+  if (std::any_of(samplers.begin(), samplers.end(),
+                  [](const auto& slot) { return slot->hashed(); }))
+    add("arrays", parts_->arrays);
   for (const auto& slot : parts_->samplers) add(slot->name().c_str(), *slot);
   return out;
 }

@@ -136,11 +136,16 @@ void WorldParts::visit(Archive& a) {
         a.item(m, [&] { a("machine", encoders[m]); });
     });
   // Always present, so that a world without samplers notices the samplers of a snapshot.
-  a.section("samplers", 2, [&] {
+  a.section("samplers", 3, [&] {
     a.constant("count", samplers.size(),
                "the snapshot has another number of samplers than the world; add the same samplers, "
                "then load");
-    for (std::size_t i = 0; i < samplers.size(); ++i) a.item(i, [&] { samplers[i]->visit(a); });
+    for (std::size_t i = 0; i < samplers.size(); ++i)
+      a.item(i, [&] {
+        if (samplers[i]->hashed()) return samplers[i]->visit(a);
+        a.unhashed("the sampler changes nothing that a run computes",
+                   [&] { samplers[i]->visit(a); });
+      });
     a("arrays", arrays);
   });
 }

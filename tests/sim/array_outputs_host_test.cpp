@@ -26,7 +26,7 @@ TEST(ArrayOutputs, AreZerosWithoutASequenceUntilPublished) {
   EXPECT_EQ(outputs.view(i).sequence(), 0u);
   EXPECT_EQ(outputs.view(i).values<std::uint8_t>().size(), 18u);
   EXPECT_EQ(outputs.view(i).values<std::uint8_t>()[17], 0);
-  outputs.publish(i, 0.25, make_pose(1, 2, 3, 0, 0, 0))[17] = std::byte{9};
+  outputs.publish(i, 0.25, make_pose(1, 2, 3, 0, 0, 0), 0.25)[17] = std::byte{9};
   const ArrayView view = outputs.view("cam/image");
   EXPECT_EQ(view.sequence(), 1u);
   EXPECT_EQ(view.time(), 0.25);
