@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor/ray_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "geometry/ray_tree.h"
+#include "sensor/ball_grid.h"
+#include "sensor/ground_rays.h"
+#include "sensor/shape_mesh.h"
+#include "sim/cylinder_shapes.h"
+#include "sim/visible_soil.h"
+
+namespace navvy::sensor {
+namespace {
+
+using geometry::TriangleMesh;
+
+/// A link as beams meet it.
+struct Body {
+  sim::LinkHandle link;          ///< the link, for its pose
+  int machine, index;            ///< indices of machine and link
+  geometry::RayTree tree;        ///< triangles in the link's frame
+  Vec3 middle, half;             ///< box around the triangles, in the link's frame [m]
+  Pose X_LW = Pose::Identity();  ///< pose of W in the link's frame
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< box around the body in W [m]
+};
+
+/// A round bar between two points.
+struct Bar {
+  Vec3 p, axis;   ///< one end, and the unit vector to the other
+  double length;  ///< distance between the ends [m]
+  double radius;  ///< [m]
+  int machine;    ///< index of the machine
+};
+
+/// Returns what a link looks like: visuals, else collisions and shells.
+TriangleMesh look_of(const scene::Machine& machine, const scene::Link& link) {
+  TriangleMesh out;
+  for (const scene::Visual& visual : link.visuals)
+    append(mesh_of(visual.geometry), visual.X_LV, out);
+  if (!link.visuals.empty()) return out;
+  for (const scene::Collision& collision : link.collisions)
+    // A plane that collides is the rock under the whole site.
+    if (collision.geometry.kind != scene::Geometry::Kind::kPlane)
+      append(mesh_of(collision.geometry), collision.X_LC, out);
+  for (const scene::Shell& shell : machine.shells)
+    if (shell.link == link.name) {
+      TriangleMesh steel;
+      steel.vertices = shell.vertices;
+      steel.triangles = shell.triangles;
+      append(steel, Pose::Identity(), out);
+    }
+  return out;
+}
+
+/// Returns true if a beam enters the box within `reach` [m].
+bool meets_box(const Vec3& low, const Vec3& high, const Vec3& p, const Vec3& inverse,
+               double reach) {
+  double near = 0, far = reach;
+  for (int k = 0; k < 3; ++k) {
+    double a = (low[k] - p[k]) * inverse[k], b = (high[k] - p[k]) * inverse[k];
+    // A product 0 x inf is not a number: the beam is in the plane of a face, which counts as
+    // inside.
+    if (std::isnan(a)) a = -std::numeric_limits<double>::infinity();
+    if (std::isnan(b)) b = std::numeric_limits<double>::infinity();
+    near = std::max(near, std::min(a, b));
+    far = std::min(far, std::max(a, b));
+  }
+  return near <= far;
+}
+
+/// Returns the distance at which a beam meets the side of a bar; a negative number for a miss.
+double meet(const Bar& bar, const Vec3& p, const Vec3& d) {
+  // Components across the axis decide about the distance from it.
+  const Vec3 q = p - bar.p;
+  const Vec3 dq = d - d.dot(bar.axis) * bar.axis, qq = q - q.dot(bar.axis) * bar.axis;
+  const double a = dq.squaredNorm(), b = dq.dot(qq), c = qq.squaredNorm() - bar.radius * bar.radius;
+  const double root = b * b - a * c;
+  if (a < 1e-12 || root < 0 || c <= 0) return -1;
+  const double t = (-b - std::sqrt(root)) / a;
+  const double along = (q + t * d).dot(bar.axis);
+  return along >= 0 && along <= bar.length ? t : -1;
+}
+
+}  // namespace
+
+struct RayScene::State {
+  explicit State(const sim::World& w) : world(w) {
+    const auto& machines = world.description().machines;
+    for (std::size_t m = 0; m < machines.size(); ++m) {
+      const scene::Machine& machine = machines[m].machine;
+      for (std::size_t l = 0; l < machine.links.size(); ++l) add_body(m, l);
+    }
+  }
+
+  void add_body(std::size_t m, std::size_t l) {
+    const scene::MachineInWorld& placed = world.description().machines[m];
+    const TriangleMesh look = look_of(placed.machine, placed.machine.links[l]);
+    if (look.triangles.empty()) return;
+    const geometry::Box box = geometry::bounds(look);
+    bodies.push_back({world.machines().at(static_cast<int>(m)).link(static_cast<int>(l)),
+                      static_cast<int>(m), static_cast<int>(l),
+                      geometry::RayTree(look, placed.name), 0.5 * (box.low + box.high),
+                      0.5 * (box.high - box.low)});
+  }
+
+  void place_bodies() {
+    for (Body& body : bodies) {
+      const Pose X_WL = body.link.pose();
+      body.X_LW = X_WL.inverse();
+      const Vec3 middle = X_WL * body.middle, half = X_WL.linear().cwiseAbs() * body.half;
+      body.low = middle - half;
+      body.high = middle + half;
+    }
+    bars.clear();
+    std::vector<scene::FrameCylinder> shapes;
+    for (int m = 0; m < world.machines().count(); ++m) {
+      shapes.clear();
+      sim::add_cylinder_shapes(world, m, shapes);
+      for (const scene::FrameCylinder& one : shapes) {
+        const Vec3 d = one.p_rod - one.p_base;
+        const double barrel = std::min(one.barrel_length, d.norm());
+        // The rod is thinner than the barrel that it leaves, as in pictures.
+        bars.push_back({one.p_base, d.normalized(), barrel, one.radius, m});
+        bars.push_back({one.p_base, d.normalized(), d.norm(), 0.6 * one.radius, m});
+      }
+    }
+  }
+
+  const sim::World& world;
+  std::vector<Body> bodies;
+  std::vector<Bar> bars;
+  GroundRays ground;
+  BallGrid balls;
+  bool fresh = false;       ///< false before the first update and after `forget`
+  std::uint64_t steps = 0;  ///< step of the last update
+};
+
+RayScene::RayScene(const sim::World& world) : state_(std::make_unique<State>(world)) {}
+RayScene::~RayScene() = default;
+
+void RayScene::forget() { state_->fresh = false; }
+
+void RayScene::update() {
+  State& s = *state_;
+  if (s.fresh && s.steps == s.world.steps()) return;
+  const sim::VisibleSoil soil = sim::visible_soil(s.world);
+  s.ground.update(soil.surface);
+  s.balls.build(soil.origin, soil.balls);
+  s.place_bodies();
+  s.steps = s.world.steps();
+  s.fresh = true;
+}
+
+std::optional<BeamHit> RayScene::first_hit(const Vec3& p_W, const Vec3& direction_W,
+                                           double reach) const {
+  const State& s = *state_;
+  if (!p_W.allFinite() || !direction_W.allFinite()) return std::nullopt;
+  std::optional<BeamHit> best;
+  double limit = reach;
+  const auto take = [&](double distance, Met what, int machine, int link) {
+    limit = distance;
+    best = BeamHit{distance, what, machine, link};
+  };
+  const Vec3 inverse = direction_W.cwiseInverse();
+  for (const Body& body : s.bodies) {
+    if (!meets_box(body.low, body.high, p_W, inverse, limit)) continue;
+    const auto hit = body.tree.first_hit(body.X_LW * p_W, body.X_LW.linear() * direction_W, limit);
+    if (hit) take(hit->distance, Met::kBody, body.machine, body.index);
+  }
+  for (const Bar& bar : s.bars)
+    if (const double t = meet(bar, p_W, direction_W); t >= 0 && t < limit)
+      take(t, Met::kBody, bar.machine, -1);
+  if (const auto t = s.balls.first_hit(p_W, direction_W, limit); t && *t < limit)
+    take(*t, Met::kSoil, -1, -1);
+  if (const auto t = s.ground.first_hit(p_W, direction_W, limit); t && *t < limit)
+    take(*t, Met::kGround, -1, -1);
+  return best;
+}
+
+bool RayScene::on_machine(int machine, const Vec3& p_W, double margin) const {
+  for (const Body& body : state_->bodies) {
+    if (body.machine != machine) continue;
+    const Vec3 p = (body.X_LW * p_W - body.middle).cwiseAbs();
+    if ((p.array() <= body.half.array() + margin).all()) return true;
+  }
+  for (const Bar& bar : state_->bars) {
+    if (bar.machine != machine) continue;
+    const double along = std::clamp((p_W - bar.p).dot(bar.axis), 0.0, bar.length);
+    if ((p_W - bar.p - along * bar.axis).norm() <= bar.radius + margin) return true;
+  }
+  return false;
+}
+
+std::string RayScene::around(const Vec3& p_W) const {
+  const State& s = *state_;
+  const heightfield::TerrainView& surface = s.ground.surface();
+  const Vec2i column = surface.column_at(p_W.x(), p_W.y());
+  if (surface.contains(column.x(), column.y()) && p_W.z() <= surface.sample(p_W.x(), p_W.y()))
+    return "the ground";
+  for (const Body& body : s.bodies) {
+    if ((p_W.array() < body.low.array()).any() || (p_W.array() > body.high.array()).any()) continue;
+    const Vec3 p_L = body.X_LW * p_W;
+    // From inside a closed body, every beam first meets the back of a face. Three beams tell an
+    // open mesh from a closed one.
+    bool inside = true;
+    for (const Vec3& d : {Vec3(0.31, 0.17, 0.93), Vec3(-0.83, 0.41, -0.37), Vec3(0.2, -0.9, 0.4)}) {
+      const auto hit = body.tree.first_hit(p_L, d);
+      inside = inside && hit && hit->normal.dot(d) > 0;
+    }
+    const scene::MachineInWorld& placed =
+        s.world.description().machines[static_cast<std::size_t>(body.machine)];
+    if (inside)
+      return "link '" + placed.machine.links[static_cast<std::size_t>(body.index)].name + "' of '" +
+             placed.name + "'";
+  }
+  return "";
+}
+
+}  // namespace navvy::sensor

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor/shape_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "geometry/obj/read_obj.h"
+
+namespace navvy::sensor {
+namespace {
+
+using geometry::TriangleMesh;
+
+/// Radius and height of a ring about z.
+struct Ring {
+  double radius, z;
+};
+
+/// Returns the number of sides of a circle with this radius [m] whose chords stay within
+/// kRoundness.
+int sides_of(double radius) {
+  const double angle = std::acos(std::clamp(1 - kRoundness / std::max(radius, 1e-6), -1.0, 1.0));
+  return std::clamp(static_cast<int>(std::ceil(kPi / std::max(angle, 1e-3))), 16, 720);
+}
+
+/// Returns the body of revolution between rings from bottom to top; rings of radius 0 are points.
+TriangleMesh revolved(const std::vector<Ring>& rings, int sides) {
+  TriangleMesh out;
+  for (const Ring& ring : rings)
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * kPi * i / sides;
+      out.vertices.emplace_back(ring.radius * std::cos(angle), ring.radius * std::sin(angle),
+                                ring.z);
+    }
+  const int last = static_cast<int>(rings.size()) - 1;
+  for (int r = 0; r < last; ++r)
+    for (int i = 0; i < sides; ++i) {
+      const int a = r * sides + i, b = r * sides + (i + 1) % sides, c = a + sides, d = b + sides;
+      if (rings[static_cast<std::size_t>(r)].radius > 0) out.triangles.push_back({a, b, d});
+      if (rings[static_cast<std::size_t>(r) + 1].radius > 0) out.triangles.push_back({a, d, c});
+    }
+  return out;
+}
+
+/// Appends the rings of a hemisphere: `top` is 1 for the upper and -1 for the lower one.
+void add_hemisphere(double radius, double middle, int top, int rings, std::vector<Ring>& out) {
+  for (int i = 0; i <= rings; ++i) {
+    const double angle = 0.5 * kPi * (top > 0 ? i : rings - i) / rings;
+    const bool pole = i == (top > 0 ? rings : 0);
+    out.push_back({pole ? 0 : radius * std::cos(angle), middle + top * radius * std::sin(angle)});
+  }
+}
+
+TriangleMesh box(const Vec3& size) {
+  TriangleMesh out;
+  for (int i = 0; i < 8; ++i)
+    out.vertices.push_back(0.5 *
+                           size.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
+                                                  (i & 4) != 0 ? 1 : -1)));
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+        std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+    out.triangles.push_back({a, b, c});
+    out.triangles.push_back({a, c, d});
+  }
+  return out;
+}
+
+TriangleMesh rectangle(const Vec3& size) {
+  TriangleMesh out;
+  const double x = 0.5 * size.x(), y = 0.5 * size.y();
+  out.vertices = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
+  out.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return out;
+}
+
+TriangleMesh scaled_file(const scene::Geometry& shape) {
+  TriangleMesh out = geometry::read_obj(shape.mesh_file);
+  for (Vec3& v : out.vertices) v = v.cwiseProduct(shape.scale);
+  return out;
+}
+
+}  // namespace
+
+TriangleMesh mesh_of(const scene::Geometry& shape) {
+  using Kind = scene::Geometry::Kind;
+  const double r = shape.radius, half = 0.5 * shape.length;
+  const int sides = sides_of(r);
+  std::vector<Ring> rings;
+  switch (shape.kind) {
+    case Kind::kBox:
+      return box(shape.size);
+    case Kind::kCylinder:
+      return revolved({{0, -half}, {r, -half}, {r, half}, {0, half}}, sides);
+    case Kind::kCone:
+      return revolved({{0, -half}, {r, -half}, {0, half}}, sides);
+    case Kind::kSphere:
+      add_hemisphere(r, 0, -1, sides / 4, rings);
+      rings.pop_back();  // the equator belongs to both halves
+      add_hemisphere(r, 0, 1, sides / 4, rings);
+      return revolved(rings, sides);
+    case Kind::kCapsule:
+      add_hemisphere(r, -half, -1, sides / 4, rings);
+      add_hemisphere(r, half, 1, sides / 4, rings);
+      return revolved(rings, sides);
+    case Kind::kPlane:
+      return rectangle(shape.size);
+    case Kind::kMesh:
+      break;
+  }
+  return scaled_file(shape);
+}
+
+void append(const TriangleMesh& part, const Pose& X_AP, TriangleMesh& whole) {
+  const int first = static_cast<int>(whole.vertices.size());
+  for (const Vec3& v : part.vertices) whole.vertices.push_back(X_AP * v);
+  for (const auto& t : part.triangles)
+    whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+}  // namespace navvy::sensor
