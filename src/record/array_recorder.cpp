@@ -1,24 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/array_recorder.h"
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "sensor/sensor_output.h"
 
 namespace navvy::record {
 namespace {
 
-/// Returns the file of an array within the run's folder.
-std::string file_of(const sim::ArrayChannel& channel) { return "arrays/" + channel.name + ".npy"; }
+/// Returns the file of an array within the run's folder. `sensor` is the sensor that publishes it;
+/// null if none does.
+std::string file_of(const sim::ArrayChannel& channel, const sensor::SensorOutput* sensor) {
+  return (sensor != nullptr ? "sensors/" : "arrays/") + channel.name + ".npy";
+}
+
+/// Returns the sensor whose array has this index; null if there is none.
+const sensor::SensorOutput* sensor_of(const std::vector<sensor::SensorOutput>& sensors,
+                                      std::size_t array) {
+  for (const sensor::SensorOutput& one : sensors)
+    for (const sensor::SensorArray& each : one.arrays)
+      if (each.index == static_cast<int>(array)) return &one;
+  return nullptr;
+}
 
 /// Returns what a reader needs beside the numbers.
-nlohmann::json entry_of(const sim::ArrayChannel& channel) {
-  return {{"name", channel.name},    {"file", file_of(channel)},
+nlohmann::json entry_of(const sim::ArrayChannel& channel, const std::string& file) {
+  return {{"name", channel.name},    {"file", file},
           {"unit", channel.unit},    {"type", sim::name_of(channel.type)},
           {"frame", channel.frame},  {"shape", channel.shape},
           {"rate_hz", channel.rate}, {"meaning", channel.meaning}};
+}
+
+/// Returns the row of a reading: microseconds are enough, and readable.
+std::string row_of(const sim::ArrayView& value) {
+  char row[96];
+  std::snprintf(row, sizeof row, "%llu,%.6f,%.6f,%.6f",
+                static_cast<unsigned long long>(value.sequence()), value.time(), value.delivered(),
+                value.delivered() - value.time());
+  return row;
 }
 
 }  // namespace
@@ -31,16 +54,26 @@ ArrayRecorder::ArrayRecorder(const session::Session& session, RunFolder& folder)
 void ArrayRecorder::open_new() {
   const std::vector<sim::ArrayChannel>& channels = session_.world().arrays().channels();
   if (streams_.size() == channels.size()) return;
-  for (std::size_t i = streams_.size(); i < channels.size(); ++i)
-    streams_.push_back(
-        {std::make_unique<ArrayFile>(folder_.path(file_of(channels[i])), channels[i]), 0});
+  const std::vector<sensor::SensorOutput> sensors = sensor::sensor_outputs(session_.world());
+  for (std::size_t i = streams_.size(); i < channels.size(); ++i) {
+    const sensor::SensorOutput* sensor = sensor_of(sensors, i);
+    const std::string name = file_of(channels[i], sensor);
+    streams_.push_back({std::make_unique<ArrayFile>(folder_.path(name), channels[i]), 0, name});
+    // All arrays of a sensor are published together, so one list is enough.
+    if (sensor == nullptr || sensor->arrays.front().index != static_cast<int>(i)) continue;
+    Stream& stream = streams_.back();
+    stream.index_name = "sensors/" + sensor->name + "/index.csv";
+    stream.index = std::make_unique<RowFile>(folder_.path(stream.index_name),
+                                             "reading,measured_s,delivered_s,latency_s");
+  }
   write_index();
 }
 
 void ArrayRecorder::write_index() {
   const std::vector<sim::ArrayChannel>& channels = session_.world().arrays().channels();
   nlohmann::json index = nlohmann::json::array();
-  for (const sim::ArrayChannel& channel : channels) index.push_back(entry_of(channel));
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    index.push_back(entry_of(channels[i], streams_[i].name));
   write_file_atomically(folder_.path("arrays/index.json"),
                         index.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
@@ -53,6 +86,7 @@ void ArrayRecorder::observe() {
     if (value.sequence() == streams_[i].sequence) continue;
     streams_[i].sequence = value.sequence();
     streams_[i].file->add(value);
+    if (streams_[i].index != nullptr) streams_[i].index->add(row_of(value));
   }
 }
 
@@ -63,14 +97,18 @@ void ArrayRecorder::restart() {
 }
 
 void ArrayRecorder::move_out() {
-  const std::vector<sim::ArrayChannel>& channels = session_.world().arrays().channels();
-  for (std::size_t i = 0; i < streams_.size(); ++i)
-    streams_[i].file->move_to(folder_.path(file_of(channels[i])));
+  for (Stream& stream : streams_) {
+    stream.file->move_to(folder_.path(stream.name));
+    if (stream.index != nullptr) stream.index->move_to(folder_.path(stream.index_name));
+  }
   if (!streams_.empty()) write_index();
 }
 
 void ArrayRecorder::checkpoint(bool end) {
-  for (const Stream& stream : streams_) end ? stream.file->sync() : stream.file->flush();
+  for (const Stream& stream : streams_) {
+    end ? stream.file->sync() : stream.file->flush();
+    if (stream.index != nullptr) end ? stream.index->sync() : stream.index->flush();
+  }
 }
 
 }  // namespace navvy::record

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "record/array_file.h"
+#include "record/row_file.h"
 #include "record/run_folder.h"
 #include "session/session.h"
 
@@ -15,9 +17,12 @@ namespace navvy::record {
 
 /// Records every published value of every array of a world.
 ///
-/// An array named "excavator/lidar" is written to `arrays/excavator/lidar.npy` (array_file.h). The
-/// file `arrays/index.json` lists file, element type, shape, unit, frame, rate and meaning of each
-/// array. Neither is written for a world without arrays.
+/// An array named "excavator/grid" is written to `arrays/excavator/grid.npy` (array_file.h). The
+/// array "ranges" of the sensor "laser" of "robot" is written to `sensors/robot/laser/ranges.npy`,
+/// beside an `index.csv` with one row per reading: its number, the times of its measurement and of
+/// its delivery, and the latency between them. The file `arrays/index.json` lists file, element
+/// type, shape, unit, frame, rate and meaning of each array. None of them is written for a world
+/// without arrays.
 class ArrayRecorder {
  public:
   /// Keeps references to `session` and `folder`, which must outlive this object.
@@ -45,6 +50,12 @@ class ArrayRecorder {
     std::unique_ptr<ArrayFile> file;
     /// Sequence number of the last recorded value; 0 if none was recorded.
     std::uint64_t sequence = 0;
+    /// Path in the run's folder.
+    std::string name;
+    /// List of a sensor's readings; only with the first array of a sensor.
+    std::unique_ptr<RowFile> index = nullptr;
+    /// Path of that list in the run's folder.
+    std::string index_name = "";
   };
   /// Opens files for arrays that were added to the world since the last call, and updates the
   /// index.

@@ -8,6 +8,7 @@
 #include "heightfield/design_surface.h"
 #include "record/earthwork.h"
 #include "record/program_list.h"
+#include "sensor/sensor_output.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::record {
@@ -90,6 +91,19 @@ json names_of(const session::Session& session, const sim::LinkPair& links) {
           {"link", machine.link(links.link).name()},
           {"other_machine", other.name()},
           {"other_link", other.link(links.other_link).name()}};
+}
+
+/// Returns the sensors with their numbers of readings.
+json sensor_list(const sim::World& world) {
+  json out = json::array();
+  for (const sensor::SensorOutput& one : sensor::sensor_outputs(world))
+    out.push_back({{"name", one.name},
+                   {"type", one.description->type},
+                   {"link", one.link_name},
+                   {"rate_hz", one.description->rate},
+                   {"latency_s", one.description->latency},
+                   {"readings", world.arrays().view(one.arrays.front().index).sequence()}});
+  return out;
 }
 
 /// Returns an entry for each collision of two links.
@@ -175,6 +189,7 @@ void add_programs(const session::Session& session, const std::string& status, js
     out["payload_kg"].push_back(cycle.payload_lift_out);
   out["tip_list"] = tip_list(session);
   out["carried_kg"] = carried(session);
+  if (json sensors = sensor_list(session.world()); !sensors.empty()) out["sensors"] = sensors;
   out["collisions"] = collision_list(session);
   out["collision_count"] = session.collisions().count();
   out["overlaps"] = overlap_list(session);
