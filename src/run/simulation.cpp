@@ -19,6 +19,7 @@
 #include "record/run_folder.h"
 #include "record/summary.h"
 #include "run/start_checks.h"
+#include "sensor/make_sensors.h"
 #include "sim/world_terrain.h"
 
 namespace navvy::run {
@@ -83,6 +84,8 @@ struct Simulation::State {
 std::unique_ptr<session::Session> Simulation::State::make_session(scene::Scene scene) const {
   auto out = std::make_unique<session::Session>(std::move(scene), *device, planner::path_planners(),
                                                 options.make_engine);
+  for (std::unique_ptr<sim::Sampler>& one : sensor::make_sensors(out->world()))
+    out->add(std::move(one));
   if (options.set_up) options.set_up(*out);
   return out;
 }

@@ -23,6 +23,22 @@ inline scene::Scene bucket_scene(double duration, std::string* text = nullptr) {
                               control::step_kinds(), overrides, text);
 }
 
+/// Returns the scene of `bucket_scene` with a sensor "bucket/gauge" of the joint slide_z, at 50 Hz
+/// and with a latency of 5 ms.
+inline scene::Scene gauged_scene(double duration) {
+  scene::Scene scene = bucket_scene(duration);
+  scene::Sensor gauge;
+  gauge.name = "gauge";
+  gauge.type = "navvy:joint";
+  gauge.rate = 50;
+  gauge.latency = 0.005;
+  scene::JointGauge kind;
+  kind.joint = "slide_z";
+  gauge.kind = kind;
+  scene.machines.front().machine.links.front().sensors.push_back(gauge);
+  return scene;
+}
+
 /// Returns options with a sampler: the array "bucket/height_grid" of 5 x 5 heights at 50 Hz.
 inline SimulationOptions with_height_grid(SimulationOptions options = {}) {
   options.set_up = [](session::Session& session) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "core/error.h"
 #include "folder.h"
@@ -254,6 +257,51 @@ TEST(Simulation, RecordsArraysThatNumPyReadsInOneLine) {
   const std::string command = "/usr/bin/python3 '" + (folder / "read.py") + "' '" + file + "' " +
                               std::to_string(last.sequence()) + " " + json(last.time()).dump();
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(Simulation, RecordsReadingsOfSensorsWithTheirTimes) {
+  const navvy::test::Folder folder;
+  SimulationOptions options;
+  options.folder = folder / "out";
+  Simulation simulation(test::gauged_scene(0.2), options);
+  simulation.run_to_end();
+  const std::uint64_t readings = simulation.arrays().view("bucket/gauge/state").sequence();
+  EXPECT_GE(readings, 9u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/sensors/bucket/gauge/state.npy"));
+  EXPECT_EQ(json_of(folder / "out/arrays/index.json")[0].at("file"),
+            "sensors/bucket/gauge/state.npy");
+  std::istringstream rows(navvy::test::text_of(folder / "out/sensors/bucket/gauge/index.csv"));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "reading,measured_s,delivered_s,latency_s");
+  std::uint64_t count = 0;
+  for (; std::getline(rows, row); ++count) {
+    unsigned long long number = 0;
+    double measured = 0, delivered = 0, latency = 0;
+    ASSERT_EQ(
+        std::sscanf(row.c_str(), "%llu,%lf,%lf,%lf", &number, &measured, &delivered, &latency), 4);
+    EXPECT_EQ(number, count + 1);
+    EXPECT_NEAR(measured, 0.02 * static_cast<double>(count), 0.001);
+    EXPECT_GE(latency, 0.005 - 1e-6);
+    EXPECT_LT(latency, 0.005 + simulation.world().dt());
+  }
+  EXPECT_EQ(count, readings);
+  const json sensors = json_of(folder / "out/summary.json").at("sensors");
+  ASSERT_EQ(sensors.size(), 1u);
+  EXPECT_EQ(sensors[0].at("name"), "bucket/gauge");
+  EXPECT_EQ(sensors[0].at("readings"), readings);
+}
+
+TEST(Simulation, ResetRepeatsTheReadingsOfSensors) {
+  Simulation simulation(test::gauged_scene(2));
+  simulation.step(100);
+  const double first = simulation.arrays().view("bucket/gauge/state").values<double>()[0];
+  const std::uint64_t count = simulation.arrays().view("bucket/gauge/state").sequence();
+  simulation.reset();
+  EXPECT_EQ(simulation.arrays().view("bucket/gauge/state").sequence(), 0u);
+  simulation.step(100);
+  EXPECT_EQ(simulation.arrays().view("bucket/gauge/state").sequence(), count);
+  EXPECT_EQ(simulation.arrays().view("bucket/gauge/state").values<double>()[0], first);
 }
 
 }  // namespace
