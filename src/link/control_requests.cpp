@@ -19,6 +19,7 @@
 #include "map/map_queries.h"
 #include "map/map_sources.h"
 #include "render/image.h"
+#include "sensor/sensor_output.h"
 
 namespace navvy::link {
 
@@ -26,8 +27,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRequests[] = {"heights", "changed", "arrays", "image", "info",
-                                     "reset",   "save",    "load",   "watch"};
+constexpr const char* kRequests[] = {"heights", "changed", "arrays", "frames", "image",
+                                     "info",    "reset",   "save",   "load",   "watch"};
 /// Maximum number of values in an answer: a million numbers are 10 MB of JSON.
 constexpr double kMostCells = 1e6;
 constexpr std::size_t kMaxArrays = 1000;
@@ -79,8 +80,8 @@ json described(const sim::ArrayChannel& channel) {
           {"meaning", channel.meaning}};
 }
 
-/// Returns the latest value of an array. The bytes are little-endian, row major.
-json value_of(const sim::ArrayView& view) {
+/// Returns what an array is and its latest value's stamps, without the value.
+json stamped(const sim::ArrayView& view) {
   static_assert(std::endian::native == std::endian::little,
                 "arrays are sent as they are in memory");
   // Pose of the array's frame in W at the time of its stamp.
@@ -89,9 +90,32 @@ json value_of(const sim::ArrayView& view) {
   json out = described(view.channel());
   out["sequence"] = view.sequence();
   out["time"] = view.time();
+  out["delivered"] = view.delivered();
   out["position_m"] = {p.x(), p.y(), p.z()};
   out["quaternion_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
+  return out;
+}
+
+/// Returns what an array is and its latest value as text.
+json value_of(const sim::ArrayView& view) {
+  json out = stamped(view);
   out["data_base64"] = base64(view.bytes());
+  return out;
+}
+
+/// Returns the names in a request for arrays; `true` stands for all arrays.
+std::vector<std::string> names_in(const std::string& key, const json& what,
+                                  const sim::ArrayOutputs& all, std::size_t most) {
+  std::vector<std::string> out;
+  if (what == json(true)) {
+    for (const sim::ArrayChannel& channel : all.channels()) out.push_back(channel.name);
+    return out;
+  }
+  if (!what.is_array() || what.size() > most)
+    refuse(key, what,
+           "must be a list of at most " + std::to_string(most) + " names, or true for all",
+           "{\"" + key + R"(": ["name"]})");
+  for (const json& name : what) out.push_back(text_in(key, name));
   return out;
 }
 
@@ -131,6 +155,7 @@ map::UpdateFeed::Update ControlRequests::now() { return feed_.publish(simulation
 
 json ControlRequests::answer(const json& line) {
   moved_ = false;
+  bytes_.clear();
   const std::string key = line.begin().key();
   if (line.size() != 1)
     refuse(key, line, "a request is a line of its own and sets no inputs", "send two lines");
@@ -141,6 +166,7 @@ json ControlRequests::dispatch(const std::string& key, const json& what) {
   if (key == "heights") return heights(what);
   if (key == "changed") return changed(what);
   if (key == "arrays") return arrays(what);
+  if (key == "frames") return frames(what);
   if (key == "image") return image(what);
   if (key == "watch") return watch(what);
   if (key == "info" || key == "reset") must_be_true(key, what);
@@ -277,19 +303,27 @@ json ControlRequests::changed(const json& what) {
 json ControlRequests::arrays(const json& what) const {
   const sim::ArrayOutputs& all = simulation_.arrays();
   json out = json::object();
-  if (what == json(true)) {
-    for (const sim::ArrayChannel& channel : all.channels())
-      out[channel.name] = value_of(all.view(channel.name));
-    return out;
-  }
-  if (!what.is_array() || what.size() > kMaxArrays)
-    refuse("arrays", what, "must be a list of at most 1000 names, or true for all",
-           R"({"arrays": ["name"]})");
-  for (const json& name : what) {
-    const std::string text = text_in("arrays", name);
-    out[text] = value_of(all.view(text));
-  }
+  for (const std::string& name : names_in("arrays", what, all, kMaxArrays))
+    out[name] = value_of(all.view(name));
   return out;
+}
+
+/// Answers with the arrays of the given names, whose elements follow the line in its order.
+json ControlRequests::frames(const json& what) {
+  const sim::ArrayOutputs& all = simulation_.arrays();
+  json list = json::array();
+  std::string bytes;
+  for (const std::string& name : names_in("frames", what, all, kMaxArrays)) {
+    const sim::ArrayView view = all.view(name);
+    json one = stamped(view);
+    one["name"] = name;
+    one["bytes"] = view.bytes().size();
+    list.push_back(std::move(one));
+    bytes.append(reinterpret_cast<const char*>(view.bytes().data()), view.bytes().size());
+  }
+  // Only now, so that an unknown name leaves nothing behind.
+  bytes_ = std::move(bytes);
+  return {{"arrays", list}, {"time", simulation_.time()}, {"bytes", bytes_.size()}};
 }
 
 /// Answers with a picture as PNG.
@@ -314,9 +348,20 @@ json ControlRequests::info() const {
     for (const sim::Channel& channel : channels) out[channel.name] = channel.unit;
     return out;
   };
-  json layers = json::object(), cameras = json::array(), arrays = json::object();
+  json layers = json::object(), cameras = json::array(), arrays = json::object(),
+       sensors = json::object();
   for (const sim::ArrayChannel& channel : world.arrays().channels())
     arrays[channel.name] = described(channel);
+  for (const sensor::SensorOutput& one : sensor::sensor_outputs(world)) {
+    json names = json::array();
+    for (const sensor::SensorArray& array : one.arrays)
+      names.push_back(one.name + "/" + array.quantity);
+    sensors[one.name] = {{"type", one.description->type},
+                         {"link", one.link_name},
+                         {"rate_hz", one.description->rate},
+                         {"latency_s", one.description->latency},
+                         {"arrays", names}};
+  }
   for (const map::LayerInfo& each : map::layers()) layers[each.name] = each.unit;
   for (const scene::Camera& camera : world.description().cameras) cameras.push_back(camera.name);
   return {{"scene", world.description().name},
@@ -332,6 +377,7 @@ json ControlRequests::info() const {
           {"inputs", units(world.inputs().channels())},
           {"outputs", units(world.outputs().channels())},
           {"arrays", arrays},
+          {"sensors", sensors},
           {"layers", layers},
           {"cameras", cameras}};
 }

@@ -28,8 +28,9 @@ struct ControlServices {
 
 /// Answers requests of a controller (docs/reference/control_protocol.md).
 ///
-/// A request is a JSON object with one key: "info", "heights", "changed", "arrays", "image",
-/// "reset", "save", "load" or "watch". Simulated time does not advance while a request is answered.
+/// A request is a JSON object with one key: "info", "heights", "changed", "arrays", "frames",
+/// "image", "reset", "save", "load" or "watch". Simulated time does not advance while a request is
+/// answered.
 ///
 /// The requests "heights" and "changed" use a map that this class makes at its construction and
 /// updates at each such request.
@@ -48,6 +49,9 @@ class ControlRequests {
   /// Returns true if the last answered request replaced the state of the simulation ("reset" or
   /// "load"), so that its outputs have changed.
   bool moved() const { return moved_; }
+  /// Returns the bytes that follow the line of the last answer: the elements of the arrays of
+  /// "frames"; empty after all other requests.
+  const std::string& bytes() const { return bytes_; }
 
  private:
   /// Returns the answer to the request `key` with the value `what`. (`answer` puts it into an
@@ -59,6 +63,8 @@ class ControlRequests {
   nlohmann::json changed(const nlohmann::json& what);
   /// Answers "arrays": the latest samples of the named arrays, or of all arrays.
   nlohmann::json arrays(const nlohmann::json& what) const;
+  /// Answers "frames": as "arrays", with the elements as bytes behind the line.
+  nlohmann::json frames(const nlohmann::json& what);
   /// Answers "image": the picture of a camera as PNG.
   nlohmann::json image(const nlohmann::json& what) const;
   /// Answers "info": scene, device, rates, site and channels.
@@ -83,6 +89,8 @@ class ControlRequests {
   map::UpdateFeed feed_;
   /// True if the last answered request replaced the state of the simulation.
   bool moved_ = false;
+  /// Bytes that follow the line of the last answer.
+  std::string bytes_;
 };
 
 }  // namespace navvy::link

@@ -167,7 +167,7 @@ bool ControlStdio::say_outputs() {
 
 bool ControlStdio::answer(const json& request) {
   const json said = requests_.answer(request);
-  if (!say(line_of(said))) return false;
+  if (!say(line_of(said)) || !say(requests_.bytes())) return false;
   // The next inputs refer to the present state, so its outputs are sent again.
   return !requests_.moved() || say_outputs();
 }

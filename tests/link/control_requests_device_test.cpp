@@ -58,6 +58,32 @@ TEST(ControlRequests, SendArraysWithStampShapeUnitAndFrame) {
   EXPECT_FALSE(info.at("arrays").at("bucket/height_grid").contains("data_base64"));
 }
 
+TEST(ControlRequests, SendFramesAsBytesBehindTheLine) {
+  run::Simulation simulation(run::test::gauged_scene(2), run::test::with_height_grid());
+  ControlRequests requests(simulation, 50);
+  ASSERT_TRUE(ControlRequests::is_request(json{{"frames", true}}));
+  simulation.step(30);
+  const json answer =
+      requests.answer({{"frames", {"bucket/height_grid", "bucket/gauge/state"}}}).at("frames");
+  ASSERT_EQ(answer.at("arrays").size(), 2u);
+  EXPECT_EQ(answer.at("bytes"), 100 + 24);
+  const json& gauge = answer.at("arrays")[1];
+  EXPECT_EQ(gauge.at("name"), "bucket/gauge/state");
+  EXPECT_EQ(gauge.at("bytes"), 24);
+  EXPECT_FALSE(gauge.contains("data_base64"));
+  const sim::ArrayView view = simulation.arrays().view("bucket/gauge/state");
+  EXPECT_EQ(gauge.at("sequence"), view.sequence());
+  EXPECT_EQ(gauge.at("delivered"), view.delivered());
+  ASSERT_EQ(requests.bytes().size(), 124u);
+  EXPECT_EQ(std::memcmp(requests.bytes().data() + 100, view.bytes().data(), 24), 0);
+  // The bytes belong to this answer alone, and a refused request leaves none.
+  EXPECT_THROW(requests.answer({{"frames", {"bucket/gauge/stat"}}}), InputError);
+  EXPECT_TRUE(requests.bytes().empty());
+  const json info = requests.answer({{"info", true}}).at("info").at("sensors").at("bucket/gauge");
+  EXPECT_EQ(info.at("type"), "navvy:joint");
+  EXPECT_EQ(info.at("arrays"), json({"bucket/gauge/state"}));
+}
+
 TEST(ControlRequests, RefuseUnknownArraysWithTheNearestName) {
   run::Simulation simulation(run::test::bucket_scene(2), run::test::with_height_grid());
   ControlRequests requests(simulation, 50);
