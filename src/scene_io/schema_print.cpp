@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 
 #include "scene_io/schema.h"
 #include "scene_io/sdf_rules.h"
@@ -114,11 +115,32 @@ void print_json(const SchemaNode& node, const std::string& indent, std::string& 
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
+/// Paths of the sections so far, by what is inside their elements.
+using Sections = std::map<std::string, std::string>;
+
+// Fewer rows than this are printed again, since a reader finds them faster than a reference.
+constexpr std::size_t kShortTable = 8;
+
+/// Returns the path of an earlier section with the same elements inside; empty if this is the first
+/// one or a short one.
+std::string earlier_section(const SchemaNode& node, const std::string& path, Sections& sections) {
+  if (node.children.size() < kShortTable) return "";
+  std::string inside;
+  for (const SchemaNode& child : node.children) print_json(child, "", inside);
+  const auto [at, is_new] = sections.emplace(inside, path);
+  return is_new ? "" : at->second;
+}
+
 /// Appends a section for a node and for every element with children below it.
-void print_markdown(const SchemaNode& node, const std::string& path, std::string& out) {
+void print_markdown(const SchemaNode& node, const std::string& path, Sections& sections,
+                    std::string& out) {
   out += "\n### `" + path + "`\n" + node.text + "\n";
   if (node.repeats) out += "At most " + std::to_string(node.most) + ".\n";
   if (node.children.empty()) return;
+  if (const std::string same = earlier_section(node, path, sections); !same.empty()) {
+    out += "\nIts elements are those of `" + same + "`.\n";
+    return;
+  }
   out += "\n| Element | Unit or type | Default | Range | Meaning |\n|---|---|---|---|---|\n";
   const auto row = [&out](const SchemaNode& child, const std::string& owner) {
     out += "| " + (child.attribute ? "attribute " : std::string()) + code(child.name) + owner +
@@ -133,7 +155,7 @@ void print_markdown(const SchemaNode& node, const std::string& path, std::string
   }
   for (const SchemaNode& child : node.children)
     if (child.type == "element" && !child.children.empty())
-      print_markdown(child, path + "/" + child.name, out);
+      print_markdown(child, path + "/" + child.name, sections, out);
 }
 
 }  // namespace
@@ -164,7 +186,8 @@ std::string schema_markdown(const Schema& schema) {
       "be in files\nof their own, directly below `sdf`. `--set` names elements without `navvy:`; "
       "`machine` is an\n`include` or a `model`: `--set machine.digger.program.dig.depth_m=1`.\n\n"
       "## Elements\n";
-  print_markdown(*schema.root().child("world"), "world", out);
+  Sections sections;
+  print_markdown(*schema.root().child("world"), "world", sections, out);
   out += "\n## Elements of SDF\n\n| In | Element | Use | Remark |\n|---|---|---|---|\n";
   for (const SdfUse& row : sdf_uses()) {
     const auto list = [](const std::string& words) {

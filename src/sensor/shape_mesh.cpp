@@ -87,7 +87,8 @@ TriangleMesh scaled_file(const scene::Geometry& shape) {
 TriangleMesh mesh_of(const scene::Geometry& shape) {
   using Kind = scene::Geometry::Kind;
   const double r = shape.radius, half = 0.5 * shape.length;
-  const int sides = sides_of(r);
+  // Balls are curved both ways, so that the gaps of both add up.
+  const int sides = sides_of(r), both = sides + sides / 2;
   std::vector<Ring> rings;
   switch (shape.kind) {
     case Kind::kBox:
@@ -97,14 +98,14 @@ TriangleMesh mesh_of(const scene::Geometry& shape) {
     case Kind::kCone:
       return revolved({{0, -half}, {r, -half}, {0, half}}, sides);
     case Kind::kSphere:
-      add_hemisphere(r, 0, -1, sides / 4, rings);
+      add_hemisphere(r, 0, -1, both / 4, rings);
       rings.pop_back();  // the equator belongs to both halves
-      add_hemisphere(r, 0, 1, sides / 4, rings);
-      return revolved(rings, sides);
+      add_hemisphere(r, 0, 1, both / 4, rings);
+      return revolved(rings, both);
     case Kind::kCapsule:
-      add_hemisphere(r, -half, -1, sides / 4, rings);
-      add_hemisphere(r, half, 1, sides / 4, rings);
-      return revolved(rings, sides);
+      add_hemisphere(r, -half, -1, both / 4, rings);
+      add_hemisphere(r, half, 1, both / 4, rings);
+      return revolved(rings, both);
     case Kind::kPlane:
       return rectangle(shape.size);
     case Kind::kMesh:

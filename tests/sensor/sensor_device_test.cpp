@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -251,11 +252,11 @@ TEST_F(SensorTest, ContactSwitchClosesWhenABodyLands) {
     world->step();
     const auto read = world->arrays().view("plate/bumper/contact").values<double>();
     closed = closed || read[0] == 1;
-    force = read[1];
+    force = std::max(force, read[1]);
   }
   EXPECT_TRUE(closed);
-  // At rest it bears the weight; single steps vary.
-  EXPECT_GT(force, 0.5 * 5 * 9.81);
+  // More than its weight stops the fall.
+  EXPECT_GT(force, 5 * 9.81);
 }
 
 }  // namespace
