@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "control/pursuit.h"
 #include "scene/machine.h"
@@ -59,5 +60,22 @@ class DifferentialOdometry {
   // Distance rolled since the last `reset` [m]; driving backwards decreases it.
   double distance_ = 0;
 };
+
+/// Dead reckoning of a machine by two of its wheels: one pair on the left and right of one axle,
+/// neither of them steered, each with an encoder.
+struct WheelOdometry {
+  /// Estimate of the pose of the point `p_M`, to be reset before the first update.
+  DifferentialOdometry estimate;
+  /// Indices in scene::Machine::joints of the joints of the left and the right wheel.
+  int left = -1, right = -1;
+  /// Point of the machine that moves along its heading, in the machine's frame M: the middle of the
+  /// two wheels; with several driven axles or tracks, the middle of all driven wheels or rollers
+  /// [m].
+  Vec2 p_M = Vec2::Zero();
+};
+/// Returns the odometry of a machine, nothing if it lacks such wheels. The wheels of a differential
+/// drive must be driven, and its track width is that of the drive; other machines have the distance
+/// of the two wheels as track width.
+std::optional<WheelOdometry> wheel_odometry(const scene::Machine& machine);
 
 }  // namespace navvy::control

@@ -227,5 +227,74 @@ TEST(OneController, DrivesBothPhysicsEnginesWithSlipAsTheOnlyDifference) {
   EXPECT_LT((falsified.trace.back().p - rolling.trace.back().p).norm(), 0.02);
 }
 
+/// A machine of four wheels with encoders; the front ones are steered.
+scene::Machine car() {
+  scene::Machine out;
+  out.links.resize(1);
+  const auto add = [&](const char* name, double x, double y, bool steered) {
+    scene::Link link;
+    link.name = name;
+    link.X_ML.translation() = Vec3(x, y, 0.3);
+    scene::Joint joint;
+    joint.name = name;
+    joint.type = scene::Joint::Type::kRevolute;
+    joint.parent = 0;
+    joint.child = static_cast<int>(out.links.size());
+    scene::Wheel wheel;
+    wheel.joint = name;
+    wheel.radius = 0.3;
+    if (steered) wheel.steer_joint = "steering";
+    scene::Encoder encoder;
+    encoder.joint = name;
+    encoder.counts_per_turn = 1000;
+    out.links.push_back(link);
+    out.joints.push_back(joint);
+    out.wheels.push_back(wheel);
+    out.encoders.push_back(encoder);
+  };
+  add("front_left", 2, 0.7, true);
+  add("front_right", 2, -0.7, true);
+  add("rear_left", -0.5, 0.8, false);
+  add("rear_right", -0.5, -0.8, false);
+  return out;
+}
+
+TEST(WheelOdometry, OfACarRollsOnTheAxleThatIsNotSteered) {
+  const scene::Machine machine = car();
+  auto odometry = wheel_odometry(machine);
+  ASSERT_TRUE(odometry);
+  EXPECT_EQ(machine.joints[static_cast<std::size_t>(odometry->left)].name, "rear_left");
+  EXPECT_EQ(machine.joints[static_cast<std::size_t>(odometry->right)].name, "rear_right");
+  EXPECT_TRUE(odometry->p_M.isApprox(Vec2(-0.5, 0)));
+  // The right wheel alone turns once: 0.6 pi metres about the left one, 1.6 m away.
+  odometry->estimate.reset({}, 0, 0);
+  odometry->estimate.update(0, 1000);
+  EXPECT_NEAR(odometry->estimate.pose().yaw, 0.6 * kPi / 1.6, 1e-12);
+  EXPECT_NEAR(odometry->estimate.distance(), 0.3 * kPi, 1e-12);
+}
+
+TEST(WheelOdometry, NeedsEncodersOnBothWheelsOfAnAxle) {
+  scene::Machine machine = car();
+  machine.encoders.pop_back();
+  EXPECT_FALSE(wheel_odometry(machine));
+  machine.encoders.clear();
+  EXPECT_FALSE(wheel_odometry(machine));
+  // The wheels of two axles are no pair.
+  machine = car();
+  machine.links[4].X_ML.translation().x() = -1;
+  EXPECT_FALSE(wheel_odometry(machine));
+}
+
+TEST(WheelOdometry, OfShippedRobotsUsesTheTrackWidthOfTheirDrives) {
+  const auto robot = wheel_odometry(shipped_robot());
+  ASSERT_TRUE(robot);
+  EXPECT_LT(robot->p_M.norm(), 1e-12);
+  // Tracks turn about the middle of their rollers, not about the sprockets.
+  const auto tracked = wheel_odometry(scene_io::load_machine(std::string(navvy::source_dir()) +
+                                                             "/vehicles/tracked_robot/model.sdf"));
+  ASSERT_TRUE(tracked);
+  EXPECT_LT(tracked->p_M.norm(), 0.05);
+}
+
 }  // namespace
 }  // namespace navvy::control
