@@ -77,11 +77,13 @@ def soak_command(arguments):
 
 
 def readers_command(arguments):
-    """Installs the Python packages mcap and rosbags from PyPI into build/readers.
+    """Installs readers of our files from PyPI into build/readers: mcap, rosbags, urdf_parser_py.
 
-    Tests that read bags are skipped without them.
+    With imageio-ffmpeg comes a program ffmpeg. Tests that read bags, descriptions of machines and
+    videos are skipped without them.
     """
     workspace.parser(readers_command, "readers").parse_args(arguments)
     packages.install(packages.READERS)
     workspace.run(sys.executable, "-m", "venv", "build/readers")
-    workspace.run("build/readers/bin/pip", "-q", "install", "mcap==1.6.0", "rosbags==0.11.9")
+    wanted = ["mcap==1.6.0", "rosbags==0.11.9", "urdf_parser_py==0.0.4", "imageio-ffmpeg==0.8.1"]
+    workspace.run("build/readers/bin/pip", "-q", "install", *wanted)

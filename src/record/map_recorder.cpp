@@ -12,6 +12,7 @@
 #include "formats/ros/streams.h"
 #include "map/map_maker.h"
 #include "map/map_sources.h"
+#include "record/machine_topics.h"
 #include "sim/timing.h"
 #include "sim/world_terrain.h"
 
@@ -29,33 +30,6 @@ std::vector<map::MapLayer> layers_of(const scene::MapRecord& record) {
 }
 
 bool is_bag(const formats::MapFormat& format) { return format.open_bag != nullptr; }
-
-formats::ros::BodyState body_of(const sim::MachineHandle& machine, int link) {
-  const sim::LinkHandle handle = machine.link(link);
-  const vehicle::LinkState state = handle.state();
-  // The name is that of the frame in tf. It has the machine in it, as two machines may be equal.
-  return {machine.name() + "/" + handle.name(), state.X_WL, state.v_WL, state.w_WL};
-}
-
-/// Returns the state of every machine of a world.
-std::vector<formats::ros::MachineState> machine_states(const sim::World& world) {
-  std::vector<formats::ros::MachineState> out;
-  for (int m = 0; m < world.machines().count(); ++m) {
-    const sim::MachineHandle machine = world.machines().at(m);
-    formats::ros::MachineState& state = out.emplace_back();
-    state.name = machine.name();
-    for (int i = 0; i < static_cast<int>(machine.description().links.size()); ++i)
-      state.links.push_back(body_of(machine, i));
-    for (int i = 0; i < static_cast<int>(machine.description().joints.size()); ++i) {
-      const sim::JointHandle joint = machine.joint(i);
-      state.joints.names.push_back(joint.name());
-      state.joints.positions.push_back(joint.position());
-      state.joints.velocities.push_back(joint.velocity());
-      state.joints.efforts.push_back(joint.effort());
-    }
-  }
-  return out;
-}
 
 /// `formats` must not include `sim`, so each has an enumeration of its own.
 formats::ros::ArrayElement element_of(sim::ElementType type) {
@@ -111,12 +85,17 @@ std::vector<Fault> check_records(const scene::Scene& scene) {
 }
 
 struct MapRecorder::Stream {
-  Stream(const scene::MapRecord& r, map::MapOptions options)
+  Stream(const scene::MapRecord& r, map::MapOptions options, const sim::World& world,
+         const std::vector<SensorStream>& sensors)
       : record(r),
         format(formats::format_named(r.format)),
         label(r.name),
         layers(layers_of(r)),
-        maker(std::move(options)) {}
+        maker(std::move(options)) {
+    if (!is_bag(format)) return;
+    machines.emplace(world, sensors);
+    readings.emplace(sensors, world.arrays());
+  }
   double machine_rate() const {
     return record.machine_rate > 0 ? record.machine_rate : record.kMachineRate;
   }
@@ -128,12 +107,17 @@ struct MapRecorder::Stream {
   std::vector<map::MapLayer> layers;
   map::MapMaker maker;
   std::unique_ptr<formats::ros::Bag> bag;
+  /// Machines in a bag; empty for other formats.
+  std::optional<MachineTopics> machines;
+  /// Readings of sensors in a bag; empty for other formats.
+  std::optional<SensorTopics> readings;
   /// Sequence numbers of the arrays' samples that the bag holds.
   std::vector<std::uint64_t> arrays;
 };
 
-MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
-    : session_(session), folder_(folder) {
+MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder,
+                         std::vector<SensorStream> sensors)
+    : session_(session), folder_(folder), sensors_(std::move(sensors)) {
   const scene::Scene& scene = session.world().description();
   std::vector<Fault> faults = check_records(scene);
   if (!faults.empty()) throw InputError(std::move(faults));
@@ -145,7 +129,8 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
     layers.push_back(map::MapLayer::kElevation);
     streams_.push_back(std::make_unique<Stream>(
         record,
-        map::options_for(scene, session.world().ground(), std::move(layers), session.design())));
+        map::options_for(scene, session.world().ground(), std::move(layers), session.design()),
+        session.world(), sensors_));
     open(*streams_.back());
   }
 }
@@ -153,6 +138,8 @@ MapRecorder::MapRecorder(const session::Session& session, RunFolder& folder)
 void MapRecorder::open(Stream& stream) {
   if (!is_bag(stream.format)) return;
   stream.arrays.clear();
+  stream.machines->restart();
+  stream.readings->restart();
   const std::string name = stream.label + stream.format.extension;
   // All its files are listed as the run's before they exist.
   for (const std::string& file : formats::files_of(stream.format, name)) folder_.path(file);
@@ -167,11 +154,13 @@ void MapRecorder::write_arrays(Stream& stream) {
     const sim::ArrayView view = arrays.view(static_cast<int>(i));
     // Number 0 is an array without a sample, which is not written.
     if (view.sequence() == stream.arrays[i]) continue;
+    if (stream.readings->has_array(static_cast<int>(i))) continue;
     stream.arrays[i] = view.sequence();
     const sim::ArrayChannel& channel = view.channel();
-    formats::ros::write_array(*stream.bag, {channel.name, channel.unit, channel.meaning,
-                                            channel.frame, element_of(channel.type), channel.shape,
-                                            view.time(), view.X_WF(), view.bytes()});
+    formats::ros::write_array(*stream.bag,
+                              {channel.name, channel.unit, channel.meaning, channel.frame,
+                               element_of(channel.type), channel.shape, view.time(), view.X_WF(),
+                               view.bytes(), stream.machines->has_frame(channel.frame)});
   }
 }
 
@@ -199,9 +188,13 @@ void MapRecorder::observe() {
                machines_due = stream->bag && due(stream->machine_rate());
     const std::int64_t now = formats::ros::stamp(world.time());
     if (stream->bag && (map_due || machines_due)) formats::ros::write_clock(*stream->bag, now);
-    if (machines_due) formats::ros::write_machines(*stream->bag, machine_states(world), now);
+    if (stream->bag) stream->machines->observe();
+    if (machines_due) stream->machines->write(*stream->bag, now);
     // Arrays have rates of their own, so they are looked at in every step.
-    if (stream->bag) write_arrays(*stream);
+    if (stream->bag) {
+      stream->readings->write(*stream->bag, now);
+      write_arrays(*stream);
+    }
     if (!map_due) continue;
     // All records share one view, because it costs a pass over the particles.
     if (!view) view = sim::terrain_view(world, heightfield::SurfaceKind::kMapped);

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "record/run_folder.h"
+#include "record/sensor_topics.h"
 #include "session/session.h"
 
 namespace navvy::record {
@@ -23,8 +24,8 @@ std::vector<Fault> check_records(const scene::Scene& scene);
 /// one file `maps/<name>_<number>.<extension>` per map (for `terra`, a folder); <number> is the
 /// number of periods since time zero. The formats `mcap` and `bag` give one file `<name>.mcap` or
 /// one folder `<name>/` for the whole run. It contains the maps and, at a rate of its own, the
-/// clock and the transforms (tf), odometry and joint states of all machines. It also contains every
-/// sample of the world's arrays.
+/// clock and the machines (MachineTopics). It also contains every reading of sensors (SensorTopics)
+/// and every sample of the world's other arrays.
 ///
 /// After each call of `restart`, the files are named `<name>_2`, `<name>_3` and so on, where names
 /// of other records are skipped. No file then contains two states of the same time, and none is
@@ -32,10 +33,11 @@ std::vector<Fault> check_records(const scene::Scene& scene);
 /// the map and writing the file.
 class MapRecorder {
  public:
-  /// Prepares all records of the session's scene and opens their bags. `session` and `folder` must
-  /// outlive this object.
+  /// Prepares all records of the session's scene and opens their bags, which get the readings of
+  /// `sensors` too. `session` and `folder` must outlive this object.
   /// @throws InputError with the errors of check_records; FileError if a file cannot be created.
-  MapRecorder(const session::Session& session, RunFolder& folder);
+  MapRecorder(const session::Session& session, RunFolder& folder,
+              std::vector<SensorStream> sensors = {});
   ~MapRecorder();
   MapRecorder(const MapRecorder&) = delete;
   MapRecorder& operator=(const MapRecorder&) = delete;
@@ -61,6 +63,8 @@ class MapRecorder {
   void write_arrays(Stream& stream);
   const session::Session& session_;
   RunFolder& folder_;
+  /// Sensors whose readings go into bags.
+  const std::vector<SensorStream> sensors_;
   /// One entry per navvy:record element, in the scene's order.
   std::vector<std::unique_ptr<Stream>> streams_;
   /// Names that files of the scene's records use or have used, without number and extension.

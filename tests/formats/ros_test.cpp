@@ -59,14 +59,18 @@ std::string readers() {
 const char* const kRead = R"(
 import json, math, sys
 from pathlib import Path
+from rosbags.rosbag2.metadata import parse_qos
 from rosbags.typesys import Stores, get_typestore, get_types_from_msg
 store = get_typestore(Stores.EMPTY)
 out, path = {}, Path(sys.argv[1])
 def learn(text, kind):
     store.register({k: v for k, v in get_types_from_msg(text, kind).items() if k not in store.fielddefs})
-def show(topic, kind, ns, raw):
+def durability(qos):
+    return qos[0].durability.name if qos else ''
+def show(topic, kind, ns, raw, qos):
     m = store.deserialize_cdr(raw, kind)
     t = out.setdefault(topic, {'type': kind, 'times': []})
+    t['durability'] = durability(qos)
     t['times'].append(ns)
     plain = lambda v: None if isinstance(v, float) and not math.isfinite(v) else v
     if kind.endswith('GridMap'):
@@ -93,7 +97,7 @@ def show(topic, kind, ns, raw):
     if kind.endswith('Odometry'):
         p, q, v, w = m.pose.pose.position, m.pose.pose.orientation, m.twist.twist.linear, m.twist.twist.angular
         t['state'] = [p.x, p.y, p.z, q.x, q.y, q.z, q.w, v.x, v.y, v.z, w.x, w.y, w.z]
-        t['child'] = m.child_frame_id
+        t['child'], t['parent'] = m.child_frame_id, m.header.frame_id
     if kind.endswith('JointState'):
         t['joints'] = [list(m.name), list(m.position), list(m.velocity), list(m.effort)]
     if kind.endswith('TFMessage'):
@@ -113,7 +117,8 @@ if path.suffix == '.mcap':
     for schema, channel, message in reader.iter_messages():
         assert schema.encoding == 'ros2msg' and channel.message_encoding == 'cdr'
         learn(schema.data.decode(), schema.name)
-        show(channel.topic, schema.name, message.log_time, message.data)
+        qos = parse_qos(channel.metadata.get('offered_qos_profiles', ''))
+        show(channel.topic, schema.name, message.log_time, message.data, qos)
 else:
     from rosbags.rosbag2 import Reader
     for kind, text in json.load(open(sys.argv[4])).items():
@@ -121,7 +126,8 @@ else:
     with Reader(path) as reader:
         out['statistics'] = [reader.message_count, len(reader.topics), reader.duration]
         for connection, ns, raw in reader.messages():
-            show(connection.topic, connection.msgtype, ns, raw)
+            qos = connection.ext.offered_qos_profiles
+            show(connection.topic, connection.msgtype, ns, raw, qos)
 print(json.dumps(out))
 )";
 
@@ -204,14 +210,15 @@ TEST(RosBag, MapIsReadByOthers) {
   EXPECT_THROW(write_map("bag", example(), kTwo, folder / "bag"), InputError);
 }
 
-/// A body on its side that moves along W's x.
+/// A body that was turned to the left, with a velocity in its own axes.
 ros::BodyState body() {
   ros::BodyState out;
-  out.frame = "ew/chassis";
-  out.X_WB = Pose(Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()));
-  out.X_WB.translation() = Vec3(1, 2, 3);
-  out.v_W = Vec3(0.5, 0, 0.1);
-  out.w_W = Vec3(0, 0, 0.25);
+  out.parent = "ew/odom";
+  out.frame = "ew/base_link";
+  out.X_PB = Pose(Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ()));
+  out.X_PB.translation() = Vec3(1, 2, 3);
+  out.v_B = Vec3(0, -0.5, 0.1);
+  out.w_B = Vec3(0, 0, 0.25);
   return out;
 }
 
@@ -221,23 +228,34 @@ void write_bodies(ros::Bag& bag) {
     bag.write("/ew/odom", ros::MessageKind::kOdometry, ns, ros::odometry(body(), ns));
     bag.write("/ew/joint_states", ros::MessageKind::kJointState, ns,
               ros::joint_state({{"boom", "arm"}, {0.5, -1}, {0, 2}, {7, 8}}, ns));
-    bag.write("/tf", ros::MessageKind::kTf, ns, ros::tf({body(), body()}, ns));
+    bag.write("/tf", ros::MessageKind::kTf, ns,
+              ros::tf({{"map", "ew/odom"}, {"ew/odom", "ew/base_link", body().X_PB}}, ns));
   }
+  ros::write_fixed(bag, {{"ew/base_link", "ew/chassis"}}, 2'500'000'001LL);
+  ros::write_description(bag, "ew", "\"<robot/>\"", 2'500'000'001LL);
   bag.close();
 }
 
 void expect_bodies(const json& bag) {
   ASSERT_FALSE(bag.is_discarded()) << "the reader failed";
   const double h = std::sqrt(0.5);
-  // 90 deg to the left: W's x is the body's -y.
   const std::vector<double> state = {1, 2, 3, 0, 0, h, h, 0, -0.5, 0.1, 0, 0, 0.25};
   for (std::size_t i = 0; i < state.size(); ++i)
     EXPECT_NEAR(bag.at("/ew/odom").at("state")[i].get<double>(), state[i], 1e-12) << i;
-  EXPECT_EQ(bag.at("/ew/odom").at("child"), "ew/chassis");
+  EXPECT_EQ(bag.at("/ew/odom").at("child"), "ew/base_link");
+  EXPECT_EQ(bag.at("/ew/odom").at("parent"), "ew/odom");
   EXPECT_EQ(bag.at("/ew/joint_states").at("joints"),
             json({{"boom", "arm"}, {0.5, -1.0}, {0.0, 2.0}, {7.0, 8.0}}));
-  EXPECT_EQ(bag.at("/tf").at("frames").size(), 2u);
-  EXPECT_EQ(bag.at("/tf").at("frames")[1][0], "map");
+  EXPECT_EQ(bag.at("/tf").at("frames"), json::array({json::array({"map", "ew/odom"}),
+                                                     json::array({"ew/odom", "ew/base_link"})}));
+  EXPECT_EQ(bag.at("/tf_static").at("frames"),
+            json::array({json::array({"ew/base_link", "ew/chassis"})}));
+  EXPECT_EQ(bag.at("/ew/robot_description").at("text"), "<robot/>");
+  // Late subscribers get what is written once.
+  for (const char* topic : {"/tf_static", "/ew/robot_description"})
+    EXPECT_EQ(bag.at(topic).at("durability"), "TRANSIENT_LOCAL") << topic;
+  for (const char* topic : {"/tf", "/clock"})
+    EXPECT_EQ(bag.at(topic).at("durability"), "") << topic;
   EXPECT_EQ(bag.at("/clock").at("clock"), json({2, 500000001}));
   EXPECT_EQ(bag.at("/clock").at("times"), json({1000000000, 2500000001}));
 }
@@ -255,7 +273,7 @@ TEST(RosBag, MovingBodiesAreReadByOthers) {
   write_bodies(*ros::make_bag_folder(folder / "run"));
   const json bag = read(folder, folder / "run");
   expect_bodies(bag);
-  EXPECT_EQ(bag.at("statistics")[0], 8);
+  EXPECT_EQ(bag.at("statistics")[0], 10);
 }
 
 /// Two samples of a float array of a sensor, and one of labels in W.
@@ -271,7 +289,7 @@ void write_some_arrays(ros::Bag& bag) {
                           {},
                           {}};
   array.data = std::as_bytes(std::span(scan));
-  array.X_WF = body().X_WB;
+  array.X_WF = body().X_PB;
   ros::write_array(bag, array);
   array.time = 1.75;
   ros::write_array(bag, array);
@@ -286,6 +304,10 @@ void write_some_arrays(ros::Bag& bag) {
                          1.75,
                          {},
                          std::as_bytes(std::span(labels))});
+  array.name = "ew/boom/scan";
+  array.frame = "ew/boom";
+  array.frame_is_known = true;
+  ros::write_array(bag, array);
   array.shape = {7};
   EXPECT_THROW(ros::write_array(bag, array), Error);
   bag.close();
@@ -308,7 +330,9 @@ void expect_arrays(const json& bag) {
                                     {"shape", {2, 3}}}));
   // An initializer list with one pair of texts would become an object.
   EXPECT_EQ(bag.at("/tf").at("frames"), json::array({json::array({"map", "ew/lidar"})}));
-  EXPECT_EQ(bag.at("/tf").at("times").size(), 2u) << "an array in W has no separate frame";
+  EXPECT_EQ(bag.at("/tf").at("times").size(), 2u)
+      << "an array in W has no separate frame, nor has one whose frame is known";
+  EXPECT_EQ(about.at("durability"), "TRANSIENT_LOCAL");
   EXPECT_EQ(bag.at("/labels").at("type"), "std_msgs/msg/UInt16MultiArray");
   EXPECT_EQ(bag.at("/labels").at("data"), json({7.0, 65535.0}));
 }

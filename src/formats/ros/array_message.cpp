@@ -49,17 +49,17 @@ void write_array(Bag& bag, const ArrayMessage& array) {
   const std::int64_t now = stamp(array.time);
   const std::string topic = topic_of(array.name);
   if (const std::string about = topic + "/description"; !bag.has(about))
-    bag.write(about, MessageKind::kString, now,
-              string_message(nlohmann::ordered_json{
-                  {"name", array.name},
-                  {"unit", array.unit},
-                  {"meaning", array.meaning},
-                  {"frame", array.frame},
-                  {"type", element.name},
-                  {"shape",
-                   array.shape}}.dump()));
-  if (array.frame != "world")
-    bag.write("/tf", MessageKind::kTf, now, tf({{array.frame, array.X_WF}}, now));
+    bag.write_latched(about, MessageKind::kString, now,
+                      string_message(nlohmann::ordered_json{
+                          {"name", array.name},
+                          {"unit", array.unit},
+                          {"meaning", array.meaning},
+                          {"frame", array.frame},
+                          {"type", element.name},
+                          {"shape",
+                           array.shape}}.dump()));
+  if (array.frame != "world" && !array.frame_is_known)
+    bag.write("/tf", MessageKind::kTf, now, tf({{kFrame, array.frame, array.X_WF}}, now));
   bag.write(topic, element.kind, now, multi_array(array.shape, element.bytes, array.data));
 }
 

@@ -36,14 +36,18 @@ struct ArrayMessage {
   /// Elements in row-major order and in the byte order of this machine. Must remain valid during
   /// `write_array` only.
   std::span<const std::byte> data;
+  /// True if the bag has the frame in its tree already, as that of a link: it must not get a second
+  /// parent.
+  bool frame_is_known = false;
 };
 
 /// Appends a sample of an array to `bag`:
 /// - to `/<name>`, a std_msgs UInt8-, UInt16-, Int32-, Float32- or Float64MultiArray with one
 ///   dimension per entry of the shape, stamped with the time of the sample;
-/// - before the first sample, to `/<name>/description`, a std_msgs/String with a JSON object of
-///   name, unit, meaning, frame, type and shape;
-/// - to `/tf`, the pose of the array's frame as a child of "map", unless it is the world frame.
+/// - before the first sample, to `/<name>/description`, a latched std_msgs/String with a JSON
+///   object of name, unit, meaning, frame, type and shape;
+/// - to `/tf`, the pose of the array's frame as a child of "map", unless it is the world frame or
+///   known.
 ///
 /// @throws Error if the number of bytes does not match the shape; FileError.
 void write_array(Bag& bag, const ArrayMessage& array);

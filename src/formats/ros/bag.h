@@ -18,14 +18,40 @@ class Bag {
   virtual ~Bag() = default;
   /// Appends a message to `topic`, whose messages must all have the same type. `time_ns` is the
   /// simulated time [ns]. @throws FileError naming path and cause, such as a full disk.
-  virtual void write(const std::string& topic, MessageKind kind, std::int64_t time_ns,
-                     const Bytes& message) = 0;
+  void write(const std::string& topic, MessageKind kind, std::int64_t time_ns,
+             const Bytes& message) {
+    add({topic, kind, false}, time_ns, message);
+  }
+  /// Appends a message as `write` does to a topic of latched messages: players offer it with the
+  /// durability "transient local", so that late subscribers receive it too.
+  void write_latched(const std::string& topic, MessageKind kind, std::int64_t time_ns,
+                     const Bytes& message) {
+    add({topic, kind, true}, time_ns, message);
+  }
   /// Returns true if the bag contains a message of `topic`.
   virtual bool has(const std::string& topic) const = 0;
   /// Completes the bag. Nothing may be written afterwards. A bag that was not closed is incomplete:
   /// an MCAP file can then only be read as a stream, and a folder has no metadata. @throws
   /// FileError.
   virtual void close() = 0;
+
+ protected:
+  /// Topic of a message.
+  struct Topic {
+    /// Name of the topic.
+    const std::string& name;
+    /// Type of its messages.
+    MessageKind kind;
+    /// True if its messages are latched.
+    bool latched;
+    /// Returns the quality of service that players offer, in the YAML of rosbag2; empty for their
+    /// default.
+    std::string offered_qos() const;
+  };
+
+ private:
+  /// Appends a message. @throws FileError naming path and cause.
+  virtual void add(const Topic& topic, std::int64_t time_ns, const Bytes& message) = 0;
 };
 
 /// Creates an MCAP file with the profile ros2, without chunks and without compression. Schemas,

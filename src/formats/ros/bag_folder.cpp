@@ -31,6 +31,13 @@ constexpr const char* kTables =
     // by it.
     "PRAGMA synchronous = OFF;";
 
+/// Returns a text in double quotes, as YAML needs it.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '\n' ? std::string("\\n") : std::string(1, c);
+  return out + "\"";
+}
+
 class BagFolder final : public Bag {
  public:
   explicit BagFolder(const std::string& path) : folder_(path) {
@@ -60,22 +67,45 @@ class BagFolder final : public Bag {
     sqlite3_close(data_);
   }
 
-  void write(const std::string& topic, MessageKind kind, std::int64_t time_ns,
-             const Bytes& message) override {
+  bool has(const std::string& topic) const override { return topics_.count(topic) > 0; }
+
+  void close() override {
+    if (data_ == nullptr) return;
+    commit();
+    sqlite3_finalize(insert_);
+    insert_ = nullptr;
+    const int closed = sqlite3_close(data_);
+    data_ = nullptr;
+    if (closed != SQLITE_OK)
+      throw FileError("cannot close '" + (folder_ / storage_).string() + "'");
+    write_file_atomically((folder_ / "metadata.yaml").string(), metadata());
+  }
+
+ private:
+  struct Entry {
+    int id = 0;
+    MessageKind kind = MessageKind::kClock;
+    std::string offered_qos;
+    std::uint64_t messages = 0;
+  };
+
+  void add(const Topic& topic, std::int64_t time_ns, const Bytes& message) override {
     // One transaction per time, because poses come fifty times per second: a transaction per
     // message would cost more than the step.
     if (messages_ > 0 && time_ns != now_) commit();
     if (sqlite3_get_autocommit(data_) != 0) run("BEGIN");
     now_ = time_ns;
-    Topic& to = topics_[topic];
+    Entry& to = topics_[topic.name];
     // A new topic has id 0; ids in the table count from 1.
     if (to.id == 0) {
       to.id = static_cast<int>(topics_.size());
-      to.kind = kind;
-      sqlite3_stmt* row = prepare("INSERT INTO topics VALUES (?, ?, ?, 'cdr', '')");
+      to.kind = topic.kind;
+      to.offered_qos = topic.offered_qos();
+      sqlite3_stmt* row = prepare("INSERT INTO topics VALUES (?, ?, ?, 'cdr', ?)");
       sqlite3_bind_int(row, 1, to.id);
-      sqlite3_bind_text(row, 2, topic.c_str(), -1, SQLITE_TRANSIENT);
-      sqlite3_bind_text(row, 3, type_name(kind).c_str(), -1, SQLITE_TRANSIENT);
+      sqlite3_bind_text(row, 2, topic.name.c_str(), -1, SQLITE_TRANSIENT);
+      sqlite3_bind_text(row, 3, type_name(topic.kind).c_str(), -1, SQLITE_TRANSIENT);
+      sqlite3_bind_text(row, 4, to.offered_qos.c_str(), -1, SQLITE_TRANSIENT);
       const bool done = sqlite3_step(row) == SQLITE_DONE;
       sqlite3_finalize(row);
       if (!done) fail();
@@ -93,27 +123,6 @@ class BagFolder final : public Bag {
     first_ = messages_ == 0 ? time_ns : std::min(first_, time_ns);
     last_ = messages_++ == 0 ? time_ns : std::max(last_, time_ns);
   }
-
-  bool has(const std::string& topic) const override { return topics_.count(topic) > 0; }
-
-  void close() override {
-    if (data_ == nullptr) return;
-    commit();
-    sqlite3_finalize(insert_);
-    insert_ = nullptr;
-    const int closed = sqlite3_close(data_);
-    data_ = nullptr;
-    if (closed != SQLITE_OK)
-      throw FileError("cannot close '" + (folder_ / storage_).string() + "'");
-    write_file_atomically((folder_ / "metadata.yaml").string(), metadata());
-  }
-
- private:
-  struct Topic {
-    int id = 0;
-    MessageKind kind = MessageKind::kClock;
-    std::uint64_t messages = 0;
-  };
 
   [[noreturn]] void fail() const {
     // Copied first, as the rollback replaces the message.
@@ -147,9 +156,9 @@ class BagFolder final : public Bag {
     for (const auto& [name, topic] : topics_)
       out += "    - topic_metadata:\n        name: " + name +
              "\n        type: " + type_name(topic.kind) +
-             "\n        serialization_format: cdr\n        offered_qos_profiles: \"\"\n      "
-             "message_count: " +
-             std::to_string(topic.messages) + "\n";
+             "\n        serialization_format: cdr\n        offered_qos_profiles: " +
+             quoted(topic.offered_qos) +
+             "\n      message_count: " + std::to_string(topic.messages) + "\n";
     out += "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - " +
            storage_ + "\n  files:\n    - path: " + storage_ +
            "\n      starting_time:\n        nanoseconds_since_epoch: " + start +
@@ -162,7 +171,7 @@ class BagFolder final : public Bag {
   std::string storage_;
   sqlite3* data_ = nullptr;
   sqlite3_stmt* insert_ = nullptr;
-  std::map<std::string, Topic> topics_;
+  std::map<std::string, Entry> topics_;
   std::uint64_t messages_ = 0;
   std::int64_t first_ = 0, last_ = 0, now_ = 0;
 };

@@ -57,6 +57,32 @@ const Row kTypes[] = {
     {"sensor_msgs/JointState",
      "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] "
      "effort\n"},
+    {"sensor_msgs/LaserScan",
+     "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
+     "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\n"
+     "float32[] ranges\nfloat32[] intensities\n"},
+    {"sensor_msgs/Range",
+     "std_msgs/Header header\nuint8 radiation_type\nfloat32 field_of_view\nfloat32 min_range\n"
+     "float32 max_range\nfloat32 range\n"},
+    {"sensor_msgs/Imu",
+     "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\n"
+     "float64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n"
+     "float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n"
+     "float64[9] linear_acceleration_covariance\n"},
+    {"sensor_msgs/NavSatStatus", "int8 status\nuint16 service\n"},
+    {"sensor_msgs/NavSatFix",
+     "std_msgs/Header header\nsensor_msgs/NavSatStatus status\nfloat64 latitude\n"
+     "float64 longitude\nfloat64 altitude\nfloat64[9] position_covariance\n"
+     "uint8 position_covariance_type\n"},
+    {"sensor_msgs/Image",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\n"
+     "uint8 is_bigendian\nuint32 step\nuint8[] data\n"},
+    {"sensor_msgs/RegionOfInterest",
+     "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n"},
+    {"sensor_msgs/CameraInfo",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\n"
+     "float64[] d\nfloat64[9] k\nfloat64[9] r\nfloat64[12] p\nuint32 binning_x\n"
+     "uint32 binning_y\nsensor_msgs/RegionOfInterest roi\n"},
     {"tf2_msgs/TFMessage", "geometry_msgs/TransformStamped[] transforms\n"},
     {"rosgraph_msgs/Clock", "builtin_interfaces/Time clock\n"},
 };
@@ -84,11 +110,16 @@ void parts_of(const std::string& fields, std::vector<std::string>& out) {
 
 /// In the order of the enumerators.
 constexpr const char* kNames[kMessageKinds] = {
-    "grid_map_msgs/GridMap",     "nav_msgs/OccupancyGrid",   "sensor_msgs/PointCloud2",
-    "nav_msgs/Odometry",         "sensor_msgs/JointState",   "tf2_msgs/TFMessage",
-    "rosgraph_msgs/Clock",       "std_msgs/String",          "std_msgs/UInt8MultiArray",
-    "std_msgs/UInt16MultiArray", "std_msgs/Int32MultiArray", "std_msgs/Float32MultiArray",
-    "std_msgs/Float64MultiArray"};
+    "grid_map_msgs/GridMap",      "nav_msgs/OccupancyGrid",
+    "sensor_msgs/PointCloud2",    "nav_msgs/Odometry",
+    "sensor_msgs/JointState",     "tf2_msgs/TFMessage",
+    "rosgraph_msgs/Clock",        "std_msgs/String",
+    "std_msgs/UInt8MultiArray",   "std_msgs/UInt16MultiArray",
+    "std_msgs/Int32MultiArray",   "std_msgs/Float32MultiArray",
+    "std_msgs/Float64MultiArray", "sensor_msgs/LaserScan",
+    "sensor_msgs/Range",          "sensor_msgs/Imu",
+    "sensor_msgs/NavSatFix",      "sensor_msgs/Image",
+    "sensor_msgs/CameraInfo"};
 
 std::string short_name(MessageKind kind) { return kNames[static_cast<int>(kind)]; }
 

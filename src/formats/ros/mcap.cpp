@@ -57,23 +57,6 @@ class Mcap final : public Bag {
     if (file_ != nullptr) std::fclose(file_);
   }
 
-  void write(const std::string& topic, MessageKind kind, std::int64_t time_ns,
-             const Bytes& message) override {
-    Topic& channel = channel_of(topic, kind);
-    std::string body;
-    put(body, channel.id);
-    // Sequence number, log time and publish time. Both times are the simulated time.
-    put(body, static_cast<std::uint32_t>(channel.messages++));
-    put(body, static_cast<std::uint64_t>(time_ns));
-    put(body, static_cast<std::uint64_t>(time_ns));
-    body.append(message.data(), message.size());
-    record(kMessage, body);
-    // Flushed, so that a reader may follow the file during the run.
-    if (std::fflush(file_) != 0) fail();
-    first_ = messages_ == 0 ? time_ns : std::min(first_, time_ns);
-    last_ = messages_++ == 0 ? time_ns : std::max(last_, time_ns);
-  }
-
   bool has(const std::string& topic) const override { return topics_.count(topic) > 0; }
 
   void close() override {
@@ -117,10 +100,26 @@ class Mcap final : public Bag {
   }
 
  private:
-  struct Topic {
+  struct Channel {
     std::uint16_t id = 0;
     std::uint64_t messages = 0;
   };
+
+  void add(const Topic& topic, std::int64_t time_ns, const Bytes& message) override {
+    Channel& channel = channel_of(topic);
+    std::string body;
+    put(body, channel.id);
+    // Sequence number, log time and publish time. Both times are the simulated time.
+    put(body, static_cast<std::uint32_t>(channel.messages++));
+    put(body, static_cast<std::uint64_t>(time_ns));
+    put(body, static_cast<std::uint64_t>(time_ns));
+    body.append(message.data(), message.size());
+    record(kMessage, body);
+    // Flushed, so that a reader may follow the file during the run.
+    if (std::fflush(file_) != 0) fail();
+    first_ = messages_ == 0 ? time_ns : std::min(first_, time_ns);
+    last_ = messages_++ == 0 ? time_ns : std::max(last_, time_ns);
+  }
 
   [[noreturn]] void fail() const {
     throw FileError("cannot write '" + path_ + "': " + std::strerror(errno));
@@ -136,32 +135,37 @@ class Mcap final : public Bag {
     if (opcode == kSchema || opcode == kChannel) summary_ += head + body;
   }
 
-  Topic& channel_of(const std::string& topic, MessageKind kind) {
-    const auto known = topics_.find(topic);
+  Channel& channel_of(const Topic& topic) {
+    const auto known = topics_.find(topic.name);
     if (known != topics_.end()) return known->second;
     // Number 0 means "no schema".
     const auto [schema, is_new] =
-        schemas_.try_emplace(kind, static_cast<std::uint16_t>(schemas_.size() + 1));
+        schemas_.try_emplace(topic.kind, static_cast<std::uint16_t>(schemas_.size() + 1));
     std::string body;
     if (is_new) {
       // Schema id, name, encoding and text of the definition, as rosbag2's plugin for MCAP writes
       // them.
       put(body, schema->second);
-      put_text(body, type_name(kind));
+      put_text(body, type_name(topic.kind));
       put_text(body, "ros2msg");
-      put_text(body, definition(kind));
+      put_text(body, definition(topic.kind));
       record(kSchema, body);
     }
-    Topic& channel = topics_[topic];
+    Channel& channel = topics_[topic.name];
     // Ids of channels count from 0, which is a valid id, unlike 0 of a schema.
     channel.id = static_cast<std::uint16_t>(topics_.size() - 1);
     body.clear();
     put(body, channel.id);
     put(body, schema->second);
-    put_text(body, topic);
+    put_text(body, topic.name);
     put_text(body, "cdr");
-    // No metadata.
-    put(body, std::uint32_t{0});
+    // Metadata: a map of texts with its length in bytes, empty for players' defaults.
+    std::string metadata;
+    if (const std::string qos = topic.offered_qos(); !qos.empty()) {
+      put_text(metadata, "offered_qos_profiles");
+      put_text(metadata, qos);
+    }
+    put_text(body, metadata);
     record(kChannel, body);
     return channel;
   }
@@ -171,7 +175,7 @@ class Mcap final : public Bag {
   std::uint64_t written_ = 0, messages_ = 0;
   std::int64_t first_ = 0, last_ = 0;
   std::map<MessageKind, std::uint16_t> schemas_;
-  std::map<std::string, Topic> topics_;
+  std::map<std::string, Channel> topics_;
 };
 
 }  // namespace

@@ -31,10 +31,16 @@ enum class MessageKind {
   kUint16Array,
   kInt32Array,
   kFloat32Array,
-  kFloat64Array
+  kFloat64Array,
+  kLaserScan,
+  kRange,
+  kImu,
+  kNavSatFix,
+  kImage,
+  kCameraInfo
 };
 /// Number of message types.
-inline constexpr int kMessageKinds = static_cast<int>(MessageKind::kFloat64Array) + 1;
+inline constexpr int kMessageKinds = static_cast<int>(MessageKind::kCameraInfo) + 1;
 /// Returns the ROS name of a message type, such as "grid_map_msgs/msg/GridMap".
 const std::string& type_name(MessageKind kind);
 /// Returns the definition of a message type and of all types that it contains, in MCAP's schema
@@ -59,25 +65,27 @@ Bytes occupancy_grid(const map::TerrainMap& map, std::int64_t time_ns);
 Bytes point_cloud(const map::TerrainMap& map, const std::vector<map::MapLayer>& layers,
                   std::int64_t time_ns);
 
-/// Pose and velocity of a body in the world frame W.
+/// Pose and velocity of a body B relative to a parent frame P.
 struct BodyState {
-  /// Name of the body's frame, such as "excavator/chassis".
+  /// Name of the parent frame, such as "excavator/odom".
+  std::string parent = kFrame;
+  /// Name of the body's frame, such as "excavator/base_link".
   std::string frame;
-  /// Pose of the body frame B in the world frame W [m].
-  Pose X_WB = Pose::Identity();
-  /// Velocity of the origin of the body frame, in the axes of the world frame W [m/s].
-  Vec3 v_W = Vec3::Zero();
-  /// Angular velocity of the body, in the axes of the world frame W [rad/s].
-  Vec3 w_W = Vec3::Zero();
+  /// Pose of the body frame in the parent frame [m].
+  Pose X_PB = Pose::Identity();
+  /// Velocity of the origin of the body frame, in the axes of the body frame [m/s].
+  Vec3 v_B = Vec3::Zero();
+  /// Angular velocity of the body, in the axes of the body frame [rad/s].
+  Vec3 w_B = Vec3::Zero();
 };
-/// Returns an Odometry message with the pose of the body in the world frame, and its twist in the
-/// axes of the body, stamped with the simulated time `time_ns` [ns]. The covariances are 0, because
-/// the state is exact.
+/// Returns an Odometry message with the pose of the body in its parent frame and its twist in the
+/// axes of the body, stamped with the simulated time `time_ns` [ns]. The covariances are 0, which
+/// means that none is stated.
 Bytes odometry(const BodyState& body, std::int64_t time_ns);
 
 /// State of the joints of a machine. All vectors have one entry per joint, in the same order.
 struct JointStates {
-  /// Names of the joints.
+  /// Names of the joints, those of the machine's file.
   std::vector<std::string> names;
   /// Positions of the joints [rad|m].
   std::vector<double> positions;
@@ -88,9 +96,15 @@ struct JointStates {
 };
 /// Returns a JointState message, stamped with the simulated time `time_ns` [ns].
 Bytes joint_state(const JointStates& joints, std::int64_t time_ns);
-/// Returns a TFMessage with the pose of every body as a child of the world frame, stamped with the
-/// simulated time `time_ns` [ns].
-Bytes tf(const std::vector<BodyState>& bodies, std::int64_t time_ns);
+/// Pose of a frame C relative to its parent frame P.
+struct Transform {
+  /// Names of the two frames, without a slash at the start.
+  std::string parent, child;
+  /// Pose of the child in the parent [m].
+  Pose X_PC = Pose::Identity();
+};
+/// Returns a TFMessage with all transforms, stamped with the simulated time `time_ns` [ns].
+Bytes tf(const std::vector<Transform>& transforms, std::int64_t time_ns);
 /// Returns a Clock message with the simulated time `time_ns` [ns].
 Bytes clock(std::int64_t time_ns);
 /// Returns a String message with `text`.

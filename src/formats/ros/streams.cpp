@@ -34,16 +34,28 @@ void write_map(Bag& bag, const map::TerrainMap& map, const std::vector<map::MapL
 
 // One /tf message holds all machines, so that readers see them at one time.
 void write_machines(Bag& bag, const std::vector<MachineState>& machines, std::int64_t time_ns) {
-  std::vector<BodyState> bodies;
+  std::vector<Transform> transforms;
   for (const MachineState& machine : machines) {
     const std::string name = "/" + topic_part(machine.name);
-    bodies.insert(bodies.end(), machine.links.begin(), machine.links.end());
-    bag.write(name + "/odom", MessageKind::kOdometry, time_ns,
-              odometry(machine.links.at(0), time_ns));
+    transforms.insert(transforms.end(), machine.transforms.begin(), machine.transforms.end());
+    bag.write(name + "/odom", MessageKind::kOdometry, time_ns, odometry(machine.odometry, time_ns));
+    bag.write(name + "/ground_truth", MessageKind::kOdometry, time_ns,
+              odometry(machine.truth, time_ns));
     bag.write(name + "/joint_states", MessageKind::kJointState, time_ns,
               joint_state(machine.joints, time_ns));
   }
-  if (!bodies.empty()) bag.write("/tf", MessageKind::kTf, time_ns, tf(bodies, time_ns));
+  if (!transforms.empty()) bag.write("/tf", MessageKind::kTf, time_ns, tf(transforms, time_ns));
+}
+
+// One message alone: a player keeps only the last ones of a latched topic.
+void write_fixed(Bag& bag, const std::vector<Transform>& transforms, std::int64_t time_ns) {
+  bag.write_latched("/tf_static", MessageKind::kTf, time_ns, tf(transforms, time_ns));
+}
+
+void write_description(Bag& bag, const std::string& machine, const std::string& urdf,
+                       std::int64_t time_ns) {
+  bag.write_latched("/" + topic_part(machine) + "/robot_description", MessageKind::kString, time_ns,
+                    string_message(urdf));
 }
 
 }  // namespace navvy::formats::ros
