@@ -81,6 +81,8 @@ def report_results(scene, folder):
         % (folder, " ".join(sorted(entry.name for entry in (ROOT / folder).iterdir())))
     )
     pictures = len(list((ROOT / folder / "frames").glob("*.png")))
+    for film in sorted((ROOT / folder / "frames").glob("*.mp4")):
+        say("video: %s/frames/%s" % (folder, film.name))
     if pictures:
         say(
             "%d pictures in %s/frames; more of them: ./navvy run %s --set camera.rate_hz=2"

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -28,7 +29,7 @@ namespace {
 struct RunOptions {
   SceneOptions scene;
   run::SimulationOptions simulation;
-  std::string control;
+  std::string control, pictures;
   double control_rate = 50;
   link::PublishOptions publish;
   bool quiet = false;
@@ -142,6 +143,22 @@ void print_programs(std::FILE* out, const session::Session& session) {
   }
 }
 
+/// Returns the names of the forms of pictures.
+std::map<std::string, record::PictureFormat> picture_formats() {
+  return {{"video", record::PictureFormat::kVideo}, {"png", record::PictureFormat::kPng}};
+}
+
+/// Prints what the pictures of the run cost.
+void print_pictures(std::FILE* out, const run::RunEnd& end) {
+  if (end.pictures == 0 || end.wall_time <= 0) return;
+  std::fprintf(
+      out,
+      "pictures: %d, drawn in %.1f s (%.0f %% of the wall time), encoded beside the run in "
+      "%.1f s of processor time (%.0f %%)\n",
+      end.pictures, end.drawing_time, 100 * end.drawing_time / end.wall_time, end.encoding_time,
+      100 * end.encoding_time / end.wall_time);
+}
+
 /// Prints how the run ended; returns the exit status.
 int print_end(const RunOptions& options, const session::Session& session, const run::RunEnd& end) {
   // Standard output belongs to the controller where there is one.
@@ -152,6 +169,7 @@ int print_end(const RunOptions& options, const session::Session& session, const 
     std::fprintf(out, "failed: %s\n", printable(end.cause).c_str());
   else
     print_programs(out, session);
+  if (!options.quiet) print_pictures(out, end);
   std::fprintf(out, "results: %s/summary.json\n", printable(options.simulation.folder).c_str());
   if (end.reason == run::EndReason::kInterrupted) return kInterrupted;
   if (end.reason == run::EndReason::kForbidden) return kForbidden;
@@ -178,6 +196,7 @@ int run_scene(RunOptions options) {
   scene::Scene scene = load(options, wanted.scene_text);
   if (wanted.folder.empty()) wanted.folder = default_out(scene);
   wanted.device = options.scene.device;
+  if (!options.pictures.empty()) wanted.picture_format = picture_formats().at(options.pictures);
   if (!options.control.empty()) wanted.control_rate = options.control_rate;
   if (!options.quiet) wanted.note = log_info;
   run::Simulation simulation(std::move(scene), wanted);
@@ -206,6 +225,13 @@ void add_run(CLI::App& app, Action& action, std::vector<std::string> command_lin
         // An unset shell variable gives an empty name. The default would be another folder than the
         // intended one.
         return text.empty() ? "the folder's name is empty; omit --out to use out/<scenario>" : "";
+      });
+  command
+      ->add_option("--pictures", options->pictures,
+                   "video: one file per camera by the program ffmpeg; png: one file per picture; "
+                   "without it videos where ffmpeg is found")
+      ->check([](const std::string& text) {
+        return picture_formats().count(text) > 0 ? "" : "'" + text + "' is not video or png";
       });
   // Options that need each other are given by pointer: CLI11 does not survive running out of memory
   // while it looks up names.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/camera_pictures.h"
 
+#include <utility>
+
 #include "core/edit_distance.h"
 #include "core/error.h"
 #include "render/renderer.h"
@@ -33,7 +35,7 @@ render::Image CameraPictures::draw(const std::string& camera) {
   for (const scene::Camera& one : world_.description().cameras) {
     names.push_back(one.name);
     if (one.name != camera) continue;
-    draw({&one}, [&](const scene::Camera&, const render::Image& image) { out = image; });
+    draw({&one}, [&](const scene::Camera&, render::Image image) { out = std::move(image); });
     return out;
   }
   throw InputError(Fault{Fault::Severity::kError, "", 0, "camera", camera,

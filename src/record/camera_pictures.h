@@ -21,7 +21,7 @@ namespace navvy::record {
 class CameraPictures {
  public:
   /// Function that receives each picture as soon as it is drawn.
-  using Receiver = std::function<void(const scene::Camera& camera, const render::Image& image)>;
+  using Receiver = std::function<void(const scene::Camera& camera, render::Image image)>;
 
   /// Creates an object that draws `world`, which must outlive it. Draws nothing yet.
   explicit CameraPictures(const sim::World& world);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.h"
 
-#include <cstdio>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -34,7 +33,8 @@ struct Recorder::State {
         crash_summary(std::in_place, folder->path("summary.reserve"), folder->path("summary.json")),
         telemetry(s, folder->path("telemetry.csv")),
         arrays(s, *folder),
-        pictures(s.world()) {
+        pictures(s.world()),
+        picture_files(*folder, options.picture_format) {
     // A resumed run counts only its own speed.
     status.start_time = s.world().time();
   }
@@ -47,6 +47,7 @@ struct Recorder::State {
   Telemetry telemetry;
   ArrayRecorder arrays;
   CameraPictures pictures;
+  PictureFiles picture_files;
   std::unique_ptr<HashLog> hashes;
   std::unique_ptr<MapRecorder> maps;
   RunStatus status;
@@ -162,12 +163,9 @@ void Recorder::State::draw_when_due() {
     if (due(camera.rate)) cameras.push_back(&camera);
   // Drawing is timed apart: the real-time factor is that of the simulation.
   const Lap lap(status.render_time);
-  pictures.draw(cameras, [&](const scene::Camera& camera, const render::Image& image) {
-    // The number of a picture gives its time: name_N.png is N periods from the start.
-    char name[32];
+  pictures.draw(cameras, [&](const scene::Camera& camera, render::Image image) {
     const std::uint64_t number = sim::sample_number(world.steps(), world.dt(), camera.rate);
-    std::snprintf(name, sizeof name, "_%05llu.png", static_cast<unsigned long long>(number));
-    render::write_png(path("frames/" + camera.name + name), image);
+    picture_files.write(camera, number, std::move(image));
     ++status.frames;
   });
 }
@@ -212,6 +210,7 @@ void Recorder::State::checkpoint(bool force) {
 
 /// Also updates the text that a crash would write.
 void Recorder::State::write_summary(bool with_hash) {
+  status.encode_time = picture_files.processor_time();
   const std::string text = summary(with_hash);
   crash_summary->keep(text);
   write_file_atomically(path("summary.json"), text);
@@ -233,6 +232,7 @@ void Recorder::restart() {
   State& s = *state_;
   const Lap lap(s.status.record_time);
   s.arrays.restart();
+  s.picture_files.restart();
   if (!s.maps) return;
   s.maps->restart();
   s.maps->observe();
@@ -266,6 +266,12 @@ void Recorder::finish(const std::string& status, const std::string& message) {
   attempt([&] { s.move_out(); });
   // The state at the failure, for analysis.
   if (status == "failed") attempt([&] { s.session.save(s.path("failed.snapshot")); });
+  // Waits for the thread that encodes.
+  attempt([&] {
+    const Lap lap(s.status.render_time);
+    s.picture_files.finish();
+  });
+  s.status.encode_time = s.picture_files.processor_time();
   attempt([&] {
     if (s.hashes) s.hashes->finish();
   });

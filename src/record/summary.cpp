@@ -259,6 +259,7 @@ std::string summary_json(const session::Session& session, const RunStatus& statu
   out["step_s"] = world.dt();
   out["wall_time_s"] = status.wall_time;
   out["render_time_s"] = status.render_time;
+  out["encode_time_s"] = status.encode_time;
   out["simulated_time_s"] = world.time();
   // Counts the time that this process simulated, without pictures and files.
   out["real_time_factor"] =

@@ -26,7 +26,9 @@ struct RunStatus {
   double start_time = 0;
   /// Wall times spent on simulating, drawing pictures and writing results [s]. They do not overlap.
   double wall_time = 0, render_time = 0, record_time = 0;
-  /// Number of pictures written so far.
+  /// Processor time spent on encoding pictures [s], beside the simulation: not part of the above.
+  double encode_time = 0;
+  /// Number of pictures drawn so far.
   int frames = 0;
 };
 

@@ -35,6 +35,11 @@ struct RunEnd {
   /// True if the run ended before SimulationOptions::snapshot_at, so that the requested snapshot
   /// was not written.
   bool snapshot_missed = false;
+  /// Number of pictures that were recorded.
+  int pictures = 0;
+  /// Wall time of the run, wall time of drawing pictures, which is part of it, and processor time
+  /// of encoding them, which ran beside the simulation [s]. 0 without a recording.
+  double wall_time = 0, drawing_time = 0, encoding_time = 0;
 };
 
 /// Returns the name of an end reason: "complete", "fell_short", "out_of_time", "end_requested",

@@ -136,6 +136,7 @@ void Simulation::State::start_recording(std::unique_ptr<record::RunFolder> folde
   record::Options out;
   out.directory = folder->directory();
   out.render = world().description().recording.render;
+  out.picture_format = options.picture_format;
   out.hash_every = options.hash_every;
   out.scene_text = options.scene_text;
   out.command = options.command;
@@ -252,7 +253,13 @@ RunEnd Simulation::State::finish(RunEnd end) {
   observers.clear();
   // The folder is closed even if one of its files cannot be written.
   const std::unique_ptr<record::Recorder> closing = std::move(recorder);
-  if (closing) closing->finish(status_of(end.reason), message_of(end));
+  if (!closing) return end;
+  closing->finish(status_of(end.reason), message_of(end));
+  const record::RunStatus& about = closing->status();
+  end.pictures = about.frames;
+  end.wall_time = about.wall_time + about.render_time + about.record_time;
+  end.drawing_time = about.render_time;
+  end.encoding_time = about.encode_time;
   return end;
 }
 

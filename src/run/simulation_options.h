@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "record/picture_format.h"
 #include "vehicle/physics_engine_factory.h"
 
 namespace navvy::device {
@@ -44,6 +45,8 @@ struct SimulationOptions {
   /// True to draw pictures at the rates of the scene's cameras, false to draw none. No value: the
   /// setting in the scene is used.
   std::optional<bool> pictures;
+  /// Form in which pictures are written to the output folder.
+  record::PictureFormat picture_format = record::PictureFormat::kAuto;
   /// Number of control steps of an external controller per simulated second [1/s]. The base step is
   /// chosen so that it divides the control period. No value: the rate in the scene is used.
   std::optional<double> control_rate;

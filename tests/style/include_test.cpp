@@ -109,8 +109,8 @@ bool starts_with(const std::string& text, const std::string& prefix) {
 
 bool is_system(const std::string& name) {
   // Standard C++ headers have neither folder nor suffix; POSIX headers for files, time and signals.
-  static const Names posix = {"fcntl.h",    "unistd.h", "signal.h",  "dlfcn.h",
-                              "execinfo.h", "poll.h",   "pthread.h", "termios.h"};
+  static const Names posix = {"fcntl.h",    "spawn.h", "unistd.h",  "signal.h", "dlfcn.h",
+                              "execinfo.h", "poll.h",  "pthread.h", "termios.h"};
   return name.find_first_of("./") == std::string::npos || posix.count(name) > 0 ||
          starts_with(name, "sys/") || starts_with(name, "netinet/") || starts_with(name, "arpa/");
 }
