@@ -269,16 +269,22 @@ void NativeSoil::update_grid(float dt, bool hold) {
   for (int z = 0; z < nodes_[2]; ++z) {
     // Layers below the held margin above the ground do not move, as in the solver.
     const float above = static_cast<float>(z - kMargin + window_[2]) - ground_;
-    const bool held = above <= static_cast<float>(soil::kScheme.held_margin);
+    const auto margin = static_cast<float>(soil::kScheme.held_margin);
+    const bool held = above <= margin, topmost = held && above + 1 > margin;
     const float per_free_fraction = 1 / free_fraction_above(above);
-    for (std::size_t end = n + row_ * rows_; n < end; ++n) {
+    const std::size_t layer = row_ * rows_;
+    for (std::size_t end = n + layer; n < end; ++n) {
       Float4 node = grid_[n];
       const float mass = node[3];
-      if (mass > empty && !held) {
+      if (mass > empty && (!held || topmost)) {
         node *= INVERSE_MASS(mass);
         node[2] -= fall;
         // Within a transfer the scatter adds changes of momentum only, so the velocity is updated.
         if (hold) node += velocity_[n];
+        if (topmost) {
+          const float over = z + 1 < nodes_[2] ? grid_[n + layer][3] : 0.0f;
+          node = Float4{0, 0, std::min(node[2], 0.0f) * falling_share(mass, over, above), 0};
+        }
       } else {
         node = Float4{};
       }

@@ -8,7 +8,8 @@
 //   - opening: a particle whose volume ratio J exceeds its density state J0 carries no stress;
 //   - cohesion in shear only, which decreases with opening (opening_strain), remoulding (plastic
 //         shear) and loosening (density state);
-//   - swell: J0 grows with plastic shear from bank density to loose density and stops there;
+//   - swell: J0 grows with plastic shear from bank density to loose density and stops there, freely
+//         where soil opens and by dilatancy where it carries little pressure;
 //   - static friction: additional strength of soil that hardly shears;
 //   - viscosity of soil that does not yield, so that intact ground does not ring, and of the volume
 //         of closed soil;
@@ -189,10 +190,19 @@ INLINED void law_update(const real* c, scalar dt, const LawSoil* soil, LawState*
   sigma[4] = s[4] + eta2 * dyz;
   sigma[5] = s[5] + eta2 * dxz;
 
-  // Plastic shear loosens the density state [docs/soil.md, swell], but never beyond J: loosening
-  // must not create pressure.
+  // Plastic shear loosens the density state [docs/soil.md, swell]: up to J quickly, because this
+  // creates no pressure, and beyond it by dilatancy, which grows as bonds break and fades with
+  // pressure and density. Compacted soil does not, and soil with a dilatancy angle of its own has
+  // dilated above.
   state->shear = state->shear + slip;
-  const real grown = smaller(j0 + soil->loosening * slip, j);
+  const real broken = smaller(state->shear * soil->inv_remould, 1.0f);
+  const real pressed = p * (1.0f / SCHEME(dilatancy_pressure));
+  real dilates = dense * larger(1.0f - pressed, 0.0f) * broken;
+#ifdef LAW_EXTENDED
+  dilates = dilates * step(0.0f, -soil->dilatancy) * step(1.0f, j0);
+#endif
+  const real dilated = j0 * (1.0f + SCHEME(bank_dilatancy) * dilates * slip);
+  const real grown = larger(smaller(j0 + soil->loosening * slip, j), dilated);
   state->j0 = larger(j0, smaller(grown, soil->swell));
   state->j = j;
 }

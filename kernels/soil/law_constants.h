@@ -26,7 +26,7 @@
 //
 // swell: largest J0
 //
-// loosening: increase of J0 per plastic shear; J0 is not raised above J
+// loosening: increase of J0 per plastic shear, up to J
 #define BASIC_LAW_CONSTANTS(X) \
   X(bulk)                      \
   X(shear)                     \

@@ -34,6 +34,21 @@ INLINED scalar free_fraction_above(columns below) {
   return all(below >= 1.5f) ? 1.0f : free_fraction_between(below, 1.5f);
 }
 
+// Returns the share of its velocity downwards that the topmost held node of resting ground keeps: 0
+// where soil rests on the ground, 1 where it still falls [docs/soil.md, resting ground]. mass,
+// mass_above: of the node and of the node above it [kg]; below: as in free_fraction_between.
+//
+// A node that is held stops soil that is up to one and a half cells above the ground. Such soil is
+// packed less densely at this node than at the node above it.
+INLINED scalar falling_share(scalar mass, scalar mass_above, columns below) {
+  const scalar here = mass * mean_of(kernel_share(below + 1.0f));
+  const scalar above = mass_above * mean_of(kernel_share(below));
+  const scalar lacks = SCHEME(gap_closed) * above - here;
+  const scalar most = (SCHEME(gap_closed) - SCHEME(gap_open)) * above;
+  const scalar share = lacks > 0.0f ? clamp(lacks / most, 0.0f, 1.0f) : 0.0f;
+  return share * share;
+}
+
 // Returns 1 / m [1/kg] for the mass of a node or of several nodes at once; 0 for a node lighter
 // than a mass quantum, which counts as empty. With momentum p, the velocity after gravity is p
 // INVERSE_MASS(m) + g dt where m > MASS_QUANTUM.

@@ -11,14 +11,18 @@
 #include "soil/node.h"
 #include "soil/place.h"
 
-// Returns the node of the tile of neighbour n that lies on this work-item's node, -1: none.
-static inline int tile_node(int n) {
+// Returns the node of the tile of neighbour n that lies `up` nodes above this work-item's node, -1:
+// none.
+static inline int tile_node_above(int n, int up) {
   const int me = get_local_id(0);
-  const int3 node = (int3)(me & 3, (me >> 2) & 3, me >> 4) - 4 * neighbour_offset(n) + 1;
+  const int3 node = (int3)(me & 3, (me >> 2) & 3, (me >> 4) + up) - 4 * neighbour_offset(n) + 1;
   const bool on =
       node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < 8 && node.y < 8 && node.z < 8;
   return on ? node.x + 8 * node.y + 64 * node.z : -1;
 }
+
+// Returns the node of the tile of neighbour n that lies on this work-item's node, -1: none.
+static inline int tile_node(int n) { return tile_node_above(n, 0); }
 
 // Returns v = p / m + dv, added to the velocity before in a held step. Nodes lighter than a mass
 // quantum are empty.
@@ -36,22 +40,32 @@ __attribute__((reqd_work_group_size(BLOCK_NODES, 1, 1))) kernel void grid_update
     global float4* restrict velocity, const float4 dv, const int hold) {
   const int block = list[get_group_id(0)], me = get_local_id(0);
   float4 sum = 0.0f;
+  float mass_above = 0.0f;
   for (int n = 0; n < 27; ++n) {
-    const int particle_block = around[27 * block + n], node = tile_node(n);
-    if (particle_block < 0 || node < 0) continue;
-    for (int t = 0; used[particle_block] >> t; ++t)
-      if (used[particle_block] >> t & 1)
-        sum += tiles[(size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES + node];
+    const int particle_block = around[27 * block + n];
+    const int node = tile_node(n), above = tile_node_above(n, 1);
+    if (particle_block < 0) continue;
+    for (int t = 0; used[particle_block] >> t; ++t) {
+      if (!(used[particle_block] >> t & 1)) continue;
+      const size_t tile = (size_t)(particle_blocks[particle_block].tile + t) * TILE_NODES;
+      if (node >= 0) sum += tiles[tile + node];
+      if (above >= 0) mass_above += tiles[tile + above].w;
+    }
   }
-  // Nodes at or below the floor have no velocity; masses become mass per free volume above the
-  // ground.
+  // Nodes at or below the floor have no velocity, except that the topmost of them lets soil fall
+  // that is not on the ground yet; masses become mass per free volume above the ground.
   float4 v = 0.0f;
   if (any(sum != 0.0f)) {
     global const BlockFloor* ground = floors + block;
     const float z = (float)(me >> 4);
     v = velocity_of(sum, dv, hold, velocity[(size_t)block * BLOCK_NODES + me]);
-    if (z <= ground->held[me & 15]) v.xyz *= 0.0f;
-    v.w *= 1.0f / free_fraction_above(z - vload4(me & 15, ground->around[0]));
+    const float4 below = z - vload4(me & 15, ground->around[0]);
+    const float top = ground->held[me & 15];
+    if (z <= top) {
+      const float falls = z + 1.0f > top ? falling_share(v.w, mass_above, below) : 0.0f;
+      v.xyz = (float3)(v.xy * 0.0f, fmin(v.z, 0.0f) * falls);
+    }
+    v.w *= 1.0f / free_fraction_above(below);
   }
   velocity[(size_t)block * BLOCK_NODES + me] = v;
 }

@@ -14,13 +14,15 @@
 #include "soil/node.h"
 #include "soil/place.h"
 
-// Adds the part of a neighbour's tile that lies on this block; d: offset of the neighbour.
-static inline void add_part(global const float* tile, float16* rows, int3 d) {
-  const int z0 = d.z > 0 ? 3 : 0, z1 = d.z < 0 ? 3 : 4, y0 = d.y > 0 ? 3 : 0, y1 = d.y < 0 ? 3 : 4;
-  for (int z = z0; z < z1; ++z)
+// Adds the layers z0 .. z1 - 1 of nodes of a neighbour's tile; d: offset of the neighbour. rows: a
+// float16 per row of four nodes, from layer z on.
+static inline void add_layers(global const float* tile, float16* rows, int3 d, int z, int z0,
+                              int z1) {
+  const int y0 = d.y > 0 ? 3 : 0, y1 = d.y < 0 ? 3 : 4;
+  for (int k = z0; k < z1; ++k)
     for (int y = y0; y < y1; ++y) {
-      global const float* from = tile + 4 * ((y - 4 * d.y + 1) * 8 + (z - 4 * d.z + 1) * 64);
-      float16* row = rows + y + 4 * z;
+      global const float* from = tile + 4 * ((y - 4 * d.y + 1) * 8 + (k - 4 * d.z + 1) * 64);
+      float16* row = rows + y + 4 * (k - z);
       if (d.x == 0) *row += vload16(0, from + 4);
       if (d.x > 0) row->hi.hi += vload4(0, from);
       if (d.x < 0) {
@@ -29,6 +31,11 @@ static inline void add_part(global const float* tile, float16* rows, int3 d) {
         *row += part;
       }
     }
+}
+
+// Adds the part of a neighbour's tile that lies on this block.
+static inline void add_part(global const float* tile, float16* rows, int3 d) {
+  add_layers(tile, rows, d, 0, d.z > 0 ? 3 : 0, d.z < 0 ? 3 : 4);
 }
 
 // Returns v = p / m + g dt of four nodes, added to the velocity before in a held step. Nodes
@@ -46,17 +53,28 @@ static inline float16 velocity_of(float16 momentum, float4 dv, int hold,
   return (float16)(v.s012, m.x, v.s456, m.y, v.s89a, m.z, v.scde, m.w);
 }
 
-// Sets the velocity of nodes at or below the floor to 0, for a row of four
-// [docs/soil.md, resting ground], and divides masses by the free volume above the ground
-// [docs/soil.md, free volume].
-static inline float16 held(float16 v, global const BlockFloor* ground, int row) {
+// Sets the velocity of nodes at or below the floor to 0, for a row of four, except that the topmost
+// of them lets soil fall that is not on the ground yet [docs/soil.md, resting ground]; divides
+// masses by the free volume above the ground [docs/soil.md, free volume]. above: masses of the
+// nodes above the row.
+static inline float16 held(float16 v, float4 above, global const BlockFloor* ground, int row) {
   const float z = (float)(row >> 2);
-  const float4 on = select((float4)(1.0f), (float4)(0.0f), z <= vload4(row & 3, ground->held));
+  const float4 top = vload4(row & 3, ground->held);
+  const int4 fixed = z <= top, topmost = fixed && z + 1.0f > top;
+  const float4 on = select((float4)(1.0f), (float4)(0.0f), fixed);
   const float16 below = z - vload16(row & 3, ground->around[0]);
-  return v * (float16)(on.xxx, 1.0f / free_fraction_above(below.lo.lo),  //
-                       on.yyy, 1.0f / free_fraction_above(below.lo.hi),  //
-                       on.zzz, 1.0f / free_fraction_above(below.hi.lo),  //
-                       on.www, 1.0f / free_fraction_above(below.hi.hi));
+  float4 up = v.s26ae * on;
+  if (any(topmost)) {
+    const float4 falls = (float4)(falling_share(v.s3, above.x, below.lo.lo),  //
+                                  falling_share(v.s7, above.y, below.lo.hi),  //
+                                  falling_share(v.sb, above.z, below.hi.lo),  //
+                                  falling_share(v.sf, above.w, below.hi.hi));
+    up = select(up, fmin(v.s26ae, 0.0f) * falls, topmost);
+  }
+  return (float16)(v.s01 * on.x, up.x, v.s3 * (1.0f / free_fraction_above(below.lo.lo)),  //
+                   v.s45 * on.y, up.y, v.s7 * (1.0f / free_fraction_above(below.lo.hi)),  //
+                   v.s89 * on.z, up.z, v.sb * (1.0f / free_fraction_above(below.hi.lo)),  //
+                   v.scd * on.w, up.w, v.sf * (1.0f / free_fraction_above(below.hi.hi)));
 }
 
 // Returns true when no node of the block is held or has ground in its kernel.
@@ -85,13 +103,24 @@ __attribute__((reqd_work_group_size(1, 1, 1))) kernel void grid_update(
   global float* out = velocity + (size_t)block * (4 * BLOCK_NODES);
   global const BlockFloor* ground = floors + block;
   const bool in_the_open = far_above(ground);
+  float16 above[4];
+  for (int y = 0; y < 4; ++y) above[y] = 0.0f;
+  for (int n = 9; n < 27 && !in_the_open; ++n) {
+    const int particle_block = around[27 * block + n];
+    if (particle_block < 0) continue;
+    for (int t = 0; used[particle_block] >> t; ++t)
+      if (used[particle_block] >> t & 1)
+        add_layers(tiles + (size_t)(particle_blocks[particle_block].tile + t) * (4 * TILE_NODES),
+                   above, neighbour_offset(n), 4, 4, 5);
+  }
   for (int i = 0; i < 16; ++i) {
     if (!some(rows[i] != 0.0f)) {
       PUT16((float16)(0.0f), out + 16 * i);
       continue;
     }
     const float16 v = velocity_of(rows[i], dv, hold, out + 16 * i);
-    PUT16(in_the_open ? v : held(v, ground, i), out + 16 * i);
+    const float16 next = i < 12 ? rows[i + 4] : above[i - 12];
+    PUT16(in_the_open ? v : held(v, next.s37bf, ground, i), out + 16 * i);
   }
 }
 

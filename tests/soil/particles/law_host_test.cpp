@@ -120,13 +120,46 @@ TEST(SoilLaw, DensityStateGrowsOnlyToTheSwellAndOnlyAsFarAsTheVolumeAllows) {
   closed.j = 1 - 20e3 / closed.soil.bulk;
   closed.c[1] = 1;
   for (int i = 0; i < 2000; ++i) closed.step(1e-3);
-  // Confined shear creates no pressure.
+  // Above the pressure up to which soil dilates, confined shear creates no pressure.
   EXPECT_EQ(closed.j0, 1);
   Element open{law_soil(soil, 0.1)};
   open.j = 1.5;
   open.c[1] = 1;
   for (int i = 0; i < 2000; ++i) open.step(1e-3);
   EXPECT_NEAR(open.j0, soil.swell, 1e-12);
+}
+
+TEST(SoilLaw, RemouldedSoilDilatesAndLessSoTheMorePressureItCarriesAndTheLooserItIs) {
+  scene::Soil soil = rig::sand();
+  soil.swell = 1.2;
+  // Volume strain per plastic shear strain, at this pressure and density state and after this
+  // plastic shear.
+  const auto rate = [&](double pressure, double j0, double shear) {
+    Element e{law_soil(soil, 0.1)};
+    e.c[1] = 1;
+    const auto step = [&] {
+      e.j0 = j0, e.j = j0 * (1 - pressure / e.soil.bulk), e.shear = shear;
+      e.step(1e-4);
+      return e.shear - shear;
+    };
+    // The stress first reaches the yield surface.
+    while (step() < 1e-5) {
+    }
+    const double slip = step();
+    return (e.j0 / j0 - 1) / slip;
+  };
+  const double remoulded = soil.remoulding_strain;
+  const double half = 0.5 * kScheme.dilatancy_pressure;
+  EXPECT_NEAR(rate(half, 1, remoulded), 0.5 * kScheme.bank_dilatancy, 1e-6);
+  EXPECT_NEAR(rate(0.5 * half, 1, 2 * remoulded), 0.75 * kScheme.bank_dilatancy, 1e-6);
+  EXPECT_NEAR(rate(half, 1.1, remoulded), 0.25 * kScheme.bank_dilatancy, 1e-6);
+  // The step itself breaks bonds, too.
+  EXPECT_NEAR(rate(half, 1, 0.5 * remoulded), 0.25 * kScheme.bank_dilatancy, 1e-4);
+  EXPECT_EQ(rate(2.01 * half, 1, remoulded), 0);
+  EXPECT_EQ(rate(half, soil.swell, remoulded), 0);
+  EXPECT_EQ(rate(half, 0.95, remoulded), 0) << "compacted";
+  soil.swell = 1;
+  EXPECT_EQ(rate(half, 1, remoulded), 0);
 }
 
 /// Plane-strain shear at a fixed normal stress on the plane of shear, as in a shear box: the height
@@ -305,8 +338,9 @@ TEST(SoilLaw, EachTestMobilisesTheAngleThatWasConvertedFromIt) {
   for (const double psi : {0.0, 12.0}) {
     const auto tested = [psi](FrictionTest test, double angle) {
       scene::Soil soil = plain_sand(0);
-      // Far from loose, so that the dilatancy is that of the bank.
-      soil.swell = 2, soil.loosening_strain = 100;
+      // Far from loose, so that the dilatancy is that of the bank. Without psi, soil with swell
+      // would dilate under little pressure, and a shear box measures more while it does.
+      soil.swell = psi > 0 ? 2 : 1, soil.loosening_strain = 100;
       soil.dilatancy_angle = radians(psi);
       soil.friction_angle = scene::plane_strain_angle(test, radians(angle), soil.dilatancy_angle);
       return soil;

@@ -134,8 +134,15 @@ void ReferenceSolver::update_grid(double dt, bool hold) {
     const bool empty = node.mass <= kMassQuantum, fixed = above <= kScheme.held_margin;
     const Vec3 before = hold ? node.velocity : Vec3(Vec3::Zero());
     node.velocity = Vec3::Zero();
-    if (!empty && !fixed)
-      node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
+    if (!empty) node.velocity = before + node.momentum * INVERSE_MASS(node.mass) + gravity_ * dt;
+    if (fixed) {
+      // The topmost held node lets soil fall that is not on the ground yet, but near a tool.
+      const auto next = nodes_.find({at[0], at[1], at[2] + 1});
+      const double mass_above = next == nodes_.end() ? 0 : next->second.mass;
+      const bool topmost = !contact && above + 1 > kScheme.held_margin;
+      const double falls = topmost ? falling_share(node.mass, mass_above, above) : 0;
+      node.velocity = Vec3(0, 0, std::min(node.velocity.z(), 0.0) * falls);
+    }
     if (contact && !empty && !fixed)
       node.velocity += contact(at, node.mass, node.velocity) / node.mass;
     // Particles gather their local density from this mass.
