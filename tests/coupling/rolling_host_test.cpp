@@ -86,10 +86,19 @@ class RolledTyre {
   double deflection_ = 0;
 };
 
+/// Returns the mean depth of the rut of a RolledTyre under its left tyre [m].
+double rut_of(const heightfield::Ground& ground) {
+  double depth = 0;
+  for (int i = 0; i < 20; ++i) depth -= ground.sample(2.5 + 0.05 * i, 2.03 + 0.16) / 20;
+  return depth;
+}
+
 class RollingTyre : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RollingTyre, PushesEquallyForAnyCellAndHardlyInItsOwnRut) {
-  const scene::Soil soil = shipped_soil(GetParam());
+  scene::Soil soil = shipped_soil(GetParam());
+  // In its own rut it sinks no further.
+  soil.multi_pass_exponent = 0;
   std::vector<double> pushed;
   for (const double cell : {0.2, 0.1, 0.05}) {
     heightfield::Ground ground = bed(soil, cell, Vec2(9, 4));
@@ -97,8 +106,7 @@ TEST_P(RollingTyre, PushesEquallyForAnyCellAndHardlyInItsOwnRut) {
     tyre.roll(0, 0, 2);
     tyre.roll(kSpeed, kSpeed, 1);
     pushed.push_back(tyre.roll(kSpeed, kSpeed, 2));
-    double depth = 0;
-    for (int i = 0; i < 20; ++i) depth -= ground.sample(2.5 + 0.05 * i, 2.03 + 0.16) / 20;
+    const double depth = rut_of(ground);
     const double expected = 2 * terramechanics::bulldozing({&soil, 1}, 0.28, 0.525, depth, 1);
     print_value("rolls freely, pushes ahead [N]", pushed.back(),
                 std::to_string(expected) + " within 5 %", "[Bekker 1969]");
@@ -111,6 +119,27 @@ TEST_P(RollingTyre, PushesEquallyForAnyCellAndHardlyInItsOwnRut) {
     EXPECT_LT(std::abs(tyre.roll(-kSpeed, -kSpeed, 1.5)), 0.05 * pushed.back()) << cell;
   }
   for (const double one : pushed) EXPECT_NEAR(one / pushed[1], 1, 0.05);
+}
+
+TEST_P(RollingTyre, PushesTheSoilOfItsNewSinkageInItsOwnRut) {
+  scene::Soil soil = shipped_soil(GetParam());
+  soil.multi_pass_exponent = 2.5;
+  heightfield::Ground ground = bed(soil, 0.05, Vec2(9, 4));
+  RolledTyre tyre(ground);
+  tyre.roll(0, 0, 2);
+  tyre.roll(kSpeed, kSpeed, 3);
+  const double before = rut_of(ground);
+  const Vec2i column = ground.column_at(3, 2.03 + 0.16);
+  const double volume = ground.specific_volume(column.x(), column.y());
+  tyre.roll(-kSpeed, -kSpeed, 0.9);
+  const double pushed = tyre.roll(-kSpeed, -kSpeed, 1);
+  const double after = rut_of(ground);
+  EXPECT_GT(after, 1.2 * before);
+  const double expected =
+      -2 * terramechanics::bulldozing({&soil, volume}, 0.28, 0.525, after - before, 1);
+  print_value("in its own rut, pushes ahead [N]", pushed, std::to_string(expected) + " within 5 %",
+              "[Bekker 1969]");
+  EXPECT_NEAR(pushed / expected, 1, 0.05);
 }
 
 TEST_P(RollingTyre, PushesNothingAheadWhereItSlips) {
