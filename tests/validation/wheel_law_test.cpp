@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,24 @@ void predict(const Experiment& e) {
   }
 }
 
+/// Expects the law to carry the wheel at the fitted and the predicted slips of a driven wheel, and
+/// its pull within 3 N of the measured one.
+void expect_pulls(const Experiment& e) {
+  std::vector<Row> driven = {e.rolling, e.slipping};
+  std::copy_if(e.rows.begin(), e.rows.end(), std::back_inserter(driven),
+               [](const Row& row) { return row.slip > 0; });
+  EXPECT_EQ(driven.size(), 5);
+  for (const Row& row : driven) {
+    const WheelForce law = at(e, row);
+    EXPECT_TRUE(law.carried) << "slip " << row.slip;
+    EXPECT_NEAR(1000 * law.sinkage, row.sinkage, 0.3 * row.sinkage) << "slip " << row.slip;
+    char slip[16];
+    std::snprintf(slip, sizeof slip, "%g", row.slip);
+    validation::expect_between(std::string("slip ") + slip + ", pull less the measured one [N]",
+                               law.drawbar - row.pull, -3, 3, e.source, 0);
+  }
+}
+
 scene::Soil sand(double phi_degrees, double exponent, double janosi_k) {
   scene::Soil soil;
   // The rim's friction is not published.
@@ -95,6 +114,7 @@ TEST(WheelLaw, PredictsASmoothWheelInDrySand) {
   e.source = "robomechanics rig [docs/validation.md, Wheels]";
   fit(e);
   predict(e);
+  expect_pulls(e);
 }
 
 TEST(WheelLaw, PredictsASmoothWheelInLunarSimulant) {
