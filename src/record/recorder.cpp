@@ -17,6 +17,7 @@
 #include "record/map_recorder.h"
 #include "record/path_file.h"
 #include "record/run_info.h"
+#include "record/sensor_streams.h"
 #include "record/telemetry.h"
 #include "record/terrain_files.h"
 #include "sim/timing.h"
@@ -97,7 +98,7 @@ void Recorder::State::write_start() {
   if (options.hash_every > 0)
     hashes = std::make_unique<HashLog>(session, path("hashes.csv"), options.hash_every);
   if (!session.world().description().records.empty())
-    maps = std::make_unique<MapRecorder>(session, *folder);
+    maps = std::make_unique<MapRecorder>(session, *folder, sensor_streams(session.world()));
   map_when_due();
   checkpoint(true);
 }
