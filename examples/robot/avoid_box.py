@@ -17,7 +17,8 @@ def clearance(points, heading):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    kept = argparse.RawTextHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=kept)
     parser.add_argument("scene", nargs="?", default="paper/diff_physics")
     parser.add_argument("--goal", nargs=2, type=float, default=[3.5, -2.0], help="[m]")
     parser.add_argument("--crate", default="-0.5 -2", help="where the crate is put: x y [m]")

@@ -11,7 +11,7 @@ namespace navvy::cli {
 namespace {
 
 using vehicle::LiftCapacity;
-using vehicle::ToolForce;
+using vehicle::RatedToolForce;
 
 const char* word(vehicle::ToolForceKind kind) {
   return kind == vehicle::ToolForceKind::kBreakout ? "breakout" : "tear-out";
@@ -54,7 +54,7 @@ nlohmann::json finite(double value) {
 }
 
 void print_force(const std::string& machine, const char* kind, const char* position,
-                 const ToolForce& f) {
+                 const RatedToolForce& f) {
   std::printf("%-14s %-9s %-9s %7s %9s %-16s %7s %7s %9s %-10s %5.0f %5.0f %6.0f %7.2f %7.2f\n",
               machine.c_str(), kind, position, kilonewtons(f.working).c_str(),
               kilonewtons(f.hydraulic).c_str(), f.circuit.c_str(), kilonewtons(f.tipping).c_str(),
@@ -63,7 +63,7 @@ void print_force(const std::string& machine, const char* kind, const char* posit
               f.reach, f.height);
 }
 
-nlohmann::json to_json(const ToolForce& f) {
+nlohmann::json to_json(const RatedToolForce& f) {
   return {{"boom_deg", degrees(f.boom)},
           {"stick_deg", degrees(f.stick)},
           {"bucket_deg", degrees(f.bucket)},
@@ -79,7 +79,7 @@ nlohmann::json to_json(const ToolForce& f) {
           {"limit", vehicle::name_of(f.limit())}};
 }
 
-std::string csv_line(const ToolForceRow& row, const char* position, const ToolForce& f) {
+std::string csv_line(const ToolForceRow& row, const char* position, const RatedToolForce& f) {
   return line({field(row.machine), word(row.rating.kind), position, number(degrees(f.boom)),
                number(degrees(f.stick)), number(degrees(f.bucket)), number(f.reach),
                number(f.height), number(f.radius), number(f.working), number(f.hydraulic),
@@ -156,7 +156,7 @@ void print_tool_forces(const std::vector<ToolForceRow>& rows, bool curve) {
     print_force(row.machine, word(row.rating.kind), "standing", row.rating.standing);
   }
   for (const ToolForceRow& row : rows)
-    for (const ToolForce& f : row.rating.curve)
+    for (const RatedToolForce& f : row.rating.curve)
       if (curve) print_force(row.machine, word(row.rating.kind), "curve", f);
 }
 
@@ -169,7 +169,7 @@ std::string tool_force_csv(const std::vector<ToolForceRow>& rows) {
     out += csv_line(row, "rated", row.rating.rated);
     out += csv_line(row, "alone", row.rating.alone);
     out += csv_line(row, "standing", row.rating.standing);
-    for (const ToolForce& f : row.rating.curve) out += csv_line(row, "curve", f);
+    for (const RatedToolForce& f : row.rating.curve) out += csv_line(row, "curve", f);
   }
   return out;
 }
@@ -184,7 +184,7 @@ nlohmann::json tool_force_json(const std::vector<ToolForceRow>& rows) {
                           {"alone", to_json(row.rating.alone)},
                           {"standing", to_json(row.rating.standing)}};
     one["curve"] = nlohmann::json::array();
-    for (const ToolForce& f : row.rating.curve) one["curve"].push_back(to_json(f));
+    for (const RatedToolForce& f : row.rating.curve) one["curve"].push_back(to_json(f));
     out["forces"].push_back(std::move(one));
   }
   return out;

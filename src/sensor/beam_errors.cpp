@@ -3,7 +3,7 @@
 
 namespace navvy::sensor {
 
-double BeamErrors::apply(double distance, Random& random) const {
+double BeamDisturbance::apply(double distance, Random& random) const {
   // Without shares no number is drawn, so that the noise of a plain sensor is cheap.
   if (errors_.dropped > 0 && random.uniform() < errors_.dropped) return kDropped;
   if (errors_.outliers > 0 && random.uniform() < errors_.outliers)

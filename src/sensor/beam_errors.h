@@ -19,12 +19,12 @@ inline constexpr double kTooNear = -std::numeric_limits<double>::infinity();
 inline constexpr double kDropped = std::numeric_limits<double>::quiet_NaN();
 
 /// Adds the errors of one kind of beam to true distances.
-class BeamErrors {
+class BeamDisturbance {
  public:
   /// Draws constant errors from `random`. Distances are from `min` to `max` [m] in steps of
   /// `resolution` [m], or not rounded if it is 0.
-  BeamErrors(const scene::SensorNoise& noise, const scene::BeamErrors& errors, double min,
-             double max, double resolution, Random& random)
+  BeamDisturbance(const scene::SensorNoise& noise, const scene::BeamErrors& errors, double min,
+                  double max, double resolution, Random& random)
       : noise_(noise, random), errors_(errors), min_(min), max_(max), resolution_(resolution) {}
 
   /// Goes on by `dt` [s]; before the first `apply` of a reading.

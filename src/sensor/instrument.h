@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one kind of sensor measures; sensor/sensor.h does what all kinds have in common.
+// What one kind of sensor measures; sensor/sensor_sampler.h does what all kinds have in common.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ struct Mounting {
 };
 
 /// One array of a sensor: what ArrayChannel needs beside the sensor's name.
-struct Quantity {
+struct MeasuredQuantity {
   const char* name;        ///< last part of the array's name
   const char* unit;        ///< unit of the elements
   const char* meaning;     ///< one line of description
@@ -49,7 +49,7 @@ class Instrument {
  public:
   virtual ~Instrument() = default;
   /// Returns the arrays of a reading.
-  virtual std::vector<Quantity> quantities() const = 0;
+  virtual std::vector<MeasuredQuantity> quantities() const = 0;
   /// Returns true if it uses the ray scene, which is then up to date in `measure`.
   virtual bool looks() const { return false; }
   /// Returns the number of columns that are measured one after the other during the sweep; 1 for a

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "sensor/ray_scene.h"
-#include "sensor/sensor.h"
 #include "sensor/sensor_output.h"
+#include "sensor/sensor_sampler.h"
 
 namespace navvy::sensor {
 namespace {
@@ -56,7 +56,7 @@ std::vector<std::unique_ptr<sim::Sampler>> make_sensors(const sim::World& world)
         // A world without sensors pays nothing.
         if (scene == nullptr) scene = std::make_shared<RayScene>(world);
         const Mounting at{world, static_cast<int>(m), static_cast<int>(l), sensor, scene};
-        auto made = std::make_unique<Sensor>(at);
+        auto made = std::make_unique<SensorSampler>(at);
         check(at, made->looks(), faults);
         out.push_back(std::move(made));
       }
@@ -77,7 +77,7 @@ std::vector<SensorOutput> sensor_outputs(const sim::World& world) {
         one.description = &sensor;
         one.name = machines[m].name + "/" + sensor.name;
         one.link_name = machines[m].name + "/" + machines[m].machine.links[l].name;
-        // The frame tells the arrays of this sensor from others under a similar name.
+        // The frame distinguishes the arrays of this sensor from others of a similar name.
         for (std::size_t i = 0; i < channels.size(); ++i)
           if (channels[i].frame == one.name)
             one.arrays.push_back(

@@ -205,8 +205,8 @@ std::string RayScene::around(const Vec3& p_W) const {
   for (const Body& body : s.bodies) {
     if ((p_W.array() < body.low.array()).any() || (p_W.array() > body.high.array()).any()) continue;
     const Vec3 p_L = body.X_LW * p_W;
-    // From inside a closed body, every beam first meets the back of a face. Three beams tell an
-    // open mesh from a closed one.
+    // From inside a closed body, every beam first meets the back of a face. Three beams show
+    // whether a mesh is closed.
     bool inside = true;
     for (const Vec3& d : {Vec3(0.31, 0.17, 0.93), Vec3(-0.83, 0.41, -0.37), Vec3(0.2, -0.9, 0.4)}) {
       const auto hit = body.tree.first_hit(p_L, d);

@@ -12,7 +12,7 @@
 
 namespace navvy::sensor {
 
-/// What a beam meets.
+/// Types of things that a beam meets.
 enum class Met : std::uint8_t {
   kGround,  ///< surface of the columns and of the loose soil that rests on them
   kSoil,    ///< soil in the air, or in a bucket or bed

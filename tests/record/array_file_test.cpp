@@ -25,7 +25,8 @@ class ArrayFileTest : public testing::Test {
   }
   void publish(std::uint16_t value) {
     const std::uint16_t numbers[3] = {value, value, value};
-    std::memcpy(outputs_.publish(0, 0.5 * value, Pose::Identity()).data(), numbers, sizeof numbers);
+    std::memcpy(outputs_.publish(0, 0.5 * value, Pose::Identity(), 0.5 * value).data(), numbers,
+                sizeof numbers);
   }
   static constexpr std::size_t kRecord = 72 + 6;
 

@@ -83,7 +83,7 @@ TEST(BeamErrors, DropAndScatterTheirSharesOfBeams) {
   shares.dropped = 0.1;
   shares.outliers = 0.2;
   Random random(5);
-  const BeamErrors errors({}, shares, 0.1, 20, 0, random);
+  const BeamDisturbance errors({}, shares, 0.1, 20, 0, random);
   int dropped = 0, elsewhere = 0;
   for (int i = 0; i < kBeams; ++i) {
     const double read = errors.apply(4, random);
@@ -99,7 +99,7 @@ TEST(BeamErrors, DropAndScatterTheirSharesOfBeams) {
 
 TEST(BeamErrors, MarkDistancesOutsideTheRange) {
   Random random(5);
-  const BeamErrors errors({}, {}, 0.5, 8, 0.1, random);
+  const BeamDisturbance errors({}, {}, 0.5, 8, 0.1, random);
   EXPECT_EQ(errors.apply(0.3, random), kTooNear);
   EXPECT_EQ(errors.apply(9, random), kTooFar);
   EXPECT_EQ(errors.apply(kTooFar, random), kTooFar);

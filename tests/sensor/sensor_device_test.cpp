@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all sensors have in common, and the kinds that do not look.
-#include "sensor/sensor.h"
+#include "sensor/sensor_sampler.h"
 
 #include <gtest/gtest.h>
 

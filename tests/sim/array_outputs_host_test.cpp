@@ -51,7 +51,7 @@ TEST(ArrayOutputs, HashAndSaveEverythingVisibleToReaders) {
   const int i = outputs.add(image());
   copy.add(image());
   const std::uint64_t empty = hash_of(outputs).digest();
-  outputs.publish(i, 0.5, make_pose(0, 0, 0, 0, 0, 1))[3] = std::byte{1};
+  outputs.publish(i, 0.5, make_pose(0, 0, 0, 0, 0, 1), 0.5)[3] = std::byte{1};
   EXPECT_NE(hash_of(outputs).digest(), empty);
   const std::byte* storage = copy.view(0).bytes().data();
   load_saved(saved(outputs), copy);

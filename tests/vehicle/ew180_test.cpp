@@ -65,8 +65,8 @@ TEST(Ew180, TearOutForceIs90kN) {
 
 TEST(Ew180, RatedToolForcesAreThoseMeasuredWithTheTipLocked) {
   const scene::Machine m = ew180();
-  const ToolForce breakout = rate_tool_force(m, ToolForceKind::kBreakout).rated,
-                  tear_out = rate_tool_force(m, ToolForceKind::kTearOut).rated;
+  const RatedToolForce breakout = rate_tool_force(m, ToolForceKind::kBreakout).rated,
+                       tear_out = rate_tool_force(m, ToolForceKind::kTearOut).rated;
   print_value("rated breakout force [N]", breakout.hydraulic, "120e3 +-5 %",
               "ISO 6015; vehicles/ew180/SOURCE.md");
   print_value("rated tear-out force [N]", tear_out.hydraulic, "90e3 +-5 %",
@@ -83,7 +83,7 @@ TEST(Ew180, RatedToolForcesAreThoseMeasuredWithTheTipLocked) {
 /// Pulls at the cutting edge against its digging direction, the machine standing with its brakes
 /// on, until `over` returns true; returns the force [N]. The force grows to 0.8 of `expected`
 /// within two seconds, then by 1 kN/s.
-double pulled_until(scene::Machine m, const ToolForce& at, double expected,
+double pulled_until(scene::Machine m, const RatedToolForce& at, double expected,
                     const std::function<bool(const PhysicsEngine&)>& over) {
   const auto set = [&](const std::string& name, double q) {
     m.joints.at(static_cast<std::size_t>(m.joint_index(name))).initial = q;
@@ -115,7 +115,7 @@ TEST(Ew180, TipsAtTheToolForceThatItsRatingGives) {
   // Far ahead, the edge pulls down: the front wheels lift. Its own cylinders would yield before.
   scene::Machine m = ew180();
   for (scene::Cylinder& cylinder : m.cylinders) cylinder.pressure *= 4;
-  const ToolForce at = tool_force_at(m, ToolForceKind::kBreakout, 0.1, -0.8, 0.3);
+  const RatedToolForce at = tool_force_at(m, ToolForceKind::kBreakout, 0.1, -0.8, 0.3);
   ASSERT_EQ(at.limit(), ForceLimit::kTipping);
   const double measured = pulled_until(m, at, at.tipping, [](const PhysicsEngine& engine) {
     return engine.wheel(0, 0).force_W.z() <= 0 && engine.wheel(0, 1).force_W.z() <= 0;
@@ -129,7 +129,7 @@ TEST(Ew180, TipsAtTheToolForceThatItsRatingGives) {
 TEST(Ew180, SlipsAtTheToolForceThatItsRatingGives) {
   // The edge below the stick pulls towards the machine. Wheels of low grip slip before it tips.
   const scene::Machine m = testing::with_grip(ew180(), 0.3);
-  const ToolForce at = tool_force_at(m, ToolForceKind::kBreakout, 0.4, -1.6, -0.4);
+  const RatedToolForce at = tool_force_at(m, ToolForceKind::kBreakout, 0.4, -1.6, -0.4);
   ASSERT_EQ(at.limit(), ForceLimit::kSlipping);
   double start = std::nan("");
   const double measured = pulled_until(m, at, at.slipping, [&](const PhysicsEngine& engine) {

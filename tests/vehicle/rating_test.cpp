@@ -116,7 +116,7 @@ TEST(ToolForce, BreakoutIsPressureTimesAreaTimesTheBestLever) {
   EXPECT_EQ(rating.rated.circuit, "bucket_cylinder");
   EXPECT_DOUBLE_EQ(rating.rated.radius, 1);
   // No position has more.
-  for (const ToolForce& one : rating.curve) {
+  for (const RatedToolForce& one : rating.curve) {
     EXPECT_LE(one.hydraulic, rating.rated.hydraulic * (1 + 1e-9));
     const double q = one.bucket, l = std::sqrt(1.6 - 0.96 * std::sin(q));
     EXPECT_NEAR(one.working, 20e6 * kPi / 4 * 0.01 * 0.48 * std::cos(q) / l, 1e-6 * force);
@@ -138,11 +138,11 @@ TEST(ToolForce, AWeakCircuitThatHoldsLimitsTheForce) {
   // Straight ahead: the edge pushes up with a lever of 8 m about the boom's pivot, 4 m about the
   // stick's.
   effort(machine, "stick_joint", 100e3);
-  const ToolForce straight = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, 0);
+  const RatedToolForce straight = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, 0);
   EXPECT_NEAR(straight.hydraulic, 100e3 / 4, 1e-6);
   EXPECT_EQ(straight.circuit, "stick_joint");
   effort(machine, "boom_joint", 100e3);
-  const ToolForce held = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, 0);
+  const RatedToolForce held = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, 0);
   EXPECT_NEAR(held.hydraulic, 100e3 / 8, 1e-6);
   EXPECT_EQ(held.circuit, "boom_joint");
 }
@@ -150,7 +150,7 @@ TEST(ToolForce, AWeakCircuitThatHoldsLimitsTheForce) {
 TEST(ToolForce, TipsWhereTheMomentsAboutTheWheelsBalance) {
   // The edge pulls down, so the ground pushes the arm up with a lever of 8 + 1.5 m about the rear
   // wheels.
-  const ToolForce up = tool_force_at(digger(), ToolForceKind::kBreakout, 0, 0, 0);
+  const RatedToolForce up = tool_force_at(digger(), ToolForceKind::kBreakout, 0, 0, 0);
   EXPECT_NEAR(up.tipping, moment_about(-1.5) / 9.5, 1e-6);
   // Straight up it slips where it lifts off.
   EXPECT_NEAR(up.slipping, kMass * kGravity, 1e-6 * kMass * kGravity);
@@ -162,7 +162,7 @@ TEST(ToolForce, SlipsAtTheFrictionOfItsWheelsAndInItsBrakes) {
   // The bucket points down by 1.2 rad, so its edge pulls towards the machine and down.
   constexpr double kDown = 1.2;
   scene::Machine machine = digger();
-  const ToolForce pull = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, -kDown);
+  const RatedToolForce pull = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, -kDown);
   const double level = std::sin(kDown), up = std::cos(kDown);
   // The reaction lifts the machine, so less weight remains on its wheels.
   const double slips = 0.8 * kMass * kGravity / (level + 0.8 * up);
@@ -175,7 +175,7 @@ TEST(ToolForce, SlipsAtTheFrictionOfItsWheelsAndInItsBrakes) {
   scene::AckermannDrive weak;
   weak.brake_force = 500;
   machine.drive = weak;
-  const ToolForce braked = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, -kDown);
+  const RatedToolForce braked = tool_force_at(machine, ToolForceKind::kBreakout, 0, 0, -kDown);
   EXPECT_NEAR(braked.slipping, 500 / level, 1e-6);
   EXPECT_EQ(braked.limit(), ForceLimit::kSlipping);
   EXPECT_NEAR(braked.standing(), 500 / level, 1e-6);
@@ -200,8 +200,8 @@ TEST(ToolForce, StandingIsTheLargestForceWithoutAnAnchor) {
   for (int i = 0; i <= 8; ++i)
     for (int k = 0; k <= 8; ++k)
       for (int b = 0; b <= 8; ++b) {
-        const ToolForce one = tool_force_at(machine, ToolForceKind::kBreakout, -1 + 0.25 * i,
-                                            -0.25 * k, -1.5 + 0.2625 * b);
+        const RatedToolForce one = tool_force_at(machine, ToolForceKind::kBreakout, -1 + 0.25 * i,
+                                                 -0.25 * k, -1.5 + 0.2625 * b);
         // Only positions ahead of the wheels count.
         if (one.reach < 1.5) continue;
         EXPECT_LE(one.standing(), rating.standing.standing() * (1 + 1e-3));

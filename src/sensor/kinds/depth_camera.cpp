@@ -32,7 +32,7 @@ class DepthInstrument final : public Instrument {
         errors_(kind.noise, {}, kind.near, kind.far, 0, random) {}
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"depth",
              "m",
              "depths along x of the sensor; inf: beyond the range, -inf: below it",
@@ -55,7 +55,7 @@ class DepthInstrument final : public Instrument {
   scene::DepthCamera kind_;
   std::shared_ptr<RayScene> scene_;
   Pixels pixels_;
-  BeamErrors errors_;
+  BeamDisturbance errors_;
 };
 
 class LabelInstrument final : public Instrument {
@@ -64,7 +64,7 @@ class LabelInstrument final : public Instrument {
       : kind_(kind), scene_(at.scene), pixels_(kind.width, kind.height, kind.fov) {}
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"labels",
              "1",
              "0 nothing, 1 ground, 2 soil in the air or in a tool, 3 + i machine i",

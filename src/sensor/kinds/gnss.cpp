@@ -54,7 +54,7 @@ class GnssInstrument final : public Instrument {
   }
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"position",
              "m",
              "position in the world; NaN without a fix",

@@ -35,7 +35,7 @@ class ImuInstrument final : public Instrument {
         rate_noise_(kind.angular_velocity, random),
         force_noise_(kind.linear_acceleration, random) {}
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"angular_velocity",
              "rad/s",
              "angular velocity in axes of the sensor",

@@ -29,7 +29,7 @@ class InfraredInstrument final : public Instrument {
   }
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"range",
              "m",
              "distance; inf: beyond the range, -inf: below it, NaN: lost",
@@ -58,7 +58,7 @@ class InfraredInstrument final : public Instrument {
  private:
   scene::Infrared kind_;
   std::shared_ptr<RayScene> scene_;
-  BeamErrors errors_;
+  BeamDisturbance errors_;
   std::vector<Vec3> rays_;  ///< directions in S
 };
 

@@ -15,7 +15,7 @@ class JointInstrument final : public Instrument {
         noise_{Noise(kind.position.noise, random), Noise(kind.velocity.noise, random),
                Noise(kind.effort.noise, random)} {}
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"state",
              "rad|m, rad/s|m/s, N m|N",
              "position, velocity and effort of the joint",
@@ -59,7 +59,7 @@ class PressureInstrument final : public Instrument {
     rod_area_ = 0.25 * kPi * cylinder.count * (bore2 - cylinder.rod * cylinder.rod);
   }
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"pressure",
              "Pa",
              "pressure on the head side and on the rod side",
@@ -67,7 +67,7 @@ class PressureInstrument final : public Instrument {
              {2}},
             {"length", "m", "distance between the pins", sim::ElementType::kFloat64, {1}}};
   }
-  // The side that bears the load has its pressure; the other side drains to the tank.
+  // The side that carries the load has its pressure; the other side drains to the tank.
   void measure(int, const Pose&, Values& out) override {
     const vehicle::JointState state = joint_.state();
     out[0] = {std::max(0.0, state.cylinder_force) / head_area_,

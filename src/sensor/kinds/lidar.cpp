@@ -22,7 +22,7 @@ class LidarInstrument final : public Instrument {
   }
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     std::vector<int> shape = {kind_.horizontal.samples};
     if (kind_.vertical.samples > 1) shape.insert(shape.begin(), kind_.vertical.samples);
     return {{"ranges", "m", "distances; inf: beyond the range, -inf: below it, NaN: dropped",
@@ -50,7 +50,7 @@ class LidarInstrument final : public Instrument {
  private:
   scene::Lidar kind_;
   std::shared_ptr<RayScene> scene_;
-  BeamErrors errors_;
+  BeamDisturbance errors_;
   std::vector<Vec2> elevations_;  ///< cosine and sine of each ring's angle
 };
 

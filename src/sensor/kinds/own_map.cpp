@@ -49,7 +49,7 @@ class MapInstrument final : public Instrument {
           scanners_.push_back({lidar, machine_.name() + "/" + sensor.name + "/ranges"});
   }
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"elevation",
              "m",
              "heights that the machine's scanners have seen; NaN: unknown",

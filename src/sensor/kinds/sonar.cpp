@@ -25,7 +25,7 @@ class SonarInstrument final : public Instrument {
   }
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"range",
              "m",
              "distance; inf: beyond the range, -inf: below it, NaN: lost echo",
@@ -48,7 +48,7 @@ class SonarInstrument final : public Instrument {
  private:
   scene::Sonar kind_;
   std::shared_ptr<RayScene> scene_;
-  BeamErrors errors_;
+  BeamDisturbance errors_;
   std::vector<Vec3> rays_;  ///< directions in S
 };
 

@@ -22,7 +22,7 @@ class TimeOfFlightInstrument final : public Instrument {
         errors_(kind.noise, kind.errors, 0, ambiguity(), kind.range.resolution, random) {}
 
   bool looks() const override { return true; }
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     const std::vector<int> shape = {kind_.height, kind_.width};
     return {{"distances", "m", "distances along the pixels' rays, modulo c / (2 f)",
              sim::ElementType::kFloat32, shape},
@@ -68,7 +68,7 @@ class TimeOfFlightInstrument final : public Instrument {
   scene::TimeOfFlight kind_;
   std::shared_ptr<RayScene> scene_;
   Pixels pixels_;
-  BeamErrors errors_;
+  BeamDisturbance errors_;
 };
 
 }  // namespace

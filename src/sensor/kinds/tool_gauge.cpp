@@ -16,7 +16,7 @@ class ToolForceInstrument final : public Instrument {
     for (Noise& noise : moment_) noise = Noise(kind.moment, random);
   }
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"wrench",
              "N, N m",
              "force of the soil on the tool and its moment about the sensor, in its axes",
@@ -64,7 +64,7 @@ class PayloadInstrument final : public Instrument {
         factor_(1 + kind.scale_error * gaussian(random)),
         noise_(kind.noise, random) {}
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"mass", "kg", "mass of the soil in the tool", sim::ElementType::kFloat64, {1}}};
   }
   void measure(int, const Pose&, Values& out) override { out[0] = {tool_.payload()}; }
@@ -88,7 +88,7 @@ class ContactInstrument final : public Instrument {
   ContactInstrument(const scene::ContactSwitch& kind, const Mounting& at)
       : threshold_(kind.threshold), at_(at) {}
 
-  std::vector<Quantity> quantities() const override {
+  std::vector<MeasuredQuantity> quantities() const override {
     return {{"contact",
              "1, N",
              "1 if the switch was closed since the last reading, and the largest normal force",

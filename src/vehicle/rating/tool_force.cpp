@@ -48,12 +48,12 @@ class Bench {
     return lower(joint) + (upper(joint) - lower(joint)) * i / n;
   }
 
-  ToolForce at(double boom, double stick, double bucket) {
+  RatedToolForce at(double boom, double stick, double bucket) {
     rest_.set(arm_.boom, boom);
     rest_.set(arm_.stick, stick);
     rest_.set(arm_.bucket, bucket);
     rest_.place();
-    ToolForce out;
+    RatedToolForce out;
     out.boom = rest_.position(arm_.boom);
     out.stick = rest_.position(arm_.stick);
     out.bucket = rest_.position(arm_.bucket);
@@ -74,7 +74,7 @@ class Bench {
     out.slipping = slipping(direction, weight);
     return out;
   }
-  ToolForce at(const std::array<double, 3>& q) { return at(q[0], q[1], q[2]); }
+  RatedToolForce at(const std::array<double, 3>& q) { return at(q[0], q[1], q[2]); }
 
   /// Returns the force of the working circuit alone at the same positions.
   double own(const std::array<double, 3>& q) {
@@ -101,7 +101,7 @@ class Bench {
 
   /// Finds the circuit that first reaches its relief pressure, of the working joint or of one that
   /// holds against the ground's reaction.
-  void set_hydraulic(ToolForce& out, const Vec3& edge, const Vec3& direction) const {
+  void set_hydraulic(RatedToolForce& out, const Vec3& edge, const Vec3& direction) const {
     out.hydraulic = kNever;
     for (const int joint : {works_, arm_.boom, arm_.stick, arm_.bucket}) {
       const double effort = rest_.force_effort(joint, edge, -direction);
@@ -175,10 +175,10 @@ void over_others(const Grid& grid, double works, const Each& each) {
 
 /// Order of positions: a force that counts first, and one that decides between equal ones.
 struct Order {
-  double ToolForce::*first;
-  double (*second)(const ToolForce&);
+  double RatedToolForce::*first;
+  double (*second)(const RatedToolForce&);
 
-  bool is_better(const ToolForce& a, const ToolForce& b) const {
+  bool is_better(const RatedToolForce& a, const RatedToolForce& b) const {
     constexpr double kEqual = 1e-9;
     const double more = a.*first - b.*first;
     return std::abs(more) <= kEqual * b.*first ? second(a) > second(b) * (1 + kEqual) : more > 0;
@@ -187,7 +187,8 @@ struct Order {
 
 /// Improves a position joint by joint, by steps that become smaller.
 template <typename Better>
-ToolForce improved(Bench& bench, ToolForce best, std::size_t moved, const Better& is_better) {
+RatedToolForce improved(Bench& bench, RatedToolForce best, std::size_t moved,
+                        const Better& is_better) {
   const std::array<int, 3> joints = {bench.arm().boom, bench.arm().stick, bench.arm().bucket};
   for (double step = 1.0 / kCoarse; step > 1e-5; step /= 2)
     for (bool better = true; better;) {
@@ -196,7 +197,7 @@ ToolForce improved(Bench& bench, ToolForce best, std::size_t moved, const Better
         for (const double sign : {-1.0, 1.0}) {
           Position q = {best.boom, best.stick, best.bucket};
           q[k] += sign * step * (bench.upper(joints[k]) - bench.lower(joints[k]));
-          const ToolForce now = bench.at(q);
+          const RatedToolForce now = bench.at(q);
           if (!bench.is_clear() || !is_better(now, best)) continue;
           best = now;
           better = true;
@@ -207,12 +208,12 @@ ToolForce improved(Bench& bench, ToolForce best, std::size_t moved, const Better
 
 /// Returns the best position of the grid, improved.
 template <typename Better>
-ToolForce best_of(Bench& bench, const Grid& grid, std::size_t moved, const Better& is_better) {
-  ToolForce best;
+RatedToolForce best_of(Bench& bench, const Grid& grid, std::size_t moved, const Better& is_better) {
+  RatedToolForce best;
   bool found = false;
   for (const double works : grid.values[grid.works])
     over_others(grid, works, [&](const Position& q) {
-      const ToolForce now = bench.at(q);
+      const RatedToolForce now = bench.at(q);
       if (!bench.is_clear() || (found && !is_better(now, best))) return;
       best = now;
       found = true;
@@ -228,7 +229,7 @@ const char* name_of(ForceLimit limit) {
                                          : "slipping";
 }
 
-ForceLimit ToolForce::limit() const {
+ForceLimit RatedToolForce::limit() const {
   if (hydraulic <= std::min(tipping, slipping)) return ForceLimit::kHydraulic;
   return tipping <= slipping ? ForceLimit::kTipping : ForceLimit::kSlipping;
 }
@@ -269,15 +270,17 @@ ToolForceRating rate_tool_force(const scene::Machine& machine, ToolForceKind kin
   out.kind = kind;
   // For the tear-out force the bucket stays where it is.
   const std::size_t moved = kind == ToolForceKind::kBreakout ? 3 : 2;
-  const auto standing = [](const ToolForce& one) { return one.standing(); };
-  const auto hydraulic = [](const ToolForce& one) { return one.hydraulic; };
-  const Order rated{&ToolForce::hydraulic, standing}, alone{&ToolForce::working, hydraulic};
+  const auto standing = [](const RatedToolForce& one) { return one.standing(); };
+  const auto hydraulic = [](const RatedToolForce& one) { return one.hydraulic; };
+  const Order rated{&RatedToolForce::hydraulic, standing},
+      alone{&RatedToolForce::working, hydraulic};
   const auto by = [](const Order& order) {
-    return [order](const ToolForce& a, const ToolForce& b) { return order.is_better(a, b); };
+    return
+        [order](const RatedToolForce& a, const RatedToolForce& b) { return order.is_better(a, b); };
   };
   out.rated = best_of(bench, grid, moved, by(rated));
   out.alone = best_of(bench, grid, moved, by(alone));
-  out.standing = best_of(bench, grid, moved, [](const ToolForce& a, const ToolForce& b) {
+  out.standing = best_of(bench, grid, moved, [](const RatedToolForce& a, const RatedToolForce& b) {
     return a.standing() > b.standing() * (1 + 1e-9);
   });
   for (int i = 0; i <= kCurve; ++i) {
@@ -288,8 +291,8 @@ ToolForceRating rate_tool_force(const scene::Machine& machine, ToolForceKind kin
   return out;
 }
 
-ToolForce tool_force_at(const scene::Machine& machine, ToolForceKind kind, double boom,
-                        double stick, double bucket) {
+RatedToolForce tool_force_at(const scene::Machine& machine, ToolForceKind kind, double boom,
+                             double stick, double bucket) {
   if (const std::optional<Fault> fault = tool_force_fault(machine)) throw InputError(*fault);
   return Bench(machine, kind).at(boom, stick, bucket);
 }

@@ -25,7 +25,7 @@ const char* name_of(ForceLimit limit);
 
 /// Tool force in one position of the arm, as the force of the cutting edge along its circle about
 /// the pivot of the working joint.
-struct ToolForce {
+struct RatedToolForce {
   /// Positions of the joints of boom, stick and bucket [rad].
   double boom = 0, stick = 0, bucket = 0;
   /// Position of the cutting edge: distance ahead of the swing axis, height above the ground [m].
@@ -57,14 +57,14 @@ struct ToolForceRating {
   /// Position of the largest hydraulic force, which is the rated tool force: where the machine tips
   /// or slips before, it must be anchored. Of equal positions, the one with the largest standing
   /// force.
-  ToolForce rated;
+  RatedToolForce rated;
   /// Position of the largest force of the working circuit alone; of equal ones, that with the
   /// largest hydraulic force. Data sheets that disregard the circuits that hold give this one.
-  ToolForce alone;
+  RatedToolForce alone;
   /// Position of the largest force that the machine applies without an anchor.
-  ToolForce standing;
+  RatedToolForce standing;
   /// Forces over the range of the working joint, with the other joints as in `rated`.
-  std::vector<ToolForce> curve;
+  std::vector<RatedToolForce> curve;
 };
 
 /// Returns the reason why a machine has no tool forces, or nothing: it needs a `navvy:arm` with
@@ -84,7 +84,7 @@ ToolForceRating rate_tool_force(const scene::Machine& machine, ToolForceKind kin
 
 /// Returns the tool force in one position of the arm, joint positions in [rad].
 /// @throws InputError with tool_force_fault().
-ToolForce tool_force_at(const scene::Machine& machine, ToolForceKind kind, double boom,
-                        double stick, double bucket);
+RatedToolForce tool_force_at(const scene::Machine& machine, ToolForceKind kind, double boom,
+                             double stick, double bucket);
 
 }  // namespace navvy::vehicle

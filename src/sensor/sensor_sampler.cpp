@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor/sensor.h"
+#include "sensor/sensor_sampler.h"
 
 #include <cmath>
 #include <utility>
@@ -42,7 +42,7 @@ void copy(const std::vector<double>& from, std::span<T> to) {
 
 }  // namespace
 
-void Sensor::Reading::visit(Archive& a) {
+void SensorSampler::Reading::visit(Archive& a) {
   a("begun", begun);
   a("complete", complete);
   a("X_WS", X_WS);
@@ -50,17 +50,17 @@ void Sensor::Reading::visit(Archive& a) {
   a("values", values);
 }
 
-Sensor::Sensor(Mounting at)
+SensorSampler::SensorSampler(Mounting at)
     : at_(std::move(at)), name_(name_of(at_)), random_(seed_of(at_.world, name_)) {
   instrument_ =
       std::visit([&](const auto& kind) { return make(kind, at_, random_); }, at_.description.kind);
   quantities_ = instrument_->quantities();
 }
 
-void Sensor::declare(sim::Publisher& out) {
+void SensorSampler::declare(sim::Publisher& out) {
   counter_ = out.declare(sim::Channel{name_ + "/readings", "1",
                                       "number of readings delivered so far: grows with each one"});
-  for (const Quantity& q : quantities_) {
+  for (const MeasuredQuantity& q : quantities_) {
     sim::ArrayChannel channel;
     channel.name = name_ + "/" + q.name;
     channel.unit = q.unit;
@@ -73,7 +73,7 @@ void Sensor::declare(sim::Publisher& out) {
   }
 }
 
-void Sensor::sample(const sim::World& world, sim::Publisher& out) {
+void SensorSampler::sample(const sim::World& world, sim::Publisher& out) {
   const double now = world.time();
   const Pose X_WS = at_.link_handle().pose() * at_.description.X_LS;
   instrument_->follow();
@@ -82,7 +82,7 @@ void Sensor::sample(const sim::World& world, sim::Publisher& out) {
     next.begun = now;
     next.complete = now + instrument_->sweep();
     next.X_WS = X_WS;
-    for (const Quantity& q : quantities_) {
+    for (const MeasuredQuantity& q : quantities_) {
       std::size_t count = 1;
       for (const int length : q.shape) count *= static_cast<std::size_t>(length);
       next.values.emplace_back(count);
@@ -95,13 +95,13 @@ void Sensor::sample(const sim::World& world, sim::Publisher& out) {
   X_WS_before_ = X_WS;
 }
 
-void Sensor::measure(double now, const Pose& X_WS) {
+void SensorSampler::measure(double now, const Pose& X_WS) {
   // A sweep as long as the time between readings may end just after the next one has begun.
   for (Reading& reading : readings_)
     if (reading.columns < instrument_->columns()) measure(reading, now, X_WS);
 }
 
-void Sensor::measure(Reading& r, double now, const Pose& X_WS) {
+void SensorSampler::measure(Reading& r, double now, const Pose& X_WS) {
   const int all = instrument_->columns();
   if (instrument_->looks()) at_.scene->update();
   for (; r.columns < all; ++r.columns) {
@@ -116,7 +116,7 @@ void Sensor::measure(Reading& r, double now, const Pose& X_WS) {
   last_begun_ = r.begun;
 }
 
-void Sensor::deliver(double now, sim::Publisher& out) {
+void SensorSampler::deliver(double now, sim::Publisher& out) {
   while (!readings_.empty()) {
     const Reading& r = readings_.front();
     const bool complete = r.columns == instrument_->columns();
@@ -148,7 +148,7 @@ void Sensor::deliver(double now, sim::Publisher& out) {
   }
 }
 
-void Sensor::visit(Archive& a) {
+void SensorSampler::visit(Archive& a) {
   a("random", random_);
   a("instrument", *instrument_);
   a("delivered", delivered_);

@@ -20,10 +20,10 @@ namespace navvy::sensor {
 /// at the instant, interpolated between the two ends of the step. After the latency it is
 /// published, stamped with the time of its beginning. A sweep is at most as long as the time
 /// between readings.
-class Sensor final : public sim::Sampler {
+class SensorSampler final : public sim::Sampler {
  public:
   /// Creates the sensor; its random numbers follow from the scene's seed and its name.
-  explicit Sensor(Mounting at);
+  explicit SensorSampler(Mounting at);
 
   std::string name() const override { return name_; }
   /// Returns true if the sensor needs a free view (Instrument::looks).
@@ -57,7 +57,7 @@ class Sensor final : public sim::Sampler {
   std::string name_;
   Random random_;
   std::unique_ptr<Instrument> instrument_;
-  std::vector<Quantity> quantities_;
+  std::vector<MeasuredQuantity> quantities_;
   std::vector<int> arrays_;  ///< index of each quantity in the publisher
   int counter_ = -1;         ///< index of the output that counts readings
   double delivered_ = 0;     ///< number of published readings
