@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "sensor/ray_scene.h"
 #include "sensor/scenes.h"
 #include "sim/visible_soil.h"
