@@ -23,7 +23,7 @@ const char* const kHalfDensity = "soil.bank_density_kg_per_m3=770";
 
 /// Forces on the bucket along the path.
 struct Scooped {
-  /// Mean resistance during the level drag [N], and the part of it that acts on the edges of plates.
+  /// Mean resistance during the level drag, and the part of it on the edges of plates [N].
   double drag = 0, edges = 0;
   double most = 0;     ///< largest |force| of a step [N]
   double payload = 0;  ///< at the end [kg]
