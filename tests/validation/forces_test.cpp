@@ -35,7 +35,7 @@ Scooped scoop(const std::vector<std::string>& settings, double until) {
   double steps = 0;
   while (session.world().time() < until) {
     session.step();
-    const auto& tool = session.world().machines().tools().at(0);
+    const sim::ToolHandle tool = session.world().machines().tools().at(0);
     const Vec3 force = tool.force();
     out.most = std::max(out.most, force.norm());
     if (session.world().time() < kDragStart || session.world().time() > kDragEnd) continue;
