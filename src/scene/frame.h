@@ -42,11 +42,15 @@ struct FrameGround {
   double cell = 0.1;           ///< edge of a column [m]
   Vec2 origin = Vec2::Zero();  ///< lower-left corner of column (0,0) in W [m]
   std::vector<float> height;   ///< height of the surface in W [m]
+  /// Height of the surface with the active soil that rests on it in W [m]; empty: `height`.
+  std::vector<float> top;
   /// Height minus height at the start of the run [m]: negative where soil was dug.
   std::vector<float> change;
   std::vector<std::uint8_t> soil;  ///< index into `soil_color` of the soil at the surface
   /// Linear RGB color of each soil, by soil index; used for ground and particles.
   std::vector<Color> soil_color;
+  /// 1 for each soil, by soil index, that is moist and darker where it is freshly dug. Empty: all.
+  std::vector<std::uint8_t> soil_moist;
   std::uint64_t revision = 0;  ///< counter that changes whenever any height has changed
   /// Rectangles that contain every height change since the previous revision; they may overlap.
   std::vector<FrameRect> changed;
@@ -66,6 +70,9 @@ struct FrameParticles {
   /// Distance of each particle from the closest plate of a tool [m]; the part of a drawn particle
   /// that extends further is clipped. Empty: no particle is clipped.
   std::vector<float> clearance;
+  /// Unit vector in W from the closest plate to each particle, x, y, z; zero where no plate is
+  /// near. Empty: unknown.
+  std::vector<float> away;
 };
 
 /// All input for drawing one picture. One thread may fill it while another draws an earlier one.

@@ -43,8 +43,11 @@ Pose look_at(const Vec3& eye, const Vec3& target) {
 FrameBuilder::FrameBuilder(const World& world)
     : world_(world), plates_(std::make_unique<ParticleClipper>(world)) {
   // Fill in constants once.
-  for (const scene::Soil& soil : world.description().soils)
+  for (const scene::Soil& soil : world.description().soils) {
     frame_.ground.soil_color.push_back({soil.color[0], soil.color[1], soil.color[2], 1.0f});
+    // Soil without cohesion is dry: it does not darken where it is dug.
+    frame_.ground.soil_moist.push_back(soil.cohesion > 0 ? 1 : 0);
+  }
   frame_.lights = world.description().lights;
   if (frame_.lights.empty()) frame_.lights.push_back({});
   frame_.ground.cell = world.ground().cell();
@@ -93,9 +96,11 @@ void FrameBuilder::place_window() {
   out.origin = ground.origin() + ground.cell() * Vec2(x0, y0);
   const std::size_t n = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
   out.height.assign(n, 0);
+  out.top.assign(n, 0);
   out.change.assign(n, 0);
   out.soil.assign(n, 0);
   changes_.forget();
+  loose_changes_.forget();
   out.revision = 0;
 }
 
@@ -109,10 +114,32 @@ void FrameBuilder::update_ground() {
     const heightfield::CellRect rect = changed.cut(window_);
     if (rect.empty()) continue;
     copy_ground(terrain, rect);
-    out.changed.push_back(
-        {rect.x0 - window_.x0, rect.y0 - window_.y0, rect.x1 - window_.x0, rect.y1 - window_.y0});
+    mark_changed(rect);
   }
+  update_loose(terrain);
   if (!out.changed.empty()) ++out.revision;
+}
+
+// Soil in buckets and in the air is not part of it.
+void FrameBuilder::update_loose(const heightfield::TerrainView& columns) {
+  const heightfield::TerrainView loose =
+      columns.with(active_places(world_).on_ground, heightfield::SurfaceKind::kMapped);
+  scene::FrameGround& out = frame_.ground;
+  for (const heightfield::CellRect& changed : loose_changes_.take(loose)) {
+    const heightfield::CellRect rect = changed.cut(window_);
+    if (rect.empty()) continue;
+    for (int iy = rect.y0; iy < rect.y1; ++iy)
+      for (int ix = rect.x0; ix < rect.x1; ++ix)
+        out.top[static_cast<std::size_t>(iy - window_.y0) * static_cast<std::size_t>(out.nx) +
+                static_cast<std::size_t>(ix - window_.x0)] =
+            static_cast<float>(loose.height(ix, iy));
+    mark_changed(rect);
+  }
+}
+
+void FrameBuilder::mark_changed(const heightfield::CellRect& rect) {
+  frame_.ground.changed.push_back(
+      {rect.x0 - window_.x0, rect.y0 - window_.y0, rect.x1 - window_.x0, rect.y1 - window_.y0});
 }
 
 void FrameBuilder::copy_ground(const heightfield::Terrain& terrain,
@@ -154,6 +181,7 @@ void FrameBuilder::add_particles() {
   out.soil.clear();
   out.id.clear();
   out.clearance.clear();
+  out.away.clear();
   out.radius = 0.4 * ground.cell();  // eight particles per cell, overlapping a little
   if (particles.empty()) return;
   // Positions are relative to the block of one particle: a float resolves 0.01 mm over a site of

@@ -37,6 +37,10 @@ class FrameBuilder {
   void place_window();
   /// Copies the ground that has changed since the last frame into the drawn window.
   void update_ground();
+  /// Copies the heights with the active soil that rests on the ground.
+  void update_loose(const heightfield::TerrainView& columns);
+  /// Marks ground columns as changed in the frame.
+  void mark_changed(const heightfield::CellRect& rect);
   /// Copies heights and soils of the ground columns in `rect` (column indices of the site) into the
   /// window.
   void copy_ground(const heightfield::Terrain& terrain, const heightfield::CellRect& rect);
@@ -52,6 +56,8 @@ class FrameBuilder {
   heightfield::CellRect window_;
   /// Keeps track of the ground that has changed since the last frame.
   heightfield::ChangeFollower changes_;
+  /// The same for the surface with the active soil that rests on it.
+  heightfield::ChangeFollower loose_changes_;
   /// Moves drawn particles away from the plates of tools.
   std::unique_ptr<ParticleClipper> plates_;
 };

@@ -47,6 +47,7 @@ ParticleClipper::ParticleClipper(const World& world) : world_(world) {
 void ParticleClipper::keep_off(scene::FrameParticles& particles, double gap, double reach) const {
   const std::size_t count = particles.position.size() / 3;
   particles.clearance.assign(count, static_cast<float>(reach));
+  particles.away.assign(3 * count, 0);
   for (const Tool& tool : tools_) {
     const Pose X_WT = world_.machines().at(tool.machine).link(tool.link).pose(),
                X_TW = X_WT.inverse();
@@ -67,9 +68,14 @@ void ParticleClipper::keep_off(scene::FrameParticles& particles, double gap, dou
           (p_T.array() > box.high.array() + reach).any())
         continue;
       const Vec3 moved = pushed(tool.geometry, p_T, gap, closest);
-      const double clearance = std::abs(tool.geometry.distance(moved, closest)) - half;
-      particles.clearance[i] =
-          std::min(particles.clearance[i], static_cast<float>(std::max(0.0, clearance)));
+      const soil::ShellGeometry::Nearest at = tool.geometry.nearest(moved, closest);
+      const auto clearance = static_cast<float>(std::max(0.0, std::abs(at.distance) - half));
+      if (clearance < particles.clearance[i]) {
+        particles.clearance[i] = clearance;
+        const Vec3 away = X_WT.linear() * (moved - at.place);
+        if (away.norm() > 1e-9)
+          Eigen::Map<Eigen::Vector3f>{&particles.away[3 * i]} = away.normalized().cast<float>();
+      }
       if (moved != p_T)
         Eigen::Map<Eigen::Vector3f>{place} = (X_WT * moved - particles.origin).cast<float>();
     }

@@ -21,7 +21,8 @@ class ParticleClipper {
   /// Moves every drawn particle that is closer than `gap` [m] to the face of a plate away from that
   /// face. The particle stays on its side of the plate; where other plates leave less space, it is
   /// moved as far as they allow. Then sets `particles.clearance`, one entry per particle: the
-  /// distance to the face of the closest plate [m], at most `reach` [m].
+  /// distance to the face of the closest plate [m], at most `reach` [m], and `particles.away`: the
+  /// direction from there.
   ///
   /// A particle is a point, and a particle that touches steel lies on its face, so half of its
   /// drawn lump would be inside the plate. Costs a box test per particle and shell, and for
