@@ -240,7 +240,7 @@ void GlDraw::ground(const std::vector<GroundPart>& parts, const View& view,
       if (walls && part.mesh->walls.empty()) continue;
       // A tile that is near or that no shadow reaches is drawn without the texture unit: software
       // GL pays for it at every pixel.
-      set_enabled(GL_TEXTURE_2D, shadows.reaches(part.low, part.high));
+      set_enabled(GL_TEXTURE_2D, !part.shadowed && shadows.reaches(part.low, part.high));
       set_enabled(GL_FOG, reaches_beyond(part, view.eye, kFogStart));
       if (!walls) draw(*part.mesh, part.skirts);
       if (!walls) continue;

@@ -58,7 +58,8 @@ std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground,
   const std::size_t n = static_cast<std::size_t>(std::max(0, ground.nx)) *
                         static_cast<std::size_t>(std::max(0, ground.ny));
   if (ground.height.size() != n || (!ground.change.empty() && ground.change.size() != n) ||
-      (!ground.soil.empty() && ground.soil.size() != n) || !(ground.cell > 0))
+      (!ground.soil.empty() && ground.soil.size() != n) ||
+      (!ground.top.empty() && ground.top.size() != n) || !(ground.cell > 0))
     throw Error("the frame's ground arrays do not have nx * ny = " + std::to_string(n) +
                 " entries");
   // A change that concerns all columns starts from scratch.
@@ -66,7 +67,8 @@ std::vector<ColumnRect> GroundSurface::update(const scene::FrameGround& ground,
                      cell_ != static_cast<float>(ground.cell) ||
                      x0_ != static_cast<float>(ground.origin.x()) ||
                      y0_ != static_cast<float>(ground.origin.y()) || !(lighting == lighting_) ||
-                     !same(soil_color_, ground.soil_color) || height_.size() != n;
+                     !same(soil_color_, ground.soil_color) || soil_moist_ != ground.soil_moist ||
+                     height_.size() != n;
   // A frame may be drawn several times.
   if (!fresh && revision_ == ground.revision) return {};
   const std::vector<ColumnRect> changed =
@@ -98,8 +100,9 @@ void GroundSurface::start(const scene::FrameGround& ground, const Lighting& ligh
   y0_ = static_cast<float>(ground.origin.y());
   lighting_ = lighting;
   soil_color_ = ground.soil_color;
-  height_.assign(columns, 0);
-  change_.assign(columns, 0);
+  soil_moist_ = ground.soil_moist;
+  for (std::vector<float>* heights : {&height_, &top_, &raw_, &raw_top_, &change_})
+    heights->assign(columns, 0);
   soil_.assign(columns, 0);
   open_.assign(columns, 255);
   sun_.assign(columns, 255);
@@ -109,14 +112,14 @@ void GroundSurface::start(const scene::FrameGround& ground, const Lighting& ligh
 void GroundSurface::measure_relief() {
   // Mean of the initial ground, so that digging does not change the tint of the whole site.
   double sum = 0;
-  float low = height_[0] - change_[0], high = low;
-  for (std::size_t i = 0; i < height_.size(); ++i) {
-    const float h = height_[i] - change_[i];
+  float low = raw_[0] - change_[0], high = low;
+  for (std::size_t i = 0; i < raw_.size(); ++i) {
+    const float h = raw_[i] - change_[i];
     sum += h;
     low = std::min(low, h);
     high = std::max(high, h);
   }
-  mean_height_ = static_cast<float>(sum / static_cast<double>(height_.size()));
+  mean_height_ = static_cast<float>(sum / static_cast<double>(raw_.size()));
   relief_ = std::max(high - low, 2.0f);
 }
 
@@ -132,25 +135,28 @@ std::vector<ColumnRect> GroundSurface::changed_cells(const scene::FrameGround& g
   return reported;
 }
 
+bool GroundSurface::differs(const scene::FrameGround& ground, std::size_t i) const {
+  return raw_[i] != ground.height[i] ||
+         (!ground.change.empty() && change_[i] != ground.change[i]) ||
+         (!ground.soil.empty() && soil_[i] != ground.soil[i]) ||
+         (!ground.top.empty() && raw_top_[i] != ground.top[i]);
+}
+
 ColumnRect GroundSurface::compared(const scene::FrameGround& ground) const {
   ColumnRect rect = {nx_, ny_, 0, 0};
   // Compares whole rows first, as most are equal.
   for (int iy = 0; iy < ny_; ++iy) {
     const std::size_t row = index(0, iy), width = static_cast<std::size_t>(nx_);
-    const bool equal =
-        std::memcmp(&height_[row], &ground.height[row], width * sizeof(float)) == 0 &&
-        (ground.change.empty() ||
-         std::memcmp(&change_[row], &ground.change[row], width * sizeof(float)) == 0) &&
-        (ground.soil.empty() || std::memcmp(&soil_[row], &ground.soil[row], width) == 0);
-    if (equal) continue;
+    const auto equal = [&](const auto& copy, const auto& now) {
+      return now.empty() || std::memcmp(&copy[row], &now[row], width * sizeof now[0]) == 0;
+    };
+    if (equal(raw_, ground.height) && equal(change_, ground.change) && equal(soil_, ground.soil) &&
+        equal(raw_top_, ground.top))
+      continue;
     rect.y0 = std::min(rect.y0, iy);
     rect.y1 = iy + 1;
     for (int ix = 0; ix < nx_; ++ix) {
-      const std::size_t i = index(ix, iy);
-      const bool differs = height_[i] != ground.height[i] ||
-                           (!ground.change.empty() && change_[i] != ground.change[i]) ||
-                           (!ground.soil.empty() && soil_[i] != ground.soil[i]);
-      if (!differs) continue;
+      if (!differs(ground, index(ix, iy))) continue;
       rect.x0 = std::min(rect.x0, ix);
       rect.x1 = std::max(rect.x1, ix + 1);
     }
@@ -163,10 +169,36 @@ void GroundSurface::copy(const scene::FrameGround& ground, const ColumnRect& rec
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       const std::size_t i = index(ix, iy);
       // A missing height must not spoil the shadows around it.
-      height_[i] = std::isfinite(ground.height[i]) ? ground.height[i] : 0.0f;
+      const auto finite = [](float height) { return std::isfinite(height) ? height : 0.0f; };
+      raw_[i] = height_[i] = finite(ground.height[i]);
+      raw_top_[i] = top_[i] = ground.top.empty() ? raw_[i] : finite(ground.top[i]);
       if (!ground.change.empty()) change_[i] = ground.change[i];
       if (!ground.soil.empty()) soil_[i] = ground.soil[i];
     }
+  if (!smooth_) return;
+  const ColumnRect around = rect.grown(1, nx_, ny_);
+  for (int iy = around.y0; iy < around.y1; ++iy)
+    for (int ix = around.x0; ix < around.x1; ++ix) smooth(ix, iy);
+}
+
+void GroundSurface::smooth(int ix, int iy) {
+  const std::size_t i = index(ix, iy);
+  height_[i] = raw_[i];
+  top_[i] = raw_top_[i];
+  if (ix < 1 || iy < 1 || ix + 1 >= nx_ || iy + 1 >= ny_) return;
+  float most = 0, height = 0, top = 0;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const std::size_t k = index(ix + dx, iy + dy);
+      const float share = static_cast<float>((2 - std::abs(dx)) * (2 - std::abs(dy))) / 16;
+      most = std::max(most, change_[k] + raw_top_[k] - raw_[k]);
+      height += share * raw_[k];
+      top += share * raw_top_[k];
+    }
+  // Only where soil was dumped; cuts and the old ground keep their edges.
+  const float share = smooth_step(0.01f, 0.05f, most);
+  height_[i] += (height - height_[i]) * share;
+  top_[i] += (top - top_[i]) * share;
 }
 
 // Share of the sky that a column sees, from the mean height around it: a box mean by running sums
@@ -180,7 +212,7 @@ void GroundSurface::find_openness(const ColumnRect& rect) {
   for (int iy = tall.y0; iy < tall.y1; ++iy) {
     float* out =
         &scratch_[static_cast<std::size_t>(iy - tall.y0) * static_cast<std::size_t>(width)];
-    const float* row = &height_[index(0, iy)];
+    const float* row = &top_[index(0, iy)];
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
       float sum = 0;
       for (int k = -kOpenReach; k <= kOpenReach; ++k) sum += row[std::clamp(ix + k, 0, nx_ - 1)];
@@ -195,7 +227,7 @@ void GroundSurface::find_openness(const ColumnRect& rect) {
         sum += scratch_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                         static_cast<std::size_t>(ix - rect.x0)];
       }
-      const float above = sum * (1.0f / (2 * kOpenReach + 1)) - height_[index(ix, iy)];
+      const float above = sum * (1.0f / (2 * kOpenReach + 1)) - top_[index(ix, iy)];
       // Mean slope upwards to the surroundings.
       const float hidden = above / (cell_ * kOpenReach);
       open_[index(ix, iy)] = to_byte(std::clamp(0.90f - 0.55f * hidden, 0.35f, 1.0f));
@@ -217,7 +249,7 @@ void GroundSurface::find_sun(const ColumnRect& rect) {
   const float dx = to_sun.x() / flat, dy = to_sun.y() / flat, rise = to_sun.z() / flat;
   for (int iy = rect.y0; iy < rect.y1; ++iy)
     for (int ix = rect.x0; ix < rect.x1; ++ix) {
-      const float base = height_[index(ix, iy)];
+      const float base = top_[index(ix, iy)];
       // Samples every column nearby and every second one farther off: distant ground moves the edge
       // of a shadow less.
       float worst = -1e9f;
@@ -227,7 +259,7 @@ void GroundSurface::find_sun(const ColumnRect& rect) {
                   y = iy + static_cast<int>(std::lround(dy * d));
         if (x < 0 || y < 0 || x >= nx_ || y >= ny_) break;
         const float run = d * cell_;
-        worst = std::max(worst, (height_[index(x, y)] - base) / run - rise);
+        worst = std::max(worst, (top_[index(x, y)] - base) / run - rise);
       }
       sun_[index(ix, iy)] = to_byte(1.0f - smooth_step(-0.06f, 0.22f, worst));
     }
@@ -235,41 +267,62 @@ void GroundSurface::find_sun(const ColumnRect& rect) {
 
 Vec3f GroundSurface::normal(int ix, int iy) const {
   // One-sided at the edge of the site.
-  const float h = height_[index(ix, iy)], inverse = 1.0f / cell_;
-  const float west = ix > 0 ? (h - height_[index(ix - 1, iy)]) * inverse : 0;
-  const float east = ix + 1 < nx_ ? (height_[index(ix + 1, iy)] - h) * inverse : west;
-  const float south = iy > 0 ? (h - height_[index(ix, iy - 1)]) * inverse : 0;
-  const float north = iy + 1 < ny_ ? (height_[index(ix, iy + 1)] - h) * inverse : south;
+  const float h = top_[index(ix, iy)], inverse = 1.0f / cell_;
+  const float west = ix > 0 ? (h - top_[index(ix - 1, iy)]) * inverse : 0;
+  const float east = ix + 1 < nx_ ? (top_[index(ix + 1, iy)] - h) * inverse : west;
+  const float south = iy > 0 ? (h - top_[index(ix, iy - 1)]) * inverse : 0;
+  const float north = iy + 1 < ny_ ? (top_[index(ix, iy + 1)] - h) * inverse : south;
   return Vec3f(-edge_slope(ix > 0 ? west : east, east), -edge_slope(iy > 0 ? south : north, north),
                1)
       .normalized();
 }
 
+Vec3f GroundSurface::base_color(std::uint8_t soil) const {
+  if (soil >= soil_color_.size()) return {0.50f, 0.40f, 0.28f};
+  return {soil_color_[soil].r, soil_color_[soil].g, soil_color_[soil].b};
+}
+
 Vec3f GroundSurface::albedo(int ix, int iy) const {
-  // A frame without soils is drawn brown.
   const std::size_t i = index(ix, iy);
-  Vec3f base(0.50f, 0.40f, 0.28f);
-  if (soil_[i] < soil_color_.size())
-    base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
-  const float x = (static_cast<float>(ix) + x0_ / cell_) * cell_,
-              y = (static_cast<float>(iy) + y0_ / cell_) * cell_;
-  // Patches depend on the place in the world, so that a moved window keeps its appearance.
-  const float broad =
-      value_noise(x / 3.1f, y / 3.1f, 1) + 0.5f * value_noise(x / 1.1f, y / 1.1f, 2);
   const float fine =
       2.0f * hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 7) - 1.0f;
+  Vec3f p = point(ix, iy);
+  p.z() = top_[i];
+  return weathered(soil_[i], p, change_[i] + raw_top_[i] - raw_[i], fine);
+}
 
+Vec3f GroundSurface::weathered(std::uint8_t soil, const Vec3f& p, float change, float fine) const {
+  const Vec3f base = base_color(soil);
+  // Patches depend on the place in the world, so that a moved window keeps its appearance.
+  const float broad = value_noise(p.x() / 3.1f, p.y() / 3.1f, 1) +
+                      0.5f * value_noise(p.x() / 1.1f, p.y() / 1.1f, 2);
   // The old surface: dry, dusty, patchy, a little lighter with height.
-  const float tint = std::clamp((height_[i] - mean_height_) / relief_, -0.5f, 0.5f);
+  const float tint = std::clamp((p.z() - mean_height_) / relief_, -0.5f, 0.5f);
   Vec3f color = desaturate(base, 0.28f) * (1.07f + 0.09f * broad + 0.03f * fine + 0.14f * tint);
-  // Freshly cut soil is moist, darker and more colourful. Dumped soil is loose, lighter and uneven.
-  const float dug = smooth_step(0.008f, 0.07f, -change_[i]),
-              dumped = smooth_step(0.008f, 0.06f, change_[i]);
-  const Vec3f moist = desaturate(base, -0.18f) * (0.66f + 0.03f * broad + 0.03f * fine);
-  const Vec3f loose = desaturate(base, 0.05f) * (0.98f + 0.04f * broad + 0.10f * fine);
-  color += (moist - color) * dug;
+  // Freshly cut soil that holds water is darker and more colourful; dumped soil is loose, lighter
+  // and uneven. Both begin above the roughness of the ground, or wheels would leave stains.
+  const float dug = smooth_step(0.015f, 0.09f, -change), dumped = smooth_step(0.02f, 0.09f, change);
+  const bool moist = soil >= soil_moist_.size() || soil_moist_[soil] != 0;
+  const Vec3f fresh = moist
+                          ? Vec3f(desaturate(base, -0.18f) * (0.66f + 0.03f * broad + 0.03f * fine))
+                          : Vec3f(desaturate(base, 0.10f) * (0.98f + 0.05f * broad + 0.03f * fine));
+  const Vec3f loose = desaturate(base, 0.05f) * (0.90f + 0.04f * broad + 0.06f * fine);
+  color += (fresh - color) * dug;
   color += (loose - color) * dumped;
   return color.cwiseMax(0.0f);
+}
+
+Vec3f GroundSurface::loose_albedo(const Vec3f& p, std::uint8_t soil) const {
+  const int ix = static_cast<int>(std::floor((p.x() - x0_) / cell_)),
+            iy = static_cast<int>(std::floor((p.y() - y0_) / cell_));
+  if (ix < 0 || iy < 0 || ix >= nx_ || iy >= ny_) return base_color(soil);
+  const std::size_t i = index(ix, iy);
+  const auto grain = [](float x) { return static_cast<std::uint32_t>(static_cast<int>(x * 40)); };
+  const float fine = 2.0f * hash_unit(grain(p.x()), grain(p.y()), grain(p.z())) - 1.0f;
+  // Soil far above the ground is in a bucket or falls: freshly dug.
+  constexpr float kInTheAir = 0.3f, kFresh = -0.06f;
+  const float change = p.z() > top_[i] + kInTheAir ? kFresh : p.z() - (raw_[i] - change_[i]);
+  return weathered(soil, p, change, fine);
 }
 
 void GroundSurface::paint(const ColumnRect& rect) {
@@ -285,9 +338,7 @@ void GroundSurface::paint(const ColumnRect& rect) {
 
 Vec3f GroundSurface::wall_color(int ix, int iy, const Vec3f& face) const {
   const std::size_t i = index(ix, iy);
-  Vec3f base(0.50f, 0.40f, 0.28f);
-  if (soil_[i] < soil_color_.size())
-    base = {soil_color_[soil_[i]].r, soil_color_[soil_[i]].g, soil_color_[soil_[i]].b};
+  const Vec3f base = base_color(soil_[i]);
   const float fine = hash_unit(static_cast<std::uint32_t>(ix), static_cast<std::uint32_t>(iy), 9);
   const Vec3f moist = desaturate(base, -0.15f) * (0.70f + 0.10f * fine);
   return shade(lighting_, moist, face, static_cast<float>(sun_[i]) / 255.0f,
@@ -304,6 +355,20 @@ bool GroundSurface::sample(float x, float y, float& height, float& sun) const {
   height = height_[index(ix, iy)];
   sun = static_cast<float>(sun_[index(ix, iy)]) / 255.0f;
   return true;
+}
+
+ColumnShares GroundSurface::columns_at(float x, float y) const {
+  const float u = std::clamp((x - x0_) / cell_ - 0.5f, 0.0f, static_cast<float>(nx_) - 1.001f);
+  const float v = std::clamp((y - y0_) / cell_ - 0.5f, 0.0f, static_cast<float>(ny_) - 1.001f);
+  const int ix = static_cast<int>(u), iy = static_cast<int>(v);
+  const float fx = u - static_cast<float>(ix), fy = v - static_cast<float>(iy);
+  ColumnShares out;
+  for (int c = 0; c < 4; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    out.height[k] = height_[index(ix + (c & 1), iy + (c >> 1))];
+    out.share[k] = ((c & 1) != 0 ? fx : 1 - fx) * ((c >> 1) != 0 ? fy : 1 - fy);
+  }
+  return out;
 }
 
 }  // namespace navvy::render

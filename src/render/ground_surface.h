@@ -33,18 +33,40 @@ struct ColumnRect {
   }
 };
 
+/// The four columns around a point, with their shares of it as in bilinear interpolation.
+struct ColumnShares {
+  std::array<float, 4> height = {};  ///< heights of the columns in W [m]
+  std::array<float, 4> share = {};   ///< shares of the columns, which sum to 1
+  /// Returns the share of space that the columns fill at the height `z` in W [m]: it falls from 1
+  /// to 0 over `ramp` [m] below to `ramp` above each column's surface.
+  float filled(float z, float ramp) const {
+    float sum = 0;
+    for (std::size_t c = 0; c < 4; ++c)
+      sum += share[c] * std::clamp(0.5f - 0.5f * (z - height[c]) / ramp, 0.0f, 1.0f);
+    return sum;
+  }
+};
+
 /// A copy of the ground's heights. For each column it also stores the visible fractions of sun and
 /// sky, and the lit colour.
 ///
 /// The type of soil gives the base colour. The original surface looks weathered, dug ground is
-/// darker and moist, and dumped ground is lighter and uneven; a faint tint depends on the height.
-/// Rays to the sun are traced over the heights for up to kShadowReach columns.
+/// darker and moist where the soil holds water, and dumped ground is lighter and uneven; a faint
+/// tint depends on the height. Rays to the sun are traced over the heights for up to kShadowReach
+/// columns. Light and colour are those of the surface with the loose soil on it
+/// (scene::FrameGround::top).
+///
+/// Dumped soil lies in columns of unlike heights, a lattice that nobody sees in the field: such
+/// columns are drawn at heights smoothed with those of their neighbours, unless `smooth` is false.
 class GroundSurface {
  public:
   /// Maximum length of the shadows that the ground casts on itself [columns].
   static constexpr int kShadowReach = 28;
   /// Distance up to which surrounding ground hides the sky [columns].
   static constexpr int kOpenReach = 5;
+
+  /// Creates an empty copy. `smooth`: see above; false for pictures that are measured.
+  explicit GroundSurface(bool smooth = true) : smooth_(smooth) {}
 
   /// Copies the changed columns of `ground` and lights them and their surroundings. Returns
   /// rectangles that contain all columns with a new height or colour; empty if nothing has changed.
@@ -73,6 +95,11 @@ class GroundSurface {
   /// fraction of the sun (0 to 1) in the last two parameters. Returns false, without setting them,
   /// if the point is outside the ground.
   bool sample(float x, float y, float& height, float& sun) const;
+  /// Returns the columns around the point (x, y) in W [m], without the loose soil on them. A point
+  /// outside the ground has those at its edge. The ground must have two columns each way at least.
+  ColumnShares columns_at(float x, float y) const;
+  /// Returns the unlit colour of loose soil of the kind `soil` at the point `p` in W [m].
+  Vec3f loose_albedo(const Vec3f& p, std::uint8_t soil) const;
 
  private:
   /// Returns the index of a column in the arrays below; ix varies fastest.
@@ -90,7 +117,9 @@ class GroundSurface {
   void start(const scene::FrameGround& ground, const Lighting& lighting, std::size_t columns);
   /// Computes mean height and height range of the original surface, which determine the tint.
   void measure_relief();
-  /// Copies the frame's data of the columns in `rect`.
+  /// Returns true if column `i` of the frame differs from the copy.
+  bool differs(const scene::FrameGround& ground, std::size_t i) const;
+  /// Copies the frame's data of the columns in `rect`, and smooths those in and around it.
   void copy(const scene::FrameGround& ground, const ColumnRect& rect);
   /// Computes the visible fraction of the sky for the columns in `rect`.
   void find_openness(const ColumnRect& rect);
@@ -98,8 +127,15 @@ class GroundSurface {
   void find_sun(const ColumnRect& rect);
   /// Computes the lit colours of the columns in `rect`.
   void paint(const ColumnRect& rect);
+  /// Sets the drawn heights of a column that has been copied, from those of its neighbours.
+  void smooth(int ix, int iy);
+  /// Returns the base colour of a soil; brown without soils.
+  Vec3f base_color(std::uint8_t soil) const;
   /// Returns the unlit colour of a column: weathered, dug or dumped soil.
   Vec3f albedo(int ix, int iy) const;
+  /// Returns the unlit colour of soil of the kind `soil` at the point (x, y) and height in W [m].
+  /// `change` is the height above that at the start of the run [m], `fine` noise of -1 to 1.
+  Vec3f weathered(std::uint8_t soil, const Vec3f& p, float change, float fine) const;
   /// Returns the unit normal of the surface at a column in W.
   Vec3f normal(int ix, int iy) const;
 
@@ -113,11 +149,15 @@ class GroundSurface {
   Lighting lighting_;
   // Mean height in W and height range of the original surface [m].
   float mean_height_ = 0, relief_ = 1;
-  // Base colours, by the index of the soil.
+  // True if dumped soil is drawn at smoothed heights.
+  bool smooth_;
+  // Base colours, and whether freshly dug soil is moist, by the index of the soil.
   std::vector<scene::Color> soil_color_;
-  // Arrays with one entry per column: height in W [m] and change of height since the start [m].
-  // `scratch_` is temporary memory for sums.
-  std::vector<float> height_, change_, scratch_;
+  std::vector<std::uint8_t> soil_moist_;
+  // Arrays with one entry per column: drawn heights in W without and with loose soil [m], the
+  // frame's heights of both [m], and change of height since the start [m]. `scratch_` is temporary
+  // memory for sums.
+  std::vector<float> height_, top_, raw_, raw_top_, change_, scratch_;
   // Arrays with one entry per column: index of the soil, and visible fractions of sky and sun (0 to
   // 255).
   std::vector<std::uint8_t> soil_, open_, sun_;

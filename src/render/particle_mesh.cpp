@@ -169,17 +169,22 @@ void ParticleMesh::add_lump(const Lump& lump, float radius, int detail, const Ve
     mesh_.indices.insert(mesh_.indices.end(), {first + f[0], first + f[1], first + f[2]});
 }
 
-const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& lighting,
-                                const ShadowMap& shadows, const GroundSurface& surface,
-                                const View& view) {
-  const scene::FrameParticles& particles = frame.particles;
+void check_sizes(const scene::FrameParticles& particles) {
   const std::size_t n = particles.position.size() / 3;
-  // Arrays come from a caller; one that is too short would be read beyond its end.
   if (particles.position.size() % 3 != 0 ||
       (!particles.soil.empty() && particles.soil.size() != n) ||
       (!particles.id.empty() && particles.id.size() != n) ||
-      (!particles.clearance.empty() && particles.clearance.size() != n))
+      (!particles.clearance.empty() && particles.clearance.size() != n) ||
+      (!particles.away.empty() && (particles.away.size() != 3 * n || particles.clearance.empty())))
     throw Error("the frame's particle arrays do not fit each other");
+}
+
+const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& lighting,
+                                const ShadowMap& shadows, const GroundSurface& surface,
+                                const View& view, const std::vector<std::uint8_t>& lone) {
+  const scene::FrameParticles& particles = frame.particles;
+  check_sizes(particles);
+  const std::size_t n = particles.position.size() / 3;
   mesh_.vertices.clear();
   mesh_.indices.clear();
   lumps_.clear();
@@ -195,7 +200,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     const Vec3f local(particles.position[3 * i], particles.position[3 * i + 1],
                       particles.position[3 * i + 2]);
     // A particle without finite position is a fault of the run, not of the picture.
-    if (!local.allFinite()) continue;
+    if (!local.allFinite() || lone[i] == 0) continue;
     Lump lump;
     lump.center = origin + local;
     const Vec3f around = Vec3f::Constant(2 * radius);
@@ -218,14 +223,11 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
   const bool many = 20 * lumps_.size() > kTriangleBudget;
   mesh_.vertices.reserve(12 * lumps_.size());
   mesh_.indices.reserve(60 * lumps_.size());
-  const auto& colors = frame.ground.soil_color;
   for (const Lump& lump : lumps_) {
     const float unit = static_cast<float>(lump.seed >> 8) / 16777216.0f;
     const float pixels = 2 * radius * view.pixels_per_radian / std::max(lump.distance, 0.1f);
-    Vec3f albedo(0.50f, 0.40f, 0.28f);
-    if (lump.soil < colors.size())
-      albedo = {colors[lump.soil].r, colors[lump.soil].g, colors[lump.soil].b};
-    albedo *= 0.80f + 0.22f * hash_unit(lump.seed, 5);
+    const Vec3f albedo =
+        surface.loose_albedo(lump.center, lump.soil) * (0.80f + 0.22f * hash_unit(lump.seed, 5));
     // Sampled a little towards the sun, or a particle would be in its own shadow.
     const Vec3f sunward = lump.center + 1.5f * radius * lighting.to_sun;
     float sun = shadows.sun_at(sunward, 2.5f * radius), height = 0, ground_sun = 1;
@@ -233,7 +235,7 @@ const Mesh& ParticleMesh::build(const scene::Frame& frame, const Lighting& light
     if (surface.sample(lump.center.x(), lump.center.y(), height, ground_sun) &&
         lump.center.z() < height + 0.25f)
       sun *= 0.35f + 0.65f * ground_sun;
-    add_lump(lump, std::min(lump.most, radius * (0.80f + 0.50f * unit * unit)),
+    add_lump(lump, std::min(lump.most, radius * (0.45f + 0.50f * unit * unit)),
              pixels > 7 && !many ? 1 : 0, albedo, lighting, sun);
   }
   drawn_ = static_cast<int>(lumps_.size());

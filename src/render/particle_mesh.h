@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws loose soil as irregular, lit lumps of a few triangles each. Particles inside a heap are
-// omitted.
+// Draws single soil particles as irregular, lit lumps of a few triangles each.
 #pragma once
 
 #include <vector>
@@ -12,19 +11,24 @@
 
 namespace navvy::render {
 
-/// Builds one mesh of all visible soil particles. Particles that others enclose, and particles
-/// outside the picture, get no triangles.
+/// Checks the arrays of a frame, which come from a caller: one that is too short would be read
+/// beyond its end. @throws Error if their sizes do not match.
+void check_sizes(const scene::FrameParticles& particles);
+
+/// Builds one mesh of all visible soil particles that belong to no surface (SoilSurface). Particles
+/// that others enclose, and particles outside the picture, get no triangles.
 class ParticleMesh {
  public:
   /// Number of triangles in a picture above which every lump is drawn with 8 instead of 20 faces.
   static constexpr int kTriangleBudget = 100000;
 
-  /// Returns the mesh of the frame's particles, valid until the next call. The id of a particle
-  /// (its index if the frame has no ids) determines the shape, size and colour of its lump, so that
-  /// a particle always looks the same. @throws Error if the sizes of the frame's particle arrays do
-  /// not match.
+  /// Returns the mesh of the frame's particles, valid until the next call. `lone` has one entry per
+  /// particle: 0 for those that are drawn otherwise. The id of a particle (its index if the frame
+  /// has no ids) determines the shape, size and colour of its lump, so that a particle always looks
+  /// the same. @throws Error if the sizes of the frame's particle arrays do not match.
   const Mesh& build(const scene::Frame& frame, const Lighting& lighting, const ShadowMap& shadows,
-                    const GroundSurface& surface, const View& view);
+                    const GroundSurface& surface, const View& view,
+                    const std::vector<std::uint8_t>& lone);
   /// Returns the number of lumps in the last mesh.
   int drawn() const { return drawn_; }
 

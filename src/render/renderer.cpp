@@ -20,6 +20,7 @@
 #include "render/particle_mesh.h"
 #include "render/shadow_map.h"
 #include "render/shape_cache.h"
+#include "render/soil_surface.h"
 #include "render/terrain_mesh.h"
 
 #include <Inventor/system/gl.h>
@@ -78,6 +79,7 @@ class Renderer::Impl {
   GlDraw draw_;
   TerrainMesh terrain_;
   ShadowMap shadows_;
+  SoilSurface soil_;
   ParticleMesh particles_;
   ShapeCache shapes_;
   std::vector<Placed> placed_;
@@ -93,7 +95,7 @@ class Renderer::Impl {
   std::uint32_t cache_context_ = 0;
 };
 
-Renderer::Impl::Impl(const RenderOptions& options) : options_(options) {
+Renderer::Impl::Impl(const RenderOptions& options) : options_(options), terrain_(options.smooth) {
   // Once per process, by the first renderer.
   static std::once_flag started;
   std::call_once(started, [] { SoDB::init(); });
@@ -264,9 +266,15 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   if (options_.surroundings && !frame.ground.height.empty())
     tiles.push_back(terrain_.surroundings(lighting));
   for (const GroundPart& tile : tiles) stats.ground_triangles += static_cast<int>(tile.triangles());
-  const Mesh& soil = particles_.build(frame, lighting, shadows_, terrain_.surface(), view);
+  const double before_soil = watch.seconds();
+  const Mesh& soil = soil_.build(frame, lighting, shadows_, terrain_.surface());
+  if (!soil.vertices.empty()) tiles.push_back(soil_.part());
+  stats.soil_triangles = static_cast<int>((soil.indices.size() + soil.walls.size()) / 3);
+  stats.soil_ms = 1e3 * (watch.seconds() - before_soil);
+  const Mesh& lumps =
+      particles_.build(frame, lighting, shadows_, terrain_.surface(), view, soil_.lone());
   stats.particles_drawn = particles_.drawn();
-  stats.particle_triangles = static_cast<int>(soil.indices.size() / 3);
+  stats.particle_triangles = static_cast<int>(lumps.indices.size() / 3);
   stats.tiles_rebuilt = terrain_.rebuilt();
   stats.prepare_ms = 1e3 * watch.seconds();
 
@@ -276,7 +284,7 @@ Image Renderer::Impl::render(const scene::Frame& frame, const scene::FrameCamera
   // over the rest.
   draw_.begin(view, lighting);
   draw_.ground(tiles, view, shadows_, lighting);
-  draw_.lumps(soil);
+  draw_.lumps(lumps);
   draw_.sky(view, lighting);
   draw_.end();
   draw_machines(view, camera, lighting);

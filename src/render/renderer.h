@@ -19,6 +19,9 @@ struct RenderOptions {
   bool surroundings = true;
   /// True to draw the shadows of machines and falling soil on the ground.
   bool shadows = true;
+  /// True to draw dumped soil at smoothed heights; false for pictures from which heights are
+  /// measured.
+  bool smooth = true;
   /// Maximum number of ground triangles per picture (approximate). The level of detail is reduced
   /// to respect it.
   int triangle_budget = 40000;
@@ -28,13 +31,17 @@ struct RenderOptions {
 struct RenderStats {
   /// Number of triangles and of tiles drawn for the ground.
   int ground_triangles = 0, ground_tiles = 0;
-  /// Number of soil particles drawn, and of their triangles.
+  /// Number of soil particles drawn as single lumps, and of their triangles.
   int particles_drawn = 0, particle_triangles = 0;
+  /// Number of triangles of the surface of loose soil.
+  int soil_triangles = 0;
   /// Number of tiles whose mesh had to be built for this picture.
   int tiles_rebuilt = 0;
   /// Wall time to prepare ground, shadows and particles (`prepare_ms`), and wall time to draw
   /// (`draw_ms`) [ms].
   double prepare_ms = 0, draw_ms = 0;
+  /// Part of `prepare_ms` that the surface of loose soil took [ms].
+  double soil_ms = 0;
 };
 
 /// Draws ground, soil particles, machines, sky and shadows with Coin3D and OSMesa.

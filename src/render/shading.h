@@ -50,8 +50,8 @@ struct Lighting {
 Lighting make_lighting(const std::vector<scene::Light>& lights);
 
 /// Returns the lit colour of a matt surface. `albedo` is its unlit colour, `normal` its unit normal
-/// in W; `sun` and `open` are the visible fractions of sun and sky (0 to 1). Components of the
-/// result may exceed 1; `to_byte` clamps them.
+/// in W; `sun` and `open` are the visible fractions of sun and sky (0 to 1). Bright colours
+/// approach kBrightest without reaching it, so that pale soil keeps its grain in the sun.
 inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& normal, float sun,
                    float open) {
   // A side turned away from the sun receives no direct light.
@@ -59,7 +59,12 @@ inline Vec3f shade(const Lighting& light, const Vec3f& albedo, const Vec3f& norm
   // From 0 looking down to 1 looking up, so that ambient light changes smoothly.
   const float up = 0.5f + 0.5f * normal.z();
   const Vec3f ambient = light.ground + (light.sky - light.ground) * up;
-  return albedo.cwiseProduct(light.sun * direct + ambient * open);
+  const Vec3f linear = albedo.cwiseProduct(light.sun * direct + ambient * open);
+  constexpr float kShoulder = 0.5f, kBrightest = 0.82f;
+  const float most = linear.maxCoeff();
+  if (most <= kShoulder) return linear;
+  constexpr float kRange = kBrightest - kShoulder;
+  return linear * ((kShoulder + kRange * (1 - std::exp((kShoulder - most) / kRange))) / most);
 }
 
 /// Converts a value, clamped to 0..1, to a byte in 0..255.

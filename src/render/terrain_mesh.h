@@ -34,6 +34,8 @@ struct GroundPart {
   std::array<bool, 4> skirts = {true, true, true, true};
   /// Corners of the bounding box in W [m].
   Vec3f low = Vec3f::Zero(), high = Vec3f::Zero();
+  /// True if the colours of the mesh contain the shadows of the machines.
+  bool shadowed = false;
   /// Returns the number of triangles to draw, including the skirts that must be drawn.
   std::size_t triangles() const;
 };
@@ -51,6 +53,8 @@ class TerrainMesh {
   /// Coarsest level of detail. At the levels 0 to 5, vertices are 1, 2, 4, ... 32 columns apart.
   static constexpr int kMaxLevel = 5;
 
+  /// Creates a mesh without ground. `smooth` is that of GroundSurface.
+  explicit TerrainMesh(bool smooth = true) : surface_(smooth) {}
   /// Updates the copy of the ground from a frame, and marks the tiles that have changed.
   void update(const scene::FrameGround& ground, const Lighting& lighting);
   /// Returns the tiles that are visible in `view`, nearest first, and builds their meshes where

@@ -149,7 +149,7 @@ TEST_F(RendererTest, ThousandsOfParticlesInTheAirChangePixels) {
   ASSERT_GT(frame_.particles.position.size() / 3, 3000u);
   const Image after = renderer.render(frame_, camera_);
   EXPECT_GT(changed_pixels(before, after), 1500);
-  EXPECT_GT(renderer.stats().particles_drawn, 300);
+  EXPECT_GT(renderer.stats().soil_triangles, 1000);
   const Vec2 at = project(camera_, Vec3(0, 0, 1.0));
   const std::uint8_t* p = after.pixel(static_cast<int>(at.x()), static_cast<int>(at.y()));
   EXPECT_GT(p[0], p[2]) << "soil is brown";
@@ -184,8 +184,10 @@ TEST_F(RendererTest, NoParticleReachesThroughAPlate) {
   const scene::FrameCamera from_behind = small_camera({-4, 0, 1.5}, {0, 0, 1.5});
   Renderer renderer;
   const Image bare = renderer.render(frame_, from_behind);
-  // Soil against the plate's other face.
-  add_soil(frame_.particles, {0.03, -0.6, 1.0}, {0.3, 0.6, 2.0}, 0.1);
+  // Single particles against the plate's other face.
+  for (float y = -0.6f; y < 0.6f; y += 0.15f)
+    for (float z = 1; z < 2; z += 0.15f)
+      frame_.particles.position.insert(frame_.particles.position.end(), {0.015f, y, z});
   EXPECT_GT(changed_pixels(bare, renderer.render(frame_, from_behind)), 20)
       << "particles of full size would be visible";
   for (std::size_t i = 0; i < frame_.particles.position.size(); i += 3)
@@ -372,6 +374,27 @@ TEST_F(RendererTest, PrintsTheTimeOfALargeSite) {
   // The budget holds except for skirts, walls and the surroundings.
   EXPECT_LT(renderer.stats().ground_triangles, 130000);
   EXPECT_EQ(renderer.stats().tiles_rebuilt, 0) << "without a change no tile is rebuilt";
+}
+
+TEST_F(RendererTest, PrintsTheTimeOfTheSurfaceOfLooseSoil) {
+  // 11 k particles as a heap in front of a bucket, and the same 30 m apart.
+  for (const double apart : {0.0, 30.0}) {
+    scene::Frame site;
+    make_ground(site.ground, 512, 512, 0.1);
+    add_soil(site.particles, {-0.9, -0.6, 0}, {0.9, 0.6, apart > 0 ? 0.3 : 0.62}, 0.1);
+    if (apart > 0) add_soil(site.particles, {-0.9, apart - 0.6, 0}, {0.9, apart + 0.6, 0.3}, 0.1);
+    Renderer renderer;
+    const scene::FrameCamera camera = look_from({12, -10, 6}, {0, 0, 0});
+    double least = 1e9;
+    for (int i = 0; i < 5; ++i) {
+      renderer.render(site, camera);
+      least = std::min(least, renderer.stats().soil_ms);
+    }
+    std::printf("surface of %zu particles%s: %.1f ms, %d triangles (wanted: %d ms)\n",
+                site.particles.position.size() / 3, apart > 0 ? " at two places" : "", least,
+                renderer.stats().soil_triangles, apart > 0 ? 8 : 3);
+    EXPECT_GT(renderer.stats().soil_triangles, 1000);
+  }
 }
 
 }  // namespace
