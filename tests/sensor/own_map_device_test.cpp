@@ -2,9 +2,14 @@
 // The map that a machine makes from its own scans.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "sensor/ray_scene.h"
 #include "sensor/scenes.h"
+#include "session/session.h"
+#include "sim/world_terrain.h"
 
 namespace navvy::sensor {
 namespace {
@@ -68,6 +73,118 @@ TEST(OwnMap, ShowsWhatIsVisibleWithinTheNoiseAndNothingElse) {
   const auto predicted = world->arrays().view("mast/map/predicted").values<float>();
   for (std::size_t i = 0; i < seen.size(); ++i)
     if (!std::isnan(seen[i])) ASSERT_EQ(predicted[i], seen[i]);
+}
+
+/// Returns the bucket on slides of scenarios/bucket_path.sdf with a scanner behind and above it,
+/// and a map of what the scanner sees. The bucket cuts 0.3 m deep along x from -1 to 0.4.
+std::string digging_bucket() {
+  return R"(<include><uri>model://test_bucket</uri><name>bucket</name><pose>0 0 0 0 0 0</pose>
+<navvy:on_ground>false</navvy:on_ground>
+<navvy:joint name="slide_x"><initial_m>-1.6</initial_m></navvy:joint>
+<navvy:joint name="slide_z"><initial_m>0.6</initial_m></navvy:joint>
+<navvy:joint name="curl"><initial_deg>-70</initial_deg></navvy:joint>
+<navvy:sensor name="scanner" link="base" type="lidar"><pose>-3 0 2.2 0 0 0</pose>
+<update_rate>20</update_rate><lidar><scan><horizontal><samples>181</samples>
+<min_angle>-0.6</min_angle><max_angle>0.6</max_angle></horizontal><vertical><samples>121</samples>
+<min_angle>-1.2</min_angle><max_angle>-0.3</max_angle></vertical></scan><range><min>0.05</min>
+<max>15</max></range><noise><type>gaussian</type><stddev>0.01</stddev></noise></lidar></navvy:sensor>
+<navvy:sensor name="map" link="base" type="navvy:map"><update_rate>20</update_rate><navvy:map>
+<cell_m>0.1</cell_m><min_m>-2.5 -1.5</min_m><max_m>2 1.5</max_m></navvy:map></navvy:sensor>
+<navvy:program><trajectory><times_s>0 0.5 1.7 3.7 5.2 6.7</times_s>
+<joint name="slide_x"><positions_m>-1.6 -1.6 -1.0 0.2 0.45 0.45</positions_m></joint>
+<joint name="slide_z"><positions_m>0.6 0.37 0.067 0.067 0.45 1.3</positions_m></joint>
+<joint name="curl"><positions_deg>-70 -70 -70 -62 0 0</positions_deg></joint>
+</trajectory></navvy:program></include>)";
+}
+
+/// Errors of a map of 45 x 30 cells of 0.1 m from (-2.5, -1.5).
+struct MapErrors {
+  int count = 0;
+  double squares = 0, bounds = 0;
+
+  void add(double error, double bound) {
+    ++count;
+    squares += error * error;
+    bounds += bound * bound;
+  }
+  double rms() const { return std::sqrt(squares / count); }
+  double rms_bound() const { return std::sqrt(bounds / count); }
+};
+
+/// Returns which cells of the map a beam of the scanner meets on the ground at this instant, but
+/// for those within 0.5 m of the bucket: the map leaves out points on it and on the soil that it
+/// holds.
+std::vector<bool> visible_cells(const sim::World& world) {
+  RayScene scene(world);
+  scene.update();
+  const auto scan = world.arrays().view("bucket/scanner/ranges");
+  std::vector<bool> out(45 * 30, false);
+  for (int ring = 0; ring < 121; ++ring)
+    for (int beam = 0; beam < 181; ++beam) {
+      const double up = -1.2 + 0.9 * ring / 120, left = -0.6 + 1.2 * beam / 180;
+      const Vec3 d(std::cos(up) * std::cos(left), std::cos(up) * std::sin(left), std::sin(up));
+      const Vec3 p = scan.X_WF().translation(), d_W = scan.X_WF().linear() * d;
+      const auto hit = scene.first_hit(p, d_W, 15);
+      if (!hit || hit->what != Met::kGround) continue;
+      const Vec3 q = p + hit->distance * d_W;
+      if (scene.on_machine(0, q, 0.5)) continue;
+      const int ix = static_cast<int>(std::floor((q.x() + 2.5) / 0.1)),
+                iy = static_cast<int>(std::floor((q.y() + 1.5) / 0.1));
+      if (ix >= 0 && iy >= 0 && ix < 45 && iy < 30)
+        out[static_cast<std::size_t>(ix + 45 * iy)] = true;
+    }
+  return out;
+}
+
+/// Returns the difference of the highest and the lowest ground within half a cell around a place.
+double relief(const heightfield::TerrainView& ground, double x, double y) {
+  double low = ground.sample(x, y), high = low;
+  for (int i = 0; i < 9; ++i) {
+    const double z = ground.sample(x + 0.05 * (i % 3 - 1), y + 0.05 * (i / 3 - 1));
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+  return high - low;
+}
+
+TEST(OwnMap, PredictsWhatABucketHasCutWhereItHidesTheGround) {
+  device::Device device;
+  session::Session session(scene_of(digging_bucket()), device);
+  for (auto& one : make_sensors(session.world())) session.add(std::move(one));
+  const sim::World& world = session.world();
+  int instants = 0;
+  // From the cut through the drag to the end of the curl, when the bucket is out of the ground.
+  for (double time = 2.25; time < 4.6; time += 0.25) {
+    while (world.time() < time - 1e-9) session.step();
+    const auto seen = world.arrays().view("bucket/map/elevation").values<float>(),
+               predicted = world.arrays().view("bucket/map/predicted").values<float>();
+    const heightfield::TerrainView truth =
+        sim::terrain_view(world, heightfield::SurfaceKind::kMapped);
+    const std::vector<bool> visible = visible_cells(world);
+    MapErrors of_visible, of_hidden, of_old;
+    for (int iy = 0; iy < 30; ++iy)
+      for (int ix = 0; ix < 45; ++ix) {
+        const auto i = static_cast<std::size_t>(ix + 45 * iy);
+        const double x = -2.45 + 0.1 * ix, y = -1.45 + 0.1 * iy, z = truth.sample(x, y);
+        ASSERT_EQ(std::isnan(seen[i]), std::isnan(predicted[i]));
+        if (std::isnan(seen[i])) continue;
+        if (visible[i]) of_visible.add(seen[i] - z, 2 * kSigma + 0.5 * relief(truth, x, y));
+        if (predicted[i] == seen[i]) continue;
+        // Only steel changes the prediction, and it only cuts.
+        EXPECT_LT(predicted[i], seen[i]);
+        of_hidden.add(predicted[i] - z, 0.05);
+        of_old.add(seen[i] - z, 0);
+      }
+    // The bounds of the issue: two deviations and half a cell of slope, and 5 cm.
+    EXPECT_GT(of_visible.count, 500) << time;
+    EXPECT_LT(of_visible.rms(), of_visible.rms_bound()) << time;
+    ASSERT_GT(of_hidden.count, 10) << time;
+    EXPECT_LT(of_hidden.rms(), 0.05) << time;
+    // Without the prediction the map shows ground that is long gone.
+    EXPECT_GT(of_old.rms(), 0.15) << time;
+    ++instants;
+  }
+  EXPECT_EQ(instants, 10);
 }
 
 }  // namespace

@@ -25,6 +25,46 @@ struct Scanner {
   void visit(Archive& a) { a("seen", seen); }
 };
 
+/// The space of a bucket or bed and of the heap on it, in the frame of its link.
+struct Carrier {
+  sim::LinkHandle link;
+  Vec3 low, high;                ///< box around the shell [m]
+  Vec3 opening;                  ///< unit vector out of the mouth
+  double heap;                   ///< height of a heap with slopes of 45 deg on the mouth [m]
+  Pose X_LW = Pose::Identity();  ///< pose of W in the link's frame
+  double heaped = 0;             ///< height of the heap as the mouth is turned now [m]
+
+  /// Creates the space of a shell.
+  Carrier(const sim::LinkHandle& of, const scene::Shell& shell, const Vec3& out)
+      : link(of),
+        low(shell.vertices.front()),
+        high(shell.vertices.front()),
+        opening(out.normalized()) {
+    for (const Vec3& v : shell.vertices) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    // Across the mouth: the two axes that are farthest from the direction of the opening.
+    int along = 0;
+    opening.cwiseAbs().maxCoeff(&along);
+    const Vec3 size = high - low;
+    heap = 0.5 * std::min(size[(along + 1) % 3], size[(along + 2) % 3]);
+  }
+  /// Follows the link.
+  void update() {
+    const Pose X_WL = link.pose();
+    X_LW = X_WL.inverse();
+    // Nothing rests on a mouth that points sideways or down.
+    heaped = heap * std::max(0.0, (X_WL.linear() * opening).z());
+  }
+  /// Returns true if a point is in the shell or in the heap on it, within `margin` [m].
+  bool holds(const Vec3& p_W, double margin) const {
+    const Vec3 p = X_LW * p_W, up = heaped * opening;
+    return (p.array() >= low.array() + up.array().min(0) - margin).all() &&
+           (p.array() <= high.array() + up.array().max(0) + margin).all();
+  }
+};
+
 class MapInstrument final : public Instrument {
  public:
   MapInstrument(const scene::OwnMap& kind, const Mounting& at)
@@ -47,6 +87,7 @@ class MapInstrument final : public Instrument {
       for (const scene::Sensor& sensor : link.sensors)
         if (const auto* lidar = std::get_if<scene::Lidar>(&sensor.kind))
           scanners_.push_back({lidar, machine_.name() + "/" + sensor.name + "/ranges"});
+    add_carriers();
   }
 
   std::vector<MeasuredQuantity> quantities() const override {
@@ -92,6 +133,18 @@ class MapInstrument final : public Instrument {
   }
 
  private:
+  void add_carriers() {
+    const scene::Machine& machine = machine_.description();
+    for (std::size_t i = 0; i < machine.shells.size(); ++i) {
+      const scene::Shell& shell = machine.shells[i];
+      if (shell.vertices.empty()) continue;
+      for (const scene::Bucket& bucket : machine.buckets)
+        if (bucket.shell == shell.name)
+          carriers_.emplace_back(machine_.link(shell.link), shell, bucket.opening);
+      if (machine.is_bed(static_cast<int>(i)))
+        carriers_.emplace_back(machine_.link(shell.link), shell, Vec3::UnitZ());
+    }
+  }
   /// Returns the index of the cell at a place in W; -1 outside the map.
   std::ptrdiff_t cell_at(double x, double y) const {
     const int ix = static_cast<int>(std::floor((x - kind_.min.x()) / kind_.cell)),
@@ -107,6 +160,7 @@ class MapInstrument final : public Instrument {
     if (view.sequence() == scanner.seen) return;
     scanner.seen = view.sequence();
     at_.scene->update();
+    for (Carrier& carrier : carriers_) carrier.update();
     touched_.clear();
     const std::span<const float> ranges = view.values<float>();
     const scene::Lidar& lidar = *scanner.lidar;
@@ -123,7 +177,11 @@ class MapInstrument final : public Instrument {
   void add(const Vec3& p_W) {
     const std::ptrdiff_t cell = cell_at(p_W.x(), p_W.y());
     if (cell < 0) return;
-    if (kind_.self_filter && at_.scene->on_machine(at_.machine, p_W, kind_.margin)) return;
+    if (kind_.self_filter &&
+        (at_.scene->on_machine(at_.machine, p_W, kind_.margin) ||
+         std::any_of(carriers_.begin(), carriers_.end(),
+                     [&](const Carrier& c) { return c.holds(p_W, kind_.margin); })))
+      return;
     const auto c = static_cast<std::size_t>(cell);
     if (points_[c]++ == 0) touched_.push_back(c);
     sum_[c] += p_W.z();
@@ -213,8 +271,9 @@ class MapInstrument final : public Instrument {
   sim::MachineHandle machine_;
   int nx_ = 1, ny_ = 1;  ///< number of cells along x and y
   std::vector<Scanner> scanners_;
-  std::vector<float> elevation_;  ///< seen heights, x fastest [m]
-  std::vector<float> predicted_;  ///< heights with cuts since they were seen [m]
+  std::vector<Carrier> carriers_;  ///< buckets and beds, whose soil is not ground
+  std::vector<float> elevation_;   ///< seen heights, x fastest [m]
+  std::vector<float> predicted_;   ///< heights with cuts since they were seen [m]
   // Points of the scan that is being added: their sums and numbers by cell, and the cells with any.
   std::vector<double> sum_;
   std::vector<int> points_;
