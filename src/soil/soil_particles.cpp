@@ -51,6 +51,19 @@ std::vector<PointMass> SoilParticles::masses_near(const Vec3& low, const Vec3& h
   return out;
 }
 
+void SoilParticles::places(std::vector<ParticlePlace>& out) const {
+  if (unplaced_.empty()) return store_.places(out);
+  out.clear();
+  for (Particle p : unplaced_) {
+    for (int a = 0; a < 3; ++a) p.x[a] += p.moved[a];
+    p = in_cell_block(p);
+    ParticlePlace place{Vec3::Zero(), p.mass, p.j0, p.id, p.soil};
+    for (int a = 0; a < 3; ++a)
+      place.grid[a] = kBlockCells * p.block[a] + static_cast<double>(p.x[a]);
+    out.push_back(place);
+  }
+}
+
 std::vector<std::int64_t> SoilParticles::masses() const {
   if (unplaced_.empty()) return store_.masses(soils_);
   std::vector<std::int64_t> out(soils_, 0);

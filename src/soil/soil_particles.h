@@ -51,6 +51,8 @@ class SoilParticles {
   /// Returns the current positions and masses of all particles inside the box `low` .. `high` of G
   /// [cells], and of some outside it.
   std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
+  /// Replaces the contents of `out` by the places of all particles, in stored order.
+  void places(std::vector<ParticlePlace>& out) const;
   /// Returns the total particle mass, one entry per soil [kMassQuantum].
   std::vector<std::int64_t> masses() const;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -125,6 +126,9 @@ class Solver {
 
   /// Returns host copies of all particles at their current positions, ordered by ID.
   std::vector<Particle> particles() const;
+  /// Replaces the contents of `out` by the current places of all particles. Their order depends on
+  /// where the particles are stored, but not on the device or its threads.
+  void places(std::vector<ParticlePlace>& out) const;
   /// Returns the origin in W [m] of the grid frame G, in which particle positions are given.
   const Vec3& grid_origin() const;
   /// Returns the offset of the particle blocks relative to the site's columns.
@@ -136,6 +140,9 @@ class Solver {
   /// soil in a bucket that reaches into the bed.
   double payload(int tool, const Pose& X_WT, std::span<const PlacedTool> except = {}) const;
 
+  /// Returns a function that returns true for a point in W [m] if one of `tools` holds soil there,
+  /// by the same rule as `payload`. It must not outlive the solver.
+  std::function<bool(const Vec3&)> holding(std::span<const PlacedTool> tools) const;
   /// Returns one entry for each of `particles`: 1 if one of `tools` holds the particle, by the same
   /// rule as `payload`, else 0.
   std::vector<std::uint8_t> held(std::span<const Particle> particles,

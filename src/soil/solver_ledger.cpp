@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <utility>
 
 #include "core/archive.h"
@@ -64,26 +65,42 @@ double Solver::payload(int tool, const Pose& X_WT, std::span<const PlacedTool> e
   return kilograms(sum);
 }
 
+void Solver::places(std::vector<ParticlePlace>& out) const { state_->particles.places(out); }
+
+std::function<bool(const Vec3&)> Solver::holding(std::span<const PlacedTool> tools) const {
+  struct Space {
+    const ShellGeometry* geometry;
+    Pose X_TW;
+    Vec3 low, high;   // box in W
+    int closest = 0;  // triangle of the previous point: neighbours often follow each other
+  };
+  std::vector<Space> spaces;
+  for (const PlacedTool& tool : tools) {
+    Space space{&state_->contact.geometry(tool.tool), tool.X_WT.inverse(), Vec3::Constant(1e300),
+                Vec3::Constant(-1e300)};
+    for (const Vec3& corner : space.geometry->hull_points()) {
+      space.low = space.low.cwiseMin(tool.X_WT * corner);
+      space.high = space.high.cwiseMax(tool.X_WT * corner);
+    }
+    spaces.push_back(space);
+  }
+  return [spaces = std::move(spaces)](const Vec3& p_W) mutable {
+    for (Space& space : spaces) {
+      // Most points are far from any tool.
+      if ((p_W.array() < space.low.array()).any() || (p_W.array() > space.high.array()).any())
+        continue;
+      if (space.geometry->holds(space.X_TW * p_W, space.closest)) return true;
+    }
+    return false;
+  };
+}
+
 std::vector<std::uint8_t> Solver::held(std::span<const Particle> particles,
                                        std::span<const PlacedTool> tools) const {
-  std::vector<std::uint8_t> out(particles.size(), 0);
-  for (const PlacedTool& tool : tools) {
-    const ShellGeometry& geometry = state_->contact.geometry(tool.tool);
-    const Pose X_TW = tool.X_WT.inverse();
-    // Most particles are far from any tool: test a bounding box in W first.
-    Vec3 low = Vec3::Constant(1e300), high = -low;
-    for (const Vec3& corner : geometry.hull_points()) {
-      low = low.cwiseMin(tool.X_WT * corner);
-      high = high.cwiseMax(tool.X_WT * corner);
-    }
-    int closest = 0;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      if (out[i] != 0) continue;
-      const Vec3 p_W = state_->frame.position(particles[i]);
-      if ((p_W.array() < low.array()).any() || (p_W.array() > high.array()).any()) continue;
-      out[i] = geometry.holds(X_TW * p_W, closest) ? 1 : 0;
-    }
-  }
+  const std::function<bool(const Vec3&)> holds = holding(tools);
+  std::vector<std::uint8_t> out;
+  out.reserve(particles.size());
+  for (const Particle& p : particles) out.push_back(holds(state_->frame.position(p)) ? 1 : 0);
   return out;
 }
 

@@ -10,6 +10,8 @@
 
 #include <cstdint>
 
+#include "core/math.h"
+
 namespace navvy::soil {
 
 /// Number of cells along an edge of a block.
@@ -46,6 +48,20 @@ struct Particle {
   std::uint16_t side = 0;
   /// ID, unique among all particles of a run.
   std::uint32_t id = 0;
+};
+
+/// The part of a particle that shows where soil is and how much.
+struct ParticlePlace {
+  /// Current position in G [cells].
+  Vec3 grid = Vec3::Zero();
+  /// Mass [kMassQuantum].
+  std::int32_t mass = 0;
+  /// Density state J0 (Particle::j0).
+  float j0 = 1;
+  /// ID, unique among all particles of a run.
+  std::uint32_t id = 0;
+  /// Index of the particle's soil in the world's list of soils.
+  std::uint16_t soil = 0;
 };
 
 }  // namespace navvy::soil

@@ -330,6 +330,36 @@ std::vector<PointMass> ParticleStore::masses_near(const Vec3& low, const Vec3& h
   return out;
 }
 
+void ParticleStore::places(std::vector<ParticlePlace>& out) const {
+  out.resize(static_cast<std::size_t>(count_));
+  if (count_ == 0) return;
+  const auto view = state_[now_].map_read();
+  const auto capacity = static_cast<std::size_t>(capacity_[now_]);
+  std::size_t to = 0;
+  for (std::size_t h = 0; h < particle_blocks_.size(); ++h) {
+    const int corner[3] = {kBlockCells * table_.particle_blocks[h].x,
+                           kBlockCells * table_.particle_blocks[h].y,
+                           kBlockCells * table_.particle_blocks[h].z};
+    for (int i = 0; i < particle_blocks_[h].count; ++i) {
+      const float* words = view.data() + particle_blocks_[h].start + i;
+      ParticlePlace& place = out[to++];
+      for (std::size_t a = 0; a < 3; ++a) {
+        // Rounded as in Solver::particles: to floats in the block that contains the place.
+        float x = words[(FIELD_X + a) * capacity] + words[(FIELD_MOVED + a) * capacity];
+        const float block = kBlockCells * std::floor(x / kBlockCells);
+        x -= block;
+        place.grid[static_cast<int>(a)] =
+            corner[a] + static_cast<double>(block) + static_cast<double>(x);
+      }
+      place.mass = std::bit_cast<std::int32_t>(words[FIELD_MASS * capacity]);
+      place.j0 = words[FIELD_J0 * capacity];
+      place.id = std::bit_cast<std::uint32_t>(words[FIELD_ID * capacity]);
+      place.soil = static_cast<std::uint16_t>(
+          std::bit_cast<std::uint32_t>(words[FIELD_TAG * capacity]) & 0xffff);
+    }
+  }
+}
+
 double ParticleStore::densest() const {
   double out = 0;
   for (const SoilRow& soil : soil_rows_)

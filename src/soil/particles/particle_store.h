@@ -58,6 +58,9 @@ class ParticleStore {
   /// Returns the particles of all blocks that overlap the box `low` .. `high` of G [cells]: all
   /// particles inside the box, and some outside it.
   std::vector<PointMass> masses_near(const Vec3& low, const Vec3& high) const;
+  /// Replaces the contents of `out` by the places of all particles, in stored order. Reads a third
+  /// of the words that `records` copies.
+  void places(std::vector<ParticlePlace>& out) const;
   /// Returns the total particle mass of each of `soils` soils [kMassQuantum], counted from the
   /// device's arrays. A particle with a value that is not finite is not counted.
   std::vector<std::int64_t> masses(std::size_t soils) const;
