@@ -69,17 +69,21 @@ double Coupling::payload(const ToolLoad& tool) const {
   return solver_.payload(tool.tool, pose(tool), buckets);
 }
 
-// Blades hold no soil, so only buckets and beds are passed.
-std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particles) const {
-  std::vector<soil::PlacedTool> containers;
+std::vector<soil::PlacedTool> Coupling::containers() const {
+  std::vector<soil::PlacedTool> out;
   for (const ToolLoad& tool : tools_) {
     const scene::Machine& machine = world_.machines[static_cast<std::size_t>(tool.machine)].machine;
     // Soil ahead of a blade is on the ground, even inside the blade's convex hull.
     if (machine.is_bucket(tool.shell) || machine.is_bed(tool.shell))
-      containers.push_back(
-          {tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
+      out.push_back({tool.tool, engine(tool.machine).link(index(tool.machine), tool.link).X_WL});
   }
-  return solver_.held(particles, containers);
+  return out;
+}
+
+std::function<bool(const Vec3&)> Coupling::holding() const { return solver_.holding(containers()); }
+
+std::vector<std::uint8_t> Coupling::held(std::span<const soil::Particle> particles) const {
+  return solver_.held(particles, containers());
 }
 
 // Machines move first; the soil then answers over the same interval.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -79,6 +80,9 @@ class Coupling {
   /// Returns the mass of the soil carried by a bucket or bed [kg]. Soil in a bucket that is inside
   /// a bed counts for the bucket only.
   double payload(const ToolLoad& tool) const;
+  /// Returns a function that returns true for a point in W [m] if a bucket or a bed, at its present
+  /// pose, holds soil there. It must not outlive this object.
+  std::function<bool(const Vec3&)> holding() const;
   /// Returns one value per particle: 1 if a bucket or a bed contains the particle, else 0.
   std::vector<std::uint8_t> held(std::span<const soil::Particle> particles) const;
   /// Returns the engine that moves the machine with the index `m` in the scene.
@@ -104,6 +108,8 @@ class Coupling {
     // machines.
     int mover = -1;
   };
+  // Returns the buckets and beds at their present poses. Blades hold no soil.
+  std::vector<soil::PlacedTool> containers() const;
   // Moves the dynamic engine's obstacles to the current poses of the kinematic machines.
   void show_movers();
   // Returns the areas of ground that support wheels and tracks of dynamic machines; `dt` [s] is the
