@@ -10,9 +10,12 @@ LooseSoil::LooseSoil(const Terrain& columns, std::vector<LooseGrain> grains) {
   // Soil beyond the edge of the site has no column to rest on.
   std::erase_if(grains,
                 [&](const LooseGrain& grain) { return !columns.contains(grain.ix, grain.iy); });
-  std::sort(grains.begin(), grains.end(), [](const LooseGrain& a, const LooseGrain& b) {
+  const auto before = [](const LooseGrain& a, const LooseGrain& b) {
     return std::tie(a.iy, a.ix, a.z) < std::tie(b.iy, b.ix, b.z);
-  });
+  };
+  // Scans pass them in order.
+  if (!std::is_sorted(grains.begin(), grains.end(), before))
+    std::sort(grains.begin(), grains.end(), before);
   const double area = columns.cell() * columns.cell(), gap = kLooseGap * columns.cell();
   for (std::size_t i = 0; i < grains.size();) {
     const LooseGrain& first = grains[i];

@@ -10,8 +10,8 @@ namespace {
 
 // Edge of a cell in radii of the largest ball; tuned: bench scan of 15 000 particles.
 constexpr double kEdge = 4;
-// Largest number of cells along one axis; beyond it the cells grow.
-constexpr double kMostCells = 128;
+// Largest number of cells per ball; beyond it the cells grow.
+constexpr double kMostCells = 4;
 
 /// Distance at which a beam enters a ball, 0 inside, or a negative number.
 double enter(const Vec3& p, const Vec3& d, const sim::SoilBall& ball) {
@@ -33,41 +33,63 @@ Eigen::Vector3i BallGrid::cell_at(const Vec3& p) const {
 void BallGrid::build(const Vec3& origin, const std::vector<sim::SoilBall>& balls) {
   origin_ = origin;
   size_.setZero();
-  listed_.clear();
+  sorted_.clear();
   if (balls.empty()) return;
-  double largest = 0;
-  low_ = high_ = balls.front().p_O.cast<double>();
+  float largest = 0;
+  Eigen::Vector3f low = balls.front().p_O, high = low;
   for (const sim::SoilBall& ball : balls) {
-    low_ = low_.cwiseMin(ball.p_O.cast<double>());
-    high_ = high_.cwiseMax(ball.p_O.cast<double>());
-    largest = std::max(largest, static_cast<double>(ball.radius));
+    low = low.cwiseMin(ball.p_O);
+    high = high.cwiseMax(ball.p_O);
+    largest = std::max(largest, ball.radius);
   }
-  low_.array() -= largest;
-  high_.array() += largest;
-  edge_ = std::max(kEdge * largest, (high_ - low_).maxCoeff() / kMostCells);
+  const Vec3 around = Vec3::Constant(static_cast<double>(largest));
+  low_ = low.cast<double>() - around;
+  high_ = high.cast<double>() + around;
+  // A few balls that are far apart must not make millions of cells.
+  const double cells = kMostCells * static_cast<double>(balls.size());
+  edge_ = std::max(kEdge * static_cast<double>(largest), std::cbrt((high_ - low_).prod() / cells));
   size_ = ((high_ - low_) / edge_).array().ceil().matrix().cast<int>().cwiseMax(1);
-  start_.assign(static_cast<std::size_t>(size_.prod()) + 1, 0);
-  const auto for_cells = [&](const sim::SoilBall& ball, const auto& visit) {
-    const Vec3 p = ball.p_O.cast<double>(), r = Vec3::Constant(ball.radius);
-    const Eigen::Vector3i a = cell_at(p - r), b = cell_at(p + r);
-    for (int z = a.z(); z <= b.z(); ++z)
-      for (int y = a.y(); y <= b.y(); ++y)
-        for (int x = a.x(); x <= b.x(); ++x) visit(index({x, y, z}));
-  };
-  // Counts first, then ends of the cells, then entries from the last to the first: the order of
-  // the balls in a cell is that of the list.
-  for (const sim::SoilBall& ball : balls)
-    for_cells(ball, [&](std::size_t cell) { ++start_[cell]; });
+  const auto count = static_cast<std::size_t>(size_.prod());
+  start_.assign(count + 1, 0);
+  cell_.resize(balls.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    cell_[i] = static_cast<std::uint32_t>(index(cell_at(balls[i].p_O.cast<double>())));
+    ++start_[cell_[i]];
+  }
+  // Ends of the cells first, then entries from the last to the first: the order of the balls in a
+  // cell is that of the list.
   std::uint32_t sum = 0;
-  for (std::uint32_t& count : start_) count = sum += count;
-  listed_.resize(sum);
-  for (auto ball = balls.rbegin(); ball != balls.rend(); ++ball)
-    for_cells(*ball, [&](std::size_t cell) { listed_[--start_[cell]] = *ball; });
+  for (std::uint32_t& each : start_) each = sum += each;
+  sorted_.resize(balls.size());
+  for (std::size_t i = balls.size(); i-- > 0;) sorted_[--start_[cell_[i]]] = balls[i];
+  ranges_.assign(count, {1, 0});
+  reaching_.clear();
+}
+
+std::pair<std::uint32_t, std::uint32_t> BallGrid::reaching(const Eigen::Vector3i& cell) const {
+  std::pair<std::uint32_t, std::uint32_t>& range = ranges_[index(cell)];
+  if (range.first <= range.second) return range;
+  range.first = static_cast<std::uint32_t>(reaching_.size());
+  const Vec3 low = low_ + edge_ * cell.cast<double>(), high = low + Vec3::Constant(edge_);
+  const Eigen::Vector3i a = (cell.array() - 1).matrix().cwiseMax(0),
+                        b = (cell.array() + 1).matrix().cwiseMin(size_ - Eigen::Vector3i::Ones());
+  for (int z = a.z(); z <= b.z(); ++z)
+    for (int y = a.y(); y <= b.y(); ++y)
+      // Cells along x follow each other in the list.
+      for (std::uint32_t i = start_[index({a.x(), y, z})]; i < start_[index({b.x(), y, z}) + 1];
+           ++i) {
+        const Vec3 p = sorted_[i].p_O.cast<double>();
+        const double r = static_cast<double>(sorted_[i].radius);
+        if ((p.array() + r >= low.array()).all() && (p.array() - r <= high.array()).all())
+          reaching_.push_back(sorted_[i]);
+      }
+  range.second = static_cast<std::uint32_t>(reaching_.size());
+  return range;
 }
 
 std::optional<double> BallGrid::first_hit(const Vec3& p_W, const Vec3& direction_W,
                                           double reach) const {
-  if (listed_.empty()) return std::nullopt;
+  if (sorted_.empty()) return std::nullopt;
   const Vec3 p = p_W - origin_;
   const Vec3 inverse = direction_W.cwiseInverse();
   // Where the beam is inside the grid.
@@ -93,9 +115,9 @@ std::optional<double> BallGrid::first_hit(const Vec3& p_W, const Vec3& direction
   }
   double best = t1 + 1;
   while (true) {
-    const std::size_t at = index(cell);
-    for (std::uint32_t i = start_[at]; i < start_[at + 1]; ++i) {
-      const double t = enter(p, direction_W, listed_[i]);
+    const auto [from, to] = reaching(cell);
+    for (std::uint32_t i = from; i < to; ++i) {
+      const double t = enter(p, direction_W, reaching_[i]);
       if (t >= 0 && t <= t1) best = std::min(best, t);
     }
     int axis = 0;

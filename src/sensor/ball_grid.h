@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/math.h"
@@ -11,8 +12,11 @@
 
 namespace navvy::sensor {
 
-/// Balls sorted into the cells of a uniform grid, with edges of about four radii. A ball is listed
-/// in each cell that its bounding box meets. Building takes two passes over the balls.
+/// Balls sorted into the cells of a uniform grid, with edges of at least four radii.
+///
+/// Building sorts the balls by the cells of their centres, in two passes. The list of all balls
+/// that reach into a cell is made when a beam first enters the cell: a scan enters few of them. Not
+/// thread-safe.
 class BallGrid {
  public:
   /// Replaces the balls. `balls` count from `origin` in W [m].
@@ -32,13 +36,20 @@ class BallGrid {
   /// Returns the cell that contains a point relative to `low_`, at most the outermost one.
   Eigen::Vector3i cell_at(const Vec3& p) const;
 
+  /// Returns the range in `reaching_` of the balls that reach into a cell.
+  std::pair<std::uint32_t, std::uint32_t> reaching(const Eigen::Vector3i& cell) const;
+
   Vec3 origin_ = Vec3::Zero();         ///< point in W that balls count from [m]
   Vec3 low_ = Vec3::Zero();            ///< lowest corner of the grid, relative to `origin_` [m]
   Vec3 high_ = Vec3::Zero();           ///< highest corner, relative to `origin_` [m]
   double edge_ = 1;                    ///< edge of a cell [m]
   Eigen::Vector3i size_{0, 0, 0};      ///< number of cells along each axis
-  std::vector<std::uint32_t> start_;   ///< first entry of each cell in `listed_`, and the end
-  std::vector<sim::SoilBall> listed_;  ///< balls of each cell, one cell after the other
+  std::vector<std::uint32_t> cell_;    ///< cell of the centre of each ball, while building
+  std::vector<std::uint32_t> start_;   ///< first entry of each cell in `sorted_`, and the end
+  std::vector<sim::SoilBall> sorted_;  ///< balls by the cells of their centres
+  /// Range in `reaching_` of each cell that a beam has entered; (1, 0): none has.
+  mutable std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges_;
+  mutable std::vector<sim::SoilBall> reaching_;  ///< balls that reach into the entered cells
 };
 
 }  // namespace navvy::sensor

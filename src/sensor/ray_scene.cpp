@@ -57,21 +57,32 @@ TriangleMesh look_of(const scene::Machine& machine, const scene::Link& link) {
   return out;
 }
 
-/// Returns true if a beam enters the box within `reach` [m].
+/// Returns true if a beam enters the box within `reach` [m]; `inverse` has finite components.
 bool meets_box(const Vec3& low, const Vec3& high, const Vec3& p, const Vec3& inverse,
                double reach) {
-  double near = 0, far = reach;
-  for (int k = 0; k < 3; ++k) {
-    double a = (low[k] - p[k]) * inverse[k], b = (high[k] - p[k]) * inverse[k];
-    // A product 0 x inf is not a number: the beam is in the plane of a face, which counts as
-    // inside.
-    if (std::isnan(a)) a = -std::numeric_limits<double>::infinity();
-    if (std::isnan(b)) b = std::numeric_limits<double>::infinity();
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far;
+  const Eigen::Array3d a = (low - p).array() * inverse.array(),
+                       b = (high - p).array() * inverse.array();
+  return std::max(0.0, a.min(b).maxCoeff()) <= std::min(reach, a.max(b).minCoeff());
 }
+
+/// Returns the inverse of each component, a large number instead of infinity: a product with 0 must
+/// be 0, for beams in the plane of a box's face.
+Vec3 finite_inverse(const Vec3& d) {
+  constexpr double kSmall = 1e-30;
+  return d.unaryExpr([](double x) { return 1 / (std::abs(x) < kSmall ? kSmall : x); });
+}
+
+/// A machine: ranges of its bodies and bars, and the box around them in W [m].
+struct Group {
+  std::size_t bodies_from = 0, bodies_to = 0;
+  std::size_t bars_from = 0, bars_to = 0;
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+
+  void include(const Vec3& a, const Vec3& b) {
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(b);
+  }
+};
 
 /// Returns the distance at which a beam meets the side of a bar; a negative number for a miss.
 double meet(const Bar& bar, const Vec3& p, const Vec3& d) {
@@ -93,7 +104,11 @@ struct RayScene::State {
     const auto& machines = world.description().machines;
     for (std::size_t m = 0; m < machines.size(); ++m) {
       const scene::Machine& machine = machines[m].machine;
+      Group group;
+      group.bodies_from = bodies.size();
       for (std::size_t l = 0; l < machine.links.size(); ++l) add_body(m, l);
+      group.bodies_to = bodies.size();
+      groups.push_back(group);
     }
   }
 
@@ -109,31 +124,47 @@ struct RayScene::State {
   }
 
   void place_bodies() {
-    for (Body& body : bodies) {
-      const Pose X_WL = body.link.pose();
-      body.X_LW = X_WL.inverse();
-      const Vec3 middle = X_WL * body.middle, half = X_WL.linear().cwiseAbs() * body.half;
-      body.low = middle - half;
-      body.high = middle + half;
-    }
     bars.clear();
-    std::vector<scene::FrameCylinder> shapes;
-    for (int m = 0; m < world.machines().count(); ++m) {
-      shapes.clear();
-      sim::add_cylinder_shapes(world, m, shapes);
-      for (const scene::FrameCylinder& one : shapes) {
-        const Vec3 d = one.p_rod - one.p_base;
-        const double barrel = std::min(one.barrel_length, d.norm());
-        // The rod is thinner than the barrel that it leaves, as in pictures.
-        bars.push_back({one.p_base, d.normalized(), barrel, one.radius, m});
-        bars.push_back({one.p_base, d.normalized(), d.norm(), 0.6 * one.radius, m});
+    for (std::size_t m = 0; m < groups.size(); ++m) {
+      Group& group = groups[m];
+      group.low.setConstant(1e300);
+      group.high.setConstant(-1e300);
+      for (std::size_t i = group.bodies_from; i < group.bodies_to; ++i) {
+        Body& body = bodies[i];
+        const Pose X_WL = body.link.pose();
+        body.X_LW = X_WL.inverse();
+        const Vec3 middle = X_WL * body.middle, half = X_WL.linear().cwiseAbs() * body.half;
+        body.low = middle - half;
+        body.high = middle + half;
+        group.include(body.low, body.high);
       }
+      group.bars_from = bars.size();
+      add_bars(static_cast<int>(m), group);
+      group.bars_to = bars.size();
+    }
+  }
+
+  void add_bars(int m, Group& group) {
+    shapes.clear();
+    sim::add_cylinder_shapes(world, m, shapes);
+    for (const scene::FrameCylinder& one : shapes) {
+      const Vec3 d = one.p_rod - one.p_base;
+      const double barrel = std::min(one.barrel_length, d.norm());
+      // The rod is thinner than the barrel that it leaves, as in pictures.
+      bars.push_back({one.p_base, d.normalized(), barrel, one.radius, m});
+      bars.push_back({one.p_base, d.normalized(), d.norm(), 0.6 * one.radius, m});
+      const Vec3 around = Vec3::Constant(one.radius);
+      group.include(one.p_base.cwiseMin(one.p_rod) - around,
+                    one.p_base.cwiseMax(one.p_rod) + around);
     }
   }
 
   const sim::World& world;
   std::vector<Body> bodies;
   std::vector<Bar> bars;
+  std::vector<Group> groups;                 ///< one per machine of the scene
+  std::vector<scene::FrameCylinder> shapes;  ///< memory of `add_bars`
+  sim::VisibleSoil soil{world};
   GroundRays ground;
   BallGrid balls;
   bool fresh = false;       ///< false before the first update and after `forget`
@@ -148,9 +179,9 @@ void RayScene::forget() { state_->fresh = false; }
 void RayScene::update() {
   State& s = *state_;
   if (s.fresh && s.steps == s.world.steps()) return;
-  const sim::VisibleSoil soil = sim::visible_soil(s.world);
-  s.ground.update(soil.surface);
-  s.balls.build(soil.origin, soil.balls);
+  s.soil.update();
+  s.ground.update(s.soil.surface());
+  s.balls.build(s.soil.origin(), s.soil.balls());
   s.place_bodies();
   s.steps = s.world.steps();
   s.fresh = true;
@@ -166,15 +197,20 @@ std::optional<BeamHit> RayScene::first_hit(const Vec3& p_W, const Vec3& directio
     limit = distance;
     best = BeamHit{distance, what, machine, link};
   };
-  const Vec3 inverse = direction_W.cwiseInverse();
-  for (const Body& body : s.bodies) {
-    if (!meets_box(body.low, body.high, p_W, inverse, limit)) continue;
-    const auto hit = body.tree.first_hit(body.X_LW * p_W, body.X_LW.linear() * direction_W, limit);
-    if (hit) take(hit->distance, Met::kBody, body.machine, body.index);
+  const Vec3 inverse = finite_inverse(direction_W);
+  for (const Group& group : s.groups) {
+    if (!meets_box(group.low, group.high, p_W, inverse, limit)) continue;
+    for (std::size_t i = group.bodies_from; i < group.bodies_to; ++i) {
+      const Body& body = s.bodies[i];
+      if (!meets_box(body.low, body.high, p_W, inverse, limit)) continue;
+      const auto hit =
+          body.tree.first_hit(body.X_LW * p_W, body.X_LW.linear() * direction_W, limit);
+      if (hit) take(hit->distance, Met::kBody, body.machine, body.index);
+    }
+    for (std::size_t i = group.bars_from; i < group.bars_to; ++i)
+      if (const double t = meet(s.bars[i], p_W, direction_W); t >= 0 && t < limit)
+        take(t, Met::kBody, s.bars[i].machine, -1);
   }
-  for (const Bar& bar : s.bars)
-    if (const double t = meet(bar, p_W, direction_W); t >= 0 && t < limit)
-      take(t, Met::kBody, bar.machine, -1);
   if (const auto t = s.balls.first_hit(p_W, direction_W, limit); t && *t < limit)
     take(*t, Met::kSoil, -1, -1);
   if (const auto t = s.ground.first_hit(p_W, direction_W, limit); t && *t < limit)

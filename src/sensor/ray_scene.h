@@ -36,7 +36,7 @@ struct BeamHit {
 /// above. Soil in the air and in tools consists of balls of the particles' volumes, in a uniform
 /// grid.
 ///
-/// `update` costs a pass over the particles, a query some microseconds. Not thread-safe.
+/// `update` costs a pass over the particles, a query about a microsecond. Not thread-safe.
 class RayScene {
  public:
   /// Prepares the bodies of `world`, which must outlive this object.

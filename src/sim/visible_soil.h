@@ -2,7 +2,7 @@
 // The soil of a world as a beam of light meets it: a surface, and lumps above it.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/math.h"
@@ -18,15 +18,31 @@ struct SoilBall {
   float radius = 0;                               ///< radius [m]
 };
 
-/// The soil of a world at one instant.
-struct VisibleSoil {
-  heightfield::TerrainView surface;  ///< columns with the loose soil that rests on them
-  Vec3 origin = Vec3::Zero();        ///< point in W that the balls count from [m]
-  std::vector<SoilBall> balls;       ///< particles above the surface, in the order of their ids
-};
+/// The soil of a world at one instant: each particle is part of the surface or a ball.
+///
+/// An update passes over the particles once and sorts those near the ground by their columns;
+/// memory is kept between updates. Surface and set of balls do not depend on the order in which
+/// particles are stored.
+class VisibleSoil {
+ public:
+  /// Prepares for `world`, which must outlive this object. Call `update` before reading.
+  explicit VisibleSoil(const World& world);
+  ~VisibleSoil();
+  VisibleSoil(const VisibleSoil&) = delete;
+  VisibleSoil& operator=(const VisibleSoil&) = delete;
 
-/// Returns the soil of `world` at the present time: each particle is part of the surface or a ball.
-/// Costs a pass over all particles.
-VisibleSoil visible_soil(const World& world);
+  /// Takes the present soil of the world.
+  void update();
+  /// Returns the columns with the loose soil that rests on them.
+  const heightfield::TerrainView& surface() const;
+  /// Returns the point in W that the balls count from [m].
+  const Vec3& origin() const;
+  /// Returns the particles above the surface, by column.
+  const std::vector<SoilBall>& balls() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace navvy::sim

@@ -156,10 +156,11 @@ TEST_F(ScanTest, SeesTheHeapInABed) {
   ASSERT_TRUE(heap);
   EXPECT_EQ(heap->what, Met::kSoil);
   // The truth: the highest of the balls that the beam passes through.
-  const sim::VisibleSoil soil = sim::visible_soil(*world);
+  sim::VisibleSoil soil(*world);
+  soil.update();
   double top = -10;
-  for (const sim::SoilBall& ball : soil.balls) {
-    const Vec3 c = soil.origin + ball.p_O.cast<double>();
+  for (const sim::SoilBall& ball : soil.balls()) {
+    const Vec3 c = soil.origin() + ball.p_O.cast<double>();
     const double across2 = (c.head<2>() - Vec2(1.2, 0)).squaredNorm();
     const double r = static_cast<double>(ball.radius);
     if (across2 < r * r) top = std::max(top, c.z() + std::sqrt(r * r - across2));
