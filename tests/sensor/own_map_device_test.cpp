@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sensor/digging_bucket.h"
 #include "sensor/ray_scene.h"
 #include "sensor/scenes.h"
 #include "session/session.h"
@@ -14,6 +15,7 @@
 namespace navvy::sensor {
 namespace {
 
+using testing::digging_bucket;
 using testing::mast;
 using testing::scene_of;
 using testing::world_of;
@@ -75,26 +77,16 @@ TEST(OwnMap, ShowsWhatIsVisibleWithinTheNoiseAndNothingElse) {
     if (!std::isnan(seen[i])) ASSERT_EQ(predicted[i], seen[i]);
 }
 
-/// Returns the bucket on slides of scenarios/bucket_path.sdf with a scanner behind and above it,
-/// and a map of what the scanner sees. The bucket cuts 0.3 m deep along x from -1 to 0.4.
-std::string digging_bucket() {
-  return R"(<include><uri>model://test_bucket</uri><name>bucket</name><pose>0 0 0 0 0 0</pose>
-<navvy:on_ground>false</navvy:on_ground>
-<navvy:joint name="slide_x"><initial_m>-1.6</initial_m></navvy:joint>
-<navvy:joint name="slide_z"><initial_m>0.6</initial_m></navvy:joint>
-<navvy:joint name="curl"><initial_deg>-70</initial_deg></navvy:joint>
-<navvy:sensor name="scanner" link="base" type="lidar"><pose>-3 0 2.2 0 0 0</pose>
-<update_rate>20</update_rate><lidar><scan><horizontal><samples>181</samples>
-<min_angle>-0.6</min_angle><max_angle>0.6</max_angle></horizontal><vertical><samples>121</samples>
-<min_angle>-1.2</min_angle><max_angle>-0.3</max_angle></vertical></scan><range><min>0.05</min>
-<max>15</max></range><noise><type>gaussian</type><stddev>0.01</stddev></noise></lidar></navvy:sensor>
-<navvy:sensor name="map" link="base" type="navvy:map"><update_rate>20</update_rate><navvy:map>
-<cell_m>0.1</cell_m><min_m>-2.5 -1.5</min_m><max_m>2 1.5</max_m></navvy:map></navvy:sensor>
-<navvy:program><trajectory><times_s>0 0.5 1.7 3.7 5.2 6.7</times_s>
-<joint name="slide_x"><positions_m>-1.6 -1.6 -1.0 0.2 0.45 0.45</positions_m></joint>
-<joint name="slide_z"><positions_m>0.6 0.37 0.067 0.067 0.45 1.3</positions_m></joint>
-<joint name="curl"><positions_deg>-70 -70 -70 -62 0 0</positions_deg></joint>
-</trajectory></navvy:program></include>)";
+/// Returns the digging bucket with a scanner behind and above it, and a map of what it sees.
+std::string bucket_with_map() {
+  return digging_bucket(R"(<navvy:sensor name="scanner" link="base" type="lidar">
+<pose>-3 0 2.2 0 0 0</pose><update_rate>20</update_rate><lidar><scan><horizontal>
+<samples>181</samples><min_angle>-0.6</min_angle><max_angle>0.6</max_angle></horizontal><vertical>
+<samples>121</samples><min_angle>-1.2</min_angle><max_angle>-0.3</max_angle></vertical></scan>
+<range><min>0.05</min><max>15</max></range><noise><type>gaussian</type><stddev>0.01</stddev></noise>
+</lidar></navvy:sensor><navvy:sensor name="map" link="base" type="navvy:map">
+<update_rate>20</update_rate><navvy:map><cell_m>0.1</cell_m><min_m>-2.5 -1.5</min_m>
+<max_m>2 1.5</max_m></navvy:map></navvy:sensor>)");
 }
 
 /// Errors of a map of 45 x 30 cells of 0.1 m from (-2.5, -1.5).
@@ -149,7 +141,7 @@ double relief(const heightfield::TerrainView& ground, double x, double y) {
 
 TEST(OwnMap, PredictsWhatABucketHasCutWhereItHidesTheGround) {
   device::Device device;
-  session::Session session(scene_of(digging_bucket()), device);
+  session::Session session(scene_of(bucket_with_map()), device);
   for (auto& one : make_sensors(session.world())) session.add(std::move(one));
   const sim::World& world = session.world();
   int instants = 0;
