@@ -17,7 +17,9 @@ BASE = " ".join(
         # simulation and its files
         "libeigen3-dev libbullet-dev libsdformat-dev libtinyxml2-dev libgdal-dev",
         # pictures
-        "libcoin-dev libosmesa6-dev libpng-dev libtinyobjloader-dev",
+        "libcoin-dev libosmesa6-dev libpng-dev",
+        # meshes
+        "libtinyobjloader-dev libassimp-dev",
         # the program
         "libcli11-dev libspdlog-dev nlohmann-json3-dev",
         # bags for ROS 2

@@ -12,7 +12,7 @@
 #include <cstdio>
 
 #include "core/error.h"
-#include "geometry/obj/read_obj.h"
+#include "geometry/read_mesh.h"
 #include "render/closed_mesh.h"
 
 namespace navvy::render {
@@ -155,7 +155,7 @@ Body mesh_body(const geometry::TriangleMesh& mesh, const Vec3f& scale, const Loo
 }
 
 Body read_body(const std::string& file, const Vec3f& scale, const Look& plain) {
-  const geometry::TriangleMesh mesh = geometry::read_obj(file);
+  const geometry::TriangleMesh mesh = geometry::read_mesh(file);
   if (mesh.vertices.empty())
     throw InputError(Fault{Fault::Severity::kError, file, 0, "mesh", "",
                            "a mesh to draw must have vertices", "export the mesh again"});

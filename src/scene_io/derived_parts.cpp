@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "geometry/obj/read_obj.h"
 #include "geometry/primitive_solids.h"
+#include "geometry/read_mesh.h"
 #include "scene_io/mesh_path.h"
 
 namespace navvy::scene_io {
@@ -117,7 +117,7 @@ bool solid_of(const Element& at, const scene::Geometry& shape, const Pose& X_LS,
       return false;
     case Kind::kMesh:
       try {
-        geometry::TriangleMesh mesh = geometry::read_obj(shape.mesh_file);
+        geometry::TriangleMesh mesh = geometry::read_mesh(shape.mesh_file);
         for (Vec3& v : mesh.vertices) v = v.cwiseProduct(shape.scale);
         out = geometry::solid_properties(mesh, shape.mesh_file);
       } catch (const Error& error) {

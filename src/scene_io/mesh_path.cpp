@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/limits.h"
-#include "geometry/obj/read_obj.h"
+#include "geometry/read_mesh.h"
 #include "scene_io/loader.h"
 
 namespace navvy::scene_io {
@@ -87,9 +87,12 @@ bool resolve_mesh(const Element& uri, std::string& path, Faults& faults) {
                  "paths count from the file that names them");
     return false;
   }
-  // Reading shows later whether it is an OBJ file.
-  if (fs::path(found).extension() != ".obj" && fs::path(found).extension() != ".OBJ") {
-    faults.error(uri, text, "meshes must be OBJ files", "convert it");
+  // Reading shows later whether the content fits the name.
+  if (!geometry::is_mesh_file(found)) {
+    std::string known;
+    for (const std::string& ending : geometry::mesh_endings()) known += " " + ending;
+    faults.error(uri, text, "meshes must be files of these formats:" + known,
+                 "convert it, or correct the ending of its name");
     return false;
   }
   path = absolute(found);
@@ -111,7 +114,7 @@ bool check_mesh(const Element& uri, const std::string& path, bool solid, Faults&
                    std::to_string(limits::kSceneMeshes) + " mesh files";
     } else {
       try {
-        mesh.vertices = geometry::read_obj(path).vertices.size();
+        mesh.vertices = geometry::read_mesh(path).vertices.size();
       } catch (const Error& error) {
         mesh.fault = error.what();
       }
@@ -170,7 +173,7 @@ bool read_shell_mesh(const std::string& path, const Element& at, scene::Shell& s
     return false;
   }
   try {
-    static_cast<geometry::TriangleMesh&>(shell) = geometry::read_obj(path);
+    static_cast<geometry::TriangleMesh&>(shell) = geometry::read_mesh(path);
     return true;
   } catch (const Error& error) {
     // The message holds file and line of the mesh.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/obj/read_obj.h"
+#include "geometry/read_mesh.h"
 
 namespace navvy::sensor {
 namespace {
@@ -77,7 +77,7 @@ TriangleMesh rectangle(const Vec3& size) {
 }
 
 TriangleMesh scaled_file(const scene::Geometry& shape) {
-  TriangleMesh out = geometry::read_obj(shape.mesh_file);
+  TriangleMesh out = geometry::read_mesh(shape.mesh_file);
   for (Vec3& v : out.vertices) v = v.cwiseProduct(shape.scale);
   return out;
 }

@@ -4,8 +4,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/error.h"
-#include "geometry/obj/read_obj.h"
 #include "geometry/primitive_solids.h"
+#include "geometry/read_mesh.h"
 #include "geometry/triangle_mesh.h"
 
 namespace navvy::vehicle {
@@ -35,7 +35,7 @@ std::optional<geometry::OrientedBox> box_of(const scene::Collision& collision) {
       break;
   }
   try {
-    const geometry::Box round = geometry::bounds(geometry::read_obj(g.mesh_file));
+    const geometry::Box round = geometry::bounds(geometry::read_mesh(g.mesh_file));
     // The middle of the bounds is scaled with the mesh; the half edges need the size of the scale
     // only.
     box.X_WO =

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "geometry/obj/read_obj.h"
+#include "geometry/read_mesh.h"
 #include "vehicle/bullet/convert.h"
 
 namespace navvy::vehicle {
@@ -33,7 +33,7 @@ namespace {
 std::unique_ptr<btCollisionShape> make_hull(const scene::Collision& collision) {
   const scene::Geometry& g = collision.geometry;
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const Vec3& v : geometry::read_obj(g.mesh_file).vertices)
+  for (const Vec3& v : geometry::read_mesh(g.mesh_file).vertices)
     // false: the box around the shape is computed once, after the last point.
     hull->addPoint(to_bt(Vec3(g.scale.cwiseProduct(v))), false);
   if (hull->getNumPoints() < 4)
@@ -48,7 +48,7 @@ std::unique_ptr<btCollisionShape> make_triangles(
     const scene::Collision& collision,
     std::vector<std::unique_ptr<btStridingMeshInterface>>& keep) {
   const scene::Geometry& g = collision.geometry;
-  const geometry::TriangleMesh mesh = geometry::read_obj(g.mesh_file);
+  const geometry::TriangleMesh mesh = geometry::read_mesh(g.mesh_file);
   // 32-bit indices, vertices of three components.
   auto triangles = std::make_unique<btTriangleMesh>(true, false);
   const auto corner = [&](std::size_t t, std::size_t i) {
