@@ -71,6 +71,16 @@ TEST(StartCheck, AllowsStaticAndScriptedModelsInTheGround) {
   EXPECT_TRUE(faults_of(stone("-0.35", "<navvy:physics>kinematic</navvy:physics>")).empty());
 }
 
+TEST(StartCheck, AllowsBodiesThatStandStillToOverlapEachOtherOnly) {
+  const auto two = [](const std::string& first, const std::string& second) {
+    std::string other = stone("1", second);
+    other.replace(other.find("stone"), 5, "other");
+    return faults_of(stone("1", first) + other);
+  };
+  EXPECT_TRUE(two("<static>true</static>", "<static>true</static>").empty());
+  expect_one(two("<static>true</static>", ""), {"include[other]", "it overlaps 'stone'"});
+}
+
 TEST(StartCheck, NamesAnEyeOutOfReachAndAllowsHitchedMachinesToOverlap) {
   const auto train = [](const std::string& x, const std::string& closed) {
     return "<include><uri>model://robot</uri><name>robot</name></include><include><uri>model://"
